@@ -1,0 +1,63 @@
+//! What people and schedules ask of the brain.
+
+/// A request, already arbitrated (see `vthal-core`): at most one source speaks at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Clean everything with the named strategy.
+    Clean {
+        /// Which.
+        strategy: StrategyName,
+    },
+    /// Clean a small disc around the present place.
+    Spot,
+    /// Stand still, keep the job.
+    Pause,
+    /// Go on with the paused job.
+    Resume,
+    /// End the job and stand still.
+    Stop,
+    /// Dock when the way leads there: finish now, drive on without cleaning until the dock is found, then stop.
+    Dock,
+    /// A person drives. Valid until `valid_until_us`.
+    Manual {
+        /// Forward speed.
+        speed_m_per_s: f64,
+        /// Turn rate.
+        turn_rad_per_s: f64,
+        /// Host time at which the lease ends.
+        valid_until_us: u64,
+        /// Brushes and suction run while driving.
+        cleaners: bool,
+    },
+    /// The person lets go.
+    ManualEnd,
+    /// A person acknowledges an error whose cause is gone.
+    ClearError,
+}
+
+/// Strategies that can be chosen by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum StrategyName {
+    /// `bounce`: drive until a bump, back off, turn by a random angle. What the software of 2016 did.
+    #[default]
+    Bounce,
+}
+
+impl StrategyName {
+    /// All of them.
+    pub const ALL: [Self; 1] = [Self::Bounce];
+
+    /// The name people type.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bounce => "bounce",
+        }
+    }
+
+    /// The strategy with exactly this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|strategy| strategy.name() == name)
+    }
+}

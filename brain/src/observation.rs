@@ -1,0 +1,70 @@
+//! What the robot perceived, in SI units and REP-103 axes, whatever the make of the robot.
+
+/// One view of the robot at one moment. Totals, not rates, so that a lost observation loses nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Host time in microseconds since the daemon's start; rises strictly.
+    pub time_us: u64,
+    /// Way of the left wheel's rim since the device was attached, in metres, forward positive.
+    pub travel_left_m: f64,
+    /// Way of the right wheel's rim since the device was attached, in metres, forward positive.
+    pub travel_right_m: f64,
+    /// Unwrapped heading of the gyro in radians, if the robot has one.
+    pub gyro_heading_rad: Option<f64>,
+    /// Bumper zones that are pressed.
+    pub contacts: Contacts,
+    /// Cliff sensors that see no floor.
+    pub cliffs: Cliffs,
+    /// A wheel hangs.
+    pub wheel_drop: bool,
+    /// Proximity from the right side counter-clockwise, 0..1 (1 = touching); empty if the robot has none.
+    pub proximity: Vec<f32>,
+    /// Symbols heard by the dock receivers (0 = none); empty if the robot has none.
+    pub dock_beams: Vec<u8>,
+    /// On the dock's contacts.
+    pub docked: bool,
+    /// Battery charge 0..1, if measured.
+    pub battery_charge: Option<f32>,
+    /// Names of what keeps the firmware from moving, for example `wheel-drop`; empty when it may move.
+    pub inhibits: Vec<&'static str>,
+    /// The link to the firmware is up and its telemetry is fresh.
+    pub link_up: bool,
+    /// Share of the commanded speed that link quality allows, 0..1.
+    pub speed_share: f64,
+}
+
+/// Bumper zones. A robot with one zone reports both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Contacts {
+    /// Left half pressed.
+    pub left: bool,
+    /// Right half pressed.
+    pub right: bool,
+}
+
+/// Cliff sensors by side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cliffs {
+    /// Left sensor.
+    pub left: bool,
+    /// Middle sensor.
+    pub middle: bool,
+    /// Right sensor.
+    pub right: bool,
+}
+
+impl Contacts {
+    /// Whether any zone is pressed.
+    #[must_use]
+    pub fn any(self) -> bool {
+        self.left || self.right
+    }
+}
+
+impl Cliffs {
+    /// Whether any sensor sees no floor.
+    #[must_use]
+    pub fn any(self) -> bool {
+        self.left || self.middle || self.right
+    }
+}

@@ -1,0 +1,1 @@
+//! Serves the panel and relays between browsers and vthal

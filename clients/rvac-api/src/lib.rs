@@ -1,0 +1,24 @@
+//! Versioned plain types of the socket and WebSocket interface. They compile to wasm and do no I/O.
+//!
+//! On the Unix socket each message is one JSON object followed by the separator 0x1F, as on the wire to the robot (without
+//! the seal: the kernel does not corrupt). On the WebSocket each message is one text frame. Unknown keys are ignored;
+//! unknown messages are answered with the error `unknown`.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+extern crate alloc;
+
+mod request;
+mod update;
+
+pub use request::{Request, RequestBody, Topic};
+pub use update::{
+    BatteryReading, BumpMark, DeviceTable, Failure, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    Pose, Rle, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Update, Versions,
+};
+
+/// Version of this interface. Raised when a message changes its meaning; additions need no new version.
+pub const API_VERSION: u32 = 1;
+
+/// Byte that ends each message on the Unix socket.
+pub const SEPARATOR: u8 = 0x1F;

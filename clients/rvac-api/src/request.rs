@@ -1,0 +1,93 @@
+//! What a client asks.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Request {
+    /// Number chosen by the client.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<u32>,
+    /// What.
+    #[serde(flatten)]
+    pub body: RequestBody,
+}
+
+/// Parts of the update stream a client can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Topic {
+    /// [`crate::Update::Status`] on each change.
+    Status,
+    /// [`crate::Update::Pose`], 20 a second while the robot moves.
+    Pose,
+    /// [`crate::Update::Device`], twice a second.
+    Device,
+    /// A [`crate::Update::Map`] snapshot at once, then [`crate::Update::MapDelta`], five a second while the robot cleans.
+    Map,
+    /// [`crate::Update::Log`]: the last 200 entries at once, then each new one.
+    Log,
+    /// [`crate::Update::Packet`]: each packet of the wire, both directions.
+    Packets,
+}
+
+/// The closed set of requests; on the wire `{"c":"start","strategy":"bounce"}` and so on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "c", rename_all = "kebab-case")]
+pub enum RequestBody {
+    /// Introduces the client; answered by [`crate::Update::Hello`].
+    Hello {
+        /// Name for the log.
+        name: String,
+    },
+    /// Replaces the set of topics this client follows.
+    Watch {
+        /// Topics.
+        topics: Vec<Topic>,
+    },
+    /// Starts cleaning.
+    Start {
+        /// Strategy by name; the configured default when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        strategy: Option<String>,
+    },
+    /// Cleans a small disc around the present place.
+    Spot,
+    /// Stands still, keeps the job.
+    Pause,
+    /// Goes on with the paused job.
+    Resume,
+    /// Ends the job. Any client may say so at any time.
+    Stop,
+    /// Docks when the way leads there.
+    Dock,
+    /// Drives by hand under a lease. The first asks for the driver's seat; refused with `driver-busy` while another client
+    /// holds it.
+    Drive {
+        /// Forward speed, m/s.
+        v: f64,
+        /// Turn rate, rad/s, counter-clockwise positive.
+        w: f64,
+        /// Lease in ms, 1..=400.
+        ttl: u16,
+        /// Brushes and suction run.
+        #[serde(default)]
+        clean: bool,
+    },
+    /// Leaves the driver's seat; the wheels stop at once.
+    Release,
+    /// Beeps so that a person finds the robot.
+    Locate,
+    /// Acknowledges an error or clears a latched inhibit by name.
+    Clear {
+        /// Name, as in [`crate::Status::reason`].
+        reason: String,
+    },
+    /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
+    Raw {
+        /// The JSON object as text.
+        packet: String,
+    },
+}

@@ -1,0 +1,326 @@
+//! What the daemon tells its clients.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "e", rename_all = "kebab-case")]
+pub enum Update {
+    /// Answer to `hello`.
+    Hello {
+        /// Version of this interface.
+        api: u32,
+        /// Versions of the parts.
+        versions: Versions,
+        /// The robot, once known.
+        #[serde(default)]
+        robot: Option<RobotDescription>,
+        /// Names of the strategies that can be started.
+        strategies: Vec<String>,
+        /// Whether raw packets are allowed.
+        expert: bool,
+    },
+    /// A numbered request was done.
+    Done {
+        /// Its number.
+        id: u32,
+    },
+    /// A request was refused. Without number when the request could not be read.
+    Failed(Failure),
+    /// What the robot is doing.
+    Status(Status),
+    /// Where it believes to be.
+    Pose(Pose),
+    /// The device table.
+    Device(DeviceTable),
+    /// The whole map.
+    Map(MapSnapshot),
+    /// What changed in the map.
+    MapDelta(MapDelta),
+    /// A line of the log.
+    Log(LogEntry),
+    /// A packet of the wire as text; binary ones are shown by their text twin.
+    Packet {
+        /// Host time, seconds since the daemon's start.
+        t: f64,
+        /// `>` to the robot, `<` from it.
+        direction: char,
+        /// The packet.
+        text: String,
+    },
+    /// Only with a simulated robot: the floor plan.
+    SimulatedPlan(SimulatedPlan),
+    /// Only with a simulated robot: where it really is.
+    SimulatedTruth(SimulatedTruth),
+}
+
+/// Why a request was refused.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Number of the request, if it had one that could be read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<u32>,
+    /// Named reason, for example `driver-busy`, `no-robot`, `wheel-drop`, `unknown-strategy`, `syntax`.
+    pub reason: String,
+    /// One sentence for people: what, where, what to do.
+    pub text: String,
+}
+
+/// Versions of all parts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Versions {
+    /// The daemon.
+    pub vthal: String,
+    /// The brain.
+    pub brain: String,
+    /// The robot's firmware, once known.
+    #[serde(default)]
+    pub firmware: Option<String>,
+    /// cordlib in the firmware, once known.
+    #[serde(default)]
+    pub cordlib: Option<String>,
+    /// Version of the wire in use, once known.
+    #[serde(default)]
+    pub protocol: Option<u8>,
+}
+
+/// What a client must know of the robot to draw and drive it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RobotDescription {
+    /// Device, for example `sr8730`.
+    pub device: String,
+    /// Radius of the body in metres.
+    pub radius_m: f64,
+    /// Width that one pass cleans, in metres.
+    pub swath_m: f64,
+    /// Highest forward speed.
+    pub speed_max_m_per_s: f64,
+    /// Highest turn rate.
+    pub turn_max_rad_per_s: f64,
+    /// Number of proximity sensors.
+    pub proximity: u8,
+    /// Names of optional parts it has: `gyro`, `brush-main`, `brush-sides`, `vacuum`, `beeper`, `battery`.
+    pub parts: Vec<String>,
+}
+
+/// What the robot is doing and why.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Status {
+    /// `disconnected`, `idle`, `starting`, `cleaning`, `spot`, `docking`, `docked`, `manual`, `paused`, `stuck`, `error`.
+    pub state: String,
+    /// Named reason of this state, for example `command`, `bump-left`, `wheel-drop`, `link-lost`.
+    pub reason: String,
+    /// Strategy of the running job.
+    #[serde(default)]
+    pub strategy: Option<String>,
+    /// Names of what keeps the firmware from moving.
+    pub inhibits: Vec<String>,
+    /// Seconds of the running or last job.
+    pub job_s: f64,
+    /// Swept area of the running or last job in square metres, by the robot's own estimate.
+    pub swept_m2: f64,
+    /// Way of the running or last job in metres.
+    pub path_m: f64,
+    /// Bumps of the running or last job.
+    pub bumps: u32,
+    /// Name of the client in the driver's seat.
+    #[serde(default)]
+    pub driver: Option<String>,
+}
+
+/// A pose in the map frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Radians, counter-clockwise, 0 along x.
+    pub heading: f64,
+    /// Host time in seconds since the daemon's start.
+    pub t: f64,
+}
+
+/// The device information table of the panel. What is not measured is absent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DeviceTable {
+    /// Versions of all parts.
+    pub versions: Versions,
+    /// Battery.
+    #[serde(default)]
+    pub battery: Option<BatteryReading>,
+    /// Passes of the firmware's main loop per second.
+    #[serde(default)]
+    pub main_loop_hz: Option<u32>,
+    /// Bytes per second, Linux board to robot.
+    pub bytes_out_per_s: f64,
+    /// Bytes per second, robot to Linux board.
+    pub bytes_in_per_s: f64,
+    /// Link quality.
+    pub link: LinkReading,
+    /// Speed of the left wheel, m/s.
+    pub wheel_left_m_per_s: f64,
+    /// Speed of the right wheel, m/s.
+    pub wheel_right_m_per_s: f64,
+    /// Left and right bumper pressed.
+    pub bumpers: [bool; 2],
+    /// Left, middle and right cliff sensors see no floor.
+    pub cliffs: [bool; 3],
+    /// Left and right wheel hang.
+    pub wheel_drops: [bool; 2],
+    /// Proximity 0..1 from the right side counter-clockwise.
+    pub proximity: Vec<f32>,
+    /// Motor currents in amperes: left wheel, right wheel, main brush.
+    #[serde(default)]
+    pub currents_a: Option<[f32; 3]>,
+    /// Main brush, side brushes, suction run.
+    pub cleaners: [bool; 3],
+    /// Dust box is in.
+    pub dust_box: bool,
+    /// On the dock.
+    pub docked: bool,
+}
+
+/// Battery readings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BatteryReading {
+    /// 0..1.
+    pub charge: f64,
+    /// Volts.
+    pub voltage_v: f64,
+    /// Amperes, into the pack positive.
+    pub current_a: f64,
+    /// Degrees Celsius.
+    pub temperature_c: f64,
+    /// `discharging`, `charging`, `full`, `fault`.
+    pub state: String,
+}
+
+/// Link quality.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LinkReading {
+    /// Telemetry is fresh.
+    pub up: bool,
+    /// Age of the newest telemetry in ms.
+    pub age_ms: u32,
+    /// Share of bad packets over the last 5 s, both directions, 0..1.
+    pub bad_share: f64,
+    /// Median round trip in ms.
+    #[serde(default)]
+    pub round_trip_ms: Option<f64>,
+    /// Robot resets since the daemon's start.
+    pub resets: u32,
+    /// Cause of the robot's last reset.
+    #[serde(default)]
+    pub reset_cause: Option<String>,
+    /// Times the serial device was lost and found again.
+    pub reconnects: u32,
+    /// Binary telemetry is in use.
+    pub binary: bool,
+}
+
+/// Cells of a grid, row by row from the lowest y, as pairs of value and run length: `[v0,n0,v1,n1,...]`.
+pub type Rle = Vec<u32>;
+
+/// The whole map.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MapSnapshot {
+    /// Counts the maps since the daemon's start: a delta belongs to the snapshot with the same number.
+    pub map: u32,
+    /// Metres per cell.
+    pub cell_m: f64,
+    /// Swept cells as a list `[ix0,iy0,ix1,iy1,...]` of integer cell coordinates (cell ix spans ix*cell_m to (ix+1)*cell_m).
+    pub swept: Vec<i32>,
+    /// Path as `[x0,y0,x1,y1,...]` in millimetres, thinned to 2 cm.
+    pub path_mm: Vec<i32>,
+    /// Bumps.
+    pub bumps: Vec<BumpMark>,
+}
+
+/// What was added to the map since the last delta.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MapDelta {
+    /// Number of the map.
+    pub map: u32,
+    /// Newly swept cells, as in [`MapSnapshot::swept`].
+    pub swept: Vec<i32>,
+    /// Continuation of the path, as in [`MapSnapshot::path_mm`].
+    pub path_mm: Vec<i32>,
+    /// New bumps.
+    pub bumps: Vec<BumpMark>,
+}
+
+/// A bump on the map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BumpMark {
+    /// Place of contact in metres.
+    pub x: f64,
+    /// Place of contact in metres.
+    pub y: f64,
+    /// Contact, else cliff.
+    pub contact: bool,
+}
+
+/// How grave a log entry is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LogLevel {
+    /// For developers.
+    Debug,
+    /// Worth knowing.
+    Info,
+    /// Something is wrong, work goes on.
+    Warn,
+    /// Something is wrong and stops work.
+    Error,
+}
+
+/// A line of the log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LogEntry {
+    /// Rising number.
+    pub number: u64,
+    /// Seconds since the daemon's start.
+    pub t: f64,
+    /// How grave.
+    pub level: LogLevel,
+    /// Part that speaks: `vthal`, `brain`, `firmware`, `link`, `client`.
+    pub part: String,
+    /// What.
+    pub text: String,
+}
+
+/// The floor plan of a simulated home, in the map frame of the robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulatedPlan {
+    /// Name of the home.
+    pub name: String,
+    /// Metres per cell.
+    pub cell_m: f64,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Pose of the lower left corner of cell (0, 0) in the map frame.
+    pub origin: Pose,
+    /// 0 outside, 1 floor, 2 obstacle, 3 cliff, 4 rug.
+    pub cells: Rle,
+    /// Pose of the dock in the map frame.
+    #[serde(default)]
+    pub dock: Option<Pose>,
+}
+
+/// Where a simulated robot really is, in its map frame, and how much it really swept.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulatedTruth {
+    /// True pose.
+    pub pose: Pose,
+    /// True covered share of the reachable floor, 0..1.
+    pub covered: f64,
+    /// Violations of the global safety monitor so far.
+    pub violations: u32,
+    /// Simulated seconds.
+    pub sim_s: f64,
+}

@@ -1,0 +1,1 @@
+//! What the firmware of every robot shares: main loop, reflexes, motion, telemetry

@@ -1,0 +1,19 @@
+//! What the two sides can say, as closed types. Text and binary forms are two spellings of these.
+
+mod command;
+mod identity;
+mod inhibit;
+mod report;
+
+pub use command::{
+    Beep, Command, Drive, HostHello, Led, LedPattern, Motor, MotorCommand, Move, Parameter, Sequence,
+};
+pub use identity::{
+    BinaryKinds, Capabilities, Description, Limits, Name, ProtocolVersion, ResetCause, RobotHello,
+};
+pub use inhibit::{Inhibit, Inhibits};
+pub use report::{
+    Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Edge, EdgeKind, Gyro,
+    Info, LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, PROXIMITY_SENSORS, Refusal, Report, State,
+    WheelDrops,
+};

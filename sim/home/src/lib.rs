@@ -1,0 +1,1 @@
+//! Simulated home: floor plans, physics, sensors, dirt, dock, battery

@@ -1,0 +1,1 @@
+//! cordlib on simulated pins
