@@ -1,0 +1,56 @@
+//! Settings of the core.
+
+use brain::command::StrategyName;
+
+use crate::checkpoint::Checkpoint;
+
+/// Settings of the core, fixed for its life.
+#[derive(Clone, Debug)]
+pub struct CoreConfig {
+    /// Seed of the brain; each run derives its own from it.
+    pub seed: u64,
+    /// Strategy when a request names none.
+    pub strategy: StrategyName,
+    /// Whether clients may send raw packets.
+    pub expert: ExpertAccess,
+    /// Whether records are wanted.
+    pub recording: Recording,
+    /// Longest job in seconds, after which the robot docks (S26).
+    pub task_budget_s: u32,
+    /// Version of the daemon, for clients and recordings.
+    pub version: String,
+    /// Where an interrupted run goes on.
+    pub resume: Option<Checkpoint>,
+}
+
+impl Default for CoreConfig {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            strategy: StrategyName::default(),
+            expert: ExpertAccess::Denied,
+            recording: Recording::Off,
+            task_budget_s: 120 * 60,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            resume: None,
+        }
+    }
+}
+
+/// Whether clients may send raw packets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExpertAccess {
+    /// Refused with `expert-off`.
+    Denied,
+    /// Passed on, and logged.
+    Allowed,
+}
+
+/// Whether [`crate::Outputs::records`] is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recording {
+    /// No.
+    Off,
+    /// Yes, while a run lasts.
+    On,
+}

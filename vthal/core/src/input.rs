@@ -1,0 +1,45 @@
+//! Everything that can happen to the core.
+
+use rvac_api::Request;
+
+/// A connected client, numbered by the shell; numbers are never reused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ClientId(pub u64);
+
+/// The closed set of causes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input<'a> {
+    /// The serial device is open; the core starts the handshake.
+    LinkOpened,
+    /// Bytes came from the robot.
+    LinkBytes(&'a [u8]),
+    /// The serial device is gone.
+    LinkClosed {
+        /// Why, for the log.
+        reason: LinkLoss,
+    },
+    /// A client connected.
+    ClientConnected(ClientId),
+    /// A client asks for something.
+    Client {
+        /// Who.
+        client: ClientId,
+        /// What.
+        request: Request,
+    },
+    /// A client is gone; a driver's seat it held is empty and the wheels stop.
+    ClientGone(ClientId),
+    /// The time that [`crate::Core::next_wake_us`] named has come. Too early or too often does no harm.
+    Wake,
+    /// The daemon is about to end: the wheels are stopped. It may close the link once [`crate::Core::stands_still`].
+    Shutdown,
+}
+
+/// Why the serial device is gone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LinkLoss {
+    /// The other end hung up or the adapter was pulled.
+    HungUp,
+    /// Reading or writing failed.
+    Failed(String),
+}

@@ -1,0 +1,146 @@
+//! What the shell must perform.
+
+use brain::action::Actions;
+use brain::command::Command;
+use brain::observation::Observation;
+use rvac_api::{LogEntry, Pose, Status, Topic, Update};
+
+use crate::ClientId;
+use crate::checkpoint::Checkpoint;
+
+/// Collected results of [`crate::Core::handle`]. The shell empties it after each call; keeping the value keeps its buffers.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    /// Bytes for the robot, in order.
+    pub link: Vec<u8>,
+    /// Updates for clients, in order.
+    pub deliveries: Vec<Delivery>,
+    /// Lines of the log. Followers of [`Topic::Log`] get them as deliveries besides.
+    pub log: Vec<LogEntry>,
+    /// Records of the running run; empty unless [`crate::Recording::On`].
+    pub records: Vec<Record>,
+    /// The newest state worth surviving a crash; replaces an older one that is not yet written.
+    pub checkpoint: Option<Checkpoint>,
+}
+
+impl Outputs {
+    /// Empties everything and keeps the memory.
+    pub fn clear(&mut self) {
+        self.link.clear();
+        self.deliveries.clear();
+        self.log.clear();
+        self.records.clear();
+        self.checkpoint = None;
+    }
+}
+
+/// An update and who gets it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Delivery {
+    /// Who.
+    pub to: Recipients,
+    /// What.
+    pub update: Update,
+}
+
+/// Who gets an update.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recipients {
+    /// One client.
+    One(ClientId),
+    /// All clients that follow the topic now: [`crate::Core::followers`].
+    Followers(Topic),
+}
+
+/// Direction of a packet on the wire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Host to robot.
+    ToRobot,
+    /// Robot to host.
+    FromRobot,
+}
+
+impl Direction {
+    /// The character for it in the interface to clients and in the seal.
+    #[must_use]
+    pub const fn symbol(self) -> char {
+        match self {
+            Self::ToRobot => '>',
+            Self::FromRobot => '<',
+        }
+    }
+}
+
+/// One entry of a run's recording, in the order in which things happened. Commands and observations are all that the
+/// brain perceives: given [`RunStart`] and these, it decides the same again.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Record {
+    /// A run begins.
+    RunStarted(RunStart),
+    /// The brain was given a command.
+    Command {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// What.
+        command: Command,
+    },
+    /// The brain was given an observation.
+    Observation(Observation),
+    /// What the brain answered to the observation before it.
+    Actions {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// What.
+        actions: Actions,
+    },
+    /// A packet of the wire.
+    Packet {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// Which way.
+        direction: Direction,
+        /// As text; binary ones are shown by their text twin.
+        text: String,
+    },
+    /// The status changed.
+    Status {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// To what.
+        status: Status,
+    },
+    /// Where the brain believes the robot to be.
+    Pose(Pose),
+    /// The run is over.
+    RunEnded {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// Why.
+        end: RunEnd,
+    },
+}
+
+/// Where a run starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunStart {
+    /// Host time in microseconds.
+    pub time_us: u64,
+    /// Number of the run since the daemon's start, from 1.
+    pub run: u32,
+    /// Seed of the brain for this run.
+    pub seed: u64,
+    /// Device, for example `sr8730`; empty while unknown.
+    pub device: String,
+    /// Firmware version; empty while unknown.
+    pub firmware: String,
+}
+
+/// Why a run is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunEnd {
+    /// The brain is idle again, or has reached the dock.
+    Finished,
+    /// The daemon ends.
+    Shutdown,
+}
