@@ -1,9 +1,26 @@
 //! Pure thinking: it takes what the robot perceived and what people asked, and says what the robot should do.
 //!
-//! No I/O, no clock, no randomness of its own: time comes with each [`Observation`], the seed with [`Brain::new`]. The
-//! same calls give the same decisions, bit for bit, which is what replay rests on.
+//! No I/O, no clock, no randomness of its own: time comes with each [`observation::Observation`], the seed with
+//! [`Brain::new`]. The same calls give the same decisions, bit for bit, which is what replay rests on.
 #![forbid(unsafe_code)]
 
 pub mod action;
+pub mod behavior;
+mod brain;
+pub mod checkpoint;
 pub mod command;
+pub mod config;
+pub mod geometry;
+pub mod localization;
+pub mod mapping;
 pub mod observation;
+
+pub use action::{Actions, Motion};
+pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};
+pub use brain::Brain;
+pub use checkpoint::{Checkpoint, JobCheckpoint};
+pub use command::{Command, StrategyName};
+pub use config::{Body, BrainConfig, Speeds};
+pub use geometry::{Point2, Pose2};
+pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, SweptRun};
+pub use observation::Observation;

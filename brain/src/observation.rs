@@ -33,6 +33,28 @@ pub struct Observation {
     pub speed_share: f64,
 }
 
+impl Default for Observation {
+    /// A healthy robot on the floor, at rest, at time 0.
+    fn default() -> Self {
+        Self {
+            time_us: 0,
+            travel_left_m: 0.0,
+            travel_right_m: 0.0,
+            gyro_heading_rad: None,
+            contacts: Contacts::default(),
+            cliffs: Cliffs::default(),
+            wheel_drop: false,
+            proximity: Vec::new(),
+            dock_beams: Vec::new(),
+            docked: false,
+            battery_charge: None,
+            inhibits: Vec::new(),
+            link_up: true,
+            speed_share: 1.0,
+        }
+    }
+}
+
 /// Bumper zones. A robot with one zone reports both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Contacts {

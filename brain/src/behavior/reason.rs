@@ -1,0 +1,160 @@
+//! Why the robot does what it does, by name.
+
+use crate::observation::{Cliffs, Contacts};
+
+macro_rules! reasons {
+    ($($(#[$doc:meta])* $variant:ident => $name:literal,)+) => {
+        /// Named reason of a state, a refusal or a decision. Names are what logs, recordings and clients show; those of
+        /// firmware inhibits are spelled as on the wire.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Reason {
+            $($(#[$doc])* $variant,)+
+        }
+
+        impl Reason {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
+
+            /// The name.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                }
+            }
+
+            /// The reason with exactly this name.
+            #[must_use]
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|reason| reason.name() == name)
+            }
+        }
+    };
+}
+
+reasons! {
+    /// The brain has just been made.
+    StartUp => "start-up",
+    /// Somebody asked for it.
+    Command => "command",
+    /// The job is done.
+    Finished => "finished",
+    /// It goes on by itself after an interruption.
+    Continued => "continued",
+    /// A job was taken up again after the daemon restarted.
+    Restored => "restored",
+    /// The microcontroller was reset and is not armed any more.
+    NotArmed => "not-armed",
+    /// The firmware does not let itself be armed.
+    ArmRefused => "arm-refused",
+    /// No fresh telemetry, or the firmware heard nothing for the length of a lease.
+    LinkLost => "link-lost",
+    /// Telemetry is back.
+    LinkRestored => "link-restored",
+    /// Link quality is so bad that no speed is allowed.
+    LinkBad => "link-bad",
+    /// Somebody said `stop` to the firmware directly.
+    Stopped => "stopped",
+    /// A button on the robot was pressed while it moved.
+    ButtonStop => "button-stop",
+    /// A wheel hangs: lifted or fallen.
+    WheelDrop => "wheel-drop",
+    /// On the dock.
+    Docked => "docked",
+    /// Left half of the bumper.
+    BumpLeft => "bump-left",
+    /// Right half of the bumper.
+    BumpRight => "bump-right",
+    /// Both halves of the bumper.
+    BumpFront => "bump-front",
+    /// No floor on the left.
+    CliffLeft => "cliff-left",
+    /// No floor on the right.
+    CliffRight => "cliff-right",
+    /// No floor ahead.
+    CliffFront => "cliff-front",
+    /// The bumper stays pressed though the robot backed off.
+    ContactHeld => "contact-held",
+    /// The floor does not come back though the robot backed off.
+    CliffHeld => "cliff-held",
+    /// Many short runs in a row: a pocket it cannot find out of.
+    BoxedIn => "boxed-in",
+    /// Commanded to move and did not (S15).
+    NotMoving => "not-moving",
+    /// Gyro and wheels disagree for long (S14).
+    Slip => "slip",
+    /// The time of the job is used up (S26).
+    TaskBudget => "task-budget",
+    /// Little charge is left.
+    BatteryLow => "battery-low",
+    /// The dock was not found in time.
+    DockNotFound => "dock-not-found",
+    /// A beam of the dock is heard.
+    DockBeam => "dock-beam",
+    /// The lease of the person who drives ended.
+    LeaseEnded => "lease-ended",
+    /// The person let go.
+    Released => "released",
+    /// Such a job already runs.
+    AlreadyRunning => "already-running",
+    /// There is nothing to pause, resume or clear.
+    NoJob => "no-job",
+    /// An acknowledged error must come first.
+    ErrorStands => "error-stands",
+    /// Three resets within a minute.
+    ResetLoop => "reset-loop",
+    /// The firmware gave up on a bumper.
+    BumperStuck => "bumper-stuck",
+    /// The firmware gave up on a cliff.
+    CliffTrapped => "cliff-trapped",
+    /// A cliff sensor fails its self-test.
+    CliffSensor => "cliff-sensor",
+    /// A wheel motor is blocked.
+    WheelStall => "wheel-stall",
+    /// The main brush is blocked.
+    BrushStall => "brush-stall",
+    /// A wheel turned without command.
+    Runaway => "runaway",
+    /// An encoder disagrees with its command.
+    Encoder => "encoder",
+    /// The firmware failed a self-check.
+    Internal => "internal",
+    /// Newer firmware inhibits for a reason this brain does not know.
+    UnknownInhibit => "unknown-inhibit",
+}
+
+impl Reason {
+    /// The reason that fits pressed bumper zones, if any is pressed.
+    #[must_use]
+    pub fn of_contacts(contacts: Contacts) -> Option<Self> {
+        match (contacts.left, contacts.right) {
+            (true, true) => Some(Self::BumpFront),
+            (true, false) => Some(Self::BumpLeft),
+            (false, true) => Some(Self::BumpRight),
+            (false, false) => None,
+        }
+    }
+
+    /// The reason that fits cliff sensors, if any sees no floor.
+    #[must_use]
+    pub fn of_cliffs(cliffs: Cliffs) -> Option<Self> {
+        match (cliffs.left, cliffs.middle, cliffs.right) {
+            (false, false, false) => None,
+            (true, _, false) => Some(Self::CliffLeft),
+            (false, _, true) => Some(Self::CliffRight),
+            _ => Some(Self::CliffFront),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reason;
+
+    #[test]
+    fn names_are_unique_and_found_again() {
+        for reason in Reason::ALL {
+            assert_eq!(Reason::from_name(reason.name()), Some(*reason));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! The states a person sees, and what belongs to them.
+
+use super::Reason;
+use crate::command::StrategyName;
+
+/// What the robot is doing. Closed: every moment of its life has one of these names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BehaviorState {
+    /// No fresh word from the robot.
+    Disconnected,
+    /// Nothing to do.
+    Idle,
+    /// Announces itself before the first autonomous motion (S24).
+    Starting,
+    /// Cleans everything.
+    Cleaning,
+    /// Cleans a small disc.
+    Spot,
+    /// Looks for the dock or drives onto it.
+    Docking,
+    /// On the dock.
+    Docked,
+    /// A person drives.
+    Manual,
+    /// A job waits.
+    Paused,
+    /// Could not free itself; waits for a person.
+    Stuck,
+    /// A fault stands; waits until it is gone and acknowledged.
+    Error,
+}
+
+impl BehaviorState {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Disconnected,
+        Self::Idle,
+        Self::Starting,
+        Self::Cleaning,
+        Self::Spot,
+        Self::Docking,
+        Self::Docked,
+        Self::Manual,
+        Self::Paused,
+        Self::Stuck,
+        Self::Error,
+    ];
+
+    /// The name in the interface, in logs and in recordings.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Disconnected => "disconnected",
+            Self::Idle => "idle",
+            Self::Starting => "starting",
+            Self::Cleaning => "cleaning",
+            Self::Spot => "spot",
+            Self::Docking => "docking",
+            Self::Docked => "docked",
+            Self::Manual => "manual",
+            Self::Paused => "paused",
+            Self::Stuck => "stuck",
+            Self::Error => "error",
+        }
+    }
+
+    /// Whether the wheels may turn in this state.
+    #[must_use]
+    pub const fn moves(self) -> bool {
+        matches!(self, Self::Cleaning | Self::Spot | Self::Docking | Self::Manual)
+    }
+
+    /// What the decision to enter this state is called.
+    pub(crate) const fn decision(self) -> &'static str {
+        match self {
+            Self::Disconnected => "state-disconnected",
+            Self::Idle => "state-idle",
+            Self::Starting => "state-starting",
+            Self::Cleaning => "state-cleaning",
+            Self::Spot => "state-spot",
+            Self::Docking => "state-docking",
+            Self::Docked => "state-docked",
+            Self::Manual => "state-manual",
+            Self::Paused => "state-paused",
+            Self::Stuck => "state-stuck",
+            Self::Error => "state-error",
+        }
+    }
+}
+
+/// What the robot is doing and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Status {
+    /// What.
+    pub state: BehaviorState,
+    /// Why.
+    pub reason: Reason,
+    /// Strategy of the running or waiting job; `None` without a job and for spot and dock jobs.
+    pub strategy: Option<StrategyName>,
+    /// A waiting job could go on now if somebody said `resume`.
+    pub resumable: bool,
+}
+
+/// What the running or last job has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JobFigures {
+    /// Seconds spent in motion states.
+    pub time_s: f64,
+    /// Swept area in square metres by the robot's own estimate.
+    pub swept_m2: f64,
+    /// Way of the robot's centre in metres, backwards counted too.
+    pub path_m: f64,
+    /// Bumps.
+    pub bumps: u32,
+}
+
+/// What a job is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JobKind {
+    /// Clean everything.
+    Clean(StrategyName),
+    /// Clean a small disc.
+    Spot,
+    /// Find the dock.
+    Dock,
+}

@@ -1,0 +1,33 @@
+//! What must survive a restart of the daemon, as plain data: the shell writes and reads it in a form of its own.
+
+use crate::behavior::{JobFigures, JobKind};
+use crate::geometry::Pose2;
+use crate::mapping::{Mark, PathPoint, SweptRun};
+
+/// State of a brain that can be taken up again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checkpoint {
+    /// Pose in the map.
+    pub pose: Pose2,
+    /// State of the random generator.
+    pub random_state: u64,
+    /// The job that ran or waited, if there was one.
+    pub job: Option<JobCheckpoint>,
+    /// Swept cells in rows.
+    pub swept: Vec<SweptRun>,
+    /// The way so far.
+    pub path: Vec<PathPoint>,
+    /// Contacts and cliffs met so far.
+    pub marks: Vec<Mark>,
+}
+
+/// A job that ran or waited.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JobCheckpoint {
+    /// What for.
+    pub kind: JobKind,
+    /// What it had done.
+    pub figures: JobFigures,
+    /// It was in motion or about to be (then it goes on by itself), else it waited for a person.
+    pub running: bool,
+}

@@ -1,0 +1,87 @@
+//! Where the robot believes to be.
+//!
+//! Frames follow REP-105: *odom* is smooth and drifts, *map* is right on average and may jump; `pose = map_from_odom *
+//! odom_from_base`. Odometry makes the second factor. A better estimator (wall segments, a particle filter, the dock)
+//! works on the first one and hands it in through [`Localization::correct`].
+
+mod odometry;
+
+pub use odometry::Advance;
+use odometry::Odometry;
+
+use crate::geometry::Pose2;
+use crate::observation::Observation;
+
+/// Pose estimate.
+#[derive(Clone, Debug)]
+pub struct Localization {
+    odometry: Odometry,
+    map_from_odom: Pose2,
+}
+
+impl Localization {
+    /// At the origin of the map, for wheels `track_m` apart that turn at most `rim_max_m_per_s` fast.
+    #[must_use]
+    pub fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
+        Self {
+            odometry: Odometry::new(track_m, rim_max_m_per_s),
+            map_from_odom: Pose2::IDENTITY,
+        }
+    }
+
+    /// Takes in an observation and says how far the robot moved since the last one.
+    pub fn update(&mut self, observation: &Observation) -> Advance {
+        self.odometry.update(observation)
+    }
+
+    /// Pose in the map.
+    #[must_use]
+    pub fn pose(&self) -> Pose2 {
+        self.map_from_odom * self.odometry.odom_from_base()
+    }
+
+    /// Sets the transform that a better estimator has found.
+    pub fn correct(&mut self, map_from_odom: Pose2) {
+        self.map_from_odom = map_from_odom;
+    }
+
+    /// Declares that the robot now stands at `pose` in the map.
+    pub fn place_at(&mut self, pose: Pose2) {
+        self.correct(pose * self.odometry.odom_from_base().inverse());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Localization;
+    use crate::geometry::Pose2;
+    use crate::observation::Observation;
+
+    #[test]
+    fn a_placed_robot_goes_on_from_there() {
+        let mut localization = Localization::new(0.23, 0.5);
+        localization.update(&Observation {
+            time_us: 0,
+            travel_left_m: 7.0,
+            travel_right_m: 7.0,
+            ..Observation::default()
+        });
+        let place = Pose2 {
+            x_m: 1.0,
+            y_m: 2.0,
+            heading_rad: core::f64::consts::FRAC_PI_2,
+        };
+        localization.place_at(place);
+        localization.update(&Observation {
+            time_us: 1_000_000,
+            travel_left_m: 7.2,
+            travel_right_m: 7.2,
+            ..Observation::default()
+        });
+        let pose = localization.pose();
+        assert!(
+            (pose.y_m - 2.2).abs() < 1e-9 && (pose.x_m - 1.0).abs() < 1e-9,
+            "{pose:?}"
+        );
+    }
+}

@@ -1,0 +1,154 @@
+//! Dead reckoning from wheel travel, with the gyro's heading where there is one.
+
+use crate::geometry::Pose2;
+use crate::observation::Observation;
+
+/// What the robot moved between two observations, by its own account.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Advance {
+    /// Time between the two, in seconds.
+    pub time_s: f64,
+    /// Way of the centre in metres, backwards negative.
+    pub distance_m: f64,
+    /// Change of heading in radians, from the gyro if there is one, else from the wheels.
+    pub turn_rad: f64,
+    /// Change of heading that the wheels alone report, in radians.
+    pub wheel_turn_rad: f64,
+    /// Change of heading that the gyro alone reports, in radians, if there is one.
+    pub gyro_turn_rad: Option<f64>,
+}
+
+/// Totals of the last observation.
+#[derive(Clone, Copy, Debug)]
+struct Totals {
+    time_us: u64,
+    left_m: f64,
+    right_m: f64,
+    gyro_rad: Option<f64>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Odometry {
+    track_m: f64,
+    rim_max_m_per_s: f64,
+    odom_from_base: Pose2,
+    last: Option<Totals>,
+}
+
+/// A rim is believed to have turned up to this many times its highest speed; more is a jump of the totals.
+const JUMP_FACTOR: f64 = 3.0;
+/// Way that is believed however short the time, in metres: telemetry comes in bunches.
+const JUMP_FLOOR_M: f64 = 0.05;
+
+impl Odometry {
+    pub(super) fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
+        Self {
+            track_m,
+            rim_max_m_per_s,
+            odom_from_base: Pose2::IDENTITY,
+            last: None,
+        }
+    }
+
+    pub(super) fn odom_from_base(&self) -> Pose2 {
+        self.odom_from_base
+    }
+
+    pub(super) fn update(&mut self, observation: &Observation) -> Advance {
+        let now = Totals {
+            time_us: observation.time_us,
+            left_m: observation.travel_left_m,
+            right_m: observation.travel_right_m,
+            gyro_rad: observation.gyro_heading_rad,
+        };
+        let advance = self
+            .last
+            .map_or_else(Advance::default, |last| self.advance(last, now));
+        self.last = Some(now);
+        if advance.distance_m != 0.0 || advance.turn_rad != 0.0 {
+            self.odom_from_base = self
+                .odom_from_base
+                .after_arc(advance.distance_m, advance.turn_rad);
+        }
+        advance
+    }
+
+    fn advance(&self, last: Totals, now: Totals) -> Advance {
+        let time_s = now.time_us.saturating_sub(last.time_us) as f64 * 1e-6;
+        let (left_m, right_m) = (now.left_m - last.left_m, now.right_m - last.right_m);
+        let believable_m = JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s;
+        // The comparison is written so that NaN is not believed either.
+        let believable = left_m.abs() <= believable_m && right_m.abs() <= believable_m;
+        if !believable {
+            return Advance {
+                time_s,
+                ..Advance::default()
+            };
+        }
+        let wheel_turn_rad = (right_m - left_m) / self.track_m;
+        let gyro_turn_rad = self.gyro_turn(last, now, time_s);
+        Advance {
+            time_s,
+            distance_m: 0.5 * (left_m + right_m),
+            turn_rad: gyro_turn_rad.unwrap_or(wheel_turn_rad),
+            wheel_turn_rad,
+            gyro_turn_rad,
+        }
+    }
+
+    fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
+        let turn_rad = now.gyro_rad? - last.gyro_rad?;
+        let rim_turn_max_rad =
+            2.0 * (JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s) / self.track_m;
+        (turn_rad.abs() <= rim_turn_max_rad).then_some(turn_rad)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Odometry;
+    use crate::observation::Observation;
+
+    fn at(time_us: u64, left_m: f64, right_m: f64) -> Observation {
+        Observation {
+            time_us,
+            travel_left_m: left_m,
+            travel_right_m: right_m,
+            ..Observation::default()
+        }
+    }
+
+    #[test]
+    fn the_first_observation_moves_nothing() {
+        let mut odometry = Odometry::new(0.2, 0.5);
+        assert_eq!(odometry.update(&at(5, 12.0, 13.0)).distance_m, 0.0);
+        assert_eq!(odometry.odom_from_base().x_m, 0.0);
+    }
+
+    #[test]
+    fn the_gyro_outvotes_the_wheels() {
+        let mut odometry = Odometry::new(0.2, 0.5);
+        odometry.update(&Observation {
+            gyro_heading_rad: Some(1.0),
+            ..at(0, 0.0, 0.0)
+        });
+        let advance = odometry.update(&Observation {
+            gyro_heading_rad: Some(1.1),
+            ..at(1_000_000, 0.2, 0.2)
+        });
+        assert!((advance.turn_rad - 0.1).abs() < 1e-12);
+        assert_eq!(advance.wheel_turn_rad, 0.0);
+    }
+
+    #[test]
+    fn jumps_of_the_totals_are_not_ways() {
+        let mut odometry = Odometry::new(0.2, 0.5);
+        odometry.update(&at(0, 0.0, 0.0));
+        odometry.update(&at(20_000, -57.0, 3.0));
+        odometry.update(&at(40_000, f64::NAN, 3.0));
+        odometry.update(&at(60_000, -57.0, 3.0));
+        assert_eq!(odometry.odom_from_base().x_m, 0.0);
+        odometry.update(&at(80_000, -56.99, 3.01));
+        assert!((odometry.odom_from_base().x_m - 0.01).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,156 @@
+//! What the robot remembers of its surroundings: the swept layer, its way, and where it met something.
+//!
+//! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first painted.
+//! *Mark*: a place where a contact or a cliff was met. *Cursor*: how much of the map somebody has already seen; the map
+//! only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a new one.
+
+mod layers;
+mod swept;
+
+pub use layers::{Mark, MarkKind, PathPoint};
+pub use swept::{CELL_M, Cell, SweptRun};
+
+use crate::geometry::{Point2, Pose2};
+use layers::{Marks, Path};
+use swept::{Swath, SweptLayer};
+
+/// The map of one job.
+#[derive(Clone, Debug)]
+pub struct Map {
+    generation: u32,
+    swept: SweptLayer,
+    swath: Swath,
+    path: Path,
+    marks: Marks,
+}
+
+/// How much of a map somebody has seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MapCursor {
+    generation: u32,
+    swept: usize,
+    path: usize,
+    marks: usize,
+}
+
+/// Part of a map, in the order in which it came to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPart<'map> {
+    /// Number of the map, from 1.
+    pub generation: u32,
+    /// Swept cells.
+    pub swept: &'map [Cell],
+    /// The way, thinned to 2 cm.
+    pub path: &'map [PathPoint],
+    /// Contacts and cliffs.
+    pub marks: &'map [Mark],
+}
+
+impl Map {
+    /// An empty map, number 1, for a machine that cleans `swath_m` wide.
+    #[must_use]
+    pub fn new(swath_m: f64) -> Self {
+        Self {
+            generation: 1,
+            swept: SweptLayer::default(),
+            swath: Swath::new(swath_m),
+            path: Path::default(),
+            marks: Marks::default(),
+        }
+    }
+
+    /// The whole map.
+    #[must_use]
+    pub fn snapshot(&self) -> MapPart<'_> {
+        MapPart {
+            generation: self.generation,
+            swept: self.swept.cells(),
+            path: self.path.points(),
+            marks: self.marks.all(),
+        }
+    }
+
+    /// A cursor that has seen everything up to now.
+    #[must_use]
+    pub fn cursor(&self) -> MapCursor {
+        MapCursor {
+            generation: self.generation,
+            swept: self.swept.cells().len(),
+            path: self.path.points().len(),
+            marks: self.marks.all().len(),
+        }
+    }
+
+    /// What came since `cursor`; `None` if that cursor belongs to another map, then a snapshot is needed.
+    #[must_use]
+    pub fn since(&self, cursor: MapCursor) -> Option<MapPart<'_>> {
+        (cursor.generation == self.generation).then(|| MapPart {
+            generation: self.generation,
+            swept: self.swept.cells().get(cursor.swept..).unwrap_or_default(),
+            path: self.path.points().get(cursor.path..).unwrap_or_default(),
+            marks: self.marks.all().get(cursor.marks..).unwrap_or_default(),
+        })
+    }
+
+    /// Swept area in square metres.
+    #[must_use]
+    pub fn swept_m2(&self) -> f64 {
+        self.swept.area_m2()
+    }
+
+    /// Whether the cell under `point` was swept.
+    #[must_use]
+    pub fn is_swept(&self, point: Point2) -> bool {
+        self.swept.contains(Cell::under(point))
+    }
+
+    /// Swept cells joined to rows, in a fixed order.
+    #[must_use]
+    pub fn swept_runs(&self) -> Vec<SweptRun> {
+        self.swept.runs()
+    }
+
+    /// Forgets everything and counts one map on.
+    pub(crate) fn start_anew(&mut self) {
+        self.generation += 1;
+        self.swept = SweptLayer::default();
+        self.path = Path::default();
+        self.marks = Marks::default();
+        self.swath.lift();
+    }
+
+    /// Follows the robot; with `Brushes::Sweeping` the floor under the swath becomes swept.
+    pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes) {
+        self.path.follow(pose.position());
+        match brushes {
+            Brushes::Sweeping => self.swath.sweep_to(pose, &mut self.swept),
+            Brushes::Still => self.swath.lift(),
+        }
+    }
+
+    /// Notes a place where something was met.
+    pub(crate) fn mark(&mut self, mark: Mark) {
+        self.marks.add(mark);
+    }
+
+    /// Takes up an earlier map as a new generation.
+    pub(crate) fn restore(&mut self, runs: &[SweptRun], path: &[PathPoint], marks: &[Mark]) {
+        self.start_anew();
+        for run in runs {
+            self.swept.paint_run(*run);
+        }
+        self.path.extend(path);
+        for mark in marks {
+            self.marks.add(*mark);
+        }
+    }
+}
+
+/// Whether the cleaning parts run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Brushes {
+    /// They run.
+    Sweeping,
+    /// They do not.
+    Still,
+}

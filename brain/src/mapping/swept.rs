@@ -1,0 +1,326 @@
+//! The swept layer: a tiled grid and the brush that paints it.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::{Point2, Pose2};
+
+/// Edge of a cell in metres.
+pub const CELL_M: f64 = 0.025;
+/// Cells along the edge of a tile; one row of a tile is one `u64`.
+const TILE_CELLS: i32 = 64;
+/// Tiles kept of one map: 10,000 square metres. What lies beyond is not remembered.
+const TILES_MAX: usize = 4096;
+/// The brush paints when one of its ends has moved this far since it last painted.
+const BRUSH_STEP_M: f64 = 0.5 * CELL_M;
+
+/// Integer coordinates of a cell: it spans `x * CELL_M` to `(x + 1) * CELL_M`, likewise in y.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cell {
+    /// Column.
+    pub x: i32,
+    /// Row.
+    pub y: i32,
+}
+
+impl Cell {
+    /// The cell under a point.
+    #[must_use]
+    pub fn under(point: Point2) -> Self {
+        Self {
+            x: index(point.x_m),
+            y: index(point.y_m),
+        }
+    }
+}
+
+fn index(coordinate_m: f64) -> i32 {
+    libm::floor(coordinate_m / CELL_M) as i32
+}
+
+/// Swept cells side by side in one row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SweptRun {
+    /// First cell.
+    pub start: Cell,
+    /// Number of cells to the right, the first included.
+    pub length: u32,
+}
+
+type Tile = [u64; TILE_CELLS as usize];
+
+/// Which cells were swept, and in which order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SweptLayer {
+    tiles: Vec<Tile>,
+    tile_at: BTreeMap<(i32, i32), usize>,
+    /// The tile painted last: nearly every cell falls into it.
+    recent: Option<((i32, i32), usize)>,
+    order: Vec<Cell>,
+}
+
+impl SweptLayer {
+    pub(super) fn cells(&self) -> &[Cell] {
+        &self.order
+    }
+
+    pub(super) fn area_m2(&self) -> f64 {
+        self.order.len() as f64 * CELL_M * CELL_M
+    }
+
+    pub(super) fn contains(&self, cell: Cell) -> bool {
+        let (key, row, bit) = locate(cell);
+        self.tile_at
+            .get(&key)
+            .and_then(|tile| self.tiles.get(*tile))
+            .is_some_and(|tile| tile[row] & bit != 0)
+    }
+
+    pub(super) fn runs(&self) -> Vec<SweptRun> {
+        let mut cells = self.order.clone();
+        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+        let mut runs: Vec<SweptRun> = Vec::new();
+        for cell in cells {
+            match runs.last_mut() {
+                Some(run)
+                    if run.start.y == cell.y
+                        && i64::from(run.start.x) + i64::from(run.length) == i64::from(cell.x) =>
+                {
+                    run.length += 1;
+                }
+                _ => runs.push(SweptRun {
+                    start: cell,
+                    length: 1,
+                }),
+            }
+        }
+        runs
+    }
+
+    pub(super) fn paint_run(&mut self, run: SweptRun) {
+        for offset in 0..i32::try_from(run.length).unwrap_or(i32::MAX) {
+            let Some(x) = run.start.x.checked_add(offset) else {
+                return;
+            };
+            self.paint(Cell { x, y: run.start.y });
+        }
+    }
+
+    fn paint(&mut self, cell: Cell) {
+        let (key, row, bit) = locate(cell);
+        let Some(tile) = self.tile(key) else { return };
+        if self.tiles[tile][row] & bit == 0 {
+            self.tiles[tile][row] |= bit;
+            self.order.push(cell);
+        }
+    }
+
+    fn tile(&mut self, key: (i32, i32)) -> Option<usize> {
+        if let Some((recent, tile)) = self.recent
+            && recent == key
+        {
+            return Some(tile);
+        }
+        let tile = match self.tile_at.get(&key) {
+            Some(tile) => *tile,
+            None if self.tiles.len() >= TILES_MAX => return None,
+            None => {
+                self.tiles.push([0; TILE_CELLS as usize]);
+                self.tile_at.insert(key, self.tiles.len() - 1);
+                self.tiles.len() - 1
+            }
+        };
+        self.recent = Some((key, tile));
+        Some(tile)
+    }
+
+    /// Paints the cells whose centres lie in the triangle, borders included.
+    fn paint_triangle(&mut self, corners: [Point2; 3]) {
+        let [a, b, c] = corners;
+        let (low_x, high_x) = extent([a.x_m, b.x_m, c.x_m]);
+        let (low_y, high_y) = extent([a.y_m, b.y_m, c.y_m]);
+        for y in low_y..=high_y {
+            for x in low_x..=high_x {
+                let centre = Point2 {
+                    x_m: (f64::from(x) + 0.5) * CELL_M,
+                    y_m: (f64::from(y) + 0.5) * CELL_M,
+                };
+                let sides = [side(a, b, centre), side(b, c, centre), side(c, a, centre)];
+                if sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0) {
+                    self.paint(Cell { x, y });
+                }
+            }
+        }
+    }
+}
+
+/// Tile, row in it and bit in the row.
+fn locate(cell: Cell) -> ((i32, i32), usize, u64) {
+    let key = (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS));
+    let row = cell.y.rem_euclid(TILE_CELLS) as usize;
+    (key, row, 1 << cell.x.rem_euclid(TILE_CELLS))
+}
+
+fn extent(coordinates_m: [f64; 3]) -> (i32, i32) {
+    let [a, b, c] = coordinates_m;
+    (index(a.min(b).min(c)), index(a.max(b).max(c)))
+}
+
+/// Twice the signed area of the triangle `a`, `b`, `point`: positive when `point` lies left of the line from a to b.
+fn side(a: Point2, b: Point2, point: Point2) -> f64 {
+    (b.x_m - a.x_m) * (point.y_m - a.y_m) - (b.y_m - a.y_m) * (point.x_m - a.x_m)
+}
+
+/// The bar under the robot that cleans: as long as the swath is wide, across the direction of travel, through the centre.
+#[derive(Clone, Debug)]
+pub(super) struct Swath {
+    half_m: f64,
+    last: Option<Bar>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bar {
+    left: Point2,
+    centre: Point2,
+    right: Point2,
+}
+
+impl Swath {
+    pub(super) fn new(swath_m: f64) -> Self {
+        Self {
+            half_m: 0.5 * swath_m,
+            last: None,
+        }
+    }
+
+    /// Takes the brush off the floor: the next sweep starts where the robot is then.
+    pub(super) fn lift(&mut self) {
+        self.last = None;
+    }
+
+    /// Paints what lies between the bar's last place and the one under `pose`.
+    pub(super) fn sweep_to(&mut self, pose: Pose2, layer: &mut SweptLayer) {
+        let bar = Bar {
+            left: pose.transform(Point2 {
+                x_m: 0.0,
+                y_m: self.half_m,
+            }),
+            centre: pose.position(),
+            right: pose.transform(Point2 {
+                x_m: 0.0,
+                y_m: -self.half_m,
+            }),
+        };
+        let Some(last) = self.last else {
+            self.last = Some(bar);
+            return;
+        };
+        if bar
+            .left
+            .distance_m(last.left)
+            .max(bar.right.distance_m(last.right))
+            < BRUSH_STEP_M
+        {
+            return;
+        }
+        // The halves are painted apart because on a turn on the spot the two bars cross in the centre.
+        for (last_end, end) in [(last.left, bar.left), (last.right, bar.right)] {
+            layer.paint_triangle([last.centre, last_end, end]);
+            layer.paint_triangle([last.centre, end, bar.centre]);
+        }
+        self.last = Some(bar);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cell, Swath, SweptLayer, SweptRun};
+    use crate::geometry::Pose2;
+    use core::f64::consts::{FRAC_PI_2, PI};
+
+    const SWATH_M: f64 = 0.30;
+
+    /// Sweeps in 5 mm or 0.02 rad steps along an arc and gives the painted area.
+    fn swept_along(start: Pose2, distance_m: f64, turn_rad: f64) -> f64 {
+        let steps = ((distance_m.abs() / 0.005).max(turn_rad.abs() / 0.02)).ceil();
+        let mut layer = SweptLayer::default();
+        let mut swath = Swath::new(SWATH_M);
+        for step in 0..=steps as u32 {
+            let share = f64::from(step) / steps;
+            swath.sweep_to(start.after_arc(share * distance_m, share * turn_rad), &mut layer);
+        }
+        layer.area_m2()
+    }
+
+    fn check(start: Pose2, distance_m: f64, turn_rad: f64, area_m2: f64) {
+        let painted = swept_along(start, distance_m, turn_rad);
+        assert!(
+            (painted / area_m2 - 1.0).abs() < 0.02,
+            "painted {painted} m2 instead of {area_m2} m2 from {start:?}"
+        );
+    }
+
+    #[test]
+    fn a_straight_line_sweeps_length_times_swath() {
+        for heading_rad in [0.0, 0.3, 0.7, FRAC_PI_2, -2.0] {
+            check(
+                Pose2 {
+                    x_m: 0.1,
+                    y_m: -0.2,
+                    heading_rad,
+                },
+                3.0,
+                0.0,
+                3.0 * SWATH_M,
+            );
+        }
+    }
+
+    #[test]
+    fn a_quarter_turn_sweeps_the_ring_segment() {
+        let radius_m: f64 = 0.8;
+        check(
+            Pose2::IDENTITY,
+            radius_m * FRAC_PI_2,
+            FRAC_PI_2,
+            FRAC_PI_2 * radius_m * SWATH_M,
+        );
+    }
+
+    #[test]
+    fn a_turn_on_the_spot_sweeps_the_disc() {
+        check(
+            Pose2 {
+                x_m: 0.013,
+                y_m: 0.007,
+                heading_rad: 0.4,
+            },
+            0.0,
+            2.0 * PI,
+            PI * 0.25 * SWATH_M * SWATH_M,
+        );
+    }
+
+    #[test]
+    fn runs_carry_the_layer_over() {
+        let mut layer = SweptLayer::default();
+        for run in [
+            SweptRun {
+                start: Cell { x: -70, y: 3 },
+                length: 12,
+            },
+            SweptRun {
+                start: Cell { x: 5, y: -2 },
+                length: 1,
+            },
+        ] {
+            layer.paint_run(run);
+        }
+        let mut copy = SweptLayer::default();
+        for run in layer.runs() {
+            copy.paint_run(run);
+        }
+        assert_eq!(layer.runs(), copy.runs());
+        assert_eq!(copy.cells().len(), 13);
+        assert!(copy.contains(Cell { x: -59, y: 3 }) && !copy.contains(Cell { x: -58, y: 3 }));
+    }
+}
