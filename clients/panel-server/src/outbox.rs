@@ -1,0 +1,132 @@
+//! What waits to be sent to one browser: bounded, newest wins for readings, nothing lost of the rest.
+
+use std::collections::VecDeque;
+
+use serde::Deserialize;
+
+/// Messages that may wait. At some hundred a second this is a stall of seconds.
+const WAITING_MAX: usize = 1024;
+
+/// Bytes that may wait. One large map is about 2 MiB.
+const WAITING_BYTES_MAX: usize = 16 << 20;
+
+/// The browser takes its messages too slowly and must be dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stalled;
+
+/// Readings of which only the newest matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reading {
+    Pose,
+    Truth,
+    Device,
+}
+
+impl Reading {
+    const COUNT: usize = 3;
+
+    fn of(text: &str) -> Option<Self> {
+        #[derive(Deserialize)]
+        struct Kind<'t> {
+            #[serde(borrow)]
+            e: &'t str,
+        }
+        match serde_json::from_str::<Kind<'_>>(text).ok()?.e {
+            "pose" => Some(Self::Pose),
+            "simulated-truth" => Some(Self::Truth),
+            "device" => Some(Self::Device),
+            _ => None,
+        }
+    }
+}
+
+/// The queue. It does no I/O.
+#[derive(Debug, Default)]
+pub struct Outbox {
+    waiting: VecDeque<String>,
+    waiting_bytes: usize,
+    readings: [Option<String>; Reading::COUNT],
+}
+
+impl Outbox {
+    /// Adds one message in its text form. A newer pose, truth or device table takes the place of one that still waits.
+    ///
+    /// # Errors
+    /// [`Stalled`] when too much waits already; the message is not added.
+    pub fn push(&mut self, text: String) -> Result<(), Stalled> {
+        if let Some(reading) = Reading::of(&text) {
+            self.readings[reading as usize] = Some(text);
+            return Ok(());
+        }
+        if self.waiting.len() >= WAITING_MAX || self.waiting_bytes + text.len() > WAITING_BYTES_MAX {
+            return Err(Stalled);
+        }
+        self.waiting_bytes += text.len();
+        self.waiting.push_back(text);
+        Ok(())
+    }
+
+    /// Takes the next message: those that must not be lost in their order, then readings.
+    pub fn pop(&mut self) -> Option<String> {
+        if let Some(text) = self.waiting.pop_front() {
+            self.waiting_bytes -= text.len();
+            return Some(text);
+        }
+        self.readings.iter_mut().find_map(Option::take)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Outbox, Stalled, WAITING_BYTES_MAX, WAITING_MAX};
+
+    #[test]
+    fn newest_reading_wins_and_order_of_the_rest_is_kept() {
+        let mut outbox = Outbox::default();
+        for text in [
+            r#"{"e":"pose","x":1}"#,
+            r#"{"e":"log","number":1}"#,
+            r#"{"e":"pose","x":2}"#,
+            r#"{"e":"log","number":2}"#,
+            r#"{"e":"device","n":1}"#,
+            r#"{"e":"simulated-truth","n":1}"#,
+            r#"{"e":"device","n":2}"#,
+        ] {
+            outbox.push(text.to_owned()).unwrap();
+        }
+        let sent: Vec<_> = std::iter::from_fn(|| outbox.pop()).collect();
+        assert_eq!(
+            sent,
+            [
+                r#"{"e":"log","number":1}"#,
+                r#"{"e":"log","number":2}"#,
+                r#"{"e":"pose","x":2}"#,
+                r#"{"e":"simulated-truth","n":1}"#,
+                r#"{"e":"device","n":2}"#,
+            ]
+        );
+    }
+
+    #[test]
+    fn a_stalled_browser_is_noticed_by_count_but_never_by_readings() {
+        let mut outbox = Outbox::default();
+        for _ in 0..10 * WAITING_MAX {
+            outbox.push(r#"{"e":"pose"}"#.to_owned()).unwrap();
+        }
+        for _ in 0..WAITING_MAX {
+            outbox.push(r#"{"e":"log"}"#.to_owned()).unwrap();
+        }
+        assert_eq!(outbox.push(r#"{"e":"log"}"#.to_owned()), Err(Stalled));
+        outbox.pop().unwrap();
+        assert_eq!(outbox.push(r#"{"e":"log"}"#.to_owned()), Ok(()));
+    }
+
+    #[test]
+    fn a_stalled_browser_is_noticed_by_bytes() {
+        let mut outbox = Outbox::default();
+        outbox.push("x".repeat(WAITING_BYTES_MAX)).unwrap();
+        assert_eq!(outbox.push("y".to_owned()), Err(Stalled));
+        outbox.pop().unwrap();
+        assert_eq!(outbox.push("y".to_owned()), Ok(()));
+    }
+}

@@ -1,0 +1,270 @@
+//! Which requests are answered at all: the checks of Host, Origin and Sec-Fetch-Site.
+//!
+//! They keep foreign web pages out. A page of another site can make the owner's browser send requests here; the browser tells
+//! their origin in headers that the page cannot forge. A page whose name was re-pointed to this address (DNS rebinding) betrays
+//! itself by its name in `Host`.
+
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderName, Method, StatusCode, header};
+
+const SEC_FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
+
+/// The names and the port by which browsers may call the server.
+#[derive(Clone, Debug)]
+pub struct Rules {
+    authorities: Vec<String>,
+}
+
+/// Why a request is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// No `Host`, several, or one that disagrees with the request line.
+    HostUnclear,
+    /// `Host` is a name that is not ours.
+    HostForeign,
+    /// A WebSocket or a state change without exactly one `Origin`.
+    OriginMissing,
+    /// The `Origin` is another scheme, host or port.
+    OriginForeign,
+    /// `Sec-Fetch-Site` says that another site asks.
+    CrossSite,
+    /// Only GET and HEAD exist here.
+    Method,
+}
+
+impl Refusal {
+    /// The HTTP status.
+    #[must_use]
+    pub const fn status(self) -> StatusCode {
+        match self {
+            Self::HostUnclear => StatusCode::BAD_REQUEST,
+            Self::HostForeign => StatusCode::MISDIRECTED_REQUEST,
+            Self::OriginMissing | Self::OriginForeign | Self::CrossSite => StatusCode::FORBIDDEN,
+            Self::Method => StatusCode::METHOD_NOT_ALLOWED,
+        }
+    }
+
+    /// One sentence for the person who sees it in a browser.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::HostUnclear => "The request does not name one host.\n",
+            Self::HostForeign => {
+                "This server does not go by the name in the address bar: use the address that it printed at its start, or add \
+                 the name with --host-name.\n"
+            }
+            Self::OriginMissing => "The request does not say which page it comes from.\n",
+            Self::OriginForeign => "The request comes from a page of another site.\n",
+            Self::CrossSite => {
+                "Another site led here: type the address of the panel into the address bar instead.\n"
+            }
+            Self::Method => "Only GET and HEAD are answered here.\n",
+        }
+    }
+}
+
+impl Rules {
+    /// Rules for a server on `port` that goes by the names of loopback and by `host_names` (IPv6 addresses in brackets).
+    pub fn new<'a>(port: u16, host_names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut authorities = Vec::new();
+        for name in ["localhost", "127.0.0.1", "[::1]"].into_iter().chain(host_names) {
+            let name = name.to_ascii_lowercase();
+            authorities.push(format!("{name}:{port}"));
+            if port == 80 {
+                authorities.push(name);
+            }
+        }
+        Self { authorities }
+    }
+
+    /// Checks a request before anything else looks at it.
+    ///
+    /// # Errors
+    /// The first rule that it breaks.
+    pub fn check(&self, request: &Parts) -> Result<(), Refusal> {
+        let host = self.checked_host(request)?;
+        let changes = !matches!(request.method, Method::GET | Method::HEAD);
+        let upgrades = request.headers.contains_key(header::UPGRADE);
+        check_site(&request.headers, changes || upgrades)?;
+        if changes || upgrades {
+            check_origin(&request.headers, &host)?;
+        }
+        if changes {
+            return Err(Refusal::Method);
+        }
+        Ok(())
+    }
+
+    /// The lower-case authority of the request, known to be one of ours.
+    fn checked_host(&self, request: &Parts) -> Result<String, Refusal> {
+        let host = only(&request.headers, &header::HOST).ok_or(Refusal::HostUnclear)?;
+        let host = host.to_ascii_lowercase();
+        if let Some(authority) = request.uri.authority()
+            && authority.as_str().to_ascii_lowercase() != host
+        {
+            return Err(Refusal::HostUnclear);
+        }
+        if !self.authorities.contains(&host) {
+            return Err(Refusal::HostForeign);
+        }
+        Ok(host)
+    }
+}
+
+/// The text of a header that stands exactly once.
+fn only<'h>(headers: &'h HeaderMap, name: &HeaderName) -> Option<&'h str> {
+    let mut values = headers.get_all(name).iter();
+    let first = values.next()?;
+    if values.next().is_some() {
+        return None;
+    }
+    first.to_str().ok()
+}
+
+/// `none` (typed into the address bar) is good enough for reading a page, not for anything that acts.
+fn check_site(headers: &HeaderMap, acts: bool) -> Result<(), Refusal> {
+    if !headers.contains_key(SEC_FETCH_SITE) {
+        return Ok(());
+    }
+    match only(headers, &SEC_FETCH_SITE) {
+        Some("same-origin") => Ok(()),
+        Some("none") if !acts => Ok(()),
+        _ => Err(Refusal::CrossSite),
+    }
+}
+
+/// The origin must be the scheme that we speak and the very authority that was called.
+fn check_origin(headers: &HeaderMap, host: &str) -> Result<(), Refusal> {
+    let origin = only(headers, &header::ORIGIN).ok_or(Refusal::OriginMissing)?;
+    if origin.strip_prefix("http://") == Some(host) {
+        return Ok(());
+    }
+    Err(Refusal::OriginForeign)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Refusal, Rules};
+    use axum::http::Request;
+
+    /// Checks a request made of `method`, `uri` and header lines against a server on port 8080 with one extra name.
+    #[track_caller]
+    fn check(line: (&str, &str), headers: &[(&str, &str)], expected: Result<(), Refusal>) {
+        let mut request = Request::builder().method(line.0).uri(line.1);
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let (parts, ()) = request.body(()).unwrap().into_parts();
+        assert_eq!(
+            Rules::new(8080, ["Robot.local"]).check(&parts),
+            expected,
+            "{line:?} {headers:?}"
+        );
+    }
+
+    const PAGE: (&str, &str) = ("GET", "/");
+    const OURS: (&str, &str) = ("host", "localhost:8080");
+    const WS: (&str, &str) = ("upgrade", "websocket");
+
+    #[test]
+    fn host_must_be_ours() {
+        for host in [
+            "localhost:8080",
+            "127.0.0.1:8080",
+            "[::1]:8080",
+            "robot.local:8080",
+            "LOCALHOST:8080",
+        ] {
+            check(PAGE, &[("host", host)], Ok(()));
+        }
+        for host in [
+            "localhost",
+            "localhost:81",
+            "evil.example:8080",
+            "127.0.0.1.evil.example:8080",
+            "127.0.0.2:8080",
+            "",
+        ] {
+            check(PAGE, &[("host", host)], Err(Refusal::HostForeign));
+        }
+        check(PAGE, &[], Err(Refusal::HostUnclear));
+        check(
+            PAGE,
+            &[OURS, ("host", "evil.example:8080")],
+            Err(Refusal::HostUnclear),
+        );
+        check(
+            ("GET", "http://evil.example:8080/"),
+            &[OURS],
+            Err(Refusal::HostUnclear),
+        );
+        check(("GET", "http://localhost:8080/"), &[OURS], Ok(()));
+    }
+
+    #[test]
+    fn websocket_needs_the_exact_origin() {
+        check(PAGE, &[OURS, WS, ("origin", "http://localhost:8080")], Ok(()));
+        check(PAGE, &[OURS, WS], Err(Refusal::OriginMissing));
+        for origin in [
+            "null",
+            "https://localhost:8080",
+            "http://localhost",
+            "http://localhost:8081",
+            "http://127.0.0.1:8080",
+            "http://evil.example:8080",
+            "http://localhost:8080.evil.example",
+            "file://",
+            "",
+        ] {
+            check(PAGE, &[OURS, WS, ("origin", origin)], Err(Refusal::OriginForeign));
+        }
+        let good = ("origin", "http://localhost:8080");
+        check(
+            PAGE,
+            &[OURS, WS, good, ("origin", "null")],
+            Err(Refusal::OriginMissing),
+        );
+    }
+
+    #[test]
+    fn other_sites_are_refused_by_fetch_metadata() {
+        check(PAGE, &[OURS, ("sec-fetch-site", "none")], Ok(()));
+        check(PAGE, &[OURS, ("sec-fetch-site", "same-origin")], Ok(()));
+        for site in ["cross-site", "same-site", "other"] {
+            check(PAGE, &[OURS, ("sec-fetch-site", site)], Err(Refusal::CrossSite));
+        }
+        let origin = ("origin", "http://localhost:8080");
+        check(
+            PAGE,
+            &[OURS, WS, origin, ("sec-fetch-site", "none")],
+            Err(Refusal::CrossSite),
+        );
+    }
+
+    #[test]
+    fn nothing_but_reading_is_offered() {
+        check(("POST", "/"), &[OURS], Err(Refusal::OriginMissing));
+        check(
+            ("POST", "/"),
+            &[OURS, ("origin", "http://evil.example")],
+            Err(Refusal::OriginForeign),
+        );
+        check(
+            ("POST", "/"),
+            &[OURS, ("origin", "http://localhost:8080")],
+            Err(Refusal::Method),
+        );
+        check(("HEAD", "/"), &[OURS], Ok(()));
+    }
+
+    #[test]
+    fn port_80_may_be_left_out() {
+        let (parts, ()) = Request::builder()
+            .uri("/")
+            .header("host", "localhost")
+            .body(())
+            .unwrap()
+            .into_parts();
+        assert_eq!(Rules::new(80, []).check(&parts), Ok(()));
+    }
+}
