@@ -1,0 +1,25 @@
+//! What survives a crash.
+
+use rvac_protocol::message::ResetCause;
+
+/// What the chip knows of its own start.
+pub trait ResetRecord {
+    /// Why it started.
+    fn cause(&mut self) -> ResetCause;
+
+    /// Starts since the firmware was written, as far as the board can count.
+    fn boot_count(&mut self) -> u32;
+
+    /// Resets in a row, other than power-on, since [`Self::forget_recent`] was called last. Kept where a reset does not
+    /// clear it, counted up by the board's start-up code.
+    fn recent(&mut self) -> u8;
+
+    /// Sets [`Self::recent`] to 0: the firmware has run long enough.
+    fn forget_recent(&mut self);
+}
+
+/// The hardware watchdog, which resets the chip 128 to 256 ms after it was fed last (S5).
+pub trait Watchdog {
+    /// Feeds it. Called from the main loop only, and only when every supervisor has checked in.
+    fn feed(&mut self);
+}

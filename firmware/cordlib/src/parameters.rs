@@ -1,0 +1,89 @@
+//! What differs between machines of the same make-up: names, geometry, limits, gains.
+
+use rvac_protocol::message::Limits;
+use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
+
+/// Facts about one kind of robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Device name for the handshake, for example `sr8730`; at most 24 bytes.
+    pub device: &'static str,
+    /// Version of the board's firmware; at most 24 bytes.
+    pub firmware: &'static str,
+    /// Geometry and limits, as they go to the host.
+    pub limits: Limits,
+    /// Control of the wheels.
+    pub wheel: WheelParameters,
+    /// Ramps and speeds of `drive` and `move`.
+    pub motion: MotionParameters,
+    /// Electrical limits and sensor thresholds.
+    pub guard: GuardParameters,
+}
+
+/// Speed control of one wheel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WheelParameters {
+    /// Duty below which the motor does not turn.
+    pub dead_band: Throttle,
+    /// Speed of the rim at full duty.
+    pub speed_at_full: Speed,
+    /// Proportional gain: millionths of duty for each mm/s of speed error.
+    pub proportional: i32,
+    /// Integral gain: millionths of duty for each mm that the wheel is behind.
+    pub integral: i32,
+}
+
+/// Ramps of the base.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MotionParameters {
+    /// Acceleration along the way, in µm/s².
+    pub acceleration_um_per_s2: i32,
+    /// Angular acceleration, in µrad/s².
+    pub turn_acceleration_urad_per_s2: i32,
+    /// Speed of `move`.
+    pub move_speed: Speed,
+    /// Turn rate of `move`.
+    pub move_turn: AngularSpeed,
+}
+
+/// Limits of the reflexes that depend on the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GuardParameters {
+    /// A wheel motor above this for 100 ms is switched off (S11).
+    pub wheel_current_max: Current,
+    /// The main brush above this for 100 ms is switched off (S11).
+    pub brush_current_max: Current,
+    /// Least difference of a cliff receiver between lit and dark emitter that means floor, 1..=1023 (S8, S9).
+    pub floor_level_min: u16,
+}
+
+impl Parameters {
+    /// Usual values for a machine with these names and this geometry. Gains suit a wheel that reaches 1.3 times the
+    /// highest speed at full duty.
+    #[must_use]
+    pub const fn for_machine(device: &'static str, firmware: &'static str, limits: Limits) -> Self {
+        let top = limits.speed_max.0;
+        Self {
+            device,
+            firmware,
+            limits,
+            wheel: WheelParameters {
+                dead_band: Throttle::saturating_from_millionths(200_000),
+                speed_at_full: Speed(top.saturating_add(top / 10 * 3)),
+                proportional: 1_500,
+                integral: 15_000,
+            },
+            motion: MotionParameters {
+                acceleration_um_per_s2: 500_000,
+                turn_acceleration_urad_per_s2: 4_000_000,
+                move_speed: Speed(top / 5 * 3),
+                move_turn: AngularSpeed(limits.turn_max.0 / 5 * 3),
+            },
+            guard: GuardParameters {
+                wheel_current_max: Current(1_500),
+                brush_current_max: Current(2_000),
+                floor_level_min: 100,
+            },
+        }
+    }
+}
