@@ -1,1 +1,34 @@
-//! Simulated home: floor plans, physics, sensors, dirt, dock, battery
+//! Simulated homes: floor plans, furniture, dirt, and a robot's physics, sensors, dock and battery in them.
+//!
+//! A [`RobotModel`] comes from `robots/<name>/robot.toml`, a [`Home`] from a map file, and a [`World`] is one robot in one
+//! home. [`World::step`] advances one millisecond: it takes what the firmware puts on its pins ([`Actuation`]) and leaves
+//! what the firmware can read ([`Sensors`]) beside what is really so ([`Truth`]). There is no clock, no global state and no
+//! randomness except the seed: the same calls give the same bits.
+//!
+//! What it does not do: three dimensions, pushed furniture, people and animals, sound.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod home;
+mod load;
+mod model;
+mod noise;
+mod pcg;
+mod plan;
+mod pose;
+mod world;
+
+pub use home::Home;
+pub use load::HomeError;
+pub use model::{
+    Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,
+    ReceiverMount, RobotModel, WheelMotor, robot_names,
+};
+pub use noise::Noise;
+pub use pcg::Pcg;
+pub use plan::{Cell, Grid};
+pub use pose::{Pose, wrap_angle};
+pub use world::{
+    Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, SensorFault, SensorId,
+    Sensors, Truth, World,
+};

@@ -1,0 +1,5 @@
+//! Loading of homes.
+
+mod error;
+
+pub use error::HomeError;

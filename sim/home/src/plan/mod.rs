@@ -1,0 +1,5 @@
+//! The floor plan as a grid.
+
+mod grid;
+
+pub use grid::{Cell, Grid};
