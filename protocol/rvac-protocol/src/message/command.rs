@@ -2,7 +2,7 @@
 
 use rvac_units::{AngularSpeed, Frequency, Length, Ratio, Speed, Throttle, Tick};
 
-use super::{BinaryKinds, Inhibit, ProtocolVersion};
+use super::{BinaryKinds, CommandName, Inhibit, ProtocolVersion};
 
 /// Rising number of a command, modulo 65,536.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -74,6 +74,74 @@ pub enum Command {
         /// New value in the parameter's own unit.
         value: i32,
     },
+    /// Asks for nothing but an acknowledgement: keeps a session alive and measures the round trip. The session answers
+    /// it; it never reaches the firmware.
+    Ping {
+        /// Number for the acknowledgement.
+        sequence: Sequence,
+    },
+    /// Confirms every edge up to and including this number. The session handles it; it never reaches the firmware.
+    Seen {
+        /// Number of the newest edge of an unbroken row.
+        edge: u16,
+    },
+}
+
+impl Command {
+    /// The command's word.
+    #[must_use]
+    pub const fn name(&self) -> CommandName {
+        match self {
+            Self::Hello(_) => CommandName::Hello,
+            Self::Hand => CommandName::Hand,
+            Self::Describe { .. } => CommandName::Describe,
+            Self::Info => CommandName::Info,
+            Self::State => CommandName::State,
+            Self::Drive(_) => CommandName::Drive,
+            Self::Motor(_) => CommandName::Motor,
+            Self::Move(_) => CommandName::Move,
+            Self::Stop => CommandName::Stop,
+            Self::Beep(_) => CommandName::Beep,
+            Self::Led(_) => CommandName::Led,
+            Self::Arm { .. } => CommandName::Arm,
+            Self::Clear { .. } => CommandName::Clear,
+            Self::Set { .. } => CommandName::Set,
+            Self::Ping { .. } => CommandName::Ping,
+            Self::Seen { .. } => CommandName::Seen,
+        }
+    }
+
+    /// The command's number, if it carries one.
+    #[must_use]
+    pub const fn sequence(&self) -> Option<Sequence> {
+        match self {
+            Self::Drive(drive) => Some(drive.sequence),
+            Self::Motor(motor) => Some(motor.sequence),
+            Self::Move(movement) => Some(movement.sequence),
+            Self::Arm { sequence, .. }
+            | Self::Clear { sequence, .. }
+            | Self::Set { sequence, .. }
+            | Self::Ping { sequence } => Some(*sequence),
+            Self::Hello(_)
+            | Self::Hand
+            | Self::Describe { .. }
+            | Self::Info
+            | Self::State
+            | Self::Stop
+            | Self::Beep(_)
+            | Self::Led(_)
+            | Self::Seen { .. } => None,
+        }
+    }
+
+    /// Whether the host repeats it until it is acknowledged.
+    #[must_use]
+    pub const fn must_arrive(&self) -> bool {
+        matches!(
+            self,
+            Self::Move(_) | Self::Arm { .. } | Self::Clear { .. } | Self::Set { .. } | Self::Ping { .. }
+        )
+    }
 }
 
 /// Opening of a session by the host.
@@ -120,6 +188,29 @@ pub enum Motor {
     BrushRight,
     /// `vacuum`
     Vacuum,
+}
+
+impl LedPattern {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Off, Self::On, Self::Blink];
+
+    /// The name on the wire.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::On => "on",
+            Self::Blink => "blink",
+        }
+    }
+
+    /// The pattern with exactly this name.
+    #[must_use]
+    pub fn from_name(name: &[u8]) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|pattern| pattern.name().as_bytes() == name)
+    }
 }
 
 impl Motor {
@@ -226,4 +317,35 @@ pub enum Parameter {
     StatePeriod,
     /// `info-ms`: pause between info reports in ms, 0 = none, else 100..=60,000.
     InfoPeriod,
+}
+
+impl Parameter {
+    /// All of them, in the order of their rows in the description.
+    pub const ALL: [Self; 2] = [Self::StatePeriod, Self::InfoPeriod];
+
+    /// The name on the wire.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::StatePeriod => "state-ms",
+            Self::InfoPeriod => "info-ms",
+        }
+    }
+
+    /// The parameter with exactly this name.
+    #[must_use]
+    pub fn from_name(name: &[u8]) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|parameter| parameter.name().as_bytes() == name)
+    }
+
+    /// Smallest and largest value besides 0, which is always allowed.
+    #[must_use]
+    pub const fn range(self) -> (i32, i32) {
+        match self {
+            Self::StatePeriod => (10, 10_000),
+            Self::InfoPeriod => (100, 60_000),
+        }
+    }
 }

@@ -27,6 +27,28 @@ pub struct BinaryKinds {
     pub drive: bool,
 }
 
+impl BinaryKinds {
+    /// No kind.
+    pub const NONE: Self = Self {
+        state: false,
+        drive: false,
+    };
+    /// Every kind of this version.
+    pub const ALL: Self = Self {
+        state: true,
+        drive: true,
+    };
+
+    /// The kinds both sides know.
+    #[must_use]
+    pub const fn common(self, other: Self) -> Self {
+        Self {
+            state: self.state && other.state,
+            drive: self.drive && other.drive,
+        }
+    }
+}
+
 /// Why the microcontroller started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResetCause {
@@ -66,6 +88,14 @@ impl ResetCause {
             Self::Software => "software",
             Self::Unknown => "unknown",
         }
+    }
+
+    /// The cause with exactly this name.
+    #[must_use]
+    pub fn from_name(name: &[u8]) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|cause| cause.name().as_bytes() == name)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the two sides can say, as closed types. Text and binary forms are two spellings of these.
 
 mod command;
+mod describe;
 mod identity;
 mod inhibit;
 mod report;
@@ -8,6 +9,7 @@ mod report;
 pub use command::{
     Beep, Command, Drive, HostHello, Led, LedPattern, Motor, MotorCommand, Move, Parameter, Sequence,
 };
+pub use describe::{CommandName, CommandNames, DescribeRow, RowContent};
 pub use identity::{
     BinaryKinds, Capabilities, Description, Limits, Name, ProtocolVersion, ResetCause, RobotHello,
 };

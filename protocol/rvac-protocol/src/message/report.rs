@@ -17,7 +17,7 @@ pub enum Report {
     /// Opening of a session.
     Hello(RobotHello),
     /// One row of the description table.
-    Describe(super::Description),
+    Describe(super::DescribeRow),
     /// Slow facts.
     Info(Info),
     /// Telemetry.
@@ -330,6 +330,14 @@ impl Refusal {
             Self::CauseRemains => "cause-remains",
             Self::Syntax => "syntax",
         }
+    }
+
+    /// The reason with exactly this name.
+    #[must_use]
+    pub fn from_name(name: &[u8]) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|refusal| refusal.name().as_bytes() == name)
     }
 }
 

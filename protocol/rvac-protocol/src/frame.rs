@@ -1,0 +1,243 @@
+//! From bytes to packets.
+//!
+//! A *separator* (0x1F, or 0x1E from tools of 2016) ends a packet. A *poisoned* packet is one that cannot be whole any
+//! more: a forbidden control byte, a framing error, too many bytes; everything up to the next separator is dropped with
+//! it. Work per byte is constant: the digest follows some bytes behind the input, because the last bytes of a packet are
+//! its seal, and nobody knows that they are the last until the separator comes.
+
+use crate::seal::{Digest, Direction, STRIDE, from_hex};
+
+/// Most bytes of a packet, its seal included, its separator not. Binary packets are counted unstuffed.
+pub const PACKET_BYTES_MAX: usize = 256;
+/// Ends a packet: Unit Separator.
+pub const SEPARATOR: u8 = 0x1F;
+/// Ends a packet too, on receive: Record Separator, which the software published in 2016 sent.
+pub const SEPARATOR_2016: u8 = 0x1E;
+/// In a binary packet: the next byte was combined with [`STUFFED_BIT`].
+pub const STUFFING: u8 = 0x1D;
+/// What a stuffed byte is combined with (exclusive or).
+pub const STUFFED_BIT: u8 = 0x20;
+/// First value of the kind byte of a binary packet.
+pub const BINARY_KIND_MIN: u8 = 0x80;
+
+/// `*` and eight digits.
+const TEXT_SEAL_BYTES: usize = 9;
+/// The seal of a binary packet, little endian.
+const BINARY_SEAL_BYTES: usize = 4;
+
+/// What a separator ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Framed<'a> {
+    /// Text without a seal.
+    Open(&'a [u8]),
+    /// Text with the right seal, which is cut off.
+    Sealed(&'a [u8]),
+    /// Text with a seal that is not the session's.
+    Missealed {
+        /// The text without the seal.
+        text: &'a [u8],
+        /// The seal it came with.
+        seal: u32,
+    },
+    /// A binary packet with the right seal.
+    Binary {
+        /// What it is, 0x80 or above.
+        kind: u8,
+        /// Unstuffed, without kind and seal.
+        body: &'a [u8],
+    },
+    /// A binary packet with a wrong seal or too short for one.
+    BinaryMissealed,
+    /// A poisoned packet.
+    Poisoned(Poison),
+}
+
+/// Why a packet cannot be whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Poison {
+    /// More than [`PACKET_BYTES_MAX`] bytes.
+    TooLong,
+    /// A byte below 0x20 in a text, or a broken stuffing in a binary packet.
+    ControlByte,
+    /// The receiver saw a wrong stop bit.
+    FramingError,
+    /// The receiver lost bytes.
+    Overrun,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Text,
+    Binary,
+    BinaryStuffing,
+    Poisoned(Poison),
+}
+
+/// Cuts a stream into packets and checks their seals on the way.
+#[derive(Clone, Debug)]
+pub struct Framer {
+    buffer: [u8; PACKET_BYTES_MAX],
+    length: usize,
+    digested: usize,
+    digest: Digest,
+    start: Digest,
+    direction: Direction,
+    form: Form,
+}
+
+impl Framer {
+    /// A framer for packets that travel in `direction`, before any session.
+    #[must_use]
+    pub fn new(direction: Direction) -> Self {
+        let start = Digest::start(direction, 0);
+        Self {
+            buffer: [0; PACKET_BYTES_MAX],
+            length: 0,
+            digested: 0,
+            digest: start,
+            start,
+            direction,
+            form: Form::Text,
+        }
+    }
+
+    /// From the next packet on seals are those of `session`. Call it between packets, that is when `push` has just given
+    /// one.
+    pub fn set_session(&mut self, session: u16) {
+        self.start = Digest::start(self.direction, session);
+        self.restart();
+    }
+
+    /// Takes one byte. Separators give what they end; empty packets give nothing.
+    #[inline]
+    pub fn push(&mut self, byte: u8) -> Option<Framed<'_>> {
+        if byte == SEPARATOR || byte == SEPARATOR_2016 {
+            return self.finish();
+        }
+        match self.form {
+            Form::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
+                self.form = Form::Binary;
+                self.take(byte, BINARY_SEAL_BYTES);
+            }
+            Form::Text if byte < 0x20 => self.poison(Poison::ControlByte),
+            Form::Text => self.take(byte, TEXT_SEAL_BYTES),
+            Form::Binary if byte == STUFFING => self.form = Form::BinaryStuffing,
+            Form::Binary => self.take(byte, BINARY_SEAL_BYTES),
+            Form::BinaryStuffing => self.unstuff(byte),
+            Form::Poisoned(_) => {}
+        }
+        None
+    }
+
+    /// Drops everything up to the next separator.
+    pub fn poison(&mut self, poison: Poison) {
+        if !matches!(self.form, Form::Poisoned(_)) {
+            self.form = Form::Poisoned(poison);
+        }
+    }
+
+    /// Whether a packet has begun.
+    #[must_use]
+    pub fn is_inside_packet(&self) -> bool {
+        self.length != 0 || self.form != Form::Text
+    }
+
+    fn unstuff(&mut self, byte: u8) {
+        let original = byte ^ STUFFED_BIT;
+        if matches!(original, STUFFING | SEPARATOR | SEPARATOR_2016) {
+            self.form = Form::Binary;
+            self.take(original, BINARY_SEAL_BYTES);
+        } else {
+            self.poison(Poison::ControlByte);
+        }
+    }
+
+    #[inline]
+    fn take(&mut self, byte: u8, seal_bytes: usize) {
+        let Some(slot) = self.buffer.get_mut(self.length) else {
+            self.poison(Poison::TooLong);
+            return;
+        };
+        *slot = byte;
+        self.length += 1;
+        if self.length - self.digested == seal_bytes + STRIDE {
+            self.catch_up(self.digested + STRIDE);
+        }
+    }
+
+    /// Takes the bytes up to `end` into the digest.
+    #[inline]
+    fn catch_up(&mut self, end: usize) {
+        if let Some(bytes) = self.buffer.get(self.digested..end) {
+            self.digest.extend(bytes);
+            self.digested = end;
+        }
+    }
+
+    fn finish(&mut self) -> Option<Framed<'_>> {
+        let form = self.form;
+        let length = self.length;
+        match form {
+            Form::Text if length == 0 => None,
+            Form::Text => Some(self.finish_text(length)),
+            Form::Binary => Some(self.finish_binary(length)),
+            Form::BinaryStuffing => {
+                self.restart();
+                Some(Framed::Poisoned(Poison::ControlByte))
+            }
+            Form::Poisoned(poison) => {
+                self.restart();
+                Some(Framed::Poisoned(poison))
+            }
+        }
+    }
+
+    fn finish_text(&mut self, length: usize) -> Framed<'_> {
+        let seal = self.text_seal(length);
+        let text_length = if seal.is_some() {
+            length - TEXT_SEAL_BYTES
+        } else {
+            length
+        };
+        if seal.is_some() {
+            self.catch_up(text_length);
+        }
+        let right = self.digest.seal();
+        self.restart();
+        let text = self.buffer.get(..text_length).unwrap_or_default();
+        match seal {
+            None => Framed::Open(text),
+            Some(seal) if seal == right => Framed::Sealed(text),
+            Some(seal) => Framed::Missealed { text, seal },
+        }
+    }
+
+    fn finish_binary(&mut self, length: usize) -> Framed<'_> {
+        let body_end = length.saturating_sub(BINARY_SEAL_BYTES);
+        self.catch_up(body_end);
+        let right = self.digest.seal();
+        self.restart();
+        let Some([kind, body_and_seal @ ..]) = self.buffer.get(..length) else {
+            return Framed::BinaryMissealed;
+        };
+        match body_and_seal.split_last_chunk::<BINARY_SEAL_BYTES>() {
+            Some((body, seal)) if *seal == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
+            _ => Framed::BinaryMissealed,
+        }
+    }
+
+    fn text_seal(&self, length: usize) -> Option<u32> {
+        let tail = self.buffer.get(..length)?.last_chunk::<TEXT_SEAL_BYTES>()?;
+        match tail {
+            [b'*', digits @ ..] => from_hex(*digits),
+            _ => None,
+        }
+    }
+
+    fn restart(&mut self) {
+        self.length = 0;
+        self.digested = 0;
+        self.digest = self.start;
+        self.form = Form::Text;
+    }
+}
