@@ -1,1 +1,61 @@
-fn main() {}
+//! `cargo xtask`: the commands that build, run, test and keep the project in order.
+//!
+//! Each subcommand is a module. They start programs and read files; nothing of the robot's own logic lives here.
+#![forbid(unsafe_code)]
+
+mod bench;
+mod codegen;
+mod demo;
+mod panel;
+mod process;
+mod system;
+mod test;
+mod tidy;
+mod workspace;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Commands of the LibreRVAC project.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", disable_help_subcommand = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Builds everything, starts a simulated robot with the whole software, and prints the address of its panel.
+    Demo(demo::Arguments),
+    /// Runs every check and test of the project.
+    Test(test::Arguments),
+    /// Measures the link, the relay, the simulator or the size of cordlib.
+    Bench(bench::Arguments),
+    /// Checks the rules of the repository.
+    Tidy,
+    /// Writes the generated files, or with --check says which are stale.
+    Codegen(codegen::Arguments),
+    /// Builds the panel for the browser and packs it.
+    Panel,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Tidy => tidy::run(),
+        Command::Codegen(arguments) => codegen::run(&arguments),
+        Command::Panel => {
+            panel::build().map(|folder| process::say(&format!("the panel is in {}", folder.display())))
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            process::complain(&format!("{error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}

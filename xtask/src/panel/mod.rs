@@ -1,0 +1,66 @@
+//! Builds the panel: WebAssembly by whatever compiler this machine has for it, then packed into one folder of files.
+
+mod toolchain;
+
+use crate::{process, workspace};
+use anyhow::bail;
+use std::path::PathBuf;
+
+/// The WebAssembly that cargo leaves, below the target folder of the panel.
+const WASM: &str = "wasm32-unknown-unknown/release/panel.wasm";
+
+/// Builds and packs the panel; gives the folder that the panel server serves.
+pub(crate) fn build() -> anyhow::Result<PathBuf> {
+    let wasm = compile()?;
+    let folder = workspace::target().join("panel-dist");
+    let mut pack = workspace::cargo();
+    pack.args([
+        "run",
+        "--quiet",
+        "--locked",
+        "--manifest-path",
+        "xtask/uipack/Cargo.toml",
+        "--target-dir",
+    ])
+    .arg(workspace::target().join("uipack"))
+    .arg("--")
+    .arg(&wasm)
+    .arg(workspace::root().join("clients/panel/static"))
+    .arg(&folder);
+    process::run(
+        "pack the panel (its packer takes about 30 s to build the first time)",
+        &mut pack,
+    )?;
+    Ok(folder)
+}
+
+fn compile() -> anyhow::Result<PathBuf> {
+    let toolchain = toolchain::choose()?;
+    let target = workspace::target().join("wasm");
+    let mut cargo = toolchain.cargo();
+    cargo
+        .args([
+            "build",
+            "--release",
+            "--locked",
+            "--manifest-path",
+            "clients/panel/Cargo.toml",
+        ])
+        .args(["--target", toolchain::TARGET, "--target-dir"])
+        .arg(&target);
+    process::run(
+        &format!(
+            "build the panel with {} (about four minutes the first time)",
+            toolchain.name()
+        ),
+        &mut cargo,
+    )?;
+    let wasm = target.join(WASM);
+    if !wasm.is_file() {
+        bail!(
+            "the panel was built but {} is missing; is its program still called panel?",
+            wasm.display()
+        );
+    }
+    Ok(wasm)
+}

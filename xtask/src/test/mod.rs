@@ -1,0 +1,97 @@
+//! `cargo xtask test`: every check and test of the project in one command, stage after stage.
+
+mod count;
+mod runner;
+mod stages;
+
+use crate::process;
+use anyhow::bail;
+use count::Count;
+use stages::{STAGES, Stage};
+use std::time::{Duration, Instant};
+
+/// Arguments of `cargo xtask test`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Run only this stage; may be given several times.
+    #[arg(long, value_name = "STAGE")]
+    only: Vec<String>,
+    /// Print the names of the stages and what each does.
+    #[arg(long)]
+    list: bool,
+    /// Many more seeds and corrupted packets.
+    #[arg(long)]
+    long: bool,
+}
+
+/// How a stage ended.
+struct Outcome {
+    stage: &'static Stage,
+    count: Count,
+    error: Option<anyhow::Error>,
+    took: Duration,
+}
+
+/// Runs the stages; fails when one fails. The last line is `N passed, N failed`.
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if arguments.list {
+        STAGES
+            .iter()
+            .for_each(|stage| process::print(&format!("{:10} {}", stage.name, stage.does)));
+        return Ok(());
+    }
+    let outcomes: Vec<Outcome> = chosen(&arguments.only)?
+        .into_iter()
+        .map(|stage| run_one(stage, arguments.long))
+        .collect();
+    let mut total = Count::default();
+    process::print("");
+    for outcome in &outcomes {
+        total.add(outcome.count);
+        process::print(&row(outcome));
+    }
+    process::print(&total.to_string());
+    if total.failed > 0 {
+        bail!("{} failed", total.failed);
+    }
+    Ok(())
+}
+
+fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Stage>> {
+    if names.is_empty() {
+        return Ok(STAGES.iter().collect());
+    }
+    let find = |name: &String| match STAGES.iter().find(|stage| stage.name == name) {
+        Some(stage) => Ok(stage),
+        None => bail!("there is no stage {name:?}; cargo xtask test --list names them"),
+    };
+    names.iter().map(find).collect()
+}
+
+fn run_one(stage: &'static Stage, long: bool) -> Outcome {
+    process::say(&format!("stage {}: {}", stage.name, stage.does));
+    let begun = Instant::now();
+    let (count, error) = match (stage.run)(long) {
+        Ok(count) => (count, None),
+        Err(runner::Failed { count, error }) => (count.with_a_failure(), Some(error)),
+    };
+    if let Some(error) = &error {
+        process::complain(&format!("stage {}: {error:#}", stage.name));
+    }
+    Outcome {
+        stage,
+        count,
+        error,
+        took: begun.elapsed(),
+    }
+}
+
+fn row(outcome: &Outcome) -> String {
+    let verdict = if outcome.error.is_some() { "FAILED" } else { "ok" };
+    format!(
+        "{:10} {verdict:6} {:7.1} s  {}",
+        outcome.stage.name,
+        outcome.took.as_secs_f64(),
+        outcome.count
+    )
+}

@@ -1,0 +1,231 @@
+//! The stages in the order in which they run: the quick ones first, so that a slip shows at once.
+
+use super::count::Count;
+use super::runner::{Result, all, check, checks, tests};
+use crate::workspace::{self, Profile, program};
+use crate::{codegen, panel, system, tidy};
+use std::process::Command;
+
+/// One stage.
+pub(super) struct Stage {
+    /// What `--only` takes.
+    pub(super) name: &'static str,
+    /// One line for people.
+    pub(super) does: &'static str,
+    /// Runs it; the argument asks for the long form.
+    pub(super) run: fn(bool) -> Result,
+}
+
+/// All stages.
+pub(super) const STAGES: [Stage; 12] = [
+    Stage {
+        name: "fmt",
+        does: "the code is formatted",
+        run: fmt,
+    },
+    Stage {
+        name: "tidy",
+        does: "the rules of the repository hold",
+        run: |_| one(tidy::run()),
+    },
+    Stage {
+        name: "codegen",
+        does: "generated files are fresh",
+        run: codegen_check,
+    },
+    Stage {
+        name: "clippy",
+        does: "the linter finds nothing",
+        run: clippy,
+    },
+    Stage {
+        name: "tests",
+        does: "unit and integration tests, C and Raku included",
+        run: workspace_tests,
+    },
+    Stage {
+        name: "doctests",
+        does: "examples in the documentation compile and run",
+        run: doctests,
+    },
+    Stage {
+        name: "panel",
+        does: "tests of the panel's logic",
+        run: panel_tests,
+    },
+    Stage {
+        name: "fuzz",
+        does: "each fuzz target survives a short run",
+        run: fuzz,
+    },
+    Stage {
+        name: "link",
+        does: "corrupted packets cause no wrong actuation",
+        run: link,
+    },
+    Stage {
+        name: "faults",
+        does: "simulations with random faults violate nothing",
+        run: faults,
+    },
+    Stage {
+        name: "headless",
+        does: "the demo cleans without a browser",
+        run: headless,
+    },
+    Stage {
+        name: "browser",
+        does: "the demo works in a browser",
+        run: browser,
+    },
+];
+
+/// Manifests of the workspaces besides the main one.
+const OTHERS: [&str; 3] = [
+    "clients/panel/Cargo.toml",
+    "xtask/uipack/Cargo.toml",
+    "protocol/fuzz/Cargo.toml",
+];
+
+fn one(result: anyhow::Result<()>) -> Result {
+    result?;
+    Ok(Count::ONE)
+}
+
+fn cargo(words: &[&str]) -> Command {
+    let mut command = workspace::cargo();
+    command.args(words);
+    command
+}
+
+fn fmt(_long: bool) -> Result {
+    let mut commands = vec![cargo(&["fmt", "--all", "--check"])];
+    commands.extend(OTHERS.map(|manifest| cargo(&["fmt", "--all", "--check", "--manifest-path", manifest])));
+    checks(&mut commands)
+}
+
+fn codegen_check(_long: bool) -> Result {
+    one(codegen::run(&codegen::Arguments { check: true }))
+}
+
+fn clippy(_long: bool) -> Result {
+    check(&mut cargo(&[
+        "clippy",
+        "--workspace",
+        "--all-targets",
+        "--locked",
+        "--",
+        "-D",
+        "warnings",
+    ]))
+}
+
+/// Prepares what tests start: programs of the workspace, a C compiler, Raku.
+fn workspace_tests(_long: bool) -> Result {
+    system::need("cc", &["gcc", "libc6-dev"])?;
+    system::need("raku", &["rakudo"])?;
+    let build = check(&mut cargo(&["build", "--workspace", "--locked"]));
+    let run = if system::find("cargo-nextest").is_some() {
+        tests(&mut cargo(&[
+            "nextest",
+            "run",
+            "--workspace",
+            "--locked",
+            "--no-fail-fast",
+        ]))
+    } else {
+        tests(&mut cargo(&[
+            "test",
+            "--workspace",
+            "--locked",
+            "--all-targets",
+            "--no-fail-fast",
+        ]))
+    };
+    all([build, run].into_iter())
+}
+
+fn doctests(_long: bool) -> Result {
+    check(&mut cargo(&[
+        "test",
+        "--workspace",
+        "--locked",
+        "--doc",
+        "--no-fail-fast",
+    ]))
+}
+
+fn panel_tests(_long: bool) -> Result {
+    let mut command = cargo(&[
+        "test",
+        "--locked",
+        "--manifest-path",
+        "clients/panel/Cargo.toml",
+        "--package",
+        "panel-logic",
+    ]);
+    command.arg("--target-dir").arg(workspace::target().join("panel"));
+    tests(&mut command)
+}
+
+fn fuzz(_long: bool) -> Result {
+    tests(&mut cargo(&[
+        "test",
+        "--locked",
+        "--manifest-path",
+        "protocol/fuzz/Cargo.toml",
+    ]))
+}
+
+fn link(long: bool) -> Result {
+    let mut command = cargo(&[
+        "run",
+        "--release",
+        "--quiet",
+        "--locked",
+        "--package",
+        "rvac-channel",
+        "--bin",
+        "bench-link",
+        "--",
+    ]);
+    command.args(if long {
+        ["--json", "--long"].as_slice()
+    } else {
+        ["--json", "--packets", "1000000"].as_slice()
+    });
+    check(&mut command)
+}
+
+fn faults(long: bool) -> Result {
+    workspace::build(&["rvac-sim"], Profile::Release)?;
+    let mut command = Command::new(program("rvac-sim", Profile::Release));
+    command.current_dir(workspace::root());
+    command.args([
+        "faults",
+        "--seeds",
+        if long { "0..100000" } else { "0..1000" },
+        "--minutes",
+        "1",
+    ]);
+    check(&mut command)
+}
+
+fn headless(_long: bool) -> Result {
+    check(&mut cargo(&[
+        "xtask",
+        "demo",
+        "--headless",
+        "--minutes",
+        "3",
+        "--seed",
+        "1",
+    ]))
+}
+
+fn browser(_long: bool) -> Result {
+    system::need("chromium", &["chromium"])?;
+    system::need("chromedriver", &["chromium-driver"])?;
+    panel::build()?;
+    Ok(Count::ONE)
+}

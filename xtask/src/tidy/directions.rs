@@ -1,0 +1,250 @@
+//! Who may know whom: the table of ARCHITECTURE.md as data.
+
+use super::Finding;
+use super::files::Files;
+use super::metadata::{Packages, packages, reach};
+
+/// A crate of ours, the crates of ours it may depend on directly, and foreign crates it may not even reach.
+struct Direction {
+    of: &'static str,
+    knows: &'static [&'static str],
+    never: &'static [&'static str],
+}
+
+/// What would bring a clock, randomness, threads or I/O into a core.
+const OUTSIDE: &[&str] = &[
+    "tokio",
+    "mio",
+    "rand",
+    "getrandom",
+    "axum",
+    "mcap",
+    "serial2-tokio",
+    "tracing-subscriber",
+    "rustix",
+];
+/// The same for crates that run on a microcontroller, where there is no standard library either.
+const STD: &[&str] = &[
+    "tokio",
+    "mio",
+    "rand",
+    "getrandom",
+    "serde_json",
+    "serde",
+    "thiserror",
+    "anyhow",
+    "tracing",
+];
+/// The brain does not know how it is spoken to.
+const BRAIN: &[&str] = &[
+    "tokio",
+    "mio",
+    "getrandom",
+    "serde",
+    "serde_json",
+    "axum",
+    "mcap",
+    "tracing",
+];
+
+const DIRECTIONS: [Direction; 17] = [
+    Direction {
+        of: "rvac-units",
+        knows: &[],
+        never: STD,
+    },
+    Direction {
+        of: "rvac-protocol",
+        knows: &["rvac-units"],
+        never: STD,
+    },
+    Direction {
+        of: "rvac-channel",
+        knows: &["rvac-protocol", "rvac-units"],
+        never: &["tokio"],
+    },
+    Direction {
+        of: "cordlib",
+        knows: &["rvac-protocol", "rvac-units"],
+        never: STD,
+    },
+    Direction {
+        of: "cordlib-c",
+        knows: &["cordlib", "rvac-protocol", "rvac-units"],
+        never: STD,
+    },
+    Direction {
+        of: "brain",
+        knows: &["rvac-units"],
+        never: BRAIN,
+    },
+    Direction {
+        of: "rvac-api",
+        knows: &["rvac-units"],
+        never: OUTSIDE,
+    },
+    Direction {
+        of: "vthal-core",
+        knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"],
+        never: OUTSIDE,
+    },
+    Direction {
+        of: "vthal",
+        knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api"],
+        never: &[],
+    },
+    Direction {
+        of: "rvac-cli",
+        knows: &["rvac-api", "rvac-protocol", "rvac-units"],
+        never: &[],
+    },
+    Direction {
+        of: "panel-server",
+        knows: &["rvac-api"],
+        never: &[],
+    },
+    Direction {
+        of: "panel",
+        knows: &["panel-logic", "rvac-api"],
+        never: &["tokio"],
+    },
+    Direction {
+        of: "panel-logic",
+        knows: &["rvac-api"],
+        never: &["tokio", "leptos", "web-sys"],
+    },
+    Direction {
+        of: "home",
+        knows: &["rvac-units"],
+        never: OUTSIDE,
+    },
+    Direction {
+        of: "robot",
+        knows: &["cordlib", "home", "rvac-protocol", "rvac-units"],
+        never: OUTSIDE,
+    },
+    Direction {
+        of: "rvac-sim",
+        knows: &[
+            "robot",
+            "home",
+            "cordlib",
+            "vthal-core",
+            "brain",
+            "rvac-api",
+            "rvac-protocol",
+            "rvac-units",
+        ],
+        never: &["vthal", "axum"],
+    },
+    Direction {
+        of: "xtask",
+        knows: &["rvac-api"],
+        never: &["tokio"],
+    },
+];
+
+/// Most crates in the firmware, ours included.
+const FIRMWARE_CRATES_MAX: usize = 10;
+
+/// Compares the table with what cargo resolves.
+pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
+    let mut found = Vec::new();
+    for manifest in ["Cargo.toml", "clients/panel/Cargo.toml"] {
+        if files.has(manifest) {
+            found.extend(judge(&packages(manifest)?));
+        }
+    }
+    found.sort();
+    found.dedup();
+    Ok(Finding::Checked(found))
+}
+
+fn judge(packages: &Packages) -> Vec<String> {
+    let mut found = Vec::new();
+    for package in packages.values().filter(|package| package.ours) {
+        let Some(direction) = DIRECTIONS.iter().find(|direction| direction.of == package.name) else {
+            found.push(format!(
+                "{}: not in the table of xtask/src/tidy/directions.rs; say whom it may know",
+                package.name
+            ));
+            continue;
+        };
+        for way in reach(packages, &package.name) {
+            let is_ours = |name: &str| packages.values().any(|other| other.ours && other.name == name);
+            if let Some(reason) = direction.forbids(&way, is_ours) {
+                found.push(format!("{}: {reason}", way.join(" -> ")));
+            }
+        }
+        let reached = reach(packages, &package.name).len() + 1;
+        if package.name == "cordlib" && reached > FIRMWARE_CRATES_MAX {
+            found.push(format!(
+                "cordlib: {reached} crates in the firmware, {FIRMWARE_CRATES_MAX} at most"
+            ));
+        }
+    }
+    found
+}
+
+impl Direction {
+    fn forbids(&self, way: &[String], is_ours: impl Fn(&str) -> bool) -> Option<String> {
+        let last = way.last()?;
+        if way.len() == 2 && is_ours(last) && !self.knows.contains(&last.as_str()) {
+            return Some(format!("{} may know only: {}", self.of, self.knows.join(", ")));
+        }
+        self.never
+            .contains(&last.as_str())
+            .then(|| format!("{} may never reach {last}", self.of))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::judge;
+    use crate::tidy::metadata::{Package, Packages};
+
+    fn package(name: &str, needs: &[&str]) -> (String, Package) {
+        let ours = name != "tokio" && name != "middle";
+        let needs = needs.iter().map(ToString::to_string).collect();
+        (
+            name.to_owned(),
+            Package {
+                name: name.to_owned(),
+                ours,
+                needs,
+                ..Package::default()
+            },
+        )
+    }
+
+    #[test]
+    fn the_offending_path_is_named() {
+        let packages: Packages = [
+            package("brain", &["middle", "vthal"]),
+            package("middle", &["tokio"]),
+            package("tokio", &[]),
+            package("vthal", &[]),
+        ]
+        .into();
+        let found = judge(&packages).join("\n");
+        assert!(
+            found.contains("brain -> middle -> tokio: brain may never reach tokio"),
+            "{found}"
+        );
+        assert!(
+            found.contains("brain -> vthal: brain may know only: rvac-units"),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_crate_without_a_row_is_refused() {
+        let found = judge(&[package("stranger", &[])].into());
+        assert!(
+            found
+                .iter()
+                .any(|place| place.starts_with("stranger: not in the table")),
+            "{found:?}"
+        );
+    }
+}

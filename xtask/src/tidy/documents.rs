@@ -1,0 +1,116 @@
+//! Links between documents, and names of code in documents.
+//!
+//! A document names code as `` `path/to/file.rs::name` ``: then the file must exist and define `name`.
+
+use super::Finding;
+use super::files::Files;
+
+/// Checks every Markdown file.
+pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
+    let mut found = Vec::new();
+    for (path, text) in files.texts(&[".md"]) {
+        for target in links(text) {
+            if !resolves(files, path, target) {
+                found.push(format!("{path}: the link to {target} leads nowhere"));
+            }
+        }
+        for (file, name) in names(text) {
+            if !defines(files, file, name) {
+                found.push(format!("{path}: {file} does not define {name}"));
+            }
+        }
+    }
+    Ok(Finding::Checked(found))
+}
+
+/// Targets of links inside the repository.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let targets = text
+        .split("](")
+        .skip(1)
+        .filter_map(|after| after.split_once(')'))
+        .map(|(target, _)| target);
+    targets
+        .map(|target| target.split('#').next().unwrap_or_default())
+        .filter(|target| !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:"))
+}
+
+fn resolves(files: &Files, document: &str, target: &str) -> bool {
+    let mut parts: Vec<&str> = document.split('/').collect();
+    parts.pop();
+    for part in target.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                if parts.pop().is_none() {
+                    return false;
+                }
+            }
+            name => parts.push(name),
+        }
+    }
+    parts.is_empty() || files.has(&parts.join("/"))
+}
+
+/// Pairs of file and name in inline code.
+fn names(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let spans = text.lines().flat_map(|line| line.split('`').skip(1).step_by(2));
+    spans.filter_map(|span| {
+        span.split_once(".rs::")
+            .map(|(file, name)| (span.get(..file.len() + 3).unwrap_or(span), name))
+    })
+}
+
+fn defines(files: &Files, file: &str, name: &str) -> bool {
+    let Some(text) = files.text(file) else {
+        return false;
+    };
+    // `Type::method` is found by its last part, which must be defined in the same file.
+    let name = name.rsplit("::").next().unwrap_or(name).trim_end_matches("()");
+    let words = [
+        "fn ", "struct ", "enum ", "trait ", "const ", "static ", "type ", "mod ",
+    ];
+    let ends = |rest: &str| !rest.starts_with(|letter: char| letter.is_alphanumeric() || letter == '_');
+    let item = words.iter().any(|word| {
+        let wanted = format!("{word}{name}");
+        text.match_indices(&wanted)
+            .any(|(at, _)| text.get(at + wanted.len()..).is_some_and(ends))
+    });
+    item || variant(text, name)
+}
+
+/// Whether a line is the variant of an enum or a field with this name.
+fn variant(text: &str, name: &str) -> bool {
+    text.lines().map(str::trim).any(|line| {
+        let line = line.strip_prefix("pub ").unwrap_or(line);
+        line.strip_prefix(name).is_some_and(|rest| {
+            rest.starts_with([',', '(', ':']) || rest.starts_with(" {") || rest.starts_with(" =")
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{links, names, variant};
+
+    #[test]
+    fn links_inside_the_repository_are_found() {
+        let text = "[a](b.md#part) [c](https://example.org) [d](#here) [e](../f)";
+        assert_eq!(links(text).collect::<Vec<_>>(), ["b.md", "../f"]);
+    }
+
+    #[test]
+    fn names_of_code_are_found() {
+        let text = "The loop (`brain/src/lib.rs::Brain::step`) and `plain code`.";
+        assert_eq!(
+            names(text).collect::<Vec<_>>(),
+            [("brain/src/lib.rs", "Brain::step")]
+        );
+    }
+
+    #[test]
+    fn variants_are_found() {
+        assert!(variant("    Start {\n", "Start"));
+        assert!(!variant("    Started,\n", "Start"));
+    }
+}

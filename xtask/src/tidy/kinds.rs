@@ -1,0 +1,48 @@
+//! What kind of crate each is: without the standard library, without unsafe code.
+
+use super::Finding;
+use super::files::Files;
+use super::rust_text::code;
+
+/// Crates that run on a microcontroller.
+const NO_STD: [&str; 3] = [
+    "protocol/rvac-units",
+    "protocol/rvac-protocol",
+    "firmware/cordlib",
+];
+
+/// The only crates that may hold unsafe code, and why.
+const UNSAFE: [(&str, &str); 1] = [("firmware/cordlib-c", "a C interface takes pointers")];
+
+/// Looks at the head of each crate.
+pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
+    let mut found = Vec::new();
+    for (path, text) in files.texts(&["src/lib.rs", "src/main.rs"]) {
+        let Some(folder) = path
+            .strip_suffix("/src/lib.rs")
+            .or_else(|| path.strip_suffix("/src/main.rs"))
+        else {
+            continue;
+        };
+        let code = code(text);
+        if NO_STD.contains(&folder)
+            && !code.contains("#![no_std]")
+            && !code.contains("#![cfg_attr(not(test), no_std)]")
+        {
+            found.push(format!("{path}: lacks #![no_std]; it runs on a microcontroller"));
+        }
+        let allowed = UNSAFE.iter().any(|(crate_folder, _)| *crate_folder == folder);
+        if !allowed && !code.contains("#![forbid(unsafe_code)]") && !forbidden_in_manifest(files, folder) {
+            found.push(format!(
+                "{path}: lacks #![forbid(unsafe_code)]; only a C interface may do without"
+            ));
+        }
+    }
+    Ok(Finding::Checked(found))
+}
+
+fn forbidden_in_manifest(files: &Files, folder: &str) -> bool {
+    files
+        .text(&format!("{folder}/Cargo.toml"))
+        .is_some_and(|manifest| manifest.contains("unsafe_code = \"forbid\""))
+}

@@ -1,0 +1,91 @@
+//! What cargo knows about packages and their dependencies.
+
+use crate::{process, workspace};
+use anyhow::Context;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A package.
+#[derive(Debug, Default)]
+pub(super) struct Package {
+    /// Its name.
+    pub(super) name: String,
+    /// Its licence expression; empty when it has none.
+    pub(super) licence: String,
+    /// Whether its source lies in this repository.
+    pub(super) ours: bool,
+    /// Identities of the packages it needs to run or to be built; not those its tests need.
+    pub(super) needs: Vec<String>,
+}
+
+/// All packages of a workspace by their identity.
+pub(super) type Packages = BTreeMap<String, Package>;
+
+/// Asks cargo about the workspace of a manifest.
+pub(super) fn packages(manifest: &str) -> anyhow::Result<Packages> {
+    let mut cargo = workspace::cargo();
+    cargo.args([
+        "metadata",
+        "--format-version",
+        "1",
+        "--locked",
+        "--manifest-path",
+        manifest,
+    ]);
+    let metadata: Value = serde_json::from_str(&process::capture(&mut cargo)?)
+        .with_context(|| format!("cargo's metadata of {manifest}"))?;
+    let mut packages = Packages::new();
+    for package in list(&metadata["packages"]) {
+        let entry = packages.entry(text(&package["id"])).or_default();
+        entry.name = text(&package["name"]);
+        entry.licence = text(&package["license"]);
+        entry.ours = package["source"].is_null();
+    }
+    for node in list(&metadata["resolve"]["nodes"]) {
+        let needs = list(&node["deps"])
+            .filter(|dependency| list(&dependency["dep_kinds"]).any(|kind| kind["kind"] != "dev"));
+        packages.entry(text(&node["id"])).or_default().needs =
+            needs.map(|dependency| text(&dependency["pkg"])).collect();
+    }
+    Ok(packages)
+}
+
+fn list(value: &Value) -> impl Iterator<Item = &Value> {
+    value.as_array().into_iter().flatten()
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// Every package that `from` reaches, with the way to it as names, nearest first.
+pub(super) fn reach(packages: &Packages, from: &str) -> Vec<Vec<String>> {
+    let start = packages
+        .iter()
+        .find(|(_, package)| package.ours && package.name == from)
+        .map(|(id, _)| id.clone());
+    let mut ways: Vec<(String, Vec<String>)> =
+        start.map(|id| (id, vec![from.to_owned()])).into_iter().collect();
+    let mut next = 0;
+    while let Some((id, way)) = ways.get(next).cloned() {
+        next += 1;
+        for needed in packages
+            .get(&id)
+            .map(|package| package.needs.as_slice())
+            .unwrap_or_default()
+        {
+            if ways.iter().any(|(seen, _)| seen == needed) {
+                continue;
+            }
+            let mut further = way.clone();
+            further.push(
+                packages
+                    .get(needed)
+                    .map(|package| package.name.clone())
+                    .unwrap_or_default(),
+            );
+            ways.push((needed.clone(), further));
+        }
+    }
+    ways.into_iter().skip(1).map(|(_, way)| way).collect()
+}

@@ -1,0 +1,106 @@
+//! `cargo xtask tidy`: the rules of the repository as checks. Each rule is a module with one function that lists
+//! what breaks it; a rule that cannot be checked here says so instead of passing.
+
+mod directions;
+mod documents;
+mod files;
+mod folders;
+mod foreign;
+mod kinds;
+mod length;
+mod licences;
+mod metadata;
+mod rust_text;
+mod specification;
+mod words;
+
+use crate::process;
+use anyhow::bail;
+use files::Files;
+
+/// What a rule found.
+#[derive(Debug, PartialEq, Eq)]
+enum Finding {
+    /// The rule was checked; each entry breaks it and names the place and the remedy.
+    Checked(Vec<String>),
+    /// It could not be checked here, and why.
+    Skipped(String),
+}
+
+/// A rule: what it wants, and how that is checked.
+struct Rule {
+    wants: &'static str,
+    check: fn(&Files) -> anyhow::Result<Finding>,
+}
+
+const RULES: [Rule; 11] = [
+    Rule {
+        wants: "crates depend only on crates they may know",
+        check: directions::check,
+    },
+    Rule {
+        wants: "crates are no_std and free of unsafe code where the architecture says so",
+        check: kinds::check,
+    },
+    Rule {
+        wants: "every Rust file begins with what it is",
+        check: length::heads,
+    },
+    Rule {
+        wants: "files stay below 500 lines without tests",
+        check: length::files,
+    },
+    Rule {
+        wants: "functions stay below 70 lines",
+        check: length::functions,
+    },
+    Rule {
+        wants: "no unfinished business",
+        check: words::check,
+    },
+    Rule {
+        wants: "the specification names every word of the wire",
+        check: specification::check,
+    },
+    Rule {
+        wants: "dependencies have licences that fit",
+        check: licences::check,
+    },
+    Rule {
+        wants: "the README has one sentence for every folder",
+        check: folders::check,
+    },
+    Rule {
+        wants: "links and names in the documents lead somewhere",
+        check: documents::check,
+    },
+    Rule {
+        wants: "no map or log of somebody else is committed",
+        check: foreign::check,
+    },
+];
+
+/// Checks all rules and fails when one is broken.
+pub(crate) fn run() -> anyhow::Result<()> {
+    let files = Files::list()?;
+    let mut broken = 0_usize;
+    for rule in &RULES {
+        match (rule.check)(&files)? {
+            Finding::Skipped(why) => process::say(&format!("tidy: skipped: {}: {why}", rule.wants)),
+            Finding::Checked(places) if places.is_empty() => {
+                process::say(&format!("tidy: ok: {}", rule.wants))
+            }
+            Finding::Checked(places) => {
+                process::complain(&format!("tidy: {}:", rule.wants));
+                places
+                    .iter()
+                    .for_each(|place| process::print(&format!("  {place}")));
+                broken += places.len();
+            }
+        }
+    }
+    if broken > 0 {
+        bail!("tidy found {broken} places that break a rule of CONTRIBUTING.md");
+    }
+    Ok(())
+}
