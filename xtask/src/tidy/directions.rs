@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::files::Files;
-use super::metadata::{Packages, packages, reach};
+use super::metadata::{Packages, WORKSPACES, packages, reach};
 
 /// A crate of ours, the crates of ours it may depend on directly, and foreign crates it may not even reach.
 struct Direction {
@@ -150,10 +150,12 @@ const FIRMWARE_CRATES_MAX: usize = 10;
 /// Compares the table with what cargo resolves.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
     let mut found = Vec::new();
-    for manifest in ["Cargo.toml", "clients/panel/Cargo.toml"] {
-        if files.has(manifest) {
-            found.extend(judge(&packages(manifest)?));
-        }
+    for workspace in WORKSPACES
+        .iter()
+        .take(2)
+        .filter(|workspace| files.has(workspace.manifest))
+    {
+        found.extend(judge(&packages(workspace)?));
     }
     found.sort();
     found.dedup();

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::files::Files;
-use super::metadata::{Package, packages};
+use super::metadata::{Package, WORKSPACES, packages};
 
 /// Licences that may be joined with code under GPL-3.0-or-later and AGPL-3.0-or-later.
 const FITTING: [&str; 12] = [
@@ -20,21 +20,16 @@ const FITTING: [&str; 12] = [
     "BSL-1.0",
 ];
 
-/// Workspaces whose dependencies are looked at.
-const WORKSPACES: [&str; 4] = [
-    "Cargo.toml",
-    "clients/panel/Cargo.toml",
-    "xtask/uipack/Cargo.toml",
-    "protocol/fuzz/Cargo.toml",
-];
-
 /// Compares each package's licence with the list.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
     let mut found = Vec::new();
-    for manifest in WORKSPACES.into_iter().filter(|manifest| files.has(manifest)) {
-        for package in packages(manifest)?.values() {
+    for workspace in WORKSPACES
+        .iter()
+        .filter(|workspace| files.has(workspace.manifest))
+    {
+        for package in packages(workspace)?.values() {
             if let Some(fault) = fault(package) {
-                found.push(format!("{} ({manifest}): {fault}", package.name));
+                found.push(format!("{} ({}): {fault}", package.name, workspace.manifest));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What cargo knows about packages and their dependencies.
 
-use crate::{process, workspace};
+use crate::process;
 use anyhow::Context;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -18,12 +18,41 @@ pub(super) struct Package {
     pub(super) needs: Vec<String>,
 }
 
+/// A workspace of this repository and what it is compiled for.
+#[derive(Debug)]
+pub(super) struct Workspace {
+    /// Its manifest.
+    pub(super) manifest: &'static str,
+    /// Dependencies for other platforms are left out.
+    platform: &'static str,
+}
+
+/// All of them. The first two hold what users run.
+pub(super) const WORKSPACES: [Workspace; 4] = [
+    Workspace {
+        manifest: "Cargo.toml",
+        platform: "x86_64-unknown-linux-gnu",
+    },
+    Workspace {
+        manifest: "clients/panel/Cargo.toml",
+        platform: "wasm32-unknown-unknown",
+    },
+    Workspace {
+        manifest: "xtask/uipack/Cargo.toml",
+        platform: "x86_64-unknown-linux-gnu",
+    },
+    Workspace {
+        manifest: "protocol/fuzz/Cargo.toml",
+        platform: "x86_64-unknown-linux-gnu",
+    },
+];
+
 /// All packages of a workspace by their identity.
 pub(super) type Packages = BTreeMap<String, Package>;
 
-/// Asks cargo about the workspace of a manifest.
-pub(super) fn packages(manifest: &str) -> anyhow::Result<Packages> {
-    let mut cargo = workspace::cargo();
+/// Asks cargo about a workspace.
+pub(super) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
+    let mut cargo = crate::workspace::cargo();
     cargo.args([
         "metadata",
         "--format-version",
@@ -33,7 +62,7 @@ pub(super) fn packages(manifest: &str) -> anyhow::Result<Packages> {
         manifest,
     ]);
     let metadata: Value = serde_json::from_str(&process::capture(&mut cargo)?)
-        .with_context(|| format!("cargo's metadata of {manifest}"))?;
+        .with_context(|| format!("cargo's metadata of {}", workspace.manifest))?;
     let mut packages = Packages::new();
     for package in list(&metadata["packages"]) {
         let entry = packages.entry(text(&package["id"])).or_default();
