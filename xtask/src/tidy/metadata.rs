@@ -59,8 +59,9 @@ pub(super) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
         "1",
         "--locked",
         "--manifest-path",
-        manifest,
+        workspace.manifest,
     ]);
+    cargo.args(["--filter-platform", workspace.platform]);
     let metadata: Value = serde_json::from_str(&process::capture(&mut cargo)?)
         .with_context(|| format!("cargo's metadata of {}", workspace.manifest))?;
     let mut packages = Packages::new();
