@@ -1,0 +1,77 @@
+//! What a reset does not clear.
+
+use cordlib::board::ResetRecord;
+use rvac_protocol::message::ResetCause;
+
+/// Memory that survives a reset, and the chip's own note of why it started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Persistent {
+    cause: ResetCause,
+    boots: u32,
+    recent: u8,
+}
+
+impl Persistent {
+    /// After the power came on for the first time.
+    #[must_use]
+    pub const fn first() -> Self {
+        Self {
+            cause: ResetCause::PowerOn,
+            boots: 1,
+            recent: 0,
+        }
+    }
+
+    /// After another start with this cause: what the board's start-up code does before it calls the firmware.
+    #[must_use]
+    pub const fn restarted(self, cause: ResetCause) -> Self {
+        let recent = match cause {
+            ResetCause::PowerOn => 0,
+            _ => self.recent.saturating_add(1),
+        };
+        Self {
+            cause,
+            boots: self.boots.saturating_add(1),
+            recent,
+        }
+    }
+}
+
+impl ResetRecord for Persistent {
+    fn cause(&mut self) -> ResetCause {
+        self.cause
+    }
+
+    fn boot_count(&mut self) -> u32 {
+        self.boots
+    }
+
+    fn recent(&mut self) -> u8 {
+        self.recent
+    }
+
+    fn forget_recent(&mut self) {
+        self.recent = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Persistent;
+    use cordlib::board::ResetRecord;
+    use rvac_protocol::message::ResetCause;
+
+    #[test]
+    fn resets_count_up_until_they_are_forgotten() {
+        let mut record = Persistent::first()
+            .restarted(ResetCause::Watchdog)
+            .restarted(ResetCause::BrownOut);
+        assert_eq!(
+            (record.boot_count(), record.recent(), record.cause()),
+            (3, 2, ResetCause::BrownOut)
+        );
+        record.forget_recent();
+        let mut record = record.restarted(ResetCause::PowerOn);
+        assert_eq!((record.boot_count(), record.recent()), (4, 0));
+    }
+}

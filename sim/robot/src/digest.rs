@@ -1,0 +1,43 @@
+//! A running digest of what happened, to tell whether two runs were the same.
+
+/// FNV-1a over bytes, 64 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Digest(u64);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Digest {
+    pub(crate) const fn byte(&mut self, byte: u8) {
+        self.0 = (self.0 ^ byte as u64).wrapping_mul(0x0100_0000_01b3);
+    }
+
+    pub(crate) fn word(&mut self, word: u64) {
+        for byte in word.to_le_bytes() {
+            self.byte(byte);
+        }
+    }
+
+    pub(crate) const fn value(self) -> u64 {
+        self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Digest;
+
+    #[test]
+    fn order_matters() {
+        let of = |bytes: &[u8]| {
+            let mut digest = Digest::default();
+            bytes.iter().for_each(|byte| digest.byte(*byte));
+            digest.value()
+        };
+        assert_eq!(of(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_ne!(of(b"ab"), of(b"ba"));
+    }
+}

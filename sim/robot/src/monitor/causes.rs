@@ -1,0 +1,141 @@
+//! What stands against motion, and for how long.
+
+use cordlib::board::WheelCounts;
+
+/// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pins {
+    /// A bumper switch is closed.
+    pub bumper: bool,
+    /// A cliff receiver sees no floor although its emitter is lit.
+    pub cliff: bool,
+    /// A wheel hangs.
+    pub wheel_drop: bool,
+    /// The dock's contacts carry voltage.
+    pub docked: bool,
+    /// A button is down.
+    pub button: bool,
+    /// Encoder totals.
+    pub counts: WheelCounts,
+    /// The body fell down the stairs (ground truth).
+    pub fallen: bool,
+}
+
+/// What the motors get, in millionths of full drive, forward positive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Drives {
+    /// Left and right wheel.
+    pub wheels: [i32; 2],
+    /// Main brush, side brushes, suction.
+    pub cleaners: [i32; 3],
+}
+
+impl Drives {
+    /// Whether nothing is driven.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
+        !self.wheels_on() && !self.cleaners_on()
+    }
+
+    pub(crate) fn wheels_on(&self) -> bool {
+        self.wheels != [0; 2]
+    }
+
+    pub(crate) fn cleaners_on(&self) -> bool {
+        self.cleaners != [0; 3]
+    }
+
+    /// Whether the two wheels together push the body forward.
+    pub(crate) fn forward(&self) -> bool {
+        self.wheels[0] + self.wheels[1] > 0
+    }
+
+    fn backward(&self) -> bool {
+        self.wheels[0] + self.wheels[1] < 0
+    }
+}
+
+/// Milliseconds for which each cause has stood without a gap; 0 = it does not stand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    pub(crate) bumper_ms: u32,
+    /// Pressed while the wheels push backward.
+    pub(crate) bumper_backing_ms: u32,
+    pub(crate) cliff_ms: u32,
+    pub(crate) wheel_drop_ms: u32,
+    /// Since a wheel drop that stood long enough to count.
+    pub(crate) grounded_ms: u32,
+    /// Any motor is driven.
+    pub(crate) motors_run: bool,
+    pub(crate) docked_ms: u32,
+    pub(crate) undocked_ms: u32,
+    pub(crate) button_ms: u32,
+    /// Each wheel: driven hard while its encoder stands still.
+    pub(crate) stalled_ms: [u32; 2],
+    pub(crate) fallen: bool,
+    /// Cleaners were off in the millisecond before.
+    pub(crate) cleaners_start: bool,
+    cleaners_were_on: bool,
+    counts: WheelCounts,
+}
+
+/// Drive above which a wheel must turn (S11).
+const HARD_DRIVE: i32 = 300_000;
+/// A wheel drop of this length must have been noticed (S10).
+const WHEEL_DROP_SURE_MS: u32 = 50;
+/// Long enough ago for every rule.
+const LONG_AGO_MS: u32 = 1_000_000;
+
+impl Default for Standing {
+    fn default() -> Self {
+        Self {
+            bumper_ms: 0,
+            bumper_backing_ms: 0,
+            cliff_ms: 0,
+            wheel_drop_ms: 0,
+            grounded_ms: LONG_AGO_MS,
+            motors_run: false,
+            docked_ms: 0,
+            undocked_ms: 0,
+            button_ms: 0,
+            stalled_ms: [0; 2],
+            fallen: false,
+            cleaners_start: false,
+            cleaners_were_on: false,
+            counts: WheelCounts::default(),
+        }
+    }
+}
+
+impl Standing {
+    pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
+        stand(&mut self.bumper_ms, pins.bumper);
+        stand(&mut self.bumper_backing_ms, pins.bumper && drives.backward());
+        stand(&mut self.cliff_ms, pins.cliff);
+        stand(&mut self.wheel_drop_ms, pins.wheel_drop);
+        self.grounded_ms = if self.wheel_drop_ms > WHEEL_DROP_SURE_MS {
+            0
+        } else {
+            self.grounded_ms.saturating_add(1)
+        };
+        self.motors_run = !drives.is_off();
+        stand(&mut self.docked_ms, pins.docked);
+        stand(&mut self.undocked_ms, !pins.docked);
+        stand(&mut self.button_ms, pins.button);
+        let still = [
+            pins.counts.left == self.counts.left,
+            pins.counts.right == self.counts.right,
+        ];
+        for ((stalled, drive), still) in self.stalled_ms.iter_mut().zip(drives.wheels).zip(still) {
+            stand(stalled, still && drive.abs() > HARD_DRIVE);
+        }
+        self.counts = pins.counts;
+        self.fallen = pins.fallen;
+        self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;
+        self.cleaners_were_on = drives.cleaners_on();
+    }
+}
+
+fn stand(standing_ms: &mut u32, now: bool) {
+    *standing_ms = if now { standing_ms.saturating_add(1) } else { 0 };
+}

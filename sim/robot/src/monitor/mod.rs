@@ -1,0 +1,106 @@
+//! The global safety monitor: a judge that watches every millisecond of every simulation.
+//!
+//! It holds the firmware to one sentence: a motor may be driven only while the host has armed motion, a fresh command
+//! covers it, and nothing physical stands against it. It takes no word of the firmware for it. What was commanded it reads
+//! from the bytes on the wire ([`wire`], [`said`]), what stands against it from the pins ([`Pins`]), what the motors do
+//! from the bridges ([`Drives`]).
+//!
+//! *Standing* is how long a cause has been there without a gap. A *rule* is one line of SAFETY.md with its reaction time;
+//! a *violation* is one beginning of a breach of it, however long it lasts.
+
+mod causes;
+mod permission;
+mod said;
+mod verdict;
+mod wire;
+
+pub use causes::{Drives, Pins};
+pub use verdict::{Rule, Violation};
+
+use causes::Standing;
+use permission::Permission;
+use rvac_protocol::message::ResetCause;
+
+/// How many violations are kept in full; all are counted.
+const KEPT_MAX: usize = 32;
+
+/// The judge.
+#[derive(Debug)]
+pub struct Monitor {
+    permission: Permission,
+    standing: Standing,
+    /// Rules that are broken right now, bit by rule.
+    broken: u32,
+    kept: Vec<Violation>,
+    count: u32,
+}
+
+impl Default for Monitor {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Monitor {
+    /// A judge who sees the robot's first power-on.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            permission: Permission::default(),
+            standing: Standing::default(),
+            broken: 0,
+            kept: Vec::new(),
+            count: 0,
+        }
+    }
+
+    /// A frame reached the robot's receiver at `now_ms`; `None` is one with a wrong stop bit.
+    pub fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
+        self.permission.heard(now_ms, byte);
+    }
+
+    /// The firmware put this byte into its transmitter.
+    pub fn said(&mut self, now_ms: u64, byte: u8) {
+        self.permission.said(now_ms, byte);
+    }
+
+    /// The microcontroller was reset at `now_ms`.
+    pub fn reset(&mut self, now_ms: u64, cause: ResetCause) {
+        self.permission.reset(now_ms, cause);
+    }
+
+    /// Judges one millisecond: what the pins showed before the firmware's pass and what the motors got after it.
+    pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
+        self.standing.update(pins, drives);
+        self.permission.update(now_ms, &self.standing);
+        if drives.is_off() && self.broken == 0 && !pins.fallen {
+            return;
+        }
+        let broken = verdict::broken(now_ms, &self.permission, &self.standing, drives);
+        for rule in Rule::ALL {
+            let bit = 1 << rule as u32;
+            if broken & bit != 0 && self.broken & bit == 0 {
+                self.count += 1;
+                if self.kept.len() < KEPT_MAX {
+                    self.kept.push(Violation::new(rule, now_ms, pins, drives));
+                }
+            }
+        }
+        self.broken = broken;
+    }
+
+    /// Violations so far.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The first violations in full.
+    #[must_use]
+    pub fn violations(&self) -> &[Violation] {
+        &self.kept
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,221 @@
+//! What the host has allowed, by the bytes on the wire.
+
+use rvac_protocol::message::ResetCause;
+
+use super::causes::Standing;
+use super::said::{Heard, Said, read_heard, read_said};
+use super::wire::Splitter;
+
+/// S1: motion ends 50 ms after its lease at the latest.
+const LEASE_GRACE_MS: u64 = 50;
+/// S1: brushes and suction run on for two seconds so that a short gap does not stop and start them.
+const CLEANERS_GRACE_MS: u64 = 2_000;
+/// `stop` and a late packet of the same millisecond.
+const STOP_GRACE_MS: u64 = 20;
+/// S3: the host's view may be this old, with the length of a packet on the line.
+const FRESH_MS: u32 = 400 + 20;
+/// A session ends after this silence, and hand mode begins.
+const SILENCE_MS: u64 = 2_000;
+/// The longest lease in hand mode.
+const HAND_LEASE_MS: u64 = 500;
+/// A button counts as pressed when it is down for this long: shorter is noise.
+const BUTTON_HELD_MS: u32 = 10;
+/// Being off the dock for this long ends what an undock command allowed.
+const UNDOCKED_MS: u32 = 3_000;
+/// S4: three resets within this time latch.
+const RESET_WINDOW_MS: u64 = 60_000;
+
+/// Whether motion is armed, and what takes that away.
+#[derive(Clone, Copy, Debug, Default)]
+struct Arming {
+    armed: bool,
+    since_ms: u64,
+    /// Motors must be off from here on for `stop`.
+    stop_ms: Option<u64>,
+    /// Motors must be off from here on for a button, without the reaction time.
+    button_ms: Option<u64>,
+    undock: bool,
+    number: Option<u16>,
+}
+
+/// What the host has allowed.
+#[derive(Debug, Default)]
+pub(crate) struct Permission {
+    to_robot: Splitter,
+    from_robot: Splitter,
+    session: u16,
+    /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
+    sealed_ms: Option<u64>,
+    reset_ms: u64,
+    arming: Arming,
+    /// What a refused `arm` falls back to.
+    before: Arming,
+    newest_motion: Option<u16>,
+    wheels_until_ms: u64,
+    cleaners_until_ms: u64,
+    /// Times of the newest three resets other than power-on.
+    resets_ms: [Option<u64>; 3],
+    motors_ran: bool,
+    button_while_running: bool,
+}
+
+impl Permission {
+    pub(crate) fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
+        let session = self.session;
+        let Some(heard) = self
+            .to_robot
+            .push(byte)
+            .and_then(|packet| read_heard(packet, session))
+        else {
+            return;
+        };
+        if heard.sealed {
+            self.sealed_ms = Some(now_ms);
+        } else if !self.hand(now_ms) && heard.word != Heard::Stop {
+            return;
+        }
+        self.obey(now_ms, heard.word, heard.sealed);
+    }
+
+    fn hand(&self, now_ms: u64) -> bool {
+        self.sealed_ms.is_none_or(|sealed| now_ms > sealed + SILENCE_MS)
+    }
+
+    fn obey(&mut self, now_ms: u64, word: Heard, sealed: bool) {
+        match word {
+            Heard::Stop => self.arming.stop_ms = Some(now_ms + STOP_GRACE_MS),
+            Heard::Hand => self.sealed_ms = None,
+            Heard::Arm { number, undock } => self.arm(now_ms, number, undock),
+            Heard::Clear => self.resets_ms = [None; 3],
+            Heard::Wheels { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
+                let lease_ms = if sealed {
+                    lease_ms
+                } else {
+                    lease_ms.min(HAND_LEASE_MS)
+                };
+                self.wheels_until_ms = now_ms + lease_ms;
+            }
+            Heard::Cleaners { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
+                self.cleaners_until_ms = now_ms + lease_ms;
+            }
+            Heard::Wheels { .. } | Heard::Cleaners { .. } | Heard::Other => {}
+        }
+    }
+
+    fn arm(&mut self, now_ms: u64, number: Option<u16>, undock: bool) {
+        if number.is_some() && number == self.arming.number {
+            return;
+        }
+        self.before = self.arming;
+        self.arming = Arming {
+            armed: true,
+            since_ms: now_ms,
+            stop_ms: None,
+            button_ms: None,
+            undock,
+            number,
+        };
+    }
+
+    /// S3: not older than 400 ms, and newer than the newest motion of this session.
+    fn is_fresh(&mut self, now_ms: u64, mark: super::said::Mark) -> bool {
+        if let Some(tick) = mark.tick {
+            let age = ((now_ms - self.reset_ms) as u32).wrapping_sub(tick);
+            if age > FRESH_MS {
+                return false;
+            }
+        }
+        if let (Some(number), Some(newest)) = (mark.number, self.newest_motion) {
+            let ahead = number.wrapping_sub(newest);
+            if ahead == 0 || ahead >= 0x8000 {
+                return false;
+            }
+        }
+        self.newest_motion = mark.number.or(self.newest_motion);
+        true
+    }
+
+    pub(crate) fn said(&mut self, _now_ms: u64, byte: u8) {
+        let session = self.session;
+        match self
+            .from_robot
+            .push(Some(byte))
+            .and_then(|packet| read_said(packet, session))
+        {
+            Some(Said::Session(number)) if number != self.session => {
+                self.session = number;
+                self.newest_motion = None;
+                self.arming.number = None;
+            }
+            Some(Said::Refused(number)) if self.arming.number == Some(number) => {
+                self.arming = Arming {
+                    number: Some(number),
+                    ..self.before
+                };
+            }
+            _ => {}
+        }
+    }
+
+    pub(crate) fn reset(&mut self, now_ms: u64, cause: ResetCause) {
+        self.session = 0;
+        self.sealed_ms = None;
+        self.reset_ms = now_ms;
+        self.arming = Arming::default();
+        self.before = Arming::default();
+        self.newest_motion = None;
+        self.wheels_until_ms = 0;
+        self.cleaners_until_ms = 0;
+        self.to_robot = Splitter::default();
+        self.from_robot = Splitter::default();
+        if cause == ResetCause::PowerOn {
+            self.resets_ms = [None; 3];
+        } else {
+            self.resets_ms.rotate_right(1);
+            self.resets_ms[0] = Some(now_ms);
+        }
+    }
+
+    pub(crate) fn update(&mut self, now_ms: u64, standing: &Standing) {
+        if standing.button_ms == 1 {
+            self.button_while_running = self.motors_ran;
+        }
+        self.motors_ran = standing.motors_run;
+        if standing.button_ms == BUTTON_HELD_MS && self.button_while_running {
+            let pressed_ms = now_ms - u64::from(BUTTON_HELD_MS);
+            if self.arming.since_ms < pressed_ms {
+                self.arming.button_ms = Some(pressed_ms);
+            }
+        }
+        if standing.undocked_ms > UNDOCKED_MS {
+            self.arming.undock = false;
+        }
+    }
+
+    pub(crate) fn armed(&self, now_ms: u64) -> bool {
+        self.arming.armed && self.arming.stop_ms.is_none_or(|until| now_ms <= until)
+    }
+
+    pub(crate) fn button_stop(&self, now_ms: u64, reaction_ms: u32) -> bool {
+        self.arming
+            .button_ms
+            .is_some_and(|pressed| now_ms > pressed + u64::from(reaction_ms))
+    }
+
+    pub(crate) fn may_undock(&self) -> bool {
+        self.arming.undock
+    }
+
+    pub(crate) fn covers_wheels(&self, now_ms: u64) -> bool {
+        now_ms <= self.wheels_until_ms + LEASE_GRACE_MS
+    }
+
+    pub(crate) fn covers_cleaners(&self, now_ms: u64) -> bool {
+        now_ms <= self.cleaners_until_ms + CLEANERS_GRACE_MS + LEASE_GRACE_MS
+    }
+
+    /// Three resets within a minute, the last of them the present start.
+    pub(crate) fn reset_loop(&self) -> bool {
+        matches!(self.resets_ms, [Some(newest), _, Some(oldest)] if newest - oldest < RESET_WINDOW_MS)
+    }
+}

@@ -1,0 +1,150 @@
+//! The few words of both directions that decide whether motors may run.
+
+use serde_json::Value;
+
+use super::wire::{Direction, Seal, read_binary, unseal};
+
+/// A packet to the robot whose seal is right or absent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HeardPacket {
+    pub(crate) word: Heard,
+    pub(crate) sealed: bool,
+}
+
+/// A word to the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Heard {
+    Stop,
+    Hand,
+    Arm {
+        number: Option<u16>,
+        undock: bool,
+    },
+    /// Of any latch: the firmware may still refuse it.
+    Clear,
+    /// Something that may turn the wheels for `lease_ms`.
+    Wheels {
+        lease_ms: u64,
+        mark: Mark,
+    },
+    /// Something that may turn brushes or suction for `lease_ms`.
+    Cleaners {
+        lease_ms: u64,
+        mark: Mark,
+    },
+    Other,
+}
+
+/// Number and view of a motion command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mark {
+    pub(crate) number: Option<u16>,
+    pub(crate) tick: Option<u32>,
+}
+
+/// A word of the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Said {
+    /// The session number that holds from now on.
+    Session(u16),
+    /// The command with this number was refused.
+    Refused(u16),
+}
+
+/// A `move` has no lease; it may take as long as its way takes at walking pace of a snail, and some seconds.
+const MOVE_SLOWEST_M_PER_S: f64 = 0.02;
+const MOVE_EXTRA_MS: u64 = 5_000;
+const LEASE_DEFAULT_MS: u64 = 250;
+const LEASE_MAX_MS: u64 = 1_000;
+
+/// Reads a packet to the robot; `None` when its seal is wrong or it is no packet at all.
+pub(crate) fn read_heard(packet: &[u8], session: u16) -> Option<HeardPacket> {
+    if packet[0] >= 0x80 {
+        let word = read_binary(packet, Direction::ToRobot, session)?;
+        return Some(HeardPacket { word, sealed: true });
+    }
+    let (json, seal) = unseal(packet, Direction::ToRobot, session);
+    if seal == Seal::Wrong {
+        return None;
+    }
+    let object: Value = serde_json::from_slice(json).ok()?;
+    Some(HeardPacket {
+        word: word_of(&object),
+        sealed: seal == Seal::Right,
+    })
+}
+
+fn word_of(object: &Value) -> Heard {
+    match object["c"].as_str() {
+        Some("stop") => Heard::Stop,
+        Some("hand") => Heard::Hand,
+        Some("clear") => Heard::Clear,
+        Some("arm") => Heard::Arm {
+            number: number_of(object, "n"),
+            undock: object["undock"].as_bool() == Some(true) || object["undock"].as_u64() == Some(1),
+        },
+        Some("drive") => Heard::Wheels {
+            lease_ms: lease_of(object),
+            mark: mark_of(object),
+        },
+        Some("motor")
+            if object["motor"]
+                .as_str()
+                .is_some_and(|motor| motor.starts_with("wheel")) =>
+        {
+            Heard::Wheels {
+                lease_ms: lease_of(object),
+                mark: mark_of(object),
+            }
+        }
+        Some("motor") => Heard::Cleaners {
+            lease_ms: lease_of(object),
+            mark: mark_of(object),
+        },
+        Some("move") => Heard::Wheels {
+            lease_ms: move_ms(object["length"].as_f64().unwrap_or(0.0)),
+            mark: mark_of(object),
+        },
+        _ => Heard::Other,
+    }
+}
+
+fn move_ms(length_m: f64) -> u64 {
+    (length_m.abs() / MOVE_SLOWEST_M_PER_S * 1000.0) as u64 + MOVE_EXTRA_MS
+}
+
+fn lease_of(object: &Value) -> u64 {
+    object["ttl"]
+        .as_u64()
+        .unwrap_or(LEASE_DEFAULT_MS)
+        .min(LEASE_MAX_MS)
+}
+
+fn mark_of(object: &Value) -> Mark {
+    Mark {
+        number: number_of(object, "n"),
+        tick: object["t"].as_u64().and_then(|tick| tick.try_into().ok()),
+    }
+}
+
+fn number_of(object: &Value, key: &str) -> Option<u16> {
+    object[key].as_u64().and_then(|number| number.try_into().ok())
+}
+
+/// Reads a packet of the robot, if it is one that decides something.
+pub(crate) fn read_said(packet: &[u8], session: u16) -> Option<Said> {
+    let hello = packet.starts_with(br#"{"c":"hello""#);
+    if !hello && !packet.starts_with(br#"{"a":"#) {
+        return None;
+    }
+    // The hello that opens a session may be sealed with the old number or with the one it gives.
+    let (json, _) = unseal(packet, Direction::FromRobot, session);
+    let object: Value = serde_json::from_slice(json).ok()?;
+    if hello {
+        return number_of(&object, "session").map(Said::Session);
+    }
+    object["err"]
+        .as_str()
+        .and(number_of(&object, "a"))
+        .map(Said::Refused)
+}

@@ -1,0 +1,338 @@
+//! Each rule is shown to hold its peace before its reaction time and to speak after it.
+
+use rvac_protocol::message::ResetCause;
+
+use super::wire::{Direction, seal_over};
+use super::{Drives, Monitor, Pins, Rule};
+
+const SESSION: u16 = 0x1234;
+const FORWARD: Drives = Drives {
+    wheels: [400_000, 400_000],
+    cleaners: [0; 3],
+};
+const BACKWARD: Drives = Drives {
+    wheels: [-200_000, -200_000],
+    cleaners: [0; 3],
+};
+const OFF: Drives = Drives {
+    wheels: [0; 2],
+    cleaners: [0; 3],
+};
+
+/// A monitor, its clock, and a host and a robot that speak perfectly.
+struct Scene {
+    monitor: Monitor,
+    now_ms: u64,
+    number: u16,
+    pins: Pins,
+}
+
+impl Scene {
+    /// A robot that was armed a moment ago.
+    fn armed() -> Self {
+        let mut scene = Self {
+            monitor: Monitor::new(),
+            now_ms: 100,
+            number: 0,
+            pins: Pins::default(),
+        };
+        scene.open_session(SESSION);
+        scene.arm(false);
+        scene
+    }
+
+    fn open_session(&mut self, session: u16) {
+        self.robot(&format!(r#"{{"c":"hello","session":{session}}}"#));
+    }
+
+    fn robot(&mut self, json: &str) {
+        for byte in json.bytes().chain([0x1F]) {
+            self.monitor.said(self.now_ms, byte);
+        }
+    }
+
+    fn host(&mut self, json: &str) {
+        let seal = seal_over(json.as_bytes(), Direction::ToRobot, SESSION);
+        for byte in format!("{json}*{seal:08X}\u{1F}").bytes() {
+            self.monitor.heard(self.now_ms, Some(byte));
+        }
+    }
+
+    fn arm(&mut self, undock: bool) {
+        self.number += 1;
+        self.host(&format!(r#"{{"c":"arm","n":{},"undock":{undock}}}"#, self.number));
+    }
+
+    fn drive(&mut self) {
+        self.number += 1;
+        let json = format!(
+            r#"{{"c":"drive","v":0.2,"w":0,"ttl":250,"n":{},"t":{}}}"#,
+            self.number, self.now_ms
+        );
+        self.host(&json);
+    }
+
+    /// Lets `ms` pass with the wheels turning as driven and gives the rules that were broken so far.
+    fn pass(&mut self, ms: u32, drives: Drives) -> Vec<Rule> {
+        for _ in 0..ms {
+            self.now_ms += 1;
+            self.pins.counts.left += drives.wheels[0].signum();
+            self.pins.counts.right += drives.wheels[1].signum();
+            self.monitor.judge(self.now_ms, &self.pins, &drives);
+        }
+        self.monitor
+            .violations()
+            .iter()
+            .map(|violation| violation.rule)
+            .collect()
+    }
+
+    /// As [`Self::pass`], under a lease that never ends.
+    fn pass_driven(&mut self, ms: u32, drives: Drives) -> Vec<Rule> {
+        for _ in 0..ms / 10 {
+            self.drive();
+            self.pass(10, drives);
+        }
+        self.drive();
+        self.pass(ms % 10, drives)
+    }
+}
+
+#[test]
+fn a_lease_covers_its_time_and_the_reaction_time() {
+    let mut scene = Scene::armed();
+    scene.drive();
+    assert_eq!(scene.pass(300, FORWARD), []);
+    assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease]);
+    assert_eq!(
+        scene.pass(1000, FORWARD),
+        [Rule::WheelsWithoutLease],
+        "one breach is one violation"
+    );
+}
+
+#[test]
+fn brushes_may_run_on_for_two_seconds() {
+    let cleaning = Drives {
+        cleaners: [500_000, 0, 0],
+        ..OFF
+    };
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"motor","motor":"brush main","throttle":0.5,"ttl":250,"n":9,"t":100}"#);
+    assert_eq!(scene.pass(2300, cleaning), []);
+    assert_eq!(scene.pass(1, cleaning), [Rule::CleanersWithoutLease]);
+}
+
+#[test]
+fn nothing_runs_before_arm_after_stop_or_after_a_reset() {
+    let mut scene = Scene::armed();
+    scene.monitor.reset(scene.now_ms, ResetCause::Watchdog);
+    assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease, Rule::NotArmed]);
+
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"stop"}"#);
+    assert_eq!(scene.pass_driven(20, FORWARD), []);
+    assert_eq!(scene.pass_driven(1, FORWARD), [Rule::NotArmed]);
+
+    let mut scene = Scene::armed();
+    for byte in b"{\"c\":\"stop\"}\x1f" {
+        scene.monitor.heard(scene.now_ms, Some(*byte));
+    }
+    assert_eq!(
+        scene.pass_driven(21, FORWARD),
+        [Rule::NotArmed],
+        "an unsealed stop counts in any mode"
+    );
+}
+
+#[test]
+fn a_repeated_or_refused_arm_is_no_arm() {
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"stop"}"#);
+    scene.host(r#"{"c":"arm","n":1,"undock":false}"#);
+    assert_eq!(scene.pass_driven(21, FORWARD), [Rule::NotArmed]);
+
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"stop"}"#);
+    scene.arm(false);
+    scene.robot(&format!(r#"{{"a":{},"err":"inhibited"}}"#, scene.number));
+    assert_eq!(scene.pass_driven(21, FORWARD), [Rule::NotArmed]);
+}
+
+#[test]
+fn what_is_old_stale_or_wrongly_sealed_covers_nothing() {
+    for json in [
+        r#"{"c":"drive","v":0.2,"w":0,"ttl":250,"n":0,"t":100}"#,
+        r#"{"c":"drive","v":0.2,"w":0,"ttl":250,"n":5,"t":9000}"#,
+    ] {
+        let mut scene = Scene::armed();
+        scene.drive();
+        scene.pass(400, OFF);
+        scene.host(json);
+        assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease], "{json}");
+    }
+    let mut scene = Scene::armed();
+    for byte in b"{\"c\":\"drive\",\"v\":0.2,\"w\":0,\"ttl\":250,\"n\":5,\"t\":100}*00000000\x1f" {
+        scene.monitor.heard(scene.now_ms, Some(*byte));
+    }
+    assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease]);
+}
+
+#[test]
+fn three_resets_in_a_minute_need_a_clear() {
+    let mut scene = Scene::armed();
+    for _ in 0..3 {
+        scene.monitor.reset(scene.now_ms, ResetCause::Watchdog);
+        scene.pass(1000, OFF);
+    }
+    let reset_ms = scene.now_ms - 1000;
+    scene.open_session(SESSION);
+    scene.number = 0;
+    scene.arm(false);
+    let tick = scene.now_ms - reset_ms;
+    scene.host(&format!(
+        r#"{{"c":"drive","v":0.2,"w":0,"ttl":250,"n":3,"t":{tick}}}"#
+    ));
+    assert_eq!(scene.pass(1, FORWARD), [Rule::ResetLoop]);
+}
+
+#[test]
+fn each_physical_cause_has_its_reaction_time() {
+    let with = |change: fn(&mut Pins)| {
+        let mut pins = Pins::default();
+        change(&mut pins);
+        pins
+    };
+    let table = [
+        (with(|pins| pins.bumper = true), FORWARD, 20, Rule::Bumper),
+        (with(|pins| pins.bumper = true), BACKWARD, 3020, Rule::BumperStuck),
+        (with(|pins| pins.cliff = true), FORWARD, 20, Rule::Cliff),
+        (with(|pins| pins.wheel_drop = true), BACKWARD, 50, Rule::WheelDrop),
+        (with(|pins| pins.docked = true), BACKWARD, 20, Rule::Docked),
+    ];
+    for (pins, drives, reaction_ms, rule) in table {
+        let mut scene = Scene::armed();
+        scene.pass_driven(2000, drives);
+        scene.pins = Pins {
+            counts: scene.pins.counts,
+            ..pins
+        };
+        assert_eq!(
+            scene.pass_driven(reaction_ms, drives),
+            [],
+            "{rule:?} within its time"
+        );
+        assert!(
+            scene.pass_driven(2, drives).contains(&rule),
+            "{rule:?} after its time"
+        );
+    }
+}
+
+#[test]
+fn backing_off_bumper_and_cliff_is_allowed() {
+    let mut scene = Scene::armed();
+    scene.pins.bumper = true;
+    scene.pins.cliff = true;
+    assert_eq!(scene.pass_driven(1000, BACKWARD), []);
+}
+
+#[test]
+fn a_button_stops_until_the_next_arm() {
+    let mut scene = Scene::armed();
+    scene.pass_driven(100, FORWARD);
+    scene.pins.button = true;
+    assert_eq!(scene.pass_driven(49, FORWARD), []);
+    assert_eq!(scene.pass_driven(2, FORWARD), [Rule::Button]);
+    scene.pins.button = false;
+    scene.arm(false);
+    assert_eq!(
+        scene.pass_driven(500, FORWARD).len(),
+        1,
+        "an arm after the press allows motion"
+    );
+}
+
+#[test]
+fn a_button_on_a_standing_robot_stops_nothing() {
+    let mut scene = Scene::armed();
+    scene.pins.button = true;
+    scene.pass(100, OFF);
+    assert_eq!(scene.pass_driven(200, FORWARD), []);
+}
+
+#[test]
+fn an_undock_command_allows_driving_on_the_dock() {
+    let mut scene = Scene::armed();
+    scene.pins.docked = true;
+    scene.pass(100, OFF);
+    scene.arm(true);
+    assert_eq!(scene.pass_driven(1000, BACKWARD), []);
+}
+
+#[test]
+fn wheels_wait_a_second_after_a_lift() {
+    let mut scene = Scene::armed();
+    scene.pins.wheel_drop = true;
+    scene.pass(200, OFF);
+    scene.pins.wheel_drop = false;
+    scene.pass(900, OFF);
+    assert_eq!(scene.pass_driven(1, FORWARD), [Rule::LiftedJustNow]);
+}
+
+#[test]
+fn a_hard_driven_wheel_must_turn() {
+    let mut scene = Scene::armed();
+    scene.pass_driven(100, FORWARD);
+    for _ in 0..301 {
+        scene.drive();
+        scene.now_ms += 1;
+        scene.monitor.judge(scene.now_ms, &scene.pins, &FORWARD);
+    }
+    assert_eq!(scene.monitor.count(), 0);
+    scene.drive();
+    scene.now_ms += 2;
+    for _ in 0..2 {
+        scene.monitor.judge(scene.now_ms, &scene.pins, &FORWARD);
+    }
+    assert_eq!(scene.monitor.violations()[0].rule, Rule::Stall);
+}
+
+#[test]
+fn brushes_do_not_start_against_a_pressed_bumper() {
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"motor","motor":"vacuum","throttle":1,"ttl":1000,"n":9,"t":100}"#);
+    scene.pins.bumper = true;
+    scene.pass(100, OFF);
+    let cleaning = Drives {
+        cleaners: [0, 0, 1_000_000],
+        ..OFF
+    };
+    assert_eq!(scene.pass(1, cleaning), [Rule::CleanersStart]);
+}
+
+#[test]
+fn a_fall_is_a_violation_whatever_the_motors_do() {
+    let mut scene = Scene::armed();
+    scene.pins.fallen = true;
+    assert_eq!(scene.pass(10, OFF), [Rule::Fallen]);
+}
+
+#[test]
+fn hand_mode_ends_with_a_sealed_packet_and_comes_back_after_silence() {
+    let unsealed = b"{\"c\":\"drive\",\"v\":0.05,\"w\":0,\"ttl\":250}\x1f";
+    let mut scene = Scene::armed();
+    for byte in unsealed {
+        scene.monitor.heard(scene.now_ms, Some(*byte));
+    }
+    assert_eq!(
+        scene.pass(1, FORWARD),
+        [Rule::WheelsWithoutLease],
+        "sealed mode refuses it"
+    );
+    scene.pass(2100, OFF);
+    for byte in unsealed {
+        scene.monitor.heard(scene.now_ms, Some(*byte));
+    }
+    assert_eq!(scene.pass(10, FORWARD).len(), 1, "hand mode takes it");
+}

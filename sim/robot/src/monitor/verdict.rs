@@ -1,0 +1,201 @@
+//! The rules, as far as they can be judged from outside.
+
+use super::causes::{Drives, Pins, Standing};
+use super::permission::Permission;
+
+/// A line of SAFETY.md that the monitor judges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Rule {
+    /// S1: wheels driven 50 ms after the last command that covers them has ended.
+    WheelsWithoutLease = 0,
+    /// S1: brushes or suction driven 2.05 s after the last command that covers them has ended.
+    CleanersWithoutLease = 1,
+    /// S4, and `stop`: a motor driven although nobody armed since the reset, the `stop` or the button.
+    NotArmed = 2,
+    /// S4: a motor driven after three resets within a minute that nobody cleared.
+    ResetLoop = 3,
+    /// S6: driven forward 20 ms after the bumper was pressed.
+    Bumper = 4,
+    /// S7: any motor driven 10 s after the bumper was pressed and stayed so, or backing off it for more than 3 s.
+    BumperStuck = 5,
+    /// S8: driven forward 20 ms after a cliff came into sight.
+    Cliff = 6,
+    /// S8: the body fell down.
+    Fallen = 7,
+    /// S10: any motor driven 50 ms after a wheel hung.
+    WheelDrop = 8,
+    /// S10: wheels driven before both wheels were on the floor for a second.
+    LiftedJustNow = 9,
+    /// S11: a wheel driven hard for 300 ms without turning.
+    Stall = 10,
+    /// S19: wheels driven on the dock without an undock command.
+    Docked = 11,
+    /// S28: a motor driven 50 ms after a button was pressed.
+    Button = 12,
+    /// S29: brushes or suction started with a pressed bumper or a hanging wheel.
+    CleanersStart = 13,
+}
+
+impl Rule {
+    /// All of them.
+    pub const ALL: [Self; 14] = [
+        Self::WheelsWithoutLease,
+        Self::CleanersWithoutLease,
+        Self::NotArmed,
+        Self::ResetLoop,
+        Self::Bumper,
+        Self::BumperStuck,
+        Self::Cliff,
+        Self::Fallen,
+        Self::WheelDrop,
+        Self::LiftedJustNow,
+        Self::Stall,
+        Self::Docked,
+        Self::Button,
+        Self::CleanersStart,
+    ];
+
+    /// Rule number and a word.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::WheelsWithoutLease => "S1-wheels-without-lease",
+            Self::CleanersWithoutLease => "S1-cleaners-without-lease",
+            Self::NotArmed => "S4-not-armed",
+            Self::ResetLoop => "S4-reset-loop",
+            Self::Bumper => "S6-bumper",
+            Self::BumperStuck => "S7-bumper-stuck",
+            Self::Cliff => "S8-cliff",
+            Self::Fallen => "S8-fallen",
+            Self::WheelDrop => "S10-wheel-drop",
+            Self::LiftedJustNow => "S10-lifted-just-now",
+            Self::Stall => "S11-stall",
+            Self::Docked => "S19-docked",
+            Self::Button => "S28-button",
+            Self::CleanersStart => "S29-cleaners-start",
+        }
+    }
+}
+
+/// The beginning of a breach.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// Which rule.
+    pub rule: Rule,
+    /// Simulated millisecond.
+    pub time_ms: u64,
+    /// What the pins showed.
+    pub pins: Pins,
+    /// What the motors got.
+    pub drives: Drives,
+}
+
+impl Violation {
+    pub(crate) const fn new(rule: Rule, time_ms: u64, pins: &Pins, drives: &Drives) -> Self {
+        Self {
+            rule,
+            time_ms,
+            pins: *pins,
+            drives: *drives,
+        }
+    }
+}
+
+impl core::fmt::Display for Violation {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Pins {
+            bumper,
+            cliff,
+            wheel_drop,
+            docked,
+            button,
+            ..
+        } = self.pins;
+        let standing: Vec<&str> = [
+            (bumper, "bumper"),
+            (cliff, "cliff"),
+            (wheel_drop, "wheel-drop"),
+            (docked, "docked"),
+            (button, "button"),
+        ]
+        .into_iter()
+        .filter_map(|(stands, name)| stands.then_some(name))
+        .collect();
+        write!(
+            formatter,
+            "{} at {}.{:03} s: wheels {:?}, cleaners {:?} millionths, pins [{}]",
+            self.rule.name(),
+            self.time_ms / 1000,
+            self.time_ms % 1000,
+            self.drives.wheels,
+            self.drives.cleaners,
+            standing.join(" "),
+        )
+    }
+}
+
+const BUMPER_MS: u32 = 20;
+const BUMPER_STUCK_MS: u32 = 10_000;
+const BUMPER_BACKING_MS: u32 = 3_000;
+const CLIFF_MS: u32 = 20;
+const WHEEL_DROP_MS: u32 = 50;
+const GROUNDED_MS: u32 = 1_000;
+const STALL_MS: u32 = 300;
+const DOCKED_MS: u32 = 20;
+const BUTTON_MS: u32 = 50;
+/// A cause that comes in the same millisecond as a start cannot stop it; one that stood for the reaction time can.
+const START_MS: u32 = 20;
+/// A pass of the firmware's loop and the debouncing of the judge's own clock.
+const MARGIN_MS: u32 = 2;
+
+/// The rules that are broken now, bit by rule.
+pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, drives: &Drives) -> u32 {
+    let wheels = drives.wheels_on();
+    let cleaners = drives.cleaners_on();
+    let any = wheels || cleaners;
+    let forward = drives.forward();
+    let blocked = standing.bumper_ms > START_MS || standing.wheel_drop_ms > START_MS;
+    let verdicts = [
+        (
+            Rule::WheelsWithoutLease,
+            wheels && !permission.covers_wheels(now_ms),
+        ),
+        (
+            Rule::CleanersWithoutLease,
+            cleaners && !permission.covers_cleaners(now_ms),
+        ),
+        (Rule::NotArmed, any && !permission.armed(now_ms)),
+        (Rule::ResetLoop, any && permission.reset_loop()),
+        (Rule::Bumper, forward && standing.bumper_ms > BUMPER_MS),
+        (
+            Rule::BumperStuck,
+            any && (standing.bumper_ms > BUMPER_STUCK_MS + BUMPER_MS
+                || standing.bumper_backing_ms > BUMPER_BACKING_MS + BUMPER_MS),
+        ),
+        (Rule::Cliff, forward && standing.cliff_ms > CLIFF_MS),
+        (Rule::Fallen, standing.fallen),
+        (Rule::WheelDrop, any && standing.wheel_drop_ms > WHEEL_DROP_MS),
+        (
+            Rule::LiftedJustNow,
+            wheels && standing.grounded_ms + MARGIN_MS < GROUNDED_MS,
+        ),
+        (
+            Rule::Stall,
+            standing
+                .stalled_ms
+                .into_iter()
+                .any(|stalled| stalled > STALL_MS + MARGIN_MS),
+        ),
+        (
+            Rule::Docked,
+            wheels && standing.docked_ms > DOCKED_MS && !permission.may_undock(),
+        ),
+        (Rule::Button, any && permission.button_stop(now_ms, BUTTON_MS)),
+        (Rule::CleanersStart, standing.cleaners_start && blocked),
+    ];
+    verdicts
+        .into_iter()
+        .filter(|(_, broken)| *broken)
+        .fold(0, |bits, (rule, _)| bits | 1 << rule as u32)
+}

@@ -1,0 +1,26 @@
+//! From the robot's description to the firmware's parameters.
+
+use cordlib::Parameters;
+use home::RobotModel;
+use rvac_protocol::message::Limits;
+use rvac_units::{AngularSpeed, Length, Speed, Throttle};
+
+const FIRMWARE: &str = concat!("sim-", env!("CARGO_PKG_VERSION"));
+
+/// What the firmware must know of this model.
+#[must_use]
+pub fn parameters_for(model: &RobotModel) -> Parameters {
+    let limits = Limits {
+        speed_max: Speed::from_m_per_s(model.drive.speed_max_m_per_s),
+        turn_max: AngularSpeed::from_rad_per_s(model.drive.turn_max_rad_per_s),
+        track: Length::from_m(model.drive.track_m),
+        count_nm: (model.drive.count_m * 1e9) as u32,
+        radius: Length::from_m(model.body.radius_m),
+        swath: Length::from_m(model.body.swath_m),
+    };
+    let mut parameters = Parameters::for_machine("sr8730", FIRMWARE, limits);
+    parameters.wheel.speed_at_full = Speed::from_m_per_s(model.wheel_motor.free_speed_m_per_s);
+    parameters.wheel.dead_band =
+        Throttle::saturating_from_millionths((model.wheel_motor.dead_band_brake * 1e6) as i32);
+    parameters
+}

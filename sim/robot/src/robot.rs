@@ -1,0 +1,373 @@
+//! A robot whose firmware runs in a simulated home.
+
+use cordlib::Cord;
+use cordlib::board::{CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
+use home::{Actuation, Bridge, RobotModel, Sensors, World};
+use rvac_channel::{FaultRates, ReceivedByte};
+use rvac_protocol::message::{
+    Battery, Bumpers, ChargeState, Currents, Gyro, Inhibits, ResetCause, WheelDrops,
+};
+use rvac_units::{Ratio, Throttle, Tick};
+
+use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
+use crate::digest::Digest;
+use crate::line::Line;
+use crate::monitor::{Drives, Monitor, Pins};
+use crate::parameters::parameters_for;
+
+/// How a simulated robot is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RobotSettings {
+    /// Speed of the serial line in bits per second.
+    pub baud: u32,
+    /// Seed of the line's damage.
+    pub seed: u64,
+    /// What the bridges are like.
+    pub bridges: Bridges,
+}
+
+impl Default for RobotSettings {
+    fn default() -> Self {
+        Self {
+            baud: 230_400,
+            seed: 1,
+            bridges: Bridges::Sound,
+        }
+    }
+}
+
+/// Wheel bridges that work, or a broken machine to see whether the monitor notices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bridges {
+    /// They do what they are told.
+    Sound,
+    /// They go on with the last duty when they are told to brake.
+    DeafToBrake,
+}
+
+/// cordlib on a simulated board in a simulated home, with a paced serial line and the safety monitor.
+#[derive(Debug)]
+pub struct SimulatedRobot {
+    cord: Cord<SimulatedParts>,
+    model: RobotModel,
+    world: World,
+    to_robot: Line,
+    to_host: Line,
+    monitor: Monitor,
+    bridges: Bridges,
+    driven: [WheelDrive; 2],
+    now_ms: u64,
+    reset_ms: u64,
+    resets: u32,
+    cliff_settled_ms: u32,
+    cliff_seen: bool,
+    digest: Digest,
+}
+
+/// Time after a change of the emitters in which levels mean nothing.
+const CLIFF_SETTLE_MS: u32 = 3;
+/// A lit receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
+const NO_FLOOR_LEVEL: u8 = 20;
+
+impl SimulatedRobot {
+    /// Switches the robot on where `world` has put it.
+    #[must_use]
+    pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
+        Self {
+            cord: Cord::new(board::fresh(Persistent::first()), parameters_for(model)),
+            model: model.clone(),
+            world,
+            to_robot: Line::new(settings.baud, settings.seed),
+            to_host: Line::new(settings.baud, settings.seed.wrapping_add(1)),
+            monitor: Monitor::new(),
+            bridges: settings.bridges,
+            driven: [WheelDrive::Brake; 2],
+            now_ms: 0,
+            reset_ms: 0,
+            resets: 0,
+            cliff_settled_ms: 0,
+            cliff_seen: false,
+            digest: Digest::default(),
+        }
+    }
+
+    /// Hands bytes to the host's serial driver and returns how many it took.
+    pub fn send(&mut self, bytes: &[u8]) -> usize {
+        self.to_robot.send(bytes)
+    }
+
+    /// Advances one millisecond: the home, then the bytes on the line, then one pass of the firmware's loop, then the
+    /// judgement. What reaches the host's receiver is appended to `to_host`.
+    pub fn tick(&mut self, to_host: &mut Vec<u8>) {
+        self.now_ms += 1;
+        self.world.step(&self.actuation());
+        self.read_pins();
+        self.receive();
+        self.cord.step();
+        self.drive_bridges();
+        self.transmit(to_host);
+        let (pins, drives) = (self.pins(), self.drives());
+        self.monitor.judge(self.now_ms, &pins, &drives);
+        self.watch();
+        if self.now_ms.is_multiple_of(100) {
+            let pose = self.world.truth().pose;
+            for part in [pose.x_m, pose.y_m, pose.heading_rad] {
+                self.digest.word(part.to_bits());
+            }
+        }
+    }
+
+    fn actuation(&self) -> Actuation {
+        let board = self.cord.board();
+        Actuation {
+            wheel_left: bridge(self.driven[0]),
+            wheel_right: bridge(self.driven[1]),
+            brush_main: board.brush_main.duty.as_f64(),
+            brush_sides: board.brush_sides.duty != Throttle::ZERO,
+            vacuum: board.vacuum.duty != Throttle::ZERO,
+            cliff_emitter: board.cliffs.emitters == Emitters::On,
+            dock_signal: false,
+        }
+    }
+
+    fn read_pins(&mut self) {
+        let sensors = self.world.sensors();
+        let charge = self.world.truth().battery_charge;
+        let board = self.cord.board_mut();
+        board.clock.tick = Tick((self.now_ms - self.reset_ms) as u32);
+        board.encoders.counts = WheelCounts {
+            left: sensors.count_left,
+            right: sensors.count_right,
+        };
+        board.bumpers.pressed = Bumpers {
+            left: sensors.bumper_left,
+            right: sensors.bumper_right,
+        };
+        board.cliffs.levels = cliff_levels(sensors);
+        board.wheel_drops.hanging = WheelDrops {
+            left: sensors.wheel_drop_left,
+            right: sensors.wheel_drop_right,
+        };
+        board.proximity.closeness = sensors.proximity;
+        board.gyro.gyro = sensors.gyro.map(|gyro| Gyro {
+            heading: gyro.heading,
+            rate: gyro.rate,
+        });
+        board.currents.currents = Some(Currents {
+            wheel_left: sensors.wheel_left_current,
+            wheel_right: sensors.wheel_right_current,
+            brush_main: sensors.brush_main_current,
+        });
+        board.battery.battery = Some(battery(sensors, charge));
+        board.dock_contacts.closed = sensors.dock_contacts;
+        board.dock_beams.symbols = sensors.dock_receivers;
+        board.dust_box.inserted = sensors.dust_box;
+        board.buttons.down = sensors.buttons;
+    }
+
+    fn receive(&mut self) {
+        let link = &mut self.cord.board_mut().link;
+        for frame in self.to_robot.pass_ms() {
+            let (heard, frame) = match *frame {
+                ReceivedByte::Byte(byte) => (Some(byte), Received::Byte(byte)),
+                ReceivedByte::FramingError => (None, Received::FramingError),
+                ReceivedByte::Overrun => (None, Received::Overrun),
+            };
+            self.monitor.heard(self.now_ms, heard);
+            self.digest.byte(heard.unwrap_or_default());
+            link.arrive(frame);
+        }
+    }
+
+    fn drive_bridges(&mut self) {
+        let wheels = self.cord.board().wheels;
+        for (driven, wanted) in self.driven.iter_mut().zip([wheels.left, wheels.right]) {
+            if self.bridges == Bridges::Sound || wanted != WheelDrive::Brake {
+                *driven = wanted;
+            }
+        }
+    }
+
+    fn transmit(&mut self, to_host: &mut Vec<u8>) {
+        let link = &mut self.cord.board_mut().link;
+        for byte in link.said() {
+            self.monitor.said(self.now_ms, byte);
+            self.digest.byte(byte);
+        }
+        while self.to_host.room() > 0 {
+            let Some(byte) = link.depart() else { break };
+            self.to_host.send(&[byte]);
+        }
+        for frame in self.to_host.pass_ms() {
+            // A serial driver hands over a byte with a wrong stop bit as NUL, and drops what overran.
+            match *frame {
+                ReceivedByte::Byte(byte) => to_host.push(byte),
+                ReceivedByte::FramingError => to_host.push(0),
+                ReceivedByte::Overrun => {}
+            }
+        }
+    }
+
+    fn pins(&mut self) -> Pins {
+        self.look_for_cliffs();
+        let sensors = self.world.sensors();
+        Pins {
+            bumper: sensors.bumper_left || sensors.bumper_right,
+            cliff: self.cliff_seen,
+            wheel_drop: sensors.wheel_drop_left || sensors.wheel_drop_right,
+            docked: sensors.dock_contacts,
+            button: sensors.buttons != 0,
+            counts: self.cord.board().encoders.counts,
+            fallen: self.world.truth().fallen,
+        }
+    }
+
+    fn look_for_cliffs(&mut self) {
+        if self.cord.board().cliffs.emitters == Emitters::Off {
+            self.cliff_settled_ms = 0;
+            return;
+        }
+        self.cliff_settled_ms = self.cliff_settled_ms.saturating_add(1);
+        if self.cliff_settled_ms > CLIFF_SETTLE_MS {
+            let levels = &self.world.sensors().cliff_levels[..self.model.cliffs.len().min(4)];
+            self.cliff_seen = levels.iter().any(|level| *level < NO_FLOOR_LEVEL);
+        }
+    }
+
+    fn drives(&self) -> Drives {
+        let board = self.cord.board();
+        Drives {
+            wheels: self.driven.map(|drive| drive.duty().millionths()),
+            cleaners: [board.brush_main, board.brush_sides, board.vacuum]
+                .map(|cleaner| cleaner.duty.millionths()),
+        }
+    }
+
+    fn watch(&mut self) {
+        let watchdog = &mut self.cord.board_mut().watchdog;
+        watchdog.unfed_ms += 1;
+        if watchdog.unfed_ms > WATCHDOG_MS {
+            self.reset(ResetCause::Watchdog);
+        }
+    }
+
+    /// Resets the microcontroller: all memory of the firmware and all bytes in its queues are lost, all outputs are off.
+    pub fn reset(&mut self, cause: ResetCause) {
+        let persistent = self.cord.board().reset.restarted(cause);
+        self.cord = Cord::new(board::fresh(persistent), *self.cord.parameters());
+        self.driven = [WheelDrive::Brake; 2];
+        self.reset_ms = self.now_ms;
+        self.resets += 1;
+        self.monitor.reset(self.now_ms, cause);
+        self.read_pins();
+    }
+
+    /// Sets how often what goes wrong on the line, both ways.
+    pub fn set_line_rates(&mut self, rates: FaultRates) {
+        self.to_robot.set_rates(rates);
+        self.to_host.set_rates(rates);
+    }
+
+    /// Both ways of the line wait for `ms`.
+    pub fn hold_line(&mut self, ms: u32) {
+        self.to_robot.hold(ms);
+        self.to_host.hold(ms);
+    }
+
+    /// The cable is out for `ms`.
+    pub fn cut_line(&mut self, ms: u32) {
+        self.to_robot.cut(ms);
+        self.to_host.cut(ms);
+    }
+
+    /// Bytes that [`Self::send`] would take now.
+    #[must_use]
+    pub fn line_room(&self) -> usize {
+        self.to_robot.room()
+    }
+
+    /// The host died: what its driver still held is gone.
+    pub fn host_died(&mut self) {
+        self.to_robot.flush();
+    }
+
+    /// The home around the robot.
+    #[must_use]
+    pub const fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The home around the robot, to lift it, press buttons and break sensors.
+    pub const fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    /// The model.
+    #[must_use]
+    pub const fn model(&self) -> &RobotModel {
+        &self.model
+    }
+
+    /// The judge.
+    #[must_use]
+    pub const fn monitor(&self) -> &Monitor {
+        &self.monitor
+    }
+
+    /// What keeps the firmware from moving, by its own word.
+    #[must_use]
+    pub fn inhibits(&self) -> Inhibits {
+        self.cord.inhibits()
+    }
+
+    /// Simulated milliseconds.
+    #[must_use]
+    pub const fn now_ms(&self) -> u64 {
+        self.now_ms
+    }
+
+    /// Resets since the robot was switched on.
+    #[must_use]
+    pub const fn resets(&self) -> u32 {
+        self.resets
+    }
+
+    /// Whether a wheel is driven now.
+    #[must_use]
+    pub fn wheels_driven(&self) -> bool {
+        self.driven.iter().any(|drive| drive.duty() != Throttle::ZERO)
+    }
+
+    /// A number that stands for everything that happened: every byte on the wire and the true pose ten times a second.
+    #[must_use]
+    pub fn state_hash(&self) -> u64 {
+        self.digest.value()
+    }
+}
+
+fn bridge(drive: WheelDrive) -> Bridge {
+    Bridge {
+        pwm: drive.duty().as_f64(),
+        brake: true,
+    }
+}
+
+/// Eight bits of the home to the ten bits of the board's converter.
+fn cliff_levels(sensors: &Sensors) -> CliffLevels {
+    let [left, middle, right, _] = sensors.cliff_levels.map(|level| u16::from(level) * 4);
+    CliffLevels { left, middle, right }
+}
+
+fn battery(sensors: &Sensors, charge: f64) -> Battery {
+    Battery {
+        charge: Ratio::from_millionths((charge * 1e6) as i32).unwrap_or(Ratio::ZERO),
+        voltage: sensors.battery_voltage,
+        current: sensors.battery_current,
+        temperature: sensors.battery_temperature,
+        state: match sensors.dock_contacts {
+            false => ChargeState::Discharging,
+            true if sensors.battery_current.0 > 0 => ChargeState::Charging,
+            true => ChargeState::Full,
+        },
+    }
+}
