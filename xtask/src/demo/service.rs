@@ -8,6 +8,7 @@ use std::os::unix::process::CommandExt;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Last lines of a service that are shown when it ends by itself.
@@ -38,6 +39,7 @@ pub(crate) struct Service {
     name: &'static str,
     child: Child,
     lines: Arc<Mutex<VecDeque<String>>>,
+    complaints: Option<JoinHandle<()>>,
 }
 
 impl Service {
@@ -56,15 +58,20 @@ impl Service {
             .stderr(Stdio::piped());
         let mut child = command.spawn().with_context(|| format!("cannot start {name}"))?;
         let lines = Arc::new(Mutex::new(VecDeque::new()));
-        if let Some(stream) = child.stderr.take() {
+        let complaints = child.stderr.take().map(|stream| {
             let lines = Arc::clone(&lines);
-            std::thread::spawn(move || each_line(stream, |line| keep(&lines, line)));
-        }
+            std::thread::spawn(move || each_line(stream, |line| keep(&lines, line)))
+        });
         if let Some(stream) = child.stdout.take() {
             let (lines, events) = (Arc::clone(&lines), events.clone());
             std::thread::spawn(move || watch(name, stream, &lines, &events));
         }
-        Ok(Self { name, child, lines })
+        Ok(Self {
+            name,
+            child,
+            lines,
+            complaints,
+        })
     }
 
     /// Its name.
@@ -92,6 +99,10 @@ impl Service {
             Ok(status) => status.to_string(),
             Err(error) => error.to_string(),
         };
+        // The process has ended, so its error stream ends too.
+        if let Some(complaints) = self.complaints.take() {
+            complaints.join().ok();
+        }
         let lines = match self.lines.lock() {
             Ok(lines) => lines
                 .iter()
@@ -174,5 +185,50 @@ fn keep(lines: &Mutex<VecDeque<String>>, line: &str) {
             lines.pop_front();
         }
         lines.push_back(line.to_owned());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, Service};
+    use std::process::Command;
+    use std::sync::mpsc::{Receiver, channel};
+    use std::time::Duration;
+
+    const PATIENCE: Duration = Duration::from_secs(20);
+
+    fn shell(script: &str) -> (Service, Receiver<Event>) {
+        let (sender, events) = channel();
+        let mut command = Command::new("sh");
+        command.args(["-c", script]);
+        (
+            Service::start("shell", &command, &sender).expect("sh starts"),
+            events,
+        )
+    }
+
+    #[test]
+    fn readiness_is_heard_and_the_process_ends_when_asked() {
+        let (mut service, events) =
+            shell("echo starting; echo ready http://x/; trap 'exit 7' TERM; while :; do sleep 0.1; done");
+        match events.recv_timeout(PATIENCE) {
+            Ok(Event::Ready("shell", rest)) => assert_eq!(rest, "http://x/"),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(service.stop().expect("it can be waited for").code(), Some(7));
+    }
+
+    #[test]
+    fn a_process_that_ends_by_itself_is_reported_with_its_last_words() {
+        let (mut service, events) = shell("echo 'cannot open the link' >&2; exit 3");
+        assert!(matches!(
+            events.recv_timeout(PATIENCE),
+            Ok(Event::Closed("shell"))
+        ));
+        let words = service.obituary();
+        assert!(
+            words.contains("exit status: 3") && words.contains("cannot open the link"),
+            "{words}"
+        );
     }
 }
