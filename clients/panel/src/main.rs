@@ -1,1 +1,4 @@
-fn main() { leptos::mount::mount_to_body(|| leptos::view! { <p>"x"</p> }); let _ = serde_json::to_string(&1); }
+fn main() {
+    leptos::mount::mount_to_body(|| leptos::view! { <p>"x"</p> });
+    let _ = serde_json::to_string(&1);
+}

@@ -1,1 +1,149 @@
-fn main(){}
+//! Packs the panel: `uipack IN.wasm OUTDIR`.
+//!
+//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen; the result, the page, the style sheet and the icon
+//! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip twin. The page
+//! alone keeps its name: it is what a browser asks for first. OUTDIR is replaced as a whole.
+#![forbid(unsafe_code)]
+
+mod bundle;
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use bundle::Bundle;
+use wasm_bindgen_cli_support::Bindgen;
+
+fn main() -> ExitCode {
+    let arguments: Vec<OsString> = env::args_os().skip(1).collect();
+    let [wasm, folder] = arguments.as_slice() else {
+        eprintln!("usage: uipack IN.wasm OUTDIR");
+        return ExitCode::from(2);
+    };
+    match pack(Path::new(wasm), Path::new(folder)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("uipack: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn pack(wasm: &Path, folder: &Path) -> Result<()> {
+    let (script, module) = bind(wasm)?;
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../clients/panel/static");
+    let read = |name: &str| {
+        let path = sources.join(name);
+        fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))
+    };
+    let mut bundle = Bundle::default();
+    let module_name = bundle.add("panel.wasm", module);
+    let script_name = bundle.add("panel.js", script.into_bytes());
+    let boot = filled(
+        &read("boot.js")?,
+        &[("panel.js", &script_name), ("panel.wasm", &module_name)],
+    )?;
+    let boot_name = bundle.add("boot.js", boot.into_bytes());
+    let style_name = bundle.add("panel.css", read("panel.css")?.into_bytes());
+    let icon_name = bundle.add("icon.svg", read("icon.svg")?.into_bytes());
+    let names = [
+        ("boot.js", &boot_name),
+        ("panel.css", &style_name),
+        ("icon.svg", &icon_name),
+    ];
+    let preloads = [("panel.js", &script_name), ("panel.wasm", &module_name)];
+    let page = filled(
+        &read("index.html")?,
+        &[names.as_slice(), preloads.as_slice()].concat(),
+    )?;
+    bundle.add_page(page.into_bytes());
+    replace(folder, &bundle)?;
+    for (name, plain, packed) in bundle.sizes() {
+        println!("{name} {plain} bytes, {packed} gzip");
+    }
+    Ok(())
+}
+
+/// The JavaScript side and the module that belongs to it.
+fn bind(wasm: &Path) -> Result<(String, Vec<u8>)> {
+    let mut output = Bindgen::new()
+        .input_path(wasm)
+        .web(true)?
+        .typescript(false)
+        .omit_default_module_path(true)
+        .remove_name_section(true)
+        .remove_producers_section(true)
+        .generate_output()
+        .with_context(|| {
+            format!(
+                "wasm-bindgen cannot read {}: build clients/panel first",
+                wasm.display()
+            )
+        })?;
+    if !output.snippets().is_empty() || !output.local_modules().is_empty() {
+        bail!("a dependency of the panel brings JavaScript files of its own, which are not packed");
+    }
+    Ok((output.js().to_owned(), output.wasm_mut().emit_wasm()))
+}
+
+/// The template with each `{{name}}` replaced; each must occur and none may be left.
+fn filled(template: &str, values: &[(&str, &String)]) -> Result<String> {
+    let mut text = template.to_owned();
+    for (name, value) in values {
+        let mark = format!("{{{{{name}}}}}");
+        if !text.contains(&mark) {
+            bail!("the template has no {mark}");
+        }
+        text = text.replace(&mark, value);
+    }
+    if text.contains("{{") {
+        bail!("the template has a mark that nothing fills");
+    }
+    Ok(text)
+}
+
+/// Writes the bundle beside `folder` and puts it in its place. A folder that is not a packed panel is left alone.
+fn replace(folder: &Path, bundle: &Bundle) -> Result<()> {
+    let fresh = sibling(folder)?;
+    if fresh.exists() {
+        fs::remove_dir_all(&fresh).with_context(|| format!("cannot clear {}", fresh.display()))?;
+    }
+    fs::create_dir_all(&fresh).with_context(|| format!("cannot make {}", fresh.display()))?;
+    bundle.write(&fresh)?;
+    if folder.exists() {
+        let empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+        if !empty && !folder.join("index.html").is_file() {
+            bail!(
+                "{} holds something that is not a packed panel: choose another folder",
+                folder.display()
+            );
+        }
+        fs::remove_dir_all(folder).with_context(|| format!("cannot replace {}", folder.display()))?;
+    }
+    fs::rename(&fresh, folder).with_context(|| format!("cannot make {}", folder.display()))
+}
+
+fn sibling(folder: &Path) -> Result<PathBuf> {
+    let mut name = folder
+        .file_name()
+        .context("OUTDIR must be the name of a folder")?
+        .to_owned();
+    name.push(".new");
+    Ok(folder.with_file_name(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::filled;
+
+    #[test]
+    fn every_mark_is_filled_and_every_value_used() {
+        let name = "a-1.js".to_owned();
+        assert_eq!(filled("x {{a.js}} y", &[("a.js", &name)]).unwrap(), "x a-1.js y");
+        assert!(filled("x", &[("a.js", &name)]).is_err());
+        assert!(filled("{{a.js}} {{b.js}}", &[("a.js", &name)]).is_err());
+    }
+}

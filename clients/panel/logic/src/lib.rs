@@ -1,1 +1,32 @@
-//! x
+//! What the panel knows and decides, without browser and framework, so that it is tested on the host.
+//!
+//! Words used here. The *camera* says which part of the map is seen. The *playout* turns poses that arrive now and then into
+//! motion that flows. The *driver* turns held keys and the touch pad into drive requests under a lease. An *offer* says
+//! whether a button can be used and why not. The *catalogue* holds every sentence that explains a code.
+#![forbid(unsafe_code)]
+
+mod camera;
+mod catalogue;
+mod connection;
+mod device_rows;
+mod driver;
+mod figures;
+mod frame_meter;
+mod log_book;
+mod offers;
+mod plan;
+mod playout;
+mod swept_grid;
+
+pub use camera::{Bounds, Camera, View};
+pub use catalogue::{Explanation, explain, state_title};
+pub use connection::Backoff;
+pub use device_rows::{Row, Section, device_sections};
+pub use driver::{DriveLimits, Driver, Intent, Key};
+pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
+pub use frame_meter::FrameMeter;
+pub use log_book::{LogBook, LogFilter};
+pub use offers::{Offer, Offers, PauseKind};
+pub use plan::{PlanPalette, plan_bounds, plan_pixels};
+pub use playout::Playout;
+pub use swept_grid::{DirtyRows, SweptGrid};

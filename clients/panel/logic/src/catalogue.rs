@@ -1,0 +1,277 @@
+//! Every sentence that explains a code. Codes come over the wire; people read sentences.
+
+/// What a code means for the person in front of the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Explanation {
+    /// What happened.
+    pub what: &'static str,
+    /// What to do about it; empty when there is nothing to do.
+    pub remedy: &'static str,
+}
+
+/// Headline of a state.
+#[must_use]
+pub fn state_title(state: &str) -> &'static str {
+    match state {
+        "disconnected" => "Not connected",
+        "idle" => "Ready",
+        "starting" => "Starting",
+        "cleaning" => "Cleaning",
+        "spot" => "Cleaning a spot",
+        "docking" => "Looking for the dock",
+        "docked" => "On the dock",
+        "manual" => "Driven by hand",
+        "paused" => "Paused",
+        "stuck" => "Stuck",
+        "error" => "Stopped by a fault",
+        _ => "Unknown state",
+    }
+}
+
+const fn entry(code: &'static str, what: &'static str, remedy: &'static str) -> (&'static str, Explanation) {
+    (code, Explanation { what, remedy })
+}
+
+/// Codes of the brain, of the firmware, of the daemon and of this panel.
+const CATALOGUE: &[(&str, Explanation)] = &[
+    entry(
+        "no-daemon",
+        "The robot's software is not running.",
+        "The panel connects by itself as soon as it is.",
+    ),
+    entry(
+        "no-server",
+        "The panel lost its server.",
+        "Check that it still runs; the panel tries again by itself.",
+    ),
+    entry(
+        "no-robot",
+        "No robot answers.",
+        "Check its cable and whether it is switched on.",
+    ),
+    entry("start-up", "The software has just started.", ""),
+    entry("command", "As you asked.", ""),
+    entry("finished", "The job is done.", ""),
+    entry("continued", "It went on by itself after an interruption.", ""),
+    entry("restored", "It took up the job again after a restart.", ""),
+    entry(
+        "not-armed",
+        "The robot was reset and has not been released to move yet.",
+        "It releases itself when you start a job.",
+    ),
+    entry(
+        "arm-refused",
+        "The robot's firmware does not release its wheels.",
+        "Look at what inhibits it in the device table.",
+    ),
+    entry(
+        "link-lost",
+        "The connection to the robot broke, so it stopped.",
+        "Check the cable; it comes back by itself.",
+    ),
+    entry("link-restored", "The connection to the robot is back.", ""),
+    entry(
+        "link-bad",
+        "The connection to the robot is too noisy to drive safely.",
+        "Check the cable and its length.",
+    ),
+    entry("stopped", "It was told to stop.", ""),
+    entry(
+        "button-stop",
+        "A button on the robot was pressed.",
+        "Start it again when you are ready.",
+    ),
+    entry(
+        "wheel-drop",
+        "A wheel hangs in the air.",
+        "Put the robot flat on the floor.",
+    ),
+    entry("docked", "It stands on the dock.", ""),
+    entry("bump-left", "It touched something on its left.", ""),
+    entry("bump-right", "It touched something on its right.", ""),
+    entry("bump-front", "It touched something ahead.", ""),
+    entry(
+        "bumper",
+        "The bumper is pressed.",
+        "It may only move away from the obstacle.",
+    ),
+    entry("cliff-left", "There is no floor on its left.", ""),
+    entry("cliff-right", "There is no floor on its right.", ""),
+    entry("cliff-front", "There is no floor ahead.", ""),
+    entry(
+        "cliff",
+        "A sensor sees no floor.",
+        "It may only back away slowly.",
+    ),
+    entry(
+        "contact-held",
+        "The bumper stays pressed although it backed off.",
+        "Free the bumper and clear the fault.",
+    ),
+    entry(
+        "cliff-held",
+        "It backed off and still sees no floor.",
+        "Put it on firm floor and clear the fault.",
+    ),
+    entry(
+        "boxed-in",
+        "It found no way out of a tight place.",
+        "Move it into the open.",
+    ),
+    entry(
+        "not-moving",
+        "Its wheels turn but it does not get on.",
+        "Lift it off whatever holds it.",
+    ),
+    entry(
+        "slip",
+        "Its wheels slip.",
+        "Move it to firm floor and clean the wheels.",
+    ),
+    entry(
+        "task-budget",
+        "The time for this job is used up.",
+        "Start again if the floor needs more.",
+    ),
+    entry("battery-low", "The battery is low.", "Charge it."),
+    entry(
+        "dock-not-found",
+        "It did not find the dock in time.",
+        "Carry it to the dock.",
+    ),
+    entry("dock-beam", "It hears the dock.", ""),
+    entry(
+        "lease-ended",
+        "Driving by hand ended because the connection paused.",
+        "Hold the pad again.",
+    ),
+    entry("released", "You let go.", ""),
+    entry("already-running", "That is what it is doing already.", ""),
+    entry("no-job", "There is no job to do that with.", "Start one first."),
+    entry(
+        "error-stands",
+        "A fault must be cleared first.",
+        "Remove its cause, then press Clear.",
+    ),
+    entry(
+        "reset-loop",
+        "The robot's controller restarted three times within a minute.",
+        "Check its battery and cable, then clear the fault.",
+    ),
+    entry(
+        "bumper-stuck",
+        "The bumper does not come free.",
+        "Clean around the bumper, then clear the fault.",
+    ),
+    entry(
+        "cliff-trapped",
+        "It keeps finding edges.",
+        "Put it on firm floor, then clear the fault.",
+    ),
+    entry(
+        "cliff-sensor",
+        "A floor sensor does not work.",
+        "Clean the windows below the bumper, then clear the fault.",
+    ),
+    entry(
+        "wheel-stall",
+        "A wheel is blocked.",
+        "Remove what holds the wheel, then clear the fault.",
+    ),
+    entry(
+        "brush-stall",
+        "The main brush is blocked.",
+        "Take out the brush and clean it, then clear the fault.",
+    ),
+    entry(
+        "runaway",
+        "A wheel turned without a command.",
+        "Switch the robot off and have its electronics checked.",
+    ),
+    entry(
+        "encoder",
+        "A wheel's sensor contradicts its motor.",
+        "Clean the wheel; if it comes back, check the sensor.",
+    ),
+    entry(
+        "internal",
+        "The robot's firmware failed a check of itself.",
+        "Switch it off and on; keep the log if it comes back.",
+    ),
+    entry(
+        "unknown-inhibit",
+        "Newer firmware stops it for a reason that this version does not know.",
+        "Update the software.",
+    ),
+    entry(
+        "driver-busy",
+        "Somebody else is driving.",
+        "Wait until they let go, or press Stop.",
+    ),
+    entry("busy", "Too much was asked at once.", "Try again."),
+    entry(
+        "unknown-strategy",
+        "This way of cleaning is not known.",
+        "Choose another one.",
+    ),
+    entry(
+        "expert-off",
+        "Raw packets are switched off.",
+        "Allow them in the configuration of the daemon.",
+    ),
+    entry("syntax", "The request could not be read.", "Reload the page."),
+    entry(
+        "unknown",
+        "The software does not know this request.",
+        "Update it, or reload the page.",
+    ),
+    entry("range", "A value was out of range.", "Reload the page."),
+    entry(
+        "stale",
+        "The picture of the robot was too old to move it safely.",
+        "Try again.",
+    ),
+    entry(
+        "inhibited",
+        "The robot does not let itself be moved now.",
+        "Look at what inhibits it in the device table.",
+    ),
+    entry("absent", "This robot has no such part.", ""),
+    entry("cause-remains", "The cause is still there.", "Remove it first."),
+];
+
+/// The explanation of a code; a code that nobody has explained yet gives none and is shown as it is.
+#[must_use]
+pub fn explain(code: &str) -> Option<Explanation> {
+    CATALOGUE
+        .iter()
+        .find(|(known, _)| *known == code)
+        .map(|(_, explanation)| *explanation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CATALOGUE, explain, state_title};
+
+    #[test]
+    fn every_code_is_explained_once_in_whole_sentences() {
+        for (index, (code, explanation)) in CATALOGUE.iter().enumerate() {
+            assert!(
+                CATALOGUE[index + 1..].iter().all(|(other, _)| other != code),
+                "{code} stands twice"
+            );
+            assert!(explanation.what.ends_with('.'), "{code}");
+            assert!(
+                explanation.remedy.is_empty() || explanation.remedy.ends_with('.'),
+                "{code}"
+            );
+        }
+    }
+
+    #[test]
+    fn unknown_codes_are_left_to_the_caller() {
+        assert_eq!(explain("flux-capacitor"), None);
+        assert!(explain("wheel-drop").is_some());
+        assert_eq!(state_title("flying"), "Unknown state");
+    }
+}

@@ -1,0 +1,186 @@
+//! Which buttons can be used, and why not.
+
+use rvac_api::{RobotDescription, Status};
+
+/// Whether a button can be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offer {
+    /// Yes.
+    Ready,
+    /// Not now, for this reason.
+    NotNow(&'static str),
+    /// The robot lacks what it needs: it is not shown.
+    Absent,
+}
+
+/// What the one button for pausing does now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PauseKind {
+    /// Pauses.
+    Pause,
+    /// Goes on.
+    Resume,
+}
+
+/// All buttons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Offers {
+    /// Start cleaning.
+    pub start: Offer,
+    /// Clean a spot.
+    pub spot: Offer,
+    /// Pause or go on.
+    pub pause: Offer,
+    /// Which of the two.
+    pub pause_kind: PauseKind,
+    /// Stop. Offered whenever a robot is there, whatever it seems to do.
+    pub stop: Offer,
+    /// Dock.
+    pub dock: Offer,
+    /// Beep.
+    pub locate: Offer,
+    /// Drive by hand.
+    pub drive: Offer,
+    /// Clear a fault.
+    pub clear: Offer,
+}
+
+const AWAY: Offer = Offer::NotNow("The robot is not connected.");
+const FAULT: Offer = Offer::NotNow("Clear the fault first.");
+
+impl Offers {
+    /// The offers for what is known of the robot. Without a status everything waits.
+    #[must_use]
+    pub fn of(status: Option<&Status>, robot: Option<&RobotDescription>) -> Self {
+        let state = status.map_or("disconnected", |status| status.state.as_str());
+        let pause_kind = if state == "paused" {
+            PauseKind::Resume
+        } else {
+            PauseKind::Pause
+        };
+        let has = |part: &str| robot.is_some_and(|robot| robot.parts.iter().any(|known| known == part));
+        let away = state == "disconnected";
+        let present = |part: &str, offer: Offer| if has(part) { offer } else { Offer::Absent };
+        Self {
+            start: start(state),
+            spot: start(state),
+            pause: pause(state),
+            pause_kind,
+            stop: if away { AWAY } else { Offer::Ready },
+            dock: present("dock", dock(state)),
+            locate: present("beeper", if away { AWAY } else { Offer::Ready }),
+            drive: drive(state),
+            clear: if matches!(state, "error" | "stuck") {
+                Offer::Ready
+            } else {
+                Offer::Absent
+            },
+        }
+    }
+}
+
+fn start(state: &str) -> Offer {
+    match state {
+        "idle" | "docked" => Offer::Ready,
+        "disconnected" => AWAY,
+        "paused" => Offer::NotNow("A paused job waits: resume or stop it."),
+        "manual" => Offer::NotNow("The robot is driven by hand."),
+        "stuck" | "error" => FAULT,
+        _ => Offer::NotNow("A job is running."),
+    }
+}
+
+fn pause(state: &str) -> Offer {
+    match state {
+        "starting" | "cleaning" | "spot" | "docking" | "paused" => Offer::Ready,
+        "disconnected" => AWAY,
+        _ => Offer::NotNow("No job is running."),
+    }
+}
+
+fn dock(state: &str) -> Offer {
+    match state {
+        "disconnected" => AWAY,
+        "docking" => Offer::NotNow("It is looking for the dock already."),
+        "docked" => Offer::NotNow("It is on the dock."),
+        "stuck" | "error" => FAULT,
+        "manual" => Offer::NotNow("The robot is driven by hand."),
+        _ => Offer::Ready,
+    }
+}
+
+fn drive(state: &str) -> Offer {
+    match state {
+        "disconnected" => AWAY,
+        "error" => FAULT,
+        _ => Offer::Ready,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Offer, Offers, PauseKind};
+    use rvac_api::{RobotDescription, Status};
+
+    fn offers(state: &str, parts: &[&str]) -> Offers {
+        let status = Status {
+            state: state.to_owned(),
+            ..Status::default()
+        };
+        let robot = RobotDescription {
+            device: "x".to_owned(),
+            radius_m: 0.17,
+            swath_m: 0.3,
+            speed_max_m_per_s: 0.3,
+            turn_max_rad_per_s: 1.5,
+            proximity: 0,
+            parts: parts.iter().map(|&part| part.to_owned()).collect(),
+        };
+        Offers::of(Some(&status), Some(&robot))
+    }
+
+    const STATES: [&str; 10] = [
+        "idle", "starting", "cleaning", "spot", "docking", "docked", "manual", "paused", "stuck", "error",
+    ];
+
+    #[test]
+    fn stop_is_always_there_while_a_robot_is() {
+        for state in STATES {
+            assert_eq!(offers(state, &[]).stop, Offer::Ready, "{state}");
+        }
+        assert!(matches!(offers("disconnected", &[]).stop, Offer::NotNow(_)));
+    }
+
+    #[test]
+    fn what_the_robot_lacks_is_absent() {
+        for state in STATES {
+            assert_eq!(offers(state, &[]).dock, Offer::Absent);
+            assert_eq!(offers(state, &[]).locate, Offer::Absent);
+            assert_ne!(offers(state, &["dock", "beeper"]).dock, Offer::Absent);
+        }
+        assert_eq!(offers("idle", &["dock"]).dock, Offer::Ready);
+    }
+
+    #[test]
+    fn start_only_from_rest_and_pause_only_in_a_job() {
+        for state in STATES {
+            let offers = offers(state, &[]);
+            assert_eq!(
+                offers.start == Offer::Ready,
+                matches!(state, "idle" | "docked"),
+                "{state}"
+            );
+            let in_job = matches!(state, "starting" | "cleaning" | "spot" | "docking" | "paused");
+            assert_eq!(offers.pause == Offer::Ready, in_job, "{state}");
+        }
+        assert_eq!(offers("paused", &[]).pause_kind, PauseKind::Resume);
+    }
+
+    #[test]
+    fn without_a_word_from_the_robot_nothing_is_ready() {
+        let offers = Offers::of(None, None);
+        for offer in [offers.start, offers.spot, offers.pause, offers.stop, offers.drive] {
+            assert!(matches!(offer, Offer::NotNow(_)));
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! The floor plan of a simulated home as a picture.
+
+use rvac_api::{Pose, SimulatedPlan};
+
+use crate::Bounds;
+
+/// Cells that a plan may have: 4096 by 4096, which every WebGL2 takes as a texture.
+const SIDE_MAX: u32 = 4096;
+
+/// Colours of the kinds of cells, red, green, blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlanPalette {
+    /// Floor.
+    pub floor: [u8; 3],
+    /// Walls and furniture.
+    pub obstacle: [u8; 3],
+    /// A drop.
+    pub cliff: [u8; 3],
+    /// A rug.
+    pub rug: [u8; 3],
+}
+
+impl PlanPalette {
+    /// Red, green, blue and opacity of a kind of cell; what is outside or unknown is transparent.
+    fn pixel(self, kind: u32) -> [u8; 4] {
+        let [red, green, blue] = match kind {
+            1 => self.floor,
+            2 => self.obstacle,
+            3 => self.cliff,
+            4 => self.rug,
+            _ => return [0; 4],
+        };
+        [red, green, blue, 255]
+    }
+}
+
+/// Calls `each` with the index of the first cell, the number of cells and the kind of each run that lies in the plan.
+fn runs(plan: &SimulatedPlan, mut each: impl FnMut(usize, usize, u32)) {
+    let total = plan.width as usize * plan.height as usize;
+    let mut at = 0;
+    for run in plan.cells.chunks_exact(2) {
+        let &[kind, length] = run else { continue };
+        let length = (length as usize).min(total - at);
+        each(at, length, kind);
+        at += length;
+    }
+}
+
+/// Four bytes a cell, row by row from the lowest y; none when the plan is too large to be shown.
+#[must_use]
+pub fn plan_pixels(plan: &SimulatedPlan, palette: PlanPalette) -> Option<Vec<u8>> {
+    if plan.width == 0 || plan.height == 0 || plan.width > SIDE_MAX || plan.height > SIDE_MAX {
+        return None;
+    }
+    let mut pixels = vec![0; plan.width as usize * plan.height as usize * 4];
+    runs(plan, |first, length, kind| {
+        let pixel = palette.pixel(kind);
+        if let Some(cells) = pixels.get_mut(first * 4..(first + length) * 4) {
+            cells
+                .chunks_exact_mut(4)
+                .for_each(|cell| cell.copy_from_slice(&pixel));
+        }
+    });
+    Some(pixels)
+}
+
+/// The smallest rectangle of the map that holds all cells which are not outside.
+#[must_use]
+pub fn plan_bounds(plan: &SimulatedPlan) -> Option<Bounds> {
+    if plan.width == 0 {
+        return None;
+    }
+    let width = plan.width as usize;
+    let mut columns = (usize::MAX, 0);
+    let mut rows = (usize::MAX, 0);
+    runs(plan, |first, length, kind| {
+        if kind == 0 || length == 0 {
+            return;
+        }
+        let last = first + length - 1;
+        rows = (rows.0.min(first / width), rows.1.max(last / width + 1));
+        let wraps = first / width != last / width;
+        let (left, right) = if wraps {
+            (0, width)
+        } else {
+            (first % width, last % width + 1)
+        };
+        columns = (columns.0.min(left), columns.1.max(right));
+    });
+    if columns.1 == 0 {
+        return None;
+    }
+    let corner = |column: usize, row: usize| {
+        let (x, y) = placed(
+            &plan.origin,
+            column as f64 * plan.cell_m,
+            row as f64 * plan.cell_m,
+        );
+        Bounds::around(x, y, 0.0)
+    };
+    let bounds = corner(columns.0, rows.0).with(corner(columns.1, rows.0));
+    Some(
+        bounds
+            .with(corner(columns.0, rows.1))
+            .with(corner(columns.1, rows.1)),
+    )
+}
+
+/// The point of the map at `(x, y)` in the frame of `origin`.
+fn placed(origin: &Pose, x: f64, y: f64) -> (f64, f64) {
+    let (sin, cos) = origin.heading.sin_cos();
+    (origin.x + x * cos - y * sin, origin.y + x * sin + y * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PlanPalette, plan_bounds, plan_pixels};
+    use rvac_api::{Pose, SimulatedPlan};
+
+    const PALETTE: PlanPalette = PlanPalette {
+        floor: [1, 1, 1],
+        obstacle: [2, 2, 2],
+        cliff: [3, 3, 3],
+        rug: [4, 4, 4],
+    };
+
+    fn plan(cells: Vec<u32>) -> SimulatedPlan {
+        let origin = Pose {
+            x: 10.0,
+            y: 20.0,
+            heading: 0.0,
+            t: 0.0,
+        };
+        SimulatedPlan {
+            name: "x".to_owned(),
+            cell_m: 0.5,
+            width: 4,
+            height: 3,
+            origin,
+            cells,
+            dock: None,
+        }
+    }
+
+    #[test]
+    fn cells_become_pixels() {
+        let pixels = plan_pixels(&plan(vec![0, 5, 1, 2, 2, 1, 9, 4]), PALETTE).unwrap();
+        let reds: Vec<u8> = pixels.chunks_exact(4).map(|pixel| pixel[0]).collect();
+        assert_eq!(reds, [0, 0, 0, 0, 0, 1, 1, 2, 0, 0, 0, 0]);
+        assert_eq!(pixels[5 * 4 + 3], 255);
+        assert_eq!(pixels[3], 0);
+    }
+
+    #[test]
+    fn too_many_too_few_and_odd_cells_do_no_harm() {
+        for cells in [vec![], vec![1], vec![1, u32::MAX, 2, u32::MAX], vec![1, 3]] {
+            assert_eq!(plan_pixels(&plan(cells), PALETTE).unwrap().len(), 48);
+        }
+        let huge = SimulatedPlan {
+            width: 1 << 20,
+            ..plan(vec![])
+        };
+        assert_eq!(plan_pixels(&huge, PALETTE), None);
+    }
+
+    #[test]
+    fn bounds_leave_out_what_is_outside() {
+        let bounds = plan_bounds(&plan(vec![0, 5, 1, 2, 0, 5])).unwrap();
+        assert_eq!((bounds.x_min, bounds.x_max), (10.5, 11.5));
+        assert_eq!((bounds.y_min, bounds.y_max), (20.5, 21.0));
+        assert_eq!(plan_bounds(&plan(vec![0, 12])), None);
+    }
+
+    #[test]
+    fn a_turned_plan_is_bounded_too() {
+        let mut turned = plan(vec![1, 12]);
+        turned.origin.heading = std::f64::consts::FRAC_PI_2;
+        let bounds = plan_bounds(&turned).unwrap();
+        assert!((bounds.x_min - 8.5).abs() < 1e-9 && (bounds.x_max - 10.0).abs() < 1e-9);
+        assert!((bounds.y_min - 20.0).abs() < 1e-9 && (bounds.y_max - 22.0).abs() < 1e-9);
+    }
+}

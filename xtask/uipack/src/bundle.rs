@@ -1,0 +1,96 @@
+//! The files of the packed panel, named by their content.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
+/// Files in the order they were added.
+#[derive(Debug, Default)]
+pub(crate) struct Bundle {
+    files: Vec<File>,
+}
+
+#[derive(Debug)]
+struct File {
+    name: String,
+    plain: Vec<u8>,
+    packed: Vec<u8>,
+}
+
+impl Bundle {
+    /// Adds a file and returns the name it got: `panel.css` becomes `panel-0123456789abcdef.css`.
+    pub(crate) fn add(&mut self, name: &str, content: Vec<u8>) -> String {
+        let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "bin"));
+        let named = format!("{stem}-{:016x}.{ending}", fnv1a_64(&content));
+        self.push(named.clone(), content);
+        named
+    }
+
+    /// Adds the page, which keeps its name.
+    pub(crate) fn add_page(&mut self, content: Vec<u8>) {
+        self.push("index.html".to_owned(), content);
+    }
+
+    /// Name, bytes and packed bytes of each file.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = (&str, usize, usize)> {
+        self.files
+            .iter()
+            .map(|file| (file.name.as_str(), file.plain.len(), file.packed.len()))
+    }
+
+    /// Writes all files and their gzip twins into an existing folder.
+    pub(crate) fn write(&self, folder: &Path) -> Result<()> {
+        for file in &self.files {
+            let path = folder.join(&file.name);
+            fs::write(&path, &file.plain).with_context(|| format!("cannot write {}", path.display()))?;
+            let path = folder.join(format!("{}.gz", file.name));
+            fs::write(&path, &file.packed).with_context(|| format!("cannot write {}", path.display()))?;
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, name: String, plain: Vec<u8>) {
+        let packed = gzip(&plain);
+        self.files.push(File { name, plain, packed });
+    }
+}
+
+/// The same bytes give the same archive: no time stamp, no name.
+fn gzip(plain: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder
+        .write_all(plain)
+        .and_then(|()| encoder.finish())
+        .expect("writing to memory does not fail")
+}
+
+/// Fowler-Noll-Vo 1a, 64 bits. It tells versions apart and guards against nothing.
+fn fnv1a_64(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bundle, fnv1a_64};
+
+    #[test]
+    fn hash_is_the_published_one() {
+        assert_eq!(fnv1a_64(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv1a_64(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn names_follow_the_content() {
+        let mut bundle = Bundle::default();
+        let first = bundle.add("panel.css", b"a".to_vec());
+        assert_ne!(first, bundle.add("panel.css", b"b".to_vec()));
+        assert_eq!(first, bundle.add("panel.css", b"a".to_vec()));
+        assert!(first.starts_with("panel-") && first.ends_with(".css"));
+    }
+}
