@@ -1,21 +1,30 @@
 //! The brain as its shell sees it.
 
-use crate::action::{Actions, Motion};
-use crate::behavior::{BehaviorState, JobFigures, Reason, Status};
+use crate::action::Actions;
+use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::Checkpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use crate::localization::Localization;
-use crate::mapping::Map;
-use crate::observation::Observation;
+use crate::mapping::{Brushes, Map, Mark, MarkKind};
+use crate::observation::{Cliffs, Contacts, Observation};
+use crate::random::Random;
+use crate::task::{Mind, Situation};
+
+/// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
+const SIDE_RAD: f64 = core::f64::consts::FRAC_PI_4;
 
 /// One robot's mind. Give it each observation and the commands that came since the last one; do what it answers.
 #[derive(Debug)]
 pub struct Brain {
+    config: BrainConfig,
     localization: Localization,
     map: Map,
-    seed: u64,
+    behavior: Behavior,
+    mind: Mind,
+    contacts_before: Contacts,
+    cliffs_before: Cliffs,
 }
 
 impl Brain {
@@ -26,31 +35,53 @@ impl Brain {
         let rim_max_m_per_s =
             config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
         Self {
+            config,
             localization: Localization::new(config.body.track_m, rim_max_m_per_s),
             map: Map::new(config.body.swath_m),
-            seed,
+            behavior: Behavior::new(config),
+            mind: Mind {
+                random: Random::new(seed),
+                journal: Vec::new(),
+            },
+            contacts_before: Contacts::default(),
+            cliffs_before: Cliffs::default(),
         }
     }
 
     /// Takes in what the robot perceived and what people asked since the last step, and says what to do. To be called
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
-    pub fn step(&mut self, observation: &Observation, _commands: &[Command]) -> Actions {
-        self.localization.update(observation);
+    pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
+        let advance = self.localization.update(observation);
+        let pose = self.localization.pose();
+        self.note_encounters(observation, pose);
+        let situation = Situation::new(observation, advance, pose, &self.config);
+        let intent = self.behavior.step(&situation, commands, &mut self.mind);
+        if intent.job_start == JobStart::FreshMap {
+            self.map.start_anew();
+        }
+        self.map.follow(
+            pose,
+            if intent.cleaners {
+                Brushes::Sweeping
+            } else {
+                Brushes::Still
+            },
+        );
         Actions {
-            motion: Motion::Rest,
-            cleaners: false,
-            arm: None,
-            tones: Vec::new(),
-            decisions: Vec::new(),
+            motion: intent.motion,
+            cleaners: intent.cleaners,
+            arm: intent.arm,
+            tones: intent.tones,
+            decisions: core::mem::take(&mut self.mind.journal),
         }
     }
 
-    /// Whether `command` would be obeyed in the present situation. A shell asks this first, to answer its client.
+    /// Whether `command` would be obeyed in the situation of the last step. A shell asks this first, to answer its client.
     ///
     /// # Errors
     /// The named reason why it would be refused.
-    pub fn admit(&self, _command: &Command) -> Result<(), Reason> {
-        Ok(())
+    pub fn admit(&self, command: &Command) -> Result<(), Reason> {
+        self.behavior.admit(command)
     }
 
     /// Pose in the map frame: the origin is where the robot stood at the start, x was forward.
@@ -62,12 +93,7 @@ impl Brain {
     /// What the robot is doing and why.
     #[must_use]
     pub fn status(&self) -> Status {
-        Status {
-            state: BehaviorState::Disconnected,
-            reason: Reason::StartUp,
-            strategy: None,
-            resumable: false,
-        }
+        self.behavior.status()
     }
 
     /// The map of the running or last job.
@@ -79,24 +105,66 @@ impl Brain {
     /// What the running or last job has done.
     #[must_use]
     pub fn job(&self) -> JobFigures {
-        JobFigures::default()
-    }
-
-    /// Everything that must survive a restart of the shell. Costs about a millisecond per 100 m2 swept: for every few
-    /// seconds, not for every step.
-    #[must_use]
-    pub fn checkpoint(&self) -> Checkpoint {
-        Checkpoint {
-            random_state: self.seed,
-            ..Checkpoint::default()
+        JobFigures {
+            swept_m2: self.map.swept_m2(),
+            ..self.behavior.figures()
         }
     }
 
-    /// Takes up a checkpoint: the pose holds on from the next observation, a job that ran goes on by itself (announced as
-    /// after any start) once the link is up, a job that waited waits on.
+    /// What the running or waiting job is for, if there is one.
+    #[must_use]
+    pub fn job_kind(&self) -> Option<JobKind> {
+        self.behavior.job_kind()
+    }
+
+    /// Everything that must survive a restart of the shell. Sorts all swept cells: for every few seconds, not for every
+    /// step.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint {
+        let map = self.map.snapshot();
+        Checkpoint {
+            pose: self.pose(),
+            random_state: self.mind.random.state(),
+            job: self.behavior.checkpoint(),
+            swept: self.map.swept_runs(),
+            path: map.path.to_vec(),
+            marks: map.marks.to_vec(),
+        }
+    }
+
+    /// Takes up a checkpoint in a new brain: the pose holds on from the next observation, a job that ran goes on by itself
+    /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.localization.place_at(checkpoint.pose);
+        self.mind.random = Random::from_state(checkpoint.random_state);
         self.map
             .restore(&checkpoint.swept, &checkpoint.path, &checkpoint.marks);
+        if let Some(job) = checkpoint.job {
+            self.behavior.restore(job);
+        }
+    }
+
+    /// Marks and counts contacts and cliffs as they begin.
+    fn note_encounters(&mut self, observation: &Observation, pose: Pose2) {
+        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
+        if contacts.any() && !self.contacts_before.any() {
+            self.behavior.count_bump();
+            self.mark(MarkKind::Contact, pose, (contacts.left, contacts.right));
+        }
+        if cliffs.any() && !self.cliffs_before.any() {
+            self.mark(MarkKind::Cliff, pose, (cliffs.left, cliffs.right));
+        }
+        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
+    }
+
+    fn mark(&mut self, kind: MarkKind, pose: Pose2, (left, right): (bool, bool)) {
+        let bearing_rad = SIDE_RAD * (f64::from(u8::from(left)) - f64::from(u8::from(right)));
+        let (sin, cos) = libm::sincos(bearing_rad);
+        let radius_m = self.config.body.radius_m;
+        let at = pose.transform(Point2 {
+            x_m: radius_m * cos,
+            y_m: radius_m * sin,
+        });
+        self.map.mark(Mark { at, kind });
     }
 }

@@ -10,10 +10,17 @@ mod brain;
 pub mod checkpoint;
 pub mod command;
 pub mod config;
+mod coverage;
+mod docking;
 pub mod geometry;
 pub mod localization;
+mod manoeuvre;
 pub mod mapping;
 pub mod observation;
+mod random;
+mod recovery;
+mod spot;
+mod task;
 
 pub use action::{Actions, Motion};
 pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};

@@ -33,6 +33,20 @@ pub struct Observation {
     pub speed_share: f64,
 }
 
+impl Observation {
+    /// A bumper is pressed, or the firmware still holds the wheels because of one.
+    #[must_use]
+    pub fn is_touching(&self) -> bool {
+        self.contacts.any() || self.inhibits.contains(&"bumper")
+    }
+
+    /// A cliff is seen, or the firmware still holds the wheels because of one.
+    #[must_use]
+    pub fn is_at_cliff(&self) -> bool {
+        self.cliffs.any() || self.inhibits.contains(&"cliff")
+    }
+}
+
 impl Default for Observation {
     /// A healthy robot on the floor, at rest, at time 0.
     fn default() -> Self {

@@ -1,7 +1,19 @@
-//! What the robot does and why: the state machine above strategies and manoeuvres.
+//! What the robot does and why: the state machine above tasks and manoeuvres.
+//!
+//! Each step goes the same way: commands are admitted or refused and change the *mode*; what was perceived may change it
+//! again, the graver cause winning; the mode then says how to move; and a last gate takes out every motion that the
+//! firmware would have to refuse.
 
+mod admission;
+mod facts;
+mod job;
+mod machine;
+mod manual;
+mod reaction;
 mod reason;
 mod state;
+mod work;
 
+pub(crate) use machine::{Behavior, JobStart};
 pub use reason::Reason;
 pub use state::{BehaviorState, JobFigures, JobKind, Status};

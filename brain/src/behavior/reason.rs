@@ -51,8 +51,6 @@ reasons! {
     LinkLost => "link-lost",
     /// Telemetry is back.
     LinkRestored => "link-restored",
-    /// Link quality is so bad that no speed is allowed.
-    LinkBad => "link-bad",
     /// Somebody said `stop` to the firmware directly.
     Stopped => "stopped",
     /// A button on the robot was pressed while it moved.
@@ -79,6 +77,10 @@ reasons! {
     CliffHeld => "cliff-held",
     /// Many short runs in a row: a pocket it cannot find out of.
     BoxedIn => "boxed-in",
+    /// A straight run without an encounter for longer than any home is.
+    LongRun => "long-run",
+    /// Too many things in the way.
+    Obstructed => "obstructed",
     /// Commanded to move and did not (S15).
     NotMoving => "not-moving",
     /// Gyro and wheels disagree for long (S14).
@@ -95,10 +97,14 @@ reasons! {
     LeaseEnded => "lease-ended",
     /// The person let go.
     Released => "released",
+    /// The stick must come back to the centre before it drives again (S23).
+    CentreFirst => "centre-first",
     /// Such a job already runs.
     AlreadyRunning => "already-running",
-    /// There is nothing to pause, resume or clear.
+    /// There is nothing to pause or resume.
     NoJob => "no-job",
+    /// There is no error to acknowledge.
+    NoError => "no-error",
     /// An acknowledged error must come first.
     ErrorStands => "error-stands",
     /// Three resets within a minute.

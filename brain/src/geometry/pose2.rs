@@ -98,6 +98,10 @@ impl Pose2 {
 impl Mul for Pose2 {
     type Output = Self;
 
+    #[allow(
+        clippy::suspicious_arithmetic_impl,
+        reason = "composing rotations adds their angles"
+    )]
     /// Composition: `a_from_b * b_from_c` is `a_from_c`.
     fn mul(self, other: Self) -> Self {
         let origin = self.transform(other.position());

@@ -1,0 +1,179 @@
+//! Which commands are obeyed in which situation, and what obeying them means.
+
+use super::machine::{Behavior, Mode};
+use super::manual::ManualDrive;
+use super::{JobKind, Reason};
+use crate::command::Command;
+use crate::task::Mind;
+
+impl Behavior {
+    /// Whether `command` may be obeyed now.
+    pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
+        match command {
+            Command::Stop | Command::ManualEnd => Ok(()),
+            Command::Clean { strategy } => self.admit_job(JobKind::Clean(*strategy)),
+            Command::Spot => self.admit_job(JobKind::Spot),
+            Command::Dock => self.admit_dock(),
+            Command::Pause => self.admit_pause(),
+            Command::Resume => self.admit_resume(),
+            Command::Manual {
+                speed_m_per_s,
+                turn_rad_per_s,
+                ..
+            } => self.admit_manual(*speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0),
+            Command::ClearError => match self.mode {
+                Mode::Error { .. } => Ok(()),
+                _ => Err(Reason::NoError),
+            },
+        }
+    }
+
+    /// What keeps any motion from starting (S25).
+    fn startable(&self) -> Result<(), Reason> {
+        if !self.facts.link_up {
+            return Err(Reason::LinkLost);
+        }
+        if let Some(fault) = self.facts.fault {
+            return Err(fault);
+        }
+        if self.facts.wheel_drop {
+            return Err(Reason::WheelDrop);
+        }
+        match self.mode {
+            Mode::Error { .. } => Err(Reason::ErrorStands),
+            _ => Ok(()),
+        }
+    }
+
+    fn runs(&self, kind: JobKind) -> bool {
+        let active = matches!(self.mode, Mode::Starting { .. } | Mode::Working);
+        active && self.job.as_ref().is_some_and(|job| job.kind == kind)
+    }
+
+    fn admit_job(&self, kind: JobKind) -> Result<(), Reason> {
+        if self.runs(kind) {
+            return Err(Reason::AlreadyRunning);
+        }
+        self.startable()?;
+        if self.facts.battery_low {
+            Err(Reason::BatteryLow)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn admit_dock(&self) -> Result<(), Reason> {
+        if self.runs(JobKind::Dock) {
+            return Err(Reason::AlreadyRunning);
+        }
+        if self.facts.docked {
+            return Err(Reason::Docked);
+        }
+        self.startable()
+    }
+
+    fn admit_pause(&self) -> Result<(), Reason> {
+        let pausable = match self.mode {
+            Mode::Starting { .. } | Mode::Working => true,
+            Mode::Disconnected { resume, .. } => resume,
+            _ => false,
+        };
+        if pausable && self.job.is_some() {
+            Ok(())
+        } else {
+            Err(Reason::NoJob)
+        }
+    }
+
+    fn admit_resume(&self) -> Result<(), Reason> {
+        let waits = matches!(self.mode, Mode::Paused | Mode::Stuck | Mode::Manual(_));
+        match self.mode {
+            Mode::Starting { .. } | Mode::Working => Err(Reason::AlreadyRunning),
+            _ if self.job.is_none() => Err(Reason::NoJob),
+            _ => {
+                self.startable()?;
+                if waits { Ok(()) } else { Err(Reason::NoJob) }
+            }
+        }
+    }
+
+    fn admit_manual(&self, centred: bool) -> Result<(), Reason> {
+        self.startable()?;
+        if self.centre_first && !centred {
+            Err(Reason::CentreFirst)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Does what an admitted command says.
+    pub(super) fn obey(&mut self, command: &Command, mind: &mut Mind) {
+        match *command {
+            Command::Clean { strategy } => self.begin(JobKind::Clean(strategy), mind),
+            Command::Spot => self.begin(JobKind::Spot, mind),
+            Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
+            Command::Dock => self.begin(JobKind::Dock, mind),
+            Command::Pause => self.pause(mind),
+            Command::Resume => self.announce(Reason::Command, mind),
+            Command::Stop => self.stop(mind),
+            Command::Manual {
+                speed_m_per_s,
+                turn_rad_per_s,
+                valid_until_us,
+                cleaners,
+            } => {
+                self.take_wheel(
+                    ManualDrive {
+                        speed_m_per_s,
+                        turn_rad_per_s,
+                        valid_until_us,
+                        cleaners,
+                        ready: false,
+                    },
+                    mind,
+                );
+            }
+            Command::ManualEnd => self.release_wheel(mind),
+            Command::ClearError => self.mode = Mode::Error { acknowledged: true },
+        }
+    }
+
+    fn pause(&mut self, mind: &mut Mind) {
+        match self.mode {
+            Mode::Disconnected { since_us, .. } => {
+                self.enter(
+                    Mode::Disconnected {
+                        since_us,
+                        resume: false,
+                    },
+                    Reason::Command,
+                    mind,
+                );
+            }
+            _ => self.enter(Mode::Paused, Reason::Command, mind),
+        }
+    }
+
+    fn stop(&mut self, mind: &mut Mind) {
+        self.centre_first = true;
+        match self.mode {
+            // A fault or a lost link outlives the job.
+            Mode::Error { .. } | Mode::Disconnected { .. } => {
+                let (mode, reason) = (self.mode, self.reason);
+                self.end_job(Reason::Command, mind);
+                self.enter(without_resumption(mode), reason, mind);
+            }
+            _ => self.end_job(Reason::Command, mind),
+        }
+    }
+}
+
+fn without_resumption(mode: Mode) -> Mode {
+    match mode {
+        Mode::Disconnected { since_us, .. } => Mode::Disconnected {
+            since_us,
+            resume: false,
+        },
+        other => other,
+    }
+}

@@ -1,0 +1,99 @@
+//! A job: what it is for, who drives for it, what it has done.
+
+use super::{JobFigures, JobKind};
+use crate::coverage;
+use crate::docking::DockSearch;
+use crate::geometry::TurnSide;
+use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
+use crate::random::Random;
+use crate::recovery::{Ladder, ProgressWatch, SlipWatch};
+use crate::spot::Spot;
+use crate::task::Task;
+
+/// Way back from the dock before turning round.
+const DEPART_M: f64 = 0.4;
+
+/// A running or waiting job.
+#[derive(Debug)]
+pub(super) struct Job {
+    pub(super) kind: JobKind,
+    pub(super) task: Box<dyn Task>,
+    pub(super) figures: JobFigures,
+    pub(super) ladder: Ladder,
+    pub(super) progress: ProgressWatch,
+    pub(super) slip: SlipWatch,
+    /// Movements that come before the task: an escape, or leaving the dock.
+    pub(super) detour: Option<Detour>,
+    /// Brushes may run: the bumper was free since the job last started (S29).
+    pub(super) brushes: bool,
+}
+
+/// Movements that come before the task.
+#[derive(Debug)]
+pub(super) struct Detour {
+    pub(super) sequence: Sequence,
+    pub(super) purpose: Purpose,
+}
+
+/// What a detour is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// Coming free.
+    Escape,
+    /// Leaving the dock.
+    Departure,
+}
+
+impl Job {
+    pub(super) fn new(kind: JobKind, figures: JobFigures) -> Self {
+        let task: Box<dyn Task> = match kind {
+            JobKind::Clean(strategy) => coverage::strategy(strategy),
+            JobKind::Spot => Box::new(Spot::default()),
+            JobKind::Dock => Box::new(DockSearch::default()),
+        };
+        Self {
+            kind,
+            task,
+            figures,
+            ladder: Ladder::default(),
+            progress: ProgressWatch::default(),
+            slip: SlipWatch::default(),
+            detour: None,
+            brushes: false,
+        }
+    }
+
+    /// The robot stood still or was moved by a person: only the purpose of the job is still true.
+    pub(super) fn interrupt(&mut self) {
+        self.task.interrupted();
+        self.ladder = Ladder::default();
+        self.progress = ProgressWatch::default();
+        self.slip = SlipWatch::default();
+        self.detour = None;
+        self.brushes = false;
+    }
+
+    pub(super) fn is_departing(&self) -> bool {
+        self.detour
+            .as_ref()
+            .is_some_and(|detour| detour.purpose == Purpose::Departure)
+    }
+
+    /// Plans to leave the dock first.
+    pub(super) fn depart(&mut self, random: &mut Random) {
+        let side = if random.coin() {
+            TurnSide::Left
+        } else {
+            TurnSide::Right
+        };
+        let turn_rad = side.sign() * random.between(2.2, 3.1);
+        let parts = vec![
+            Part::Back(BackOff::from_contact(DEPART_M)),
+            Part::Turn(Turn::by(turn_rad)),
+        ];
+        self.detour = Some(Detour {
+            sequence: Sequence::new(parts),
+            purpose: Purpose::Departure,
+        });
+    }
+}

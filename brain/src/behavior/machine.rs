@@ -1,0 +1,372 @@
+//! The modes, and how a step runs through them.
+
+use super::facts::Facts;
+use super::job::Job;
+use super::manual::ManualDrive;
+use super::{BehaviorState, JobFigures, JobKind, Reason, Status};
+use crate::action::{Arm, Motion, Tone};
+use crate::checkpoint::JobCheckpoint;
+use crate::command::Command;
+use crate::config::BrainConfig;
+use crate::task::{Mind, Situation};
+
+/// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
+const HALT_US: u64 = 500_000;
+/// Pause between two tries to arm.
+const ARM_AGAIN_US: u64 = 500_000;
+/// Tones of the announcement (S24): three beeps.
+const BEEP: Tone = Tone {
+    pitch_hz: 880,
+    duration_ms: 150,
+};
+const GAP: Tone = Tone {
+    pitch_hz: 0,
+    duration_ms: 150,
+};
+/// Length of the beeps and the two seconds after them (S24).
+const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
+/// The firmware must let itself be armed within this time.
+const ARM_PATIENCE_US: u64 = 3_000_000;
+
+/// What the state machine is in. [`BehaviorState`] is derived from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Mode {
+    /// Link down. With `resume` the job goes on by itself afterwards; `since_us` is `None` when nobody knows how long ago
+    /// the link was up.
+    Disconnected { since_us: Option<u64>, resume: bool },
+    /// Nothing to do.
+    Idle,
+    /// Announcing, then arming.
+    Starting { since_us: u64 },
+    /// The job drives.
+    Working,
+    /// On the dock.
+    Docked,
+    /// A person drives.
+    Manual(ManualDrive),
+    /// The job waits.
+    Paused,
+    /// The job could not go on.
+    Stuck,
+    /// A fault stands.
+    Error { acknowledged: bool },
+}
+
+/// What the shell and the map must do after a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Intent {
+    pub(crate) motion: Motion,
+    pub(crate) cleaners: bool,
+    pub(crate) arm: Option<Arm>,
+    pub(crate) tones: Vec<Tone>,
+    pub(crate) job_start: JobStart,
+}
+
+/// Whether a job began in this step that wants an empty map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JobStart {
+    /// No.
+    None,
+    /// Yes.
+    FreshMap,
+}
+
+/// The state machine.
+#[derive(Debug)]
+pub(crate) struct Behavior {
+    pub(super) config: BrainConfig,
+    pub(super) mode: Mode,
+    pub(super) reason: Reason,
+    pub(super) job: Option<Job>,
+    pub(super) facts: Facts,
+    pub(super) cliff_sensor_since_us: Option<u64>,
+    pub(super) starved_since_us: Option<u64>,
+    /// A person's stick must come to the centre before it drives again (S23).
+    pub(super) centre_first: bool,
+    pub(super) last_motion: Motion,
+    figures: JobFigures,
+    halt_until_us: u64,
+    armed_us: Option<u64>,
+    arm: Option<Arm>,
+    tones: Vec<Tone>,
+    job_start: JobStart,
+}
+
+impl Behavior {
+    pub(crate) fn new(config: BrainConfig) -> Self {
+        Self {
+            config,
+            mode: Mode::Disconnected {
+                since_us: None,
+                resume: false,
+            },
+            reason: Reason::StartUp,
+            job: None,
+            facts: Facts::default(),
+            cliff_sensor_since_us: None,
+            starved_since_us: None,
+            centre_first: false,
+            last_motion: Motion::Rest,
+            figures: JobFigures::default(),
+            halt_until_us: 0,
+            armed_us: None,
+            arm: None,
+            tones: Vec::new(),
+            job_start: JobStart::None,
+        }
+    }
+
+    pub(crate) fn status(&self) -> Status {
+        let strategy = match self.job.as_ref().map(|job| job.kind) {
+            Some(JobKind::Clean(strategy)) => Some(strategy),
+            _ => None,
+        };
+        let resumable = self.admit(&Command::Resume).is_ok();
+        Status {
+            state: self.state(),
+            reason: self.reason,
+            strategy,
+            resumable,
+        }
+    }
+
+    pub(super) fn state(&self) -> BehaviorState {
+        match self.mode {
+            Mode::Disconnected { .. } => BehaviorState::Disconnected,
+            Mode::Idle => BehaviorState::Idle,
+            Mode::Starting { .. } => BehaviorState::Starting,
+            Mode::Working => match self.job.as_ref().map(|job| job.kind) {
+                Some(JobKind::Spot) => BehaviorState::Spot,
+                Some(JobKind::Dock) => BehaviorState::Docking,
+                Some(JobKind::Clean(_)) | None => BehaviorState::Cleaning,
+            },
+            Mode::Docked => BehaviorState::Docked,
+            Mode::Manual(_) => BehaviorState::Manual,
+            Mode::Paused => BehaviorState::Paused,
+            Mode::Stuck => BehaviorState::Stuck,
+            Mode::Error { .. } => BehaviorState::Error,
+        }
+    }
+
+    /// Figures of the running or last job; the swept area is the map's business.
+    pub(crate) fn figures(&self) -> JobFigures {
+        self.job.as_ref().map_or(self.figures, |job| job.figures)
+    }
+
+    pub(crate) fn checkpoint(&self) -> Option<JobCheckpoint> {
+        let running = match self.mode {
+            Mode::Starting { .. } | Mode::Working => true,
+            Mode::Disconnected { resume, .. } => resume,
+            _ => false,
+        };
+        self.job.as_ref().map(|job| JobCheckpoint {
+            kind: job.kind,
+            figures: job.figures,
+            running,
+        })
+    }
+
+    pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
+        self.job = Some(Job::new(checkpoint.kind, checkpoint.figures));
+        self.mode = Mode::Disconnected {
+            since_us: None,
+            resume: checkpoint.running,
+        };
+        self.reason = Reason::Restored;
+    }
+
+    /// One step: commands, perceptions, motion.
+    pub(crate) fn step(
+        &mut self,
+        situation: &Situation<'_>,
+        commands: &[Command],
+        mind: &mut Mind,
+    ) -> Intent {
+        self.facts = Facts::read(situation.observation, self.config.battery_low);
+        self.facts.fault = self.fault();
+        for command in commands {
+            match self.admit(command) {
+                Ok(()) => self.obey(command, mind),
+                Err(reason) => mind.decide("refuse", reason, 0.0),
+            }
+        }
+        self.react(mind);
+        let wish = self.act(situation, mind);
+        let motion = self.permitted(wish, situation.observation.speed_share);
+        self.last_motion = motion;
+        Intent {
+            motion,
+            cleaners: self.cleaners(),
+            arm: self.arm.take(),
+            tones: core::mem::take(&mut self.tones),
+            job_start: core::mem::replace(&mut self.job_start, JobStart::None),
+        }
+    }
+
+    fn act(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        match self.mode {
+            Mode::Disconnected { .. } => Motion::Rest,
+            Mode::Idle | Mode::Docked | Mode::Paused | Mode::Stuck | Mode::Error { .. } => self.rest(),
+            Mode::Starting { since_us } => self.start(since_us, mind),
+            Mode::Working => self.work(situation, mind),
+            Mode::Manual(drive) => self.drive_manually(drive),
+        }
+    }
+
+    fn rest(&self) -> Motion {
+        if self.facts.now_us < self.halt_until_us {
+            Motion::Halt
+        } else {
+            Motion::Rest
+        }
+    }
+
+    /// Waits for the announcement to end, arms, and waits for the firmware to agree.
+    fn start(&mut self, since_us: u64, mind: &mut Mind) -> Motion {
+        let waited_us = self.facts.now_us.saturating_sub(since_us);
+        if waited_us < ANNOUNCEMENT_US {
+            return Motion::Rest;
+        }
+        let asked_yet = self.armed_us.is_some();
+        if asked_yet && !self.facts.disarmed.any() {
+            let reason = self.reason;
+            if self.facts.docked
+                && let Some(job) = &mut self.job
+            {
+                job.depart(&mut mind.random);
+            }
+            self.enter(Mode::Working, reason, mind);
+            return Motion::Halt;
+        }
+        if waited_us > ANNOUNCEMENT_US + ARM_PATIENCE_US {
+            self.enter(Mode::Paused, Reason::ArmRefused, mind);
+            return Motion::Rest;
+        }
+        self.ask_to_arm();
+        Motion::Rest
+    }
+
+    /// Arms, but not more often than answers can come back.
+    pub(super) fn ask_to_arm(&mut self) {
+        let due = self
+            .armed_us
+            .is_none_or(|armed_us| self.facts.now_us >= armed_us + ARM_AGAIN_US);
+        if due {
+            self.armed_us = Some(self.facts.now_us);
+            self.arm = Some(Arm {
+                undock: self.facts.docked || self.facts.disarmed.docked,
+            });
+        }
+    }
+
+    /// Changes the mode. Every change of mode goes through here, so that none is without a decision and a reason.
+    pub(super) fn enter(&mut self, mode: Mode, reason: Reason, mind: &mut Mind) {
+        let moved = self.state().moves();
+        self.mode = mode;
+        self.reason = reason;
+        self.armed_us = None;
+        self.starved_since_us = None;
+        let state = self.state();
+        if moved && !state.moves() {
+            self.halt_until_us = self.facts.now_us + HALT_US;
+            if let Some(job) = &mut self.job {
+                job.interrupt();
+            }
+        }
+        mind.decide(state.decision(), reason, 0.0);
+    }
+
+    /// Announces and starts the present job (S24).
+    pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
+        self.enter(
+            Mode::Starting {
+                since_us: self.facts.now_us,
+            },
+            reason,
+            mind,
+        );
+        self.tones.extend([BEEP, GAP, BEEP, GAP, BEEP]);
+    }
+
+    /// Begins a new job; the old one is forgotten.
+    pub(super) fn begin(&mut self, kind: JobKind, mind: &mut Mind) {
+        self.job = Some(Job::new(kind, JobFigures::default()));
+        if kind != JobKind::Dock {
+            self.job_start = JobStart::FreshMap;
+        }
+        self.announce(Reason::Command, mind);
+    }
+
+    /// Ends the job and keeps its figures.
+    pub(super) fn end_job(&mut self, reason: Reason, mind: &mut Mind) {
+        if let Some(job) = self.job.take() {
+            self.figures = job.figures;
+        }
+        self.enter(self.mode_without_job(), reason, mind);
+    }
+
+    pub(super) fn mode_without_job(&self) -> Mode {
+        if self.facts.docked {
+            Mode::Docked
+        } else {
+            Mode::Idle
+        }
+    }
+
+    /// Where an interruption leads: the job waits, or there is none.
+    pub(super) fn hold(&mut self, reason: Reason, mind: &mut Mind) {
+        let mode = if self.job.is_some() {
+            Mode::Paused
+        } else {
+            self.mode_without_job()
+        };
+        self.enter(mode, reason, mind);
+    }
+
+    /// The running job becomes a search for the dock and keeps its figures.
+    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut Mind) {
+        let figures = self.figures();
+        self.job = Some(Job::new(JobKind::Dock, figures));
+        self.enter(Mode::Working, reason, mind);
+    }
+
+    fn cleaners(&self) -> bool {
+        match self.mode {
+            Mode::Working => self
+                .job
+                .as_ref()
+                .is_some_and(|job| job.kind != JobKind::Dock && job.brushes && !job.is_departing()),
+            Mode::Manual(drive) => drive.cleaners,
+            _ => false,
+        }
+    }
+
+    /// The last gate: what the firmware would have to refuse is not asked, and link quality slows the rest.
+    fn permitted(&self, wish: Motion, speed_share: f64) -> Motion {
+        let Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } = wish
+        else {
+            return wish;
+        };
+        let facts = &self.facts;
+        if !facts.link_up
+            || facts.wheel_drop
+            || facts.fault.is_some()
+            || facts.disarmed.any()
+            || facts.not_moving
+        {
+            return Motion::Rest;
+        }
+        let share = speed_share.clamp(0.0, 1.0);
+        let held = facts.touching || facts.at_cliff || facts.cliff_sensor;
+        if share.is_nan() || share <= 0.0 || (held && speed_m_per_s >= 0.0) {
+            return Motion::Halt;
+        }
+        Motion::Drive {
+            speed_m_per_s: share * speed_m_per_s,
+            turn_rad_per_s: if held { 0.0 } else { share * turn_rad_per_s },
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
+
+use super::job::{Detour, Purpose};
+use super::machine::{Behavior, Mode};
+use super::{JobKind, Reason};
+use crate::action::Motion;
+use crate::localization::Advance;
+use crate::recovery::{self, Traction};
+use crate::task::{Mind, Plan, Situation};
+
+/// The firmware may be out of reach of `arm` for this long before the job is put off.
+const STARVE_US: u64 = 3_000_000;
+/// Share of the speed while wheels slip (S14).
+const SLIP_SHARE: f64 = 0.5;
+
+impl Behavior {
+    /// A contact began.
+    pub(crate) fn count_bump(&mut self) {
+        if self.mode == Mode::Working
+            && let Some(job) = &mut self.job
+        {
+            job.figures.bumps += 1;
+        }
+    }
+
+    pub(super) fn work(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        let commanded = self.last_motion;
+        let Some(job) = &mut self.job else {
+            self.hold(Reason::NoJob, mind);
+            return Motion::Halt;
+        };
+        job.figures.time_s += situation.advance.time_s;
+        job.figures.path_m += situation.advance.distance_m.abs();
+        job.ladder.watch(situation.pose.position());
+        job.brushes |= !self.facts.touching;
+        if self.facts.disarmed.any() {
+            return self.wait_for_arm(mind);
+        }
+        self.starved_since_us = None;
+        let plan = self.watched_plan(commanded, situation, mind);
+        self.follow(plan, situation, mind)
+    }
+
+    fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {
+        let since_us = *self.starved_since_us.get_or_insert(self.facts.now_us);
+        if self.facts.now_us.saturating_sub(since_us) > STARVE_US {
+            let reason = if self.facts.disarmed.link_lost {
+                Reason::LinkLost
+            } else {
+                Reason::ArmRefused
+            };
+            self.hold(reason, mind);
+        } else {
+            self.ask_to_arm();
+        }
+        Motion::Rest
+    }
+
+    /// What the task or a detour wants, unless a watch calls trouble first.
+    fn watched_plan(&mut self, commanded: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let Some(job) = &mut self.job else {
+            return Plan::Go(Motion::Halt);
+        };
+        let traction = job.slip.judge(situation.advance);
+        if traction == Traction::Lost {
+            return Plan::Finished(Reason::Slip);
+        }
+        let stands_still = job.progress.stands_still(commanded, situation.advance);
+        let first_report = self.facts.not_moving && commanded != Motion::Rest;
+        if stands_still || first_report {
+            job.progress = recovery::ProgressWatch::default();
+            return Plan::Trouble(Reason::NotMoving);
+        }
+        if self.facts.not_moving {
+            // The firmware rests for a second after it saw no progress; the escape starts after that.
+            return Plan::Go(Motion::Rest);
+        }
+        let plan = self.plan(situation, mind);
+        match plan {
+            Plan::Go(motion) if traction == Traction::Slipping => Plan::Go(slowed(motion)),
+            other => other,
+        }
+    }
+
+    fn plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let Some(job) = &mut self.job else {
+            return Plan::Go(Motion::Halt);
+        };
+        if let Some(detour) = &mut job.detour {
+            if let Some(motion) = detour.sequence.step(situation) {
+                return Plan::Go(motion);
+            }
+            job.detour = None;
+            job.task.interrupted();
+            // What was moved since the last step belongs to the detour.
+            let still = Situation {
+                advance: Advance {
+                    time_s: 0.0,
+                    ..Advance::default()
+                },
+                ..*situation
+            };
+            return job.task.step(&still, mind);
+        }
+        job.task.step(situation, mind)
+    }
+
+    fn follow(&mut self, plan: Plan, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        match plan {
+            Plan::Go(motion) => return motion,
+            Plan::Trouble(reason) => self.escape(reason, situation, mind),
+            Plan::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
+            Plan::Finished(reason) => self.end_job(reason, mind),
+        }
+        Motion::Halt
+    }
+
+    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
+        let Some(job) = &mut self.job else { return };
+        job.task.interrupted();
+        let Some(rung) = job.ladder.trouble(situation.pose.position()) else {
+            self.enter(Mode::Stuck, reason, mind);
+            return;
+        };
+        mind.decide(rung.decision(), reason, 0.0);
+        let sequence = recovery::escape(rung, &mut mind.random);
+        job.detour = Some(Detour {
+            sequence,
+            purpose: Purpose::Escape,
+        });
+    }
+
+    /// Kind of the running or waiting job.
+    pub(crate) fn job_kind(&self) -> Option<JobKind> {
+        self.job.as_ref().map(|job| job.kind)
+    }
+}
+
+fn slowed(motion: Motion) -> Motion {
+    match motion {
+        Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } => Motion::Drive {
+            speed_m_per_s: SLIP_SHARE * speed_m_per_s,
+            turn_rad_per_s: SLIP_SHARE * turn_rad_per_s,
+        },
+        other => other,
+    }
+}

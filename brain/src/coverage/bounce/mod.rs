@@ -1,0 +1,132 @@
+//! `bounce`: drive until something is met, back off, turn away by a random angle, drive on.
+//!
+//! Terms. *Run*: the straight way between two encounters. *Pocket*: a place where run after run is short; there the
+//! robot backs off further, turns more and always to the same side, which leads out of corners and from between chair
+//! legs where a fresh coin toss each time would keep it.
+
+mod pocket;
+
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::geometry::TurnSide;
+use crate::manoeuvre::{Evasion, EvasionStep};
+use crate::task::{Mind, Plan, Situation, Task};
+use pocket::Pocket;
+
+/// A run this long without an encounter is no run any more (a home has walls): perhaps the wheels spin.
+const RUN_MAX_M: f64 = 14.0;
+/// Way back at a cliff: sensors lead the wheels by little, so it must be clear of the edge before it turns.
+const CLIFF_BACK_M: f64 = 0.08;
+/// Turns away from a cliff in radians: near to straight back, so that the edge is not met again at once (three cliffs in
+/// 5 s latch the firmware, S8).
+const CLIFF_TURN_RAD: (f64, f64) = (1.9, 2.8);
+/// Proximity above which contact is near: about 7 cm for the sensors of the SR8730.
+const NEAR_LEVEL: f32 = 0.45;
+/// Speed with something near ahead: a soft contact.
+const NEAR_M_PER_S: f64 = 0.12;
+
+/// The strategy.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bounce {
+    evasion: Option<Evasion>,
+    run_m: f64,
+    pocket: Pocket,
+}
+
+impl Task for Bounce {
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if let Some(evasion) = &mut self.evasion {
+            match evasion.step(situation) {
+                EvasionStep::Going(motion) => return Plan::Go(motion),
+                EvasionStep::Free => self.evasion = None,
+                EvasionStep::Held(reason) => {
+                    self.interrupted();
+                    return Plan::Trouble(reason);
+                }
+            }
+            self.run_m = 0.0;
+        }
+        self.run(situation, mind)
+    }
+
+    fn interrupted(&mut self) {
+        self.evasion = None;
+        self.run_m = 0.0;
+    }
+}
+
+impl Bounce {
+    /// Whether it is just getting away from something.
+    pub(crate) fn is_evading(&self) -> bool {
+        self.evasion.is_some()
+    }
+
+    fn run(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.run_m += situation.advance.distance_m.max(0.0);
+        let Some((reason, evasion)) = self.encounter(situation, mind) else {
+            return Plan::Go(ahead(situation));
+        };
+        if self.pocket.is_closed() {
+            self.pocket = Pocket::default();
+            return Plan::Trouble(Reason::BoxedIn);
+        }
+        mind.decide("back-off", reason, self.run_m);
+        self.evasion = Some(evasion);
+        Plan::Go(Motion::Halt)
+    }
+
+    fn encounter(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<(Reason, Evasion)> {
+        if situation.at_cliff {
+            let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
+            let side = self.side(reason, mind);
+            self.pocket.enter(self.run_m, side);
+            let turn_rad = side.sign() * mind.random.between(CLIFF_TURN_RAD.0, CLIFF_TURN_RAD.1);
+            return Some((reason, Evasion::from_cliff(CLIFF_BACK_M, turn_rad)));
+        }
+        if situation.touching {
+            let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
+            let side = self.side(reason, mind);
+            self.pocket.enter(self.run_m, side);
+            let (low_rad, high_rad) = self.pocket.turn_range_rad(reason);
+            let turn_rad = self.pocket.side().unwrap_or(side).sign() * mind.random.between(low_rad, high_rad);
+            return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
+        }
+        (self.run_m > RUN_MAX_M).then(|| {
+            let side = self.side(Reason::LongRun, mind);
+            let turn_rad = side.sign() * mind.random.between(1.0, 2.5);
+            (
+                Reason::LongRun,
+                Evasion::from_contact(self.pocket.back_m(), turn_rad),
+            )
+        })
+    }
+
+    /// The side to turn to: away from what was met.
+    fn side(&self, reason: Reason, mind: &mut Mind) -> TurnSide {
+        match reason {
+            Reason::BumpLeft | Reason::CliffLeft => TurnSide::Right,
+            Reason::BumpRight | Reason::CliffRight => TurnSide::Left,
+            _ if mind.random.coin() => TurnSide::Left,
+            _ => TurnSide::Right,
+        }
+    }
+}
+
+/// Straight ahead, slower when something is near.
+fn ahead(situation: &Situation<'_>) -> Motion {
+    let proximity = &situation.observation.proximity;
+    // The third in the middle looks ahead.
+    let third = proximity.len() / 3;
+    let front = proximity.get(third..proximity.len() - third).unwrap_or_default();
+    let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
+    let near = front.iter().any(|level| *level > NEAR_LEVEL);
+    let speed_m_per_s = if near {
+        cruise_m_per_s.min(NEAR_M_PER_S)
+    } else {
+        cruise_m_per_s
+    };
+    Motion::Drive {
+        speed_m_per_s,
+        turn_rad_per_s: 0.0,
+    }
+}

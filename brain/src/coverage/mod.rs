@@ -1,0 +1,15 @@
+//! Ways to cover a floor. A strategy is a [`Task`]; people choose it by name.
+
+mod bounce;
+
+pub(crate) use bounce::Bounce;
+
+use crate::command::StrategyName;
+use crate::task::Task;
+
+/// A fresh strategy of this name.
+pub(crate) fn strategy(name: StrategyName) -> Box<dyn Task> {
+    match name {
+        StrategyName::Bounce => Box::new(Bounce::default()),
+    }
+}

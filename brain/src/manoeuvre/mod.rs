@@ -1,0 +1,9 @@
+//! Short bounded movements that tasks are made of. Each ends by its own measure of way or turn, or by time.
+
+mod evasion;
+mod leg;
+mod sequence;
+
+pub(crate) use evasion::{Evasion, EvasionStep};
+pub(crate) use leg::{BackOff, Leg, Turn};
+pub(crate) use sequence::{Part, Sequence};

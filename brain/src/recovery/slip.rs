@@ -1,0 +1,92 @@
+//! Gyro and wheels that tell different stories (S14).
+
+use crate::localization::Advance;
+
+/// Length of a comparison.
+const WINDOW_S: f64 = 0.5;
+/// Disagreement in one window that cannot come from unequal wheels or a drifting gyro: 0.4 rad/s.
+const DISAGREEMENT_RAD: f64 = 0.2;
+/// Slipping this long is a reason to stop.
+const PATIENCE_S: f64 = 5.0;
+
+/// How the wheels hold the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Traction {
+    /// Well, or nobody can tell because there is no gyro.
+    Good,
+    /// They slip: slower.
+    Slipping,
+    /// They have slipped for too long: stop and report.
+    Lost,
+}
+
+/// Compares the two in windows.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SlipWatch {
+    window_s: f64,
+    difference_rad: f64,
+    slipping_s: f64,
+}
+
+impl SlipWatch {
+    pub(crate) fn judge(&mut self, advance: Advance) -> Traction {
+        if let Some(gyro_turn_rad) = advance.gyro_turn_rad {
+            self.difference_rad += gyro_turn_rad - advance.wheel_turn_rad;
+        }
+        self.window_s += advance.time_s;
+        if self.window_s >= WINDOW_S {
+            let slips = self.difference_rad.abs() > DISAGREEMENT_RAD;
+            self.slipping_s = if slips {
+                self.slipping_s + self.window_s
+            } else {
+                0.0
+            };
+            (self.window_s, self.difference_rad) = (0.0, 0.0);
+        }
+        if self.slipping_s > PATIENCE_S {
+            Traction::Lost
+        } else if self.slipping_s > 0.0 {
+            Traction::Slipping
+        } else {
+            Traction::Good
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SlipWatch, Traction};
+    use crate::localization::Advance;
+
+    #[test]
+    fn slip_slows_then_stops_and_good_grip_forgives() {
+        let slip = Advance {
+            time_s: 0.02,
+            wheel_turn_rad: 0.02,
+            gyro_turn_rad: Some(0.0),
+            ..Advance::default()
+        };
+        let grip = Advance {
+            gyro_turn_rad: Some(0.019),
+            ..slip
+        };
+        let mut watch = SlipWatch::default();
+        let judge = |watch: &mut SlipWatch, advance, seconds: u32| {
+            (0..seconds * 50).map(|_| watch.judge(advance)).last()
+        };
+        assert_eq!(judge(&mut watch, slip, 1), Some(Traction::Slipping));
+        assert_eq!(judge(&mut watch, grip, 1), Some(Traction::Good));
+        assert_eq!(judge(&mut watch, slip, 4), Some(Traction::Slipping));
+        assert_eq!(judge(&mut watch, slip, 2), Some(Traction::Lost));
+    }
+
+    #[test]
+    fn without_a_gyro_nothing_is_claimed() {
+        let advance = Advance {
+            time_s: 1.0,
+            wheel_turn_rad: 1.0,
+            ..Advance::default()
+        };
+        assert_eq!(SlipWatch::default().judge(advance), Traction::Good);
+    }
+}

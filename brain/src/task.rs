@@ -1,0 +1,82 @@
+//! The seam between the state machine and everything that knows how to drive: strategies, spot cleaning, docking.
+
+use core::fmt::Debug;
+
+use crate::action::{Decision, Motion};
+use crate::behavior::Reason;
+use crate::config::BrainConfig;
+use crate::geometry::Pose2;
+use crate::localization::Advance;
+use crate::observation::Observation;
+use crate::random::Random;
+
+/// What a task sees in one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Situation<'step> {
+    pub(crate) observation: &'step Observation,
+    /// What was moved since the last step.
+    pub(crate) advance: Advance,
+    /// Pose in the map.
+    pub(crate) pose: Pose2,
+    pub(crate) config: &'step BrainConfig,
+    /// A bumper is pressed, or the firmware still holds the wheels because of one.
+    pub(crate) touching: bool,
+    /// A cliff is seen, or the firmware still holds the wheels because of one.
+    pub(crate) at_cliff: bool,
+}
+
+impl<'step> Situation<'step> {
+    pub(crate) fn new(
+        observation: &'step Observation,
+        advance: Advance,
+        pose: Pose2,
+        config: &'step BrainConfig,
+    ) -> Self {
+        Self {
+            observation,
+            advance,
+            pose,
+            config,
+            touching: observation.is_touching(),
+            at_cliff: observation.is_at_cliff(),
+        }
+    }
+}
+
+/// What a task may use besides its eyes.
+#[derive(Debug)]
+pub(crate) struct Mind {
+    pub(crate) random: Random,
+    pub(crate) journal: Vec<Decision>,
+}
+
+impl Mind {
+    pub(crate) fn decide(&mut self, what: &'static str, reason: Reason, value: f64) {
+        self.journal.push(Decision {
+            what,
+            reason: reason.name(),
+            value,
+        });
+    }
+}
+
+/// What a task wants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Plan {
+    /// Move so.
+    Go(Motion),
+    /// It cannot go on by its own means: the recovery ladder's turn.
+    Trouble(Reason),
+    /// It is done.
+    Finished(Reason),
+}
+
+/// Something that drives the robot while the state machine lets it. Coverage strategies are tasks; a new one is a new
+/// implementation and a new [`crate::StrategyName`].
+pub(crate) trait Task: Debug + Send {
+    /// What to do now. A task never asks to drive towards a pressed bumper or a cliff.
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan;
+
+    /// The robot was moved by somebody else (a person, the recovery ladder) or stood still: half-done manoeuvres are void.
+    fn interrupted(&mut self);
+}

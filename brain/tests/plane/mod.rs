@@ -1,0 +1,261 @@
+//! A paper world for the brain's own tests: a disc that drives among rectangles, with the reflexes of the firmware.
+//! It knows no slip, no motors and no time but its own; the real physics are in `sim/`.
+#![allow(
+    dead_code,
+    reason = "every test file is a crate of its own and uses another part of this"
+)]
+
+use brain::observation::{Cliffs, Contacts};
+use brain::{Actions, Body, Brain, BrainConfig, Command, Motion, Observation, Point2, Pose2, Speeds};
+
+pub const STEP_S: f64 = 0.02;
+pub const BODY: Body = Body {
+    radius_m: 0.175,
+    swath_m: 0.30,
+    track_m: 0.23,
+};
+pub const SPEEDS: Speeds = Speeds {
+    cruise_m_per_s: 0.25,
+    max_m_per_s: 0.35,
+    turn_max_rad_per_s: 1.5,
+};
+const CELL_M: f64 = 0.025;
+const CLIFF_LEAD_M: f64 = 0.155;
+
+pub fn config() -> BrainConfig {
+    BrainConfig::new(BODY, SPEEDS)
+}
+
+/// An axis-parallel rectangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Rectangle {
+    pub low: (f64, f64),
+    pub high: (f64, f64),
+}
+
+impl Rectangle {
+    pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
+        Self { low, high }
+    }
+
+    fn distance_m(&self, point: Point2) -> f64 {
+        let dx = (self.low.0 - point.x_m).max(0.0).max(point.x_m - self.high.0);
+        let dy = (self.low.1 - point.y_m).max(0.0).max(point.y_m - self.high.1);
+        dx.hypot(dy)
+    }
+
+    fn nearest(&self, point: Point2) -> Point2 {
+        Point2 {
+            x_m: point.x_m.clamp(self.low.0, self.high.0),
+            y_m: point.y_m.clamp(self.low.1, self.high.1),
+        }
+    }
+}
+
+/// A room with the origin in its lower left corner, and what stands in it.
+pub struct Room {
+    pub size_m: (f64, f64),
+    pub furniture: Vec<Rectangle>,
+    pub holes: Vec<Rectangle>,
+}
+
+impl Room {
+    pub fn empty(size_m: (f64, f64)) -> Self {
+        let (width, depth) = size_m;
+        let wall = 1.0;
+        let walls = vec![
+            Rectangle::new((-wall, -wall), (0.0, depth + wall)),
+            Rectangle::new((width, -wall), (width + wall, depth + wall)),
+            Rectangle::new((-wall, -wall), (width + wall, 0.0)),
+            Rectangle::new((-wall, depth), (width + wall, depth + wall)),
+        ];
+        Self {
+            size_m,
+            furniture: walls,
+            holes: Vec::new(),
+        }
+    }
+
+    pub fn with(mut self, furniture: &[Rectangle]) -> Self {
+        self.furniture.extend_from_slice(furniture);
+        self
+    }
+
+    fn clearance(&self, point: Point2) -> (f64, Point2) {
+        let nearest = self
+            .furniture
+            .iter()
+            .min_by(|a, b| a.distance_m(point).total_cmp(&b.distance_m(point)));
+        let nearest = nearest.expect("a room has walls");
+        (nearest.distance_m(point), nearest.nearest(point))
+    }
+}
+
+/// The robot in the room, and the judge.
+pub struct World {
+    pub room: Room,
+    pub pose: Pose2,
+    pub observation: Observation,
+    pub violations: Vec<String>,
+    pub swept: Vec<bool>,
+    columns: usize,
+    motion: (f64, f64),
+}
+
+impl World {
+    pub fn new(room: Room, pose: Pose2) -> Self {
+        let columns = (room.size_m.0 / CELL_M) as usize;
+        let rows = (room.size_m.1 / CELL_M) as usize;
+        Self {
+            room,
+            pose,
+            observation: Observation {
+                gyro_heading_rad: Some(0.0),
+                ..Observation::default()
+            },
+            violations: Vec::new(),
+            swept: vec![false; columns * rows],
+            columns,
+            motion: (0.0, 0.0),
+        }
+    }
+
+    /// Moves for one step as the brain asked, and perceives.
+    pub fn step(&mut self, actions: &Actions) {
+        self.check(actions);
+        let wish = match actions.motion {
+            Motion::Drive {
+                speed_m_per_s,
+                turn_rad_per_s,
+            } => (speed_m_per_s, turn_rad_per_s),
+            Motion::Halt | Motion::Rest => (0.0, 0.0),
+        };
+        // Motors follow within about 60 ms.
+        self.motion.0 += (wish.0 - self.motion.0) * (STEP_S / 0.06);
+        self.motion.1 += (wish.1 - self.motion.1) * (STEP_S / 0.06);
+        let (mut speed, turn) = self.motion;
+        let (distance_m, turn_rad) = (speed * STEP_S, turn * STEP_S);
+        let next = self.pose.after_arc(distance_m, turn_rad);
+        let (clearance_m, _) = self.room.clearance(next.position());
+        if clearance_m < BODY.radius_m {
+            speed = 0.0;
+            self.motion.0 = 0.0;
+            self.pose.heading_rad = next.heading_rad;
+        } else {
+            self.pose = next;
+        }
+        self.roll(speed * STEP_S, turn_rad);
+        self.perceive(wish.0);
+        if actions.cleaners {
+            self.sweep();
+        }
+    }
+
+    fn roll(&mut self, distance_m: f64, turn_rad: f64) {
+        let observation = &mut self.observation;
+        observation.time_us += 20_000;
+        observation.travel_left_m += distance_m - 0.5 * BODY.track_m * turn_rad;
+        observation.travel_right_m += distance_m + 0.5 * BODY.track_m * turn_rad;
+        observation.gyro_heading_rad = observation.gyro_heading_rad.map(|heading| heading + turn_rad);
+    }
+
+    fn perceive(&mut self, wished_m_per_s: f64) {
+        let (clearance_m, nearest) = self.room.clearance(self.pose.position());
+        let local = self.pose.inverse().transform(nearest);
+        let bearing = local.y_m.atan2(local.x_m);
+        let pushes = wished_m_per_s > 0.0 || self.observation.contacts.any();
+        let touches = clearance_m < BODY.radius_m + 0.008 && bearing.abs() < 1.57 && pushes;
+        let contacts = Contacts {
+            left: touches && bearing > -0.2,
+            right: touches && bearing < 0.2,
+        };
+        let hole = |side_m: f64| {
+            let eye = self.pose.transform(Point2 {
+                x_m: CLIFF_LEAD_M,
+                y_m: side_m,
+            });
+            self.room.holes.iter().any(|hole| hole.distance_m(eye) == 0.0)
+        };
+        let cliffs = Cliffs {
+            left: hole(0.1),
+            middle: hole(0.0),
+            right: hole(-0.1),
+        };
+        self.observation.contacts = contacts;
+        self.observation.cliffs = cliffs;
+        self.observation.inhibits.clear();
+        if contacts.any() {
+            self.observation.inhibits.push("bumper");
+        }
+        if cliffs.any() {
+            self.observation.inhibits.push("cliff");
+        }
+    }
+
+    /// What the firmware would have to refuse is a violation.
+    fn check(&mut self, actions: &Actions) {
+        let Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } = actions.motion
+        else {
+            return;
+        };
+        let held = !self.observation.inhibits.is_empty();
+        if held && (speed_m_per_s >= 0.0 || turn_rad_per_s != 0.0) {
+            self.violations.push(format!(
+                "{:?} against {:?}",
+                actions.motion, self.observation.inhibits
+            ));
+        }
+        if self.observation.cliffs.any() && speed_m_per_s < -0.1 {
+            self.violations
+                .push(format!("{:?} is too fast at a cliff", actions.motion));
+        }
+    }
+
+    fn sweep(&mut self) {
+        let half_m = 0.5 * BODY.swath_m;
+        let steps = (2.0 * half_m / (0.5 * CELL_M)) as i32;
+        for step in 0..=steps {
+            let point = self.pose.transform(Point2 {
+                x_m: 0.0,
+                y_m: -half_m + 0.5 * CELL_M * f64::from(step),
+            });
+            let (x, y) = ((point.x_m / CELL_M) as usize, (point.y_m / CELL_M) as usize);
+            if x < self.columns
+                && let Some(cell) = self.swept.get_mut(y * self.columns + x)
+            {
+                *cell = true;
+            }
+        }
+    }
+
+    /// Share of the floor that the robot's centre can reach within half a swath that was swept.
+    pub fn covered(&self) -> f64 {
+        let free = |index: &usize| {
+            let (x, y) = (index % self.columns, index / self.columns);
+            let point = Point2 {
+                x_m: (x as f64 + 0.5) * CELL_M,
+                y_m: (y as f64 + 0.5) * CELL_M,
+            };
+            self.room.clearance(point).0 > BODY.radius_m - 0.5 * BODY.swath_m
+        };
+        let (swept, all) = (0..self.swept.len())
+            .filter(free)
+            .fold((0, 0), |(swept, all), index| {
+                (swept + usize::from(self.swept[index]), all + 1)
+            });
+        swept as f64 / all as f64
+    }
+}
+
+/// Runs a brain in a world for a while and gives it back.
+pub fn run(world: &mut World, brain: &mut Brain, command: Option<Command>, seconds: f64) {
+    let mut commands = Vec::from_iter(command);
+    for _ in 0..(seconds / STEP_S) as u32 {
+        let actions = brain.step(&world.observation, &commands);
+        commands.clear();
+        world.step(&actions);
+    }
+}
