@@ -23,7 +23,7 @@ pub(crate) struct Generated {
 /// Makes all generated files.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let root = workspace::root();
-    let files = [robots::table(&root)?];
+    let files = [robots::page(&root)?];
     let mut stale = Vec::new();
     for file in files {
         let present = std::fs::read_to_string(&file.path).unwrap_or_default();
