@@ -1,4 +1,4 @@
-//! The specification of the wire and the code that speaks it use the same words.
+//! The specification of the wire, the page about the socket, and the code that speaks them use the same words.
 
 use super::Finding;
 use super::files::Files;
@@ -6,6 +6,28 @@ use std::collections::BTreeSet;
 
 const SPECIFICATION: &str = "protocol/SPEC.md";
 const MESSAGES: &str = "protocol/rvac-protocol/src/message/";
+
+/// Closed sets of messages: the file and the enum, the key that names them, and the document that shows each.
+const SETS: [(&str, &str, &str, &str); 3] = [
+    (
+        "protocol/rvac-protocol/src/message/command.rs",
+        "Command",
+        "c",
+        SPECIFICATION,
+    ),
+    (
+        "clients/rvac-api/src/request.rs",
+        "RequestBody",
+        "c",
+        "docs/book/src/socket-api.md",
+    ),
+    (
+        "clients/rvac-api/src/update.rs",
+        "Update",
+        "e",
+        "docs/book/src/socket-api.md",
+    ),
+];
 
 /// Every word that the message types put on the wire stands in the specification.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
@@ -22,16 +44,19 @@ pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
         .filter(|word| !specification.contains(word))
         .map(|word| format!("{SPECIFICATION} does not mention {word:?}, which {MESSAGES} puts on the wire"))
         .collect();
-    let commands = files
-        .text(&format!("{MESSAGES}command.rs"))
-        .map(variants)
-        .unwrap_or_default();
-    for command in commands {
-        let shape = format!("\"c\":\"{command}\"");
-        if !specification.contains(&shape) {
-            found.push(format!(
-                "{SPECIFICATION} shows no packet {shape}, but it is a command of {MESSAGES}command.rs"
-            ));
+    for (source, set, key, document) in SETS {
+        let shown = files.text(document).unwrap_or_default();
+        for name in files
+            .text(source)
+            .map(|text| variants(text, set))
+            .unwrap_or_default()
+        {
+            let shape = format!("\"{key}\":\"{name}\"");
+            if !shown.contains(&shape) {
+                found.push(format!(
+                    "{document} shows no {shape}, but {source} defines it in {set}"
+                ));
+            }
         }
     }
     Ok(Finding::Checked(found))
@@ -44,22 +69,35 @@ fn words(source: &str) -> impl Iterator<Item = &str> {
         .filter_map(|line| line.split_once("=> \"")?.1.split_once('"').map(|(word, _)| word))
 }
 
-/// The variants of `enum Command` as they are written on the wire.
-fn variants(source: &str) -> Vec<String> {
+/// The variants of an enum as they are written on the wire.
+fn variants(source: &str, set: &str) -> Vec<String> {
     let body = source
-        .split_once("pub enum Command {")
+        .split_once(&format!("pub enum {set} {{"))
         .map_or("", |(_, after)| after);
     let body = body.split_once("\n}").map_or(body, |(body, _)| body);
     let lines = body.lines().filter_map(|line| line.strip_prefix("    "));
     let names = lines.filter(|line| line.starts_with(|letter: char| letter.is_ascii_uppercase()));
     names
         .map(|line| {
-            line.chars()
-                .take_while(char::is_ascii_alphanumeric)
-                .collect::<String>()
-                .to_ascii_lowercase()
+            kebab(
+                line.split(|letter: char| !letter.is_ascii_alphanumeric())
+                    .next()
+                    .unwrap_or_default(),
+            )
         })
         .collect()
+}
+
+/// `MapDelta` becomes `map-delta`.
+fn kebab(name: &str) -> String {
+    let mut out = String::new();
+    for letter in name.chars() {
+        if letter.is_ascii_uppercase() && !out.is_empty() {
+            out.push('-');
+        }
+        out.push(letter.to_ascii_lowercase());
+    }
+    out
 }
 
 #[cfg(test)]
@@ -68,9 +106,9 @@ mod tests {
 
     #[test]
     fn variants_and_words_are_found() {
-        let source = "pub enum Command {\n    /// Doc.\n    Hello(HostHello),\n    Stop,\n    Arm {\n        undock: bool,\n    },\n}\n\
+        let source = "pub enum Command {\n    /// Doc.\n    Hello(HostHello),\n    Stop,\n    ArmNow {\n        undock: bool,\n    },\n}\n\
                       match self {\n    Self::A => \"wheel left\",\n}";
-        assert_eq!(variants(source), ["hello", "stop", "arm"]);
+        assert_eq!(variants(source, "Command"), ["hello", "stop", "arm-now"]);
         assert_eq!(words(source).collect::<Vec<_>>(), ["wheel left"]);
     }
 }
