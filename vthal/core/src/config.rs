@@ -2,7 +2,7 @@
 
 use brain::command::StrategyName;
 
-use crate::checkpoint::Checkpoint;
+use crate::Checkpoint;
 
 /// Settings of the core, fixed for its life.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct CoreConfig {
     pub expert: ExpertAccess,
     /// Whether records are wanted.
     pub recording: Recording,
+    /// Whether checkpoints are wanted.
+    pub checkpoints: Checkpoints,
     /// Longest job in seconds, after which the robot docks (S26).
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
@@ -30,6 +32,7 @@ impl Default for CoreConfig {
             strategy: StrategyName::default(),
             expert: ExpertAccess::Denied,
             recording: Recording::Off,
+            checkpoints: Checkpoints::Off,
             task_budget_s: 120 * 60,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             resume: None,
@@ -52,5 +55,14 @@ pub enum Recording {
     /// No.
     Off,
     /// Yes, while a run lasts.
+    On,
+}
+
+/// Whether [`crate::Outputs::checkpoint`] is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Checkpoints {
+    /// No: nobody would write them, and each costs a walk over the map.
+    Off,
+    /// Yes, every second of a job while the map is small, less often when it is large.
     On,
 }

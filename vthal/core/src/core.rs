@@ -1,55 +1,320 @@
-//! The one entry point.
+//! The one entry point: inputs come in, the parts are asked in turn.
 
-use rvac_api::{Pose, Status, Topic};
+mod explain;
+mod feed;
+mod firmware;
+mod link_facts;
+mod requests;
+mod thinking;
 
-use crate::{ClientId, CoreConfig, Input, Outputs};
+use rvac_api::{Pose, Status, Topic, Update};
+
+use crate::arbiter::Arbiter;
+use crate::clients::Clients;
+use crate::device::{Device, DeviceCommand, DeviceIo, FirmwareEvent};
+use crate::journal::{Journal, Part};
+use crate::mind::{Mind, Recorder};
+use crate::outputs::{Delivery, Recipients};
+use crate::tap::Tap;
+use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
+use feed::Feed;
+use link_facts::LinkFacts;
+use rvac_api::LogLevel;
+
+/// The brain is called at least this often while there is one.
+const STEP_MAX_US: u64 = 100_000;
 
 /// All state of the daemon that is not a file, a socket or a clock.
 #[derive(Debug)]
 pub struct Core {
     config: CoreConfig,
+    clients: Clients,
+    arbiter: Arbiter,
+    journal: Journal,
+    /// The robot's link, while it is open.
+    device: Option<Device>,
+    mind: Option<Mind>,
+    facts: LinkFacts,
+    feed: Feed,
+    tap: Tap,
+    events: Vec<FirmwareEvent>,
+    stepped_us: u64,
+    ended: bool,
 }
 
 impl Core {
     /// A core that has no robot yet.
     #[must_use]
     pub fn new(config: CoreConfig) -> Self {
-        Self { config }
+        Self {
+            config,
+            clients: Clients::default(),
+            arbiter: Arbiter::default(),
+            journal: Journal::default(),
+            device: None,
+            mind: None,
+            facts: LinkFacts::default(),
+            feed: Feed::default(),
+            tap: Tap::default(),
+            events: Vec::new(),
+            stepped_us: 0,
+            ended: false,
+        }
     }
 
     /// Takes one input at `now_us` (microseconds of a monotonic clock since the daemon's start; never decreasing) and
     /// appends what must be done to `outputs`.
     pub fn handle(&mut self, now_us: u64, input: Input<'_>, outputs: &mut Outputs) {
-        let _ = (now_us, input, outputs, &self.config);
+        let link_before = outputs.link.len();
+        match input {
+            Input::LinkOpened => self.link_opened(now_us, outputs),
+            Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
+            Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
+            Input::ClientConnected(client) => self.clients.connect(client),
+            Input::Client { client, request } => self.request(now_us, (client, request), outputs),
+            Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
+            Input::Wake => {}
+            Input::Shutdown => self.shutdown(now_us, outputs),
+        }
+        self.pass_time(now_us, outputs);
+        self.tap_sent(now_us, link_before, outputs);
+        self.feed(now_us, outputs);
     }
 
     /// When the core wants [`Input::Wake`], in microseconds; `None` when only other inputs matter.
     #[must_use]
     pub fn next_wake_us(&self) -> Option<u64> {
-        None
+        let device = self.device.as_ref().map(Device::next_wake_us);
+        let step = self.mind.as_ref().map(|_| self.stepped_us + STEP_MAX_US);
+        let feed = self.feed.next_wake_us(&self.clients);
+        [device, step, feed, self.arbiter.lease_end_us()]
+            .into_iter()
+            .flatten()
+            .min()
     }
 
     /// The clients that follow `topic`, in the order in which they connected.
     pub fn followers(&self, topic: Topic) -> impl Iterator<Item = ClientId> + '_ {
-        let _ = topic;
-        core::iter::empty()
+        self.clients.followers(topic)
     }
 
     /// Where the brain believes the robot to be.
     #[must_use]
     pub fn pose(&self) -> Pose {
-        Pose::default()
+        self.mind.as_ref().map_or_else(Pose::default, |mind| {
+            to_api::pose(mind.brain().pose(), mind.observer.observation().time_us)
+        })
     }
 
     /// What the robot is doing.
     #[must_use]
     pub fn status(&self) -> Status {
-        Status::default()
+        let Some(mind) = &self.mind else {
+            return Status {
+                state: brain::BehaviorState::Disconnected.name().to_owned(),
+                reason: "no-robot".to_owned(),
+                ..Status::default()
+            };
+        };
+        let mut status = to_api::status(mind.brain().status(), mind.brain().job());
+        status.inhibits = mind
+            .observer
+            .observation()
+            .inhibits
+            .iter()
+            .map(|&name| name.to_owned())
+            .collect();
+        status.driver = self.arbiter.driver().map(|client| self.clients.name(client));
+        status
     }
 
-    /// Whether nothing moves as far as the newest report tells, or nothing is known because no robot is there.
+    /// The brain, once a robot has described itself.
+    #[must_use]
+    pub fn brain(&self) -> Option<&brain::Brain> {
+        self.mind.as_ref().map(Mind::brain)
+    }
+
+    /// Whether nothing moves as far as the newest reports since [`Input::Shutdown`] (or the start) tell, or nothing is
+    /// known because no robot is there.
     #[must_use]
     pub fn stands_still(&self) -> bool {
-        true
+        !self.device.as_ref().is_some_and(Device::is_attached) || self.facts.still_reports() > 0
+    }
+
+    fn link_opened(&mut self, now_us: u64, outputs: &mut Outputs) {
+        self.device = Some(Device::new(now_us));
+        self.facts.opened(now_us);
+        self.tap = Tap::default();
+        self.log(
+            now_us,
+            (LogLevel::Info, Part::Link, "serial device open".to_owned()),
+            outputs,
+        );
+    }
+
+    fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
+        self.device = None;
+        self.facts.closed();
+        let text = match reason {
+            LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
+            LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
+        };
+        self.log(now_us, (LogLevel::Warn, Part::Link, text), outputs);
+    }
+
+    fn link_bytes(&mut self, now_us: u64, bytes: &[u8], outputs: &mut Outputs) {
+        self.facts.count_in(bytes.len());
+        self.tap_received(now_us, bytes, outputs);
+        let mut events = core::mem::take(&mut self.events);
+        if let Some(device) = &mut self.device {
+            device.receive(
+                bytes,
+                &mut DeviceIo {
+                    now_us,
+                    link: &mut outputs.link,
+                    events: &mut events,
+                },
+            );
+        }
+        self.firmware_events(now_us, &mut events, outputs);
+        self.events = events;
+    }
+
+    fn shutdown(&mut self, now_us: u64, outputs: &mut Outputs) {
+        self.ended = true;
+        self.arbiter.preempt();
+        self.facts.forget_stillness();
+        self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
+        self.log(
+            now_us,
+            (LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned()),
+            outputs,
+        );
+        let recording = self.config.recording;
+        if let Some(mind) = &mut self.mind {
+            if self.config.checkpoints == Checkpoints::On {
+                outputs.checkpoint = Some(feed::checkpoint_without_job(mind));
+            }
+            mind.end_run(now_us, RunEnd::Shutdown, &mut recorder(recording, outputs));
+        }
+    }
+
+    fn pass_time(&mut self, now_us: u64, outputs: &mut Outputs) {
+        self.facts.pass_time(now_us);
+        let mut events = core::mem::take(&mut self.events);
+        if let Some(device) = &mut self.device
+            && now_us >= device.next_wake_us()
+        {
+            device.poll(&mut DeviceIo {
+                now_us,
+                link: &mut outputs.link,
+                events: &mut events,
+            });
+        }
+        self.firmware_events(now_us, &mut events, outputs);
+        self.events = events;
+        if let Some(client) = self.arbiter.expire(now_us) {
+            self.lease_ended(now_us, client, outputs);
+        }
+        if self.mind.is_some() && now_us >= self.stepped_us + STEP_MAX_US {
+            self.think(now_us, outputs);
+        }
+    }
+
+    fn device_command(&mut self, now_us: u64, command: DeviceCommand, outputs: &mut Outputs) {
+        let Some(device) = &mut self.device else { return };
+        let mut io = DeviceIo {
+            now_us,
+            link: &mut outputs.link,
+            events: &mut self.events,
+        };
+        if let Err(error) = device.command(command, &mut io)
+            && self.facts.is_new_error(error)
+        {
+            let text = format!("{command:?} was not sent: {error}");
+            self.log(now_us, (LogLevel::Debug, Part::Link, text), outputs);
+        }
+    }
+
+    fn log(&mut self, now_us: u64, (level, part, text): (LogLevel, Part, String), outputs: &mut Outputs) {
+        let entry = self.journal.write(now_us, level, (part, text));
+        if self.clients.any(Topic::Log) {
+            outputs.deliveries.push(Delivery {
+                to: Recipients::Followers(Topic::Log),
+                update: Update::Log(entry.clone()),
+            });
+        }
+        outputs.log.push(entry);
+    }
+
+    fn wants_packets(&self) -> bool {
+        let recorded =
+            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
+        recorded || self.clients.any(Topic::Packets)
+    }
+
+    fn tap_received(&mut self, now_us: u64, bytes: &[u8], outputs: &mut Outputs) {
+        if self.wants_packets() {
+            let session = self.device.as_ref().map_or(0, Device::session_number);
+            let mut packets = core::mem::take(&mut self.tap.packets);
+            self.tap.take_received(session, bytes, &mut packets);
+            self.tell_packets(now_us, &mut packets, outputs);
+            self.tap.packets = packets;
+        }
+    }
+
+    fn tap_sent(&mut self, now_us: u64, link_before: usize, outputs: &mut Outputs) {
+        let sent = outputs.link.len() - link_before;
+        if sent == 0 {
+            return;
+        }
+        self.facts.count_out(sent);
+        if self.wants_packets() {
+            let session = self.device.as_ref().map_or(0, Device::session_number);
+            let mut packets = core::mem::take(&mut self.tap.packets);
+            self.tap.take_sent(
+                session,
+                outputs.link.get(link_before..).unwrap_or_default(),
+                &mut packets,
+            );
+            self.tell_packets(now_us, &mut packets, outputs);
+            self.tap.packets = packets;
+        }
+    }
+
+    fn tell_packets(
+        &mut self,
+        now_us: u64,
+        packets: &mut Vec<(crate::Direction, String)>,
+        outputs: &mut Outputs,
+    ) {
+        let recorded =
+            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
+        let followed = self.clients.any(Topic::Packets);
+        for (direction, text) in packets.drain(..) {
+            if recorded {
+                outputs.records.push(Record::Packet {
+                    time_us: now_us,
+                    direction,
+                    text: text.clone(),
+                });
+            }
+            if followed {
+                outputs.deliveries.push(Delivery {
+                    to: Recipients::Followers(Topic::Packets),
+                    update: Update::Packet {
+                        t: to_api::seconds(now_us),
+                        direction: direction.symbol(),
+                        text,
+                    },
+                });
+            }
+        }
+    }
+}
+
+fn recorder(recording: Recording, outputs: &mut Outputs) -> Recorder<'_> {
+    Recorder {
+        records: (recording == Recording::On).then_some(&mut outputs.records),
     }
 }

@@ -5,19 +5,29 @@
 //! [`Input::Wake`]. It knows no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
 //! same code.
 //!
-//! The parts, in the way of a telemetry report: [`link`] (session with the firmware), [`device`] (the device model and its
-//! dead man), [`observe`] (reports to observations), the brain, back through `device` to the link; beside it the
-//! [`arbiter`] (who may command), `feed` (what clients are told, and how often) and [`checkpoint`] (what survives a crash).
+//! The parts, in the way of a telemetry report: [`device`] (the device model, its dead man and the wire session),
+//! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
+//! beside it the `arbiter` (who may command), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
+//! (what survives a crash).
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod checkpoint;
+mod arbiter;
+mod checkpoint;
+mod clients;
 mod config;
 mod core;
+pub mod device;
 mod input;
+mod journal;
+mod mind;
+pub mod observe;
 mod outputs;
+mod tap;
+mod to_api;
 
-pub use config::{CoreConfig, ExpertAccess, Recording};
+pub use checkpoint::Checkpoint;
+pub use config::{Checkpoints, CoreConfig, ExpertAccess, Recording};
 pub use core::Core;
 pub use input::{ClientId, Input, LinkLoss};
-pub use outputs::{Delivery, Direction, Outputs, Recipients, Record, RunEnd, RunStart};
+pub use outputs::{Delivery, Direction, Outputs, Recipients, Record, RunCause, RunEnd, RunStart};

@@ -1,12 +1,10 @@
 //! What the shell must perform.
 
-use brain::action::Actions;
-use brain::command::Command;
-use brain::observation::Observation;
+use brain::{Actions, Command, Observation};
 use rvac_api::{LogEntry, Pose, Status, Topic, Update};
 
+use crate::Checkpoint;
 use crate::ClientId;
-use crate::checkpoint::Checkpoint;
 
 /// Collected results of [`crate::Core::handle`]. The shell empties it after each call; keeping the value keeps its buffers.
 #[derive(Debug, Default)]
@@ -77,7 +75,7 @@ impl Direction {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Record {
     /// A run begins.
-    RunStarted(RunStart),
+    RunStarted(Box<RunStart>),
     /// The brain was given a command.
     Command {
         /// Host time in microseconds.
@@ -128,12 +126,41 @@ pub struct RunStart {
     pub time_us: u64,
     /// Number of the run since the daemon's start, from 1.
     pub run: u32,
+    /// Why it begins.
+    pub cause: RunCause,
     /// Seed of the brain for this run.
     pub seed: u64,
+    /// Settings of the brain.
+    pub brain: brain::BrainConfig,
+    /// What the brain takes up before its first step.
+    pub checkpoint: brain::Checkpoint,
     /// Device, for example `sr8730`; empty while unknown.
     pub device: String,
     /// Firmware version; empty while unknown.
     pub firmware: String,
+}
+
+/// Why a run begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunCause {
+    /// A job was asked for.
+    Job,
+    /// A person took the stick.
+    Manual,
+    /// The daemon before this one was killed while a job ran.
+    ResumedAfterRestart,
+}
+
+impl RunCause {
+    /// The name in logs and recordings.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Job => "job",
+            Self::Manual => "manual",
+            Self::ResumedAfterRestart => "resumed-after-restart",
+        }
+    }
 }
 
 /// Why a run is over.
@@ -143,4 +170,18 @@ pub enum RunEnd {
     Finished,
     /// The daemon ends.
     Shutdown,
+    /// Another robot was attached.
+    OtherRobot,
+}
+
+impl RunEnd {
+    /// The name in logs and recordings.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Shutdown => "shutdown",
+            Self::OtherRobot => "other-robot",
+        }
+    }
 }

@@ -1,0 +1,140 @@
+//! Who is connected and who follows what.
+
+use std::collections::BTreeMap;
+
+use rvac_api::Topic;
+
+use crate::ClientId;
+
+/// All topics.
+pub(crate) const TOPICS: [Topic; 6] = [
+    Topic::Status,
+    Topic::Pose,
+    Topic::Device,
+    Topic::Map,
+    Topic::Log,
+    Topic::Packets,
+];
+
+const fn bit(topic: Topic) -> u8 {
+    match topic {
+        Topic::Status => 1,
+        Topic::Pose => 2,
+        Topic::Device => 4,
+        Topic::Map => 8,
+        Topic::Log => 16,
+        Topic::Packets => 32,
+    }
+}
+
+#[derive(Debug, Default)]
+struct Client {
+    name: String,
+    topics: u8,
+}
+
+/// The connected clients.
+#[derive(Debug, Default)]
+pub(crate) struct Clients {
+    clients: BTreeMap<ClientId, Client>,
+    /// Topics that anybody follows.
+    followed: u8,
+}
+
+impl Clients {
+    pub(crate) fn connect(&mut self, client: ClientId) {
+        self.clients.insert(
+            client,
+            Client {
+                name: format!("client-{}", client.0),
+                topics: 0,
+            },
+        );
+    }
+
+    pub(crate) fn forget(&mut self, client: ClientId) {
+        self.clients.remove(&client);
+        self.count();
+    }
+
+    pub(crate) fn rename(&mut self, client: ClientId, name: String) {
+        if let Some(entry) = self.clients.get_mut(&client) {
+            entry.name = name;
+        }
+    }
+
+    /// Name for people; a number for one that never introduced itself.
+    pub(crate) fn name(&self, client: ClientId) -> String {
+        self.clients
+            .get(&client)
+            .map_or_else(|| format!("client-{}", client.0), |entry| entry.name.clone())
+    }
+
+    /// Replaces the topics of a client; gives those that it did not follow before.
+    pub(crate) fn watch(&mut self, client: ClientId, topics: &[Topic]) -> Vec<Topic> {
+        let Some(entry) = self.clients.get_mut(&client) else {
+            return Vec::new();
+        };
+        let before = entry.topics;
+        entry.topics = topics.iter().fold(0, |all, topic| all | bit(*topic));
+        let new = entry.topics & !before;
+        self.count();
+        TOPICS
+            .into_iter()
+            .filter(|topic| new & bit(*topic) != 0)
+            .collect()
+    }
+
+    /// Whether anybody follows `topic`.
+    pub(crate) fn any(&self, topic: Topic) -> bool {
+        self.followed & bit(topic) != 0
+    }
+
+    /// Whether anybody follows anything.
+    pub(crate) fn any_topic(&self) -> bool {
+        self.followed != 0
+    }
+
+    pub(crate) fn followers(&self, topic: Topic) -> impl Iterator<Item = ClientId> + '_ {
+        let wanted = bit(topic);
+        self.clients
+            .iter()
+            .filter(move |(_, entry)| entry.topics & wanted != 0)
+            .map(|(client, _)| *client)
+    }
+
+    fn count(&mut self) {
+        self.followed = self.clients.values().fold(0, |all, entry| all | entry.topics);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::Topic;
+
+    use super::Clients;
+    use crate::ClientId;
+
+    #[test]
+    fn watching_replaces_and_tells_what_is_new() {
+        let mut clients = Clients::default();
+        clients.connect(ClientId(7));
+        clients.connect(ClientId(3));
+        assert_eq!(
+            clients.watch(ClientId(7), &[Topic::Map, Topic::Log]),
+            [Topic::Map, Topic::Log]
+        );
+        assert_eq!(clients.watch(ClientId(3), &[Topic::Log]), [Topic::Log]);
+        assert_eq!(
+            clients.followers(Topic::Log).collect::<Vec<_>>(),
+            [ClientId(3), ClientId(7)]
+        );
+        assert_eq!(
+            clients.watch(ClientId(7), &[Topic::Log, Topic::Pose]),
+            [Topic::Pose]
+        );
+        assert!(!clients.any(Topic::Map) && clients.any(Topic::Pose));
+        clients.forget(ClientId(7));
+        assert!(!clients.any(Topic::Pose) && clients.any_topic());
+    }
+}

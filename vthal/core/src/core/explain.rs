@@ -1,0 +1,30 @@
+//! Sentences for the named reasons of failures: what, and what to do.
+
+/// A sentence for people that belongs to a named reason.
+pub(super) fn explain(reason: &str) -> &'static str {
+    match reason {
+        "no-robot" => "No robot is attached: check the serial cable and the robot's power.",
+        "driver-busy" => "Somebody else drives the robot by hand: ask them to let go, or press Stop.",
+        "return-to-centre" => {
+            "The robot was stopped while you drove: let go of the stick once, then drive on."
+        }
+        "lease-range" => "The lease must be 1 to 400 ms.",
+        "range" => "The speed is beyond what this robot can do; see its description.",
+        "unknown-strategy" => "There is no such strategy; the answer to hello lists them.",
+        "expert-off" => "Raw packets are not allowed: set socket.expert in the configuration of vthal.",
+        "raw-syntax" => {
+            "This is not a packet of the wire: it must be one JSON object with a known command and its keys."
+        }
+        "ending" => "vthal is about to end.",
+        "wheel-drop" => "A wheel hangs: put the robot on the floor.",
+        "link-lost" => "The robot does not answer: check the cable and its power.",
+        "link-bad" => "Too many packets are broken on the cable between board and robot: check the wires.",
+        "already-running" => "Such a job already runs.",
+        "no-job" => "There is no job that this could change.",
+        "error-stands" => "An error stands: remove its cause and acknowledge it first.",
+        "docked" => "The robot is on its dock.",
+        "battery-low" => "The battery is too low: charge the robot first.",
+        "not-sent" => "The robot did not take the command.",
+        _ => "The robot cannot do this in its present state; the reason has the name of the cause.",
+    }
+}

@@ -1,0 +1,332 @@
+//! What clients are told, and how often.
+
+use brain::{BehaviorState, MapCursor};
+use rvac_api::{API_VERSION, DeviceTable, LinkReading, Pose, Status, Topic, Update, Versions};
+use rvac_protocol::message::State;
+
+use super::{Core, recorder};
+use crate::clients::Clients;
+use crate::device::{Description, Device, Part};
+use crate::mind::Mind;
+use crate::outputs::{Delivery, Recipients};
+use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, Recording, to_api};
+
+/// Poses go out at most this often.
+const POSE_US: u64 = 50_000;
+/// The device table goes out this often.
+const DEVICE_US: u64 = 500_000;
+/// Map deltas go out at most this often.
+const MAP_US: u64 = 200_000;
+/// A status whose figures alone changed goes out at most this often.
+const FIGURES_US: u64 = 1_000_000;
+/// Pause between two checkpoints of a small map.
+const CHECKPOINT_US: u64 = 1_000_000;
+/// Each entry of the map lengthens that pause by this much, so that a large one does not wear out the disk.
+const CHECKPOINT_US_PER_ENTRY: u64 = 100;
+
+/// When each kind of update last went out.
+#[derive(Debug, Default)]
+pub(super) struct Feed {
+    status: Option<Status>,
+    status_us: u64,
+    pose: Pose,
+    pose_us: u64,
+    device_us: u64,
+    map_us: u64,
+    map_cursor: MapCursor,
+    map_number: u32,
+    checkpoint_us: u64,
+    checkpoint_had_job: bool,
+    state_changed_us: Option<u64>,
+}
+
+impl Feed {
+    /// The behaviour state has changed.
+    pub(super) fn state_changed(&mut self, now_us: u64) {
+        self.state_changed_us = Some(now_us);
+    }
+
+    /// Whether it has changed within the last `span_us`.
+    pub(super) fn state_changed_within(&self, now_us: u64, span_us: u64) -> bool {
+        self.state_changed_us
+            .is_some_and(|then_us| now_us < then_us + span_us)
+    }
+
+    /// When something is due that no report of the robot would bring.
+    pub(super) fn next_wake_us(&self, clients: &Clients) -> Option<u64> {
+        clients.any(Topic::Device).then_some(self.device_us + DEVICE_US)
+    }
+}
+
+impl Core {
+    pub(super) fn feed(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let recorded =
+            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
+        if self.clients.any_topic() || recorded {
+            self.feed_status(now_us, outputs);
+            self.feed_pose(now_us, outputs);
+        }
+        if self.clients.any(Topic::Device) && now_us >= self.feed.device_us + DEVICE_US {
+            self.feed.device_us = now_us;
+            let update = Update::Device(self.device_table(now_us));
+            followers(Topic::Device, update, outputs);
+        }
+        if self.clients.any(Topic::Map) && now_us >= self.feed.map_us + MAP_US {
+            self.feed.map_us = now_us;
+            self.feed_map(outputs);
+        }
+        self.feed_checkpoint(now_us, outputs);
+    }
+
+    fn feed_status(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let status = self.status();
+        let due = match &self.feed.status {
+            Some(old) if is_same_situation(old, &status) => {
+                *old != status && now_us >= self.feed.status_us + FIGURES_US
+            }
+            _ => true,
+        };
+        if !due {
+            return;
+        }
+        self.feed.status_us = now_us;
+        self.feed.status = Some(status.clone());
+        let mind_recorded = self.mind.as_ref().is_some_and(Mind::is_recorded);
+        if mind_recorded && let Some(records) = recorder(self.config.recording, outputs).records {
+            records.push(Record::Status {
+                time_us: now_us,
+                status: status.clone(),
+            });
+        }
+        if self.clients.any(Topic::Status) {
+            followers(Topic::Status, Update::Status(status), outputs);
+        }
+    }
+
+    fn feed_pose(&mut self, now_us: u64, outputs: &mut Outputs) {
+        if now_us < self.feed.pose_us + POSE_US {
+            return;
+        }
+        let pose = self.pose();
+        let moved = Pose {
+            t: self.feed.pose.t,
+            ..pose
+        } != self.feed.pose;
+        if !moved {
+            return;
+        }
+        self.feed.pose = pose;
+        self.feed.pose_us = now_us;
+        let mind_recorded = self.mind.as_ref().is_some_and(Mind::is_recorded);
+        if mind_recorded && let Some(records) = recorder(self.config.recording, outputs).records {
+            records.push(Record::Pose(pose));
+        }
+        if self.clients.any(Topic::Pose) {
+            followers(Topic::Pose, Update::Pose(pose), outputs);
+        }
+    }
+
+    fn feed_map(&mut self, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let number = mind.map_number();
+        let delta = (number == self.feed.map_number)
+            .then(|| mind.brain().map().since(self.feed.map_cursor))
+            .flatten();
+        self.feed.map_cursor = mind.map_cursor();
+        self.feed.map_number = number;
+        let update = match delta {
+            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.marks.is_empty() => return,
+            Some(part) => Update::MapDelta(to_api::map_delta(number, &part)),
+            None => Update::Map(to_api::map_snapshot(number, &mind.brain().map().snapshot())),
+        };
+        followers(Topic::Map, update, outputs);
+    }
+
+    fn feed_checkpoint(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let off = self.config.checkpoints == Checkpoints::Off;
+        if off || self.ended || now_us < self.feed.checkpoint_us {
+            return;
+        }
+        let has_job = works(mind);
+        if has_job || self.feed.checkpoint_had_job {
+            self.feed.checkpoint_had_job = has_job;
+            outputs.checkpoint = Some(Checkpoint {
+                device: mind.device().to_owned(),
+                brain: mind.brain().checkpoint(),
+            });
+        }
+        let map = mind.brain().map().snapshot();
+        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len()) as u64;
+        self.feed.checkpoint_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
+    }
+
+    /// What a new follower of a topic gets at once.
+    pub(super) fn first_view(
+        &mut self,
+        now_us: u64,
+        (client, topic): (ClientId, Topic),
+        outputs: &mut Outputs,
+    ) {
+        let one = |update| Delivery {
+            to: Recipients::One(client),
+            update,
+        };
+        match topic {
+            Topic::Status => outputs.deliveries.push(one(Update::Status(self.status()))),
+            Topic::Pose => outputs.deliveries.push(one(Update::Pose(self.pose()))),
+            Topic::Device => outputs
+                .deliveries
+                .push(one(Update::Device(self.device_table(now_us)))),
+            Topic::Log => {
+                let entries = self.journal.entries().cloned();
+                outputs
+                    .deliveries
+                    .extend(entries.map(|entry| one(Update::Log(entry))));
+            }
+            Topic::Map => {
+                // Others first hear what is new, so that one cursor serves all.
+                self.feed_map(outputs);
+                if let Some(mind) = &self.mind {
+                    let map = to_api::map_snapshot(mind.map_number(), &mind.brain().map().snapshot());
+                    outputs.deliveries.push(one(Update::Map(map)));
+                }
+            }
+            Topic::Packets => {}
+        }
+    }
+
+    /// Answer to `hello`.
+    pub(super) fn greeting(&self) -> Update {
+        Update::Hello {
+            api: API_VERSION,
+            versions: self.versions(),
+            robot: self.description().map(to_api::robot),
+            strategies: brain::StrategyName::ALL
+                .iter()
+                .map(|strategy| strategy.name().to_owned())
+                .collect(),
+            expert: self.config.expert == ExpertAccess::Allowed,
+        }
+    }
+
+    fn description(&self) -> Option<&Description> {
+        self.device.as_ref().and_then(Device::description)
+    }
+
+    fn versions(&self) -> Versions {
+        let description = self.description();
+        Versions {
+            vthal: self.config.version.clone(),
+            brain: self.config.version.clone(),
+            firmware: description.map(|robot| robot.identity.firmware.clone()),
+            cordlib: self
+                .facts
+                .info
+                .as_ref()
+                .map(|info| info.cordlib_version.as_str().to_owned()),
+            protocol: description.map(|robot| robot.identity.protocol),
+        }
+    }
+
+    fn device_table(&self, now_us: u64) -> DeviceTable {
+        let (bytes_in_per_s, bytes_out_per_s) = self.facts.bytes_per_s();
+        let mut table = DeviceTable {
+            versions: self.versions(),
+            battery: self
+                .facts
+                .info
+                .as_ref()
+                .and_then(|info| info.battery.as_ref())
+                .map(to_api::battery),
+            main_loop_hz: self.facts.info.as_ref().map(|info| info.main_steps_hz),
+            bytes_out_per_s,
+            bytes_in_per_s,
+            link: self.link_reading(now_us),
+            ..DeviceTable::default()
+        };
+        if let (Some(state), Some(description)) = (&self.facts.state, self.description()) {
+            fill_from_state(&mut table, state, description);
+            let [left, right] = self.facts.count_rates_hz;
+            table.wheel_left_m_per_s = left * description.count_m;
+            table.wheel_right_m_per_s = right * description.count_m;
+        }
+        table
+    }
+
+    fn link_reading(&self, now_us: u64) -> LinkReading {
+        let quality = self.device.as_ref().map(Device::quality).unwrap_or_default();
+        LinkReading {
+            up: self.link_view(now_us).up,
+            age_ms: self.facts.age_ms(now_us).unwrap_or(u32::MAX),
+            bad_share: f64::from(quality.bad) / f64::from(quality.packets.max(1)),
+            round_trip_ms: quality.round_trip_ms.map(f64::from),
+            resets: self.facts.resets(),
+            reset_cause: self.facts.reset_cause().map(|cause| cause.name().to_owned()),
+            reconnects: self.facts.reconnects(),
+            binary: self.device.as_ref().is_some_and(Device::is_binary),
+        }
+    }
+}
+
+fn fill_from_state(table: &mut DeviceTable, state: &State, description: &Description) {
+    table.bumpers = [state.bumpers.left, state.bumpers.right];
+    table.cliffs = [state.cliffs.left, state.cliffs.middle, state.cliffs.right];
+    table.wheel_drops = [state.wheel_drops.left, state.wheel_drops.right];
+    table.proximity = state
+        .proximity
+        .iter()
+        .take(usize::from(description.sensors.proximity))
+        .map(|raw| f32::from(*raw) / 255.0)
+        .collect();
+    table.currents_a = description.has(Part::Currents).then(|| {
+        [
+            state.currents.wheel_left,
+            state.currents.wheel_right,
+            state.currents.brush_main,
+        ]
+        .map(|current| current.as_a() as f32)
+    });
+    table.cleaners = [0, 1, 2].map(|bit| state.cleaners & 1 << bit != 0);
+    table.dust_box = state.dust_box;
+    table.docked = state.docked;
+}
+
+fn followers(topic: Topic, update: Update, outputs: &mut Outputs) {
+    outputs.deliveries.push(Delivery {
+        to: Recipients::Followers(topic),
+        update,
+    });
+}
+
+/// Whether only figures differ, which change all the time.
+fn is_same_situation(old: &Status, new: &Status) -> bool {
+    old.state == new.state
+        && old.reason == new.reason
+        && old.strategy == new.strategy
+        && old.inhibits == new.inhibits
+        && old.driver == new.driver
+        && old.bumps == new.bumps
+}
+
+/// Whether a job runs or waits.
+fn works(mind: &Mind) -> bool {
+    let status = mind.brain().status();
+    let active = matches!(
+        status.state,
+        BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
+    );
+    active || status.resumable
+}
+
+/// Pose and map without a job: an orderly end is not an interruption.
+pub(super) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
+    let brain = brain::Checkpoint {
+        job: None,
+        ..mind.brain().checkpoint()
+    };
+    Checkpoint {
+        device: mind.device().to_owned(),
+        brain,
+    }
+}

@@ -1,0 +1,278 @@
+//! What clients ask.
+
+use brain::{Command, StrategyName};
+use rvac_api::{Failure, LogLevel, Request, RequestBody, Topic, Update};
+use rvac_protocol::message::Inhibit;
+
+use super::Core;
+use super::explain::explain;
+use crate::arbiter::{Denied, Source, Stick};
+use crate::device::{Device, DeviceCommand, DeviceIo};
+use crate::journal::Part;
+use crate::outputs::{Delivery, Recipients};
+use crate::{ClientId, ExpertAccess, Outputs, tap};
+
+/// Tones of `locate`: pitch in Hz and length in ms.
+const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
+/// Longest name of a client that is kept.
+const NAME_MAX: usize = 64;
+
+/// Why a request is refused, by name.
+type Refused = &'static str;
+
+impl Core {
+    pub(super) fn request(
+        &mut self,
+        now_us: u64,
+        (client, request): (ClientId, Request),
+        outputs: &mut Outputs,
+    ) {
+        let id = request.id;
+        let result = self.obey(now_us, (client, request.body), outputs);
+        let update = match (result, id) {
+            (Ok(()), None) => return,
+            (Ok(()), Some(id)) => Update::Done { id },
+            (Err(reason), id) => {
+                let text = explain(reason).to_owned();
+                Update::Failed(Failure {
+                    id,
+                    reason: reason.to_owned(),
+                    text,
+                })
+            }
+        };
+        outputs.deliveries.push(Delivery {
+            to: Recipients::One(client),
+            update,
+        });
+    }
+
+    fn obey(
+        &mut self,
+        now_us: u64,
+        (client, body): (ClientId, RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refused> {
+        match body {
+            RequestBody::Hello { name } => {
+                self.hello(now_us, (client, name), outputs);
+                Ok(())
+            }
+            RequestBody::Watch { topics } => {
+                self.watch(now_us, (client, &topics), outputs);
+                Ok(())
+            }
+            RequestBody::Start { strategy } => {
+                let strategy = self.strategy_named(strategy.as_deref())?;
+                self.job(now_us, (client, Command::Clean { strategy }), outputs)
+            }
+            RequestBody::Spot => self.job(now_us, (client, Command::Spot), outputs),
+            RequestBody::Pause => self.job(now_us, (client, Command::Pause), outputs),
+            RequestBody::Resume => self.job(now_us, (client, Command::Resume), outputs),
+            RequestBody::Dock => self.job(now_us, (client, Command::Dock), outputs),
+            RequestBody::Stop => {
+                self.stop(now_us, client, outputs);
+                Ok(())
+            }
+            RequestBody::Drive { v, w, ttl, clean } => {
+                let stick = Stick {
+                    speed_m_per_s: v,
+                    turn_rad_per_s: w,
+                    lease_us: u64::from(ttl) * 1000,
+                };
+                self.drive(now_us, (client, stick, clean), outputs)
+            }
+            RequestBody::Release => {
+                self.release(now_us, client, outputs);
+                Ok(())
+            }
+            RequestBody::Locate => self.locate(now_us, outputs),
+            RequestBody::Clear { reason } => self.clear(now_us, &reason, outputs),
+            RequestBody::Raw { packet } => self.raw(now_us, (client, &packet), outputs),
+        }
+    }
+
+    fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {
+        match name {
+            None => Ok(self.config.strategy),
+            Some(name) => StrategyName::from_name(name).ok_or("unknown-strategy"),
+        }
+    }
+
+    fn require_robot(&self) -> Result<(), Refused> {
+        if self.ended {
+            return Err("ending");
+        }
+        let attached = self.device.as_ref().is_some_and(Device::is_attached);
+        if attached && self.mind.is_some() {
+            Ok(())
+        } else {
+            Err("no-robot")
+        }
+    }
+
+    fn job(
+        &mut self,
+        now_us: u64,
+        (client, command): (ClientId, Command),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refused> {
+        self.require_robot()?;
+        self.arbiter
+            .admit(now_us, Source::Person(client))
+            .map_err(denied)?;
+        self.admitted(&command)?;
+        self.command_brain(now_us, command, outputs);
+        Ok(())
+    }
+
+    fn admitted(&self, command: &Command) -> Result<(), Refused> {
+        let mind = self.mind.as_ref().ok_or("no-robot")?;
+        mind.brain().admit(command).map_err(brain::Reason::name)
+    }
+
+    /// Anybody may stop at any time; the wheels do not wait for the brain.
+    fn stop(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        self.arbiter.preempt();
+        self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
+        self.command_brain(now_us, Command::Stop, outputs);
+        let text = format!("stopped by {}", self.clients.name(client));
+        self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+    }
+
+    fn drive(
+        &mut self,
+        now_us: u64,
+        (client, stick, cleaners): (ClientId, Stick, bool),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refused> {
+        self.require_robot()?;
+        self.check_range(&stick)?;
+        let command = |valid_until_us| Command::Manual {
+            speed_m_per_s: stick.speed_m_per_s,
+            turn_rad_per_s: stick.turn_rad_per_s,
+            valid_until_us,
+            cleaners,
+        };
+        self.admitted(&command(now_us + stick.lease_us))?;
+        let was_driver = self.arbiter.driver() == Some(client);
+        let valid_until_us = self.arbiter.drive(now_us, client, stick).map_err(denied)?;
+        if !was_driver {
+            let text = format!("{} drives", self.clients.name(client));
+            self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+        }
+        self.command_brain(now_us, command(valid_until_us), outputs);
+        Ok(())
+    }
+
+    fn check_range(&self, stick: &Stick) -> Result<(), Refused> {
+        let description = self
+            .device
+            .as_ref()
+            .and_then(Device::description)
+            .ok_or("no-robot")?;
+        // Written so that NaN is refused too.
+        let in_range = stick.speed_m_per_s.abs() <= description.drive.speed_max_m_per_s
+            && stick.turn_rad_per_s.abs() <= description.drive.turn_max_rad_per_s;
+        if in_range { Ok(()) } else { Err("range") }
+    }
+
+    fn release(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        if self.arbiter.release(client) {
+            self.driver_left(now_us, client, outputs);
+        }
+    }
+
+    fn driver_left(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        self.device_command(now_us, DeviceCommand::Rest, outputs);
+        self.command_brain(now_us, Command::ManualEnd, outputs);
+        let text = format!("driver {} left: wheels stop", self.clients.name(client));
+        self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+    }
+
+    pub(super) fn client_gone(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        if self.arbiter.forget(client) {
+            self.driver_left(now_us, client, outputs);
+        }
+        self.clients.forget(client);
+    }
+
+    fn locate(&mut self, now_us: u64, outputs: &mut Outputs) -> Result<(), Refused> {
+        self.require_robot()?;
+        for (pitch_hz, duration_ms) in LOCATE_TONES {
+            self.device_command(
+                now_us,
+                DeviceCommand::Tone {
+                    pitch_hz,
+                    duration_ms,
+                },
+                outputs,
+            );
+        }
+        Ok(())
+    }
+
+    fn clear(&mut self, now_us: u64, reason: &str, outputs: &mut Outputs) -> Result<(), Refused> {
+        self.require_robot()?;
+        let latched = Inhibit::from_name(reason.as_bytes()).filter(|inhibit| inhibit.is_latched());
+        if let Some(inhibit) = latched {
+            self.device_command(now_us, DeviceCommand::Clear(inhibit), outputs);
+        }
+        match self.admitted(&Command::ClearError) {
+            Ok(()) => self.command_brain(now_us, Command::ClearError, outputs),
+            Err(refused) if latched.is_none() => return Err(refused),
+            Err(_) => {}
+        }
+        Ok(())
+    }
+
+    fn raw(
+        &mut self,
+        now_us: u64,
+        (client, packet): (ClientId, &str),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refused> {
+        if self.config.expert == ExpertAccess::Denied {
+            return Err("expert-off");
+        }
+        let command = tap::command_from_text(packet).ok_or("raw-syntax")?;
+        let text = format!("{} sends raw {packet}", self.clients.name(client));
+        self.log(now_us, (LogLevel::Warn, Part::Client, text), outputs);
+        let device = self.device.as_mut().ok_or("no-robot")?;
+        let mut io = DeviceIo {
+            now_us,
+            link: &mut outputs.link,
+            events: &mut self.events,
+        };
+        device.send_raw(command, &mut io).map_err(|_| "not-sent")
+    }
+
+    fn hello(&mut self, now_us: u64, (client, name): (ClientId, String), outputs: &mut Outputs) {
+        let kept: String = name
+            .chars()
+            .filter(|letter| !letter.is_control())
+            .take(NAME_MAX)
+            .collect();
+        let text = format!("client {} is {kept}", client.0);
+        self.clients.rename(client, kept);
+        self.log(now_us, (LogLevel::Debug, Part::Client, text), outputs);
+        outputs.deliveries.push(Delivery {
+            to: Recipients::One(client),
+            update: self.greeting(),
+        });
+    }
+
+    fn watch(&mut self, now_us: u64, (client, topics): (ClientId, &[Topic]), outputs: &mut Outputs) {
+        for topic in self.clients.watch(client, topics) {
+            self.first_view(now_us, (client, topic), outputs);
+        }
+    }
+}
+
+fn denied(denied: Denied) -> Refused {
+    match denied {
+        Denied::DriverBusy(_) => "driver-busy",
+        Denied::ReturnToCentre => "return-to-centre",
+        Denied::LeaseRange => "lease-range",
+    }
+}

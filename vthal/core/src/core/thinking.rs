@@ -1,0 +1,163 @@
+//! One step of the brain, and what it asks for.
+
+use brain::action::{Decision, Tone};
+use brain::{Actions, BehaviorState, Command, Motion};
+use rvac_api::LogLevel;
+use rvac_protocol::quality::Verdict;
+
+use super::{Core, recorder};
+use crate::arbiter::Source;
+use crate::device::{CleanerDrive, Device, DeviceCommand, LeaveDock};
+use crate::journal::Part;
+use crate::observe::LinkView;
+use crate::{ClientId, Outputs};
+
+/// How long a drive command of the brain is valid: the default of the device model.
+const VALID_FOR_US: u64 = 250_000;
+/// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
+/// changed for that very press. A press so soon after a change means the state before.
+const BUTTON_AFTER_CHANGE_US: u64 = 500_000;
+/// The button that starts and stops, on robots with several.
+const START_BUTTON: u8 = 0;
+
+impl Core {
+    pub(super) fn link_view(&self, now_us: u64) -> LinkView {
+        let up = self.device.as_ref().is_some_and(Device::is_attached) && self.facts.is_fresh(now_us);
+        let verdict = self
+            .device
+            .as_ref()
+            .map(|device| device.quality().verdict)
+            .unwrap_or_default();
+        let speed_share = match verdict {
+            Verdict::Good => 1.0,
+            Verdict::Poor => 0.5,
+            Verdict::Bad => 0.0,
+        };
+        LinkView { up, speed_share }
+    }
+
+    /// Lets the brain see the present observation and does what it says.
+    pub(super) fn think(&mut self, now_us: u64, outputs: &mut Outputs) {
+        self.stepped_us = now_us;
+        if self.ended {
+            return;
+        }
+        let link = self.link_view(now_us);
+        let recording = self.config.recording;
+        let Some(mind) = &mut self.mind else { return };
+        let before = mind.brain().status().state;
+        mind.observer.stamp(now_us, link);
+        let actions = mind.step(&mut recorder(recording, outputs));
+        let after = mind.brain().status().state;
+        if before != after {
+            self.feed.state_changed(now_us);
+            if before == BehaviorState::Manual {
+                self.arbiter.preempt();
+            }
+        }
+        self.perform(now_us, actions, outputs);
+    }
+
+    fn perform(&mut self, now_us: u64, actions: Actions, outputs: &mut Outputs) {
+        for decision in &actions.decisions {
+            self.log_decision(now_us, decision, outputs);
+        }
+        if let Some(arm) = actions.arm {
+            let leave_dock = if arm.undock {
+                LeaveDock::Leave
+            } else {
+                LeaveDock::Stay
+            };
+            self.device_command(now_us, DeviceCommand::Arm { leave_dock }, outputs);
+        }
+        for Tone {
+            pitch_hz,
+            duration_ms,
+        } in actions.tones
+        {
+            self.device_command(
+                now_us,
+                DeviceCommand::Tone {
+                    pitch_hz,
+                    duration_ms,
+                },
+                outputs,
+            );
+        }
+        let motion = match actions.motion {
+            Motion::Rest => DeviceCommand::Rest,
+            Motion::Halt => DeviceCommand::Halt,
+            Motion::Drive {
+                speed_m_per_s,
+                turn_rad_per_s,
+            } => DeviceCommand::Drive {
+                speed_m_per_s,
+                turn_rad_per_s,
+                valid_for_us: VALID_FOR_US,
+            },
+        };
+        self.device_command(now_us, motion, outputs);
+        let cleaners = if actions.cleaners {
+            CleanerDrive::On
+        } else {
+            CleanerDrive::Off
+        };
+        self.device_command(now_us, DeviceCommand::Cleaners(cleaners), outputs);
+    }
+
+    fn log_decision(&mut self, now_us: u64, decision: &Decision, outputs: &mut Outputs) {
+        let level = if decision.what.starts_with("state-") {
+            LogLevel::Info
+        } else {
+            LogLevel::Debug
+        };
+        let text = if decision.value == 0.0 {
+            format!("{} ({})", decision.what, decision.reason)
+        } else {
+            format!("{} ({}) {:.2}", decision.what, decision.reason, decision.value)
+        };
+        self.log(now_us, (level, Part::Brain, text), outputs);
+    }
+
+    /// Gives a command to the brain with its next step.
+    pub(super) fn command_brain(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
+        let recording = self.config.recording;
+        if let Some(mind) = &mut self.mind {
+            mind.command(now_us, command, &mut recorder(recording, outputs));
+        }
+    }
+
+    /// A button on the robot: stops what runs, goes on with what waits, else starts.
+    pub(super) fn button_pressed(&mut self, now_us: u64, button: u8, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let status = mind.brain().status();
+        let just_changed = self.feed.state_changed_within(now_us, BUTTON_AFTER_CHANGE_US);
+        if just_changed || button != START_BUTTON || self.arbiter.admit(now_us, Source::Button).is_err() {
+            return;
+        }
+        self.arbiter.preempt();
+        let command = match status.state {
+            BehaviorState::Paused => Command::Resume,
+            BehaviorState::Idle | BehaviorState::Docked => Command::Clean {
+                strategy: self.config.strategy,
+            },
+            BehaviorState::Stuck | BehaviorState::Error => Command::ClearError,
+            BehaviorState::Starting
+            | BehaviorState::Cleaning
+            | BehaviorState::Spot
+            | BehaviorState::Docking => Command::Pause,
+            BehaviorState::Manual => Command::ManualEnd,
+            BehaviorState::Disconnected => return,
+        };
+        if mind.brain().admit(&command).is_ok() {
+            self.command_brain(now_us, command, outputs);
+        }
+    }
+
+    /// The driver's lease ended without a word: stand at once, the brain hears it too.
+    pub(super) fn lease_ended(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        let text = format!("lease of driver {} ended: wheels stop", self.clients.name(client));
+        self.device_command(now_us, DeviceCommand::Rest, outputs);
+        self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+    }
+}

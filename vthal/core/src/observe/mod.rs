@@ -1,0 +1,177 @@
+//! From the firmware's reports to what the brain perceives.
+
+mod odometer;
+
+pub use odometer::{Odometer, RawTotals, Travel};
+
+use brain::observation::{Cliffs, Contacts, Observation};
+use rvac_protocol::message::{Inhibit, Inhibits, State};
+
+use crate::device::{Description, Part};
+
+/// Name under which inhibits of newer firmware reach the brain.
+const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
+
+/// Keeps the present observation and fills it in place, so that a report costs no allocation.
+#[derive(Debug)]
+pub struct Observer {
+    odometer: Odometer,
+    observation: Observation,
+}
+
+impl Observer {
+    /// Nothing is known yet.
+    #[must_use]
+    pub fn new() -> Self {
+        let observation = Observation {
+            link_up: false,
+            ..Observation::default()
+        };
+        Self {
+            odometer: Odometer::default(),
+            observation,
+        }
+    }
+
+    /// The present view. Its time is that of the last change.
+    #[must_use]
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// Takes a telemetry report of a robot that is described by `description`.
+    pub fn take_state(&mut self, state: &State, description: &Description) {
+        let view = &mut self.observation;
+        let heading_urad = if description.has(Part::Gyro) {
+            state.gyro.map(|gyro| gyro.heading.0)
+        } else {
+            None
+        };
+        let raw = RawTotals {
+            count_left: state.count_left,
+            count_right: state.count_right,
+            heading_urad,
+        };
+        let travel = self.odometer.take(raw, description.count_m);
+        view.travel_left_m = travel.left_m;
+        view.travel_right_m = travel.right_m;
+        view.gyro_heading_rad = travel.heading_rad;
+        view.contacts = contacts(state, description.sensors.bumpers);
+        view.cliffs = Cliffs {
+            left: state.cliffs.left,
+            middle: state.cliffs.middle,
+            right: state.cliffs.right,
+        };
+        view.wheel_drop = state.wheel_drops.left || state.wheel_drops.right;
+        view.docked = state.docked;
+        refill(
+            &mut view.proximity,
+            &state.proximity,
+            description.sensors.proximity,
+            |raw| f32::from(raw) / 255.0,
+        );
+        refill(
+            &mut view.dock_beams,
+            &state.dock,
+            description.sensors.dock_receivers,
+            |symbol| symbol,
+        );
+        name_inhibits(&mut view.inhibits, state.inhibits);
+    }
+
+    /// Takes the battery's charge, 0..1.
+    pub fn take_charge(&mut self, charge: Option<f32>) {
+        self.observation.battery_charge = charge;
+    }
+
+    /// The microcontroller was reset: its totals begin anew.
+    pub fn rebase(&mut self) {
+        self.odometer.rebase();
+    }
+
+    /// Dates the view and says how the link is. Times rise strictly whatever the caller gives.
+    pub fn stamp(&mut self, now_us: u64, link: LinkView) {
+        self.observation.time_us = now_us.max(self.observation.time_us + 1);
+        self.observation.link_up = link.up;
+        self.observation.speed_share = link.speed_share;
+    }
+}
+
+impl Default for Observer {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// How the link is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkView {
+    /// A session is open and telemetry is fresh.
+    pub up: bool,
+    /// Share of the commanded speed that quality allows, 0..1.
+    pub speed_share: f64,
+}
+
+/// A robot with one zone reports it on the left; the brain sees both.
+fn contacts(state: &State, zones: u8) -> Contacts {
+    let any = state.bumpers.left || state.bumpers.right;
+    if zones == 1 {
+        Contacts {
+            left: any,
+            right: any,
+        }
+    } else {
+        Contacts {
+            left: state.bumpers.left,
+            right: state.bumpers.right,
+        }
+    }
+}
+
+fn refill<T>(view: &mut Vec<T>, raw: &[u8], count: u8, convert: impl Fn(u8) -> T) {
+    view.clear();
+    view.extend(raw.iter().take(usize::from(count)).map(|raw| convert(*raw)));
+}
+
+fn name_inhibits(view: &mut Vec<&'static str>, inhibits: Inhibits) {
+    view.clear();
+    view.extend(inhibits.iter().map(Inhibit::name));
+    let known = Inhibit::ALL.into_iter().fold(Inhibits::NONE, |mut all, inhibit| {
+        all.insert(inhibit);
+        all
+    });
+    if inhibits.bits() & !known.bits() != 0 {
+        view.push(UNKNOWN_INHIBIT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_protocol::message::{Inhibit, Inhibits};
+
+    use super::{LinkView, Observer, name_inhibits};
+
+    #[test]
+    fn inhibits_of_newer_firmware_are_not_lost() {
+        let mut names = Vec::new();
+        let mut inhibits = Inhibits::from_bits(1 << 31);
+        inhibits.insert(Inhibit::WheelDrop);
+        name_inhibits(&mut names, inhibits);
+        assert_eq!(names, ["wheel-drop", "unknown-inhibit"]);
+        name_inhibits(&mut names, Inhibits::NONE);
+        assert!(names.is_empty());
+    }
+
+    #[test]
+    fn times_rise_strictly() {
+        let mut observer = Observer::new();
+        let link = LinkView {
+            up: true,
+            speed_share: 1.0,
+        };
+        for (given, stamped) in [(5, 5), (5, 6), (4, 7), (100, 100)] {
+            observer.stamp(given, link);
+            assert_eq!(observer.observation().time_us, stamped);
+        }
+    }
+}

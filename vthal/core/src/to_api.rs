@@ -1,0 +1,119 @@
+//! From the core's types to those of the interface to clients: the only place where a struct exists twice.
+
+use brain::{CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2};
+use rvac_api::{BatteryReading, BumpMark, MapDelta, MapSnapshot, Pose, RobotDescription};
+use rvac_protocol::message::{Battery, ChargeState, LogLevel};
+
+use crate::device::{Description, Shape};
+
+/// A pose of the map frame at `time_us`.
+pub(crate) fn pose(pose: Pose2, time_us: u64) -> Pose {
+    Pose {
+        x: pose.x_m,
+        y: pose.y_m,
+        heading: pose.heading_rad,
+        t: seconds(time_us),
+    }
+}
+
+/// Microseconds to the interface's seconds.
+pub(crate) fn seconds(time_us: u64) -> f64 {
+    time_us as f64 * 1e-6
+}
+
+/// A robot's description.
+pub(crate) fn robot(description: &Description) -> RobotDescription {
+    let Shape::Circle { radius_m } = description.shape;
+    RobotDescription {
+        device: description.identity.device.clone(),
+        radius_m,
+        swath_m: description.swath_m,
+        speed_max_m_per_s: description.drive.speed_max_m_per_s,
+        turn_max_rad_per_s: description.drive.turn_max_rad_per_s,
+        proximity: description.sensors.proximity,
+        parts: description
+            .parts
+            .iter()
+            .map(|part| part.name().to_owned())
+            .collect(),
+    }
+}
+
+/// The whole map under the number `map`.
+pub(crate) fn map_snapshot(map: u32, part: &MapPart<'_>) -> MapSnapshot {
+    let delta = map_delta(map, part);
+    MapSnapshot {
+        map,
+        cell_m: CELL_M,
+        swept: delta.swept,
+        path_mm: delta.path_mm,
+        bumps: delta.bumps,
+    }
+}
+
+/// A part of the map under the number `map`.
+pub(crate) fn map_delta(map: u32, part: &MapPart<'_>) -> MapDelta {
+    MapDelta {
+        map,
+        swept: part.swept.iter().flat_map(|cell| [cell.x, cell.y]).collect(),
+        path_mm: part
+            .path
+            .iter()
+            .flat_map(|point| [point.x_mm, point.y_mm])
+            .collect(),
+        bumps: part.marks.iter().map(bump).collect(),
+    }
+}
+
+fn bump(mark: &Mark) -> BumpMark {
+    BumpMark {
+        x: mark.at.x_m,
+        y: mark.at.y_m,
+        contact: mark.kind == MarkKind::Contact,
+    }
+}
+
+/// Battery readings.
+pub(crate) fn battery(battery: &Battery) -> BatteryReading {
+    BatteryReading {
+        charge: battery.charge.as_f64(),
+        voltage_v: battery.voltage.as_v(),
+        current_a: battery.current.as_a(),
+        temperature_c: battery.temperature.as_celsius(),
+        state: charge_state(battery.state).to_owned(),
+    }
+}
+
+fn charge_state(state: ChargeState) -> &'static str {
+    match state {
+        ChargeState::Discharging => "discharging",
+        ChargeState::Charging => "charging",
+        ChargeState::Full => "full",
+        ChargeState::Fault => "fault",
+    }
+}
+
+/// Level of a firmware's log line.
+pub(crate) fn log_level(level: LogLevel) -> rvac_api::LogLevel {
+    match level {
+        LogLevel::Debug => rvac_api::LogLevel::Debug,
+        LogLevel::Info => rvac_api::LogLevel::Info,
+        LogLevel::Warn => rvac_api::LogLevel::Warn,
+        LogLevel::Error => rvac_api::LogLevel::Error,
+    }
+}
+
+/// Status of the brain, without what only the core knows (inhibits, driver).
+pub(crate) fn status(status: brain::Status, job: JobFigures) -> rvac_api::Status {
+    rvac_api::Status {
+        state: status.state.name().to_owned(),
+        reason: status.reason.name().to_owned(),
+        strategy: status.strategy.map(|strategy| strategy.name().to_owned()),
+        inhibits: Vec::new(),
+        job_s: job.time_s,
+        swept_m2: job.swept_m2,
+        path_m: job.path_m,
+        bumps: job.bumps,
+        driver: None,
+    }
+}
