@@ -136,7 +136,8 @@ impl Channel {
         let mut flips = 0;
         while self.bits_to_flip < LINE_BITS {
             flips |= 1 << self.bits_to_flip;
-            self.bits_to_flip += 1 + self.random.misses_before_hit(self.rates.bit_error);
+            let gap = self.random.misses_before_hit(self.rates.bit_error);
+            self.bits_to_flip = self.bits_to_flip.saturating_add(1).saturating_add(gap);
         }
         self.bits_to_flip = self.bits_to_flip.saturating_sub(LINE_BITS);
         if self.burst_left > 0 {

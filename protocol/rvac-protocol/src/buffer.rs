@@ -2,6 +2,9 @@
 
 use heapless::Vec;
 
+use crate::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016, STUFFED_BIT, STUFFING, TEXT_SEAL_BYTES};
+use crate::seal::{Direction, seal, to_hex};
+
 /// Capacity of a [`PacketBuffer`]: an `info` report travels as three packets, each with its separator.
 pub const PACKET_BUFFER_BYTES: usize = 576;
 
@@ -11,9 +14,14 @@ pub struct PacketBuffer {
     bytes: Vec<u8, PACKET_BUFFER_BYTES>,
 }
 
-/// The packet did not fit into its buffer or its size limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TooLong;
+/// A message cannot be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EncodeError {
+    /// The packet does not fit its limit of 256 bytes.
+    TooLong,
+    /// A number is outside of what the wire allows.
+    Range,
+}
 
 impl PacketBuffer {
     /// An empty buffer.
@@ -33,15 +41,61 @@ impl PacketBuffer {
         self.bytes.clear();
     }
 
-    pub(crate) fn push(&mut self, byte: u8) -> Result<(), TooLong> {
-        self.bytes.push(byte).map_err(|_| TooLong)
+    pub(crate) fn length(&self) -> usize {
+        self.bytes.len()
     }
 
-    pub(crate) fn extend(&mut self, bytes: &[u8]) -> Result<(), TooLong> {
-        self.bytes.extend_from_slice(bytes).map_err(|_| TooLong)
+    pub(crate) fn push(&mut self, byte: u8) -> Result<(), EncodeError> {
+        self.bytes.push(byte).map_err(|_| EncodeError::TooLong)
+    }
+
+    pub(crate) fn extend(&mut self, bytes: &[u8]) -> Result<(), EncodeError> {
+        self.bytes
+            .extend_from_slice(bytes)
+            .map_err(|_| EncodeError::TooLong)
     }
 
     pub(crate) fn truncate(&mut self, length: usize) {
         self.bytes.truncate(length);
+    }
+
+    /// Seals the text that begins at `start` and ends the packet.
+    pub(crate) fn seal_text(
+        &mut self,
+        start: usize,
+        direction: Direction,
+        session: u16,
+    ) -> Result<(), EncodeError> {
+        let text = self.bytes.get(start..).unwrap_or_default();
+        if text.len() + TEXT_SEAL_BYTES > PACKET_BYTES_MAX {
+            return Err(EncodeError::TooLong);
+        }
+        let digits = to_hex(seal(direction, session, text));
+        self.push(b'*')?;
+        self.extend(&digits)?;
+        self.push(SEPARATOR)
+    }
+
+    /// Appends a binary packet: `packet` (kind and body) and its seal, stuffed, and a separator.
+    pub(crate) fn push_binary(
+        &mut self,
+        packet: &[u8],
+        direction: Direction,
+        session: u16,
+    ) -> Result<(), EncodeError> {
+        let seal = seal(direction, session, packet).to_le_bytes();
+        for byte in packet.iter().chain(&seal) {
+            self.push_stuffed(*byte)?;
+        }
+        self.push(SEPARATOR)
+    }
+
+    fn push_stuffed(&mut self, byte: u8) -> Result<(), EncodeError> {
+        if matches!(byte, STUFFING | SEPARATOR | SEPARATOR_2016) {
+            self.push(STUFFING)?;
+            self.push(byte ^ STUFFED_BIT)
+        } else {
+            self.push(byte)
+        }
     }
 }

@@ -21,7 +21,7 @@ pub const STUFFED_BIT: u8 = 0x20;
 pub const BINARY_KIND_MIN: u8 = 0x80;
 
 /// `*` and eight digits.
-const TEXT_SEAL_BYTES: usize = 9;
+pub(crate) const TEXT_SEAL_BYTES: usize = 9;
 /// The seal of a binary packet, little endian.
 const BINARY_SEAL_BYTES: usize = 4;
 

@@ -7,11 +7,14 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod binary;
 mod buffer;
 pub mod frame;
 pub mod message;
 pub mod quality;
 pub mod seal;
 pub mod session;
+pub mod span;
+pub mod text;
 
-pub use buffer::{PACKET_BUFFER_BYTES, PacketBuffer, TooLong};
+pub use buffer::{EncodeError, PACKET_BUFFER_BYTES, PacketBuffer};

@@ -2,7 +2,7 @@
 
 use rvac_units::Tick;
 
-use crate::buffer::{PacketBuffer, TooLong};
+use crate::buffer::{PacketBuffer, EncodeError};
 use crate::frame::Framer;
 use crate::message::{
     BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
@@ -61,8 +61,8 @@ pub enum SendError {
     Reserved,
 }
 
-impl From<TooLong> for SendError {
-    fn from(_: TooLong) -> Self {
+impl From<EncodeError> for SendError {
+    fn from(_: EncodeError) -> Self {
         Self::Range
     }
 }

@@ -2,7 +2,7 @@
 
 use rvac_units::Tick;
 
-use crate::buffer::{PacketBuffer, TooLong};
+use crate::buffer::{PacketBuffer, EncodeError};
 use crate::frame::Framer;
 use crate::message::{
     BinaryKinds, Command, Description, EdgeKind, LinkCounters, Name, Refusal, Report, ResetCause, Sequence,
@@ -128,8 +128,8 @@ impl RobotSession {
     /// that is agreed, with a separator before it if the line was silent.
     ///
     /// # Errors
-    /// [`TooLong`] if the report does not fit a packet; the buffer is empty then. No `State`, `Info` or `Log` is too long.
-    pub fn encode(&mut self, report: &Report, buffer: &mut PacketBuffer) -> Result<(), TooLong> {
+    /// [`EncodeError`] if the report does not fit a packet; the buffer is empty then. No `State`, `Info` or `Log` is too long.
+    pub fn encode(&mut self, report: &Report, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
         let _ = report;
         buffer.clear();
         Ok(())

@@ -1,0 +1,24 @@
+//! The text form: one JSON object a packet.
+//!
+//! Reading takes the text without its seal and gives a closed type or a [`Refusal`](crate::message::Refusal); writing
+//! appends the text without a seal. Seals and separators are the session's, see
+//! [`write_sealed_command`] and [`write_sealed_report`] for tools and tests.
+
+mod command_read;
+mod command_write;
+mod decimal;
+mod fields;
+mod report_edge;
+mod report_info;
+mod report_read;
+mod report_robot;
+mod report_state;
+mod report_write;
+mod scan;
+mod write;
+
+pub use command_read::{Form, RefusedCommand, is_stop, read_command};
+pub use command_write::{write_command, write_sealed_command};
+pub use report_info::{Firmware, InfoPart};
+pub use report_read::{ReportPacket, read_report};
+pub use report_write::{write_report, write_sealed_report};

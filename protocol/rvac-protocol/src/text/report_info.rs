@@ -1,0 +1,169 @@
+//! `info`: the words of 2016, in three packets because together they are too long for one.
+
+use rvac_units::{Current, Ratio, Temperature, Voltage};
+
+use super::fields::{Fields, UnknownKeys};
+use super::report_robot::read_name;
+use super::write::ObjectWriter;
+use crate::buffer::{EncodeError, PacketBuffer};
+use crate::message::{Battery, ChargeState, Info, LinkCounters, Name, Refusal};
+use crate::span;
+
+/// What one `info` packet told. Packets come in the order battery, link, firmware; older firmware tells all in one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InfoPart {
+    /// Versions and rates.
+    pub firmware: Option<Firmware>,
+    /// Battery readings.
+    pub battery: Option<Battery>,
+    /// Link counters of the robot.
+    pub link: Option<LinkCounters>,
+}
+
+/// Versions and rates.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Firmware {
+    /// `firmware-version`
+    pub firmware_version: Name,
+    /// `cordlib-version`
+    pub cordlib_version: Name,
+    /// `main-steps`
+    pub main_steps_hz: u32,
+    /// `bandwidth-in`
+    pub bandwidth_in: u32,
+    /// `bandwidth-out`
+    pub bandwidth_out: u32,
+}
+
+const CHARGE_STATES: [(ChargeState, &str); 4] = [
+    (ChargeState::Discharging, "discharging"),
+    (ChargeState::Charging, "charging"),
+    (ChargeState::Full, "full"),
+    (ChargeState::Fault, "fault"),
+];
+
+const FIRMWARE_KEYS: [&str; 6] = [
+    "c",
+    "firmware-version",
+    "cordlib-version",
+    "main-steps",
+    "bandwidth-in",
+    "bandwidth-out",
+];
+
+const BATTERY_KEYS: [&str; 6] = [
+    "c",
+    "battery-status",
+    "battery-voltage",
+    "battery-current",
+    "battery-temperature",
+    "battery-state",
+];
+
+const LINK_KEYS: [&str; 8] = [
+    "c",
+    "accepted",
+    "bad-seals",
+    "overruns",
+    "framing-errors",
+    "malformed",
+    "refused",
+    "resyncs",
+];
+
+pub(super) fn write_firmware(info: &Info, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+    ObjectWriter::new(buffer)
+        .name("c", "info")
+        .name("firmware-version", &info.firmware_version)
+        .name("cordlib-version", &info.cordlib_version)
+        .number("main-steps", info.main_steps_hz, span::TOTAL)
+        .number("bandwidth-in", info.bandwidth_in, span::TOTAL)
+        .number("bandwidth-out", info.bandwidth_out, span::TOTAL)
+        .finish()
+}
+
+pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+    let state = match battery.state {
+        ChargeState::Discharging => "discharging",
+        ChargeState::Charging => "charging",
+        ChargeState::Full => "full",
+        ChargeState::Fault => "fault",
+    };
+    ObjectWriter::new(buffer)
+        .name("c", "info")
+        .number("battery-status", battery.charge.millionths(), span::RATIO)
+        .measured("battery-voltage", battery.voltage.0, span::VOLTAGE)
+        .measured("battery-current", battery.current.0, span::CURRENT)
+        .measured("battery-temperature", battery.temperature.0, span::TEMPERATURE)
+        .name("battery-state", state)
+        .finish()
+}
+
+pub(super) fn write_link(link: &LinkCounters, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+    let totals = [
+        link.accepted,
+        link.bad_seal,
+        link.overrun,
+        link.framing,
+        link.malformed,
+        link.refused,
+        link.resync,
+    ];
+    let mut object = ObjectWriter::new(buffer);
+    object.name("c", "info");
+    for (key, total) in LINK_KEYS.into_iter().skip(1).zip(totals) {
+        object.number(key, total, span::TOTAL);
+    }
+    object.finish()
+}
+
+pub(super) fn read(text: &[u8]) -> Result<InfoPart, Refusal> {
+    let firmware = Fields::read(text, FIRMWARE_KEYS, UnknownKeys::Ignore)?;
+    let battery = Fields::read(text, BATTERY_KEYS, UnknownKeys::Ignore)?;
+    let link = Fields::read(text, LINK_KEYS, UnknownKeys::Ignore)?;
+    Ok(InfoPart {
+        firmware: firmware.has(1).then(|| read_firmware(&firmware)).transpose()?,
+        battery: battery.has(1).then(|| read_battery(&battery)).transpose()?,
+        link: link.has(1).then(|| read_link(&link)).transpose()?,
+    })
+}
+
+fn read_firmware(fields: &Fields<'_, 6>) -> Result<Firmware, Refusal> {
+    Ok(Firmware {
+        firmware_version: read_name(fields.text(1)?)?,
+        cordlib_version: read_name(fields.text(2)?)?,
+        main_steps_hz: fields.total(3)?,
+        bandwidth_in: fields.total(4)?,
+        bandwidth_out: fields.total(5)?,
+    })
+}
+
+fn read_battery(fields: &Fields<'_, 6>) -> Result<Battery, Refusal> {
+    let state = fields.text_or_empty(5)?;
+    let charge = fields.int(1, span::RATIO)?;
+    Ok(Battery {
+        charge: Ratio::from_millionths(charge).map_err(|_| Refusal::Range)?,
+        voltage: Voltage(fields.int(2, span::VOLTAGE)?),
+        current: Current(fields.int(3, span::CURRENT)?),
+        temperature: Temperature(
+            i16::try_from(fields.number(4, span::TEMPERATURE)?).map_err(|_| Refusal::Range)?,
+        ),
+        // Firmware of 2016 does not tell.
+        state: CHARGE_STATES
+            .into_iter()
+            .find(|(_, name)| name.as_bytes() == state)
+            .map_or(ChargeState::Discharging, |(state, _)| state),
+    })
+}
+
+fn read_link(fields: &Fields<'_, 8>) -> Result<LinkCounters, Refusal> {
+    Ok(LinkCounters {
+        accepted: fields.total(1)?,
+        bad_seal: fields.total(2)?,
+        overrun: fields.total(3)?,
+        framing: fields.total(4)?,
+        malformed: fields.total(5)?,
+        refused: fields.total(6)?,
+        resync: fields.total(7)?,
+    })
+}

@@ -1,0 +1,189 @@
+//! Writing one JSON object into a packet.
+
+use super::decimal::spell;
+use crate::buffer::{EncodeError, PacketBuffer};
+use crate::span::Span;
+
+/// Appends the members of one object. Errors are kept and told at the end, so that the packets read as lists of members.
+#[derive(Debug)]
+pub(crate) struct ObjectWriter<'b> {
+    buffer: &'b mut PacketBuffer,
+    begin: usize,
+    outcome: Result<(), EncodeError>,
+}
+
+impl<'b> ObjectWriter<'b> {
+    pub(crate) fn new(buffer: &'b mut PacketBuffer) -> Self {
+        let begin = buffer.length();
+        Self {
+            buffer,
+            begin,
+            outcome: Ok(()),
+        }
+    }
+
+    /// A number, which must be in its span.
+    pub(crate) fn number(&mut self, key: &str, value: impl Into<i64>, span: Span) -> &mut Self {
+        let value = value.into();
+        if !span.contains(value) {
+            self.outcome = Err(EncodeError::Range);
+        }
+        self.key(key);
+        self.raw(&spell(value, span.decimals))
+    }
+
+    /// Notes that a number is not allowed.
+    pub(crate) fn out_of_range(&mut self) -> &mut Self {
+        self.outcome = Err(EncodeError::Range);
+        self
+    }
+
+    /// A measured number; the nearest in its span stands for what is beyond.
+    pub(crate) fn measured(&mut self, key: &str, value: impl Into<i64>, span: Span) -> &mut Self {
+        self.number(key, span.saturate(value.into()), span)
+    }
+
+    /// A name: text that needs no escapes. What would need one becomes `?`.
+    pub(crate) fn name(&mut self, key: &str, name: &str) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        for byte in name.bytes() {
+            let plain = matches!(byte, b' '..=b'~') && byte != b'"' && byte != b'\\';
+            self.raw(&[if plain { byte } else { b'?' }]);
+        }
+        self.raw(b"\"")
+    }
+
+    /// Names separated by spaces.
+    pub(crate) fn names<'n>(&mut self, key: &str, names: impl Iterator<Item = &'n str>) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        for (index, name) in names.enumerate() {
+            if index > 0 {
+                self.raw(b" ");
+            }
+            self.raw(name.as_bytes());
+        }
+        self.raw(b"\"")
+    }
+
+    /// Names separated by spaces, as many as leave the packet `bytes_left` bytes for what follows.
+    pub(crate) fn names_that_fit<'n>(
+        &mut self,
+        key: &str,
+        names: impl Iterator<Item = &'n str>,
+        bytes_left: usize,
+    ) -> &mut Self {
+        let mut room = self.room(bytes_left).saturating_sub(key.len() + 6);
+        let fitting = names.take_while(|name| {
+            let fits = name.len() < room;
+            room = room.saturating_sub(name.len() + 1);
+            fits
+        });
+        self.names(key, fitting)
+    }
+
+    /// Text for people, escaped, cut at a character when the packet is full.
+    pub(crate) fn prose(&mut self, key: &str, text: &str) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        let mut room = self.room(2);
+        for character in text.chars() {
+            let escaped = Escaped::new(character);
+            if escaped.bytes().len() > room {
+                break;
+            }
+            room -= escaped.bytes().len();
+            self.raw(escaped.bytes());
+        }
+        self.raw(b"\"")
+    }
+
+    /// A truth value.
+    pub(crate) fn flag(&mut self, key: &str, flag: bool) -> &mut Self {
+        self.key(key);
+        self.raw(if flag { b"true" } else { b"false" })
+    }
+
+    /// `null`
+    pub(crate) fn null(&mut self, key: &str) -> &mut Self {
+        self.key(key);
+        self.raw(b"null")
+    }
+
+    /// Text of hexadecimal bytes.
+    pub(crate) fn hex(&mut self, key: &str, bytes: &[u8]) -> &mut Self {
+        const DIGITS: &[u8; 16] = b"0123456789abcdef";
+        self.key(key);
+        self.raw(b"\"");
+        for byte in bytes {
+            self.raw(&[DIGITS[usize::from(byte >> 4)], DIGITS[usize::from(byte & 0xF)]]);
+        }
+        self.raw(b"\"")
+    }
+
+    /// Ends the object. After an error the buffer is as it was before the object.
+    pub(crate) fn finish(&mut self) -> Result<(), EncodeError> {
+        if self.buffer.length() == self.begin {
+            self.raw(b"{");
+        }
+        self.raw(b"}");
+        if self.outcome.is_err() {
+            self.buffer.truncate(self.begin);
+        }
+        self.outcome
+    }
+
+    /// Bytes that are left in the packet besides its seal and `bytes_left` more.
+    fn room(&self, bytes_left: usize) -> usize {
+        let used = self.buffer.length() - self.begin;
+        (crate::frame::PACKET_BYTES_MAX - crate::frame::TEXT_SEAL_BYTES).saturating_sub(used + bytes_left)
+    }
+
+    fn key(&mut self, key: &str) {
+        let first = self.buffer.length() == self.begin;
+        self.raw(if first { b"{\"" } else { b",\"" });
+        self.raw(key.as_bytes());
+        self.raw(b"\":");
+    }
+
+    fn raw(&mut self, bytes: &[u8]) -> &mut Self {
+        if self.outcome.is_ok() {
+            self.outcome = self.buffer.extend(bytes);
+        }
+        self
+    }
+}
+
+/// One character as it stands in a JSON string.
+struct Escaped {
+    bytes: [u8; 6],
+    length: usize,
+}
+
+impl Escaped {
+    fn new(character: char) -> Self {
+        let mut bytes = [0; 6];
+        let length = match character {
+            '"' | '\\' => {
+                bytes = [b'\\', character as u8, 0, 0, 0, 0];
+                2
+            }
+            '\0'..'\u{20}' => {
+                let code = character as u8;
+                let low = match code & 0xF {
+                    digit @ 0..=9 => b'0' + digit,
+                    digit => b'a' + digit - 10,
+                };
+                bytes = [b'\\', b'u', b'0', b'0', b'0' + (code >> 4), low];
+                6
+            }
+            _ => character.encode_utf8(&mut bytes).len(),
+        };
+        Self { bytes, length }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        self.bytes.get(..self.length).unwrap_or_default()
+    }
+}
