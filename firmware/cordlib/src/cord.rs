@@ -1,42 +1,306 @@
 //! The main loop.
 
-use rvac_protocol::message::Inhibits;
+use rvac_protocol::message::{
+    BinaryKinds, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+};
+use rvac_protocol::session::{RobotIdentity, RobotSession};
+use rvac_units::{Throttle, Tick};
 
-use crate::board::{Board, Parts};
+use crate::board::{
+    Board, Clock, Encoders, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelMotors,
+};
+use crate::cleaning::{BrushLoad, Cleaning};
+use crate::floor::FloorWatch;
+use crate::journal::Journal;
+use crate::lights::LightPatterns;
+use crate::motion::Motion;
 use crate::parameters::Parameters;
+use crate::permit::Standing;
+use crate::reflex::Reflexes;
+use crate::report::Reporter;
+use crate::senses::Senses;
+use crate::sound::Sound;
+use crate::timing::LongClock;
+use crate::transmitter::Transmitter;
+use crate::watch::{Supervisor, Watch};
+
+/// Bytes taken from the link in one pass, so that a flood cannot hold up the reflexes. At 230,400 baud 23 arrive in a
+/// millisecond.
+const BYTES_PER_PASS: usize = 64;
+/// A `move` under a session ends when no packet has come for this long (S1).
+const MOVE_SILENCE_MS: u32 = 1_000;
 
 /// The firmware of one robot: everything between the parts of the board and the wire.
 #[derive(Debug)]
 pub struct Cord<P: Parts> {
-    board: Board<P>,
-    parameters: Parameters,
+    pub(crate) board: Board<P>,
+    pub(crate) parameters: Parameters,
+    pub(crate) session: RobotSession,
+    pub(crate) reflexes: Reflexes,
+    pub(crate) motion: Motion,
+    pub(crate) cleaning: Cleaning,
+    pub(crate) sound: Sound,
+    pub(crate) lights: LightPatterns,
+    pub(crate) journal: Journal,
+    pub(crate) reporter: Reporter,
+    pub(crate) transmitter: Transmitter,
+    pub(crate) senses: Senses,
+    pub(crate) clock: LongClock,
+    pub(crate) heard: Tick,
+    accepted: u32,
+    floor: FloorWatch,
+    watch: Watch,
+    applied: (WheelDrive, WheelDrive),
 }
 
 impl<P: Parts> Cord<P> {
-    /// Takes the board over. All motors are switched off, motion is inhibited until the host arms.
+    /// Takes the board over. All motors are switched off; motion is inhibited until the host arms (S4).
     #[must_use]
-    pub fn new(board: Board<P>, parameters: Parameters) -> Self {
-        let mut cord = Self { board, parameters };
-        cord.board.all_off();
-        cord
+    pub fn new(mut board: Board<P>, parameters: Parameters) -> Self {
+        board.all_off();
+        let now = board.clock.tick();
+        let session = RobotSession::new(identity(&mut board, &parameters), now);
+        let floor = FloorWatch::new(&mut board.cliffs, now, parameters.guard.floor_level_min);
+        let reflexes = Reflexes::new(&mut board.reset, now);
+        let counts = board.encoders.counts();
+        Self {
+            motion: Motion::new(counts, parameters.limits.count_nm, now),
+            cleaning: Cleaning::default(),
+            sound: Sound::default(),
+            lights: LightPatterns::new(now),
+            journal: Journal::default(),
+            reporter: Reporter::new(&reflexes, now),
+            transmitter: Transmitter::default(),
+            senses: Senses {
+                now,
+                counts,
+                ..Senses::default()
+            },
+            clock: LongClock::starting_at(now),
+            heard: now,
+            accepted: 0,
+            watch: Watch::starting_at(now),
+            applied: (WheelDrive::Brake, WheelDrive::Brake),
+            board,
+            parameters,
+            session,
+            reflexes,
+            floor,
+        }
     }
 
-    /// One pass of the main loop. Call it as often as the board can, at least once a millisecond where rules with
-    /// reaction times of 20 ms are to hold with margin; a simulator calls it once for each simulated millisecond.
-    pub fn step(&mut self) {}
+    /// One pass of the main loop: senses, reflexes, commands, motion, outputs, telemetry, in this order. Call it as often
+    /// as the board can, at least every 5 ms for the reaction times of SAFETY.md; a simulator calls it once for each
+    /// simulated millisecond.
+    pub fn step(&mut self) {
+        self.senses = Senses::read(&mut self.board, &mut self.floor);
+        let now = self.senses.now;
+        self.clock.advance(now);
+        self.reflexes.age(&mut self.board.reset, now);
+        self.feel(now);
+        self.listen(now);
+        self.control(now);
+        self.apply();
+        self.sound.play(&mut self.board.beeper, now);
+        self.lights.blink(&mut self.board.lights, now);
+        self.report(now);
+        if self.watch.is_complete(now) {
+            self.board.watchdog.feed();
+        }
+    }
+
+    fn feel(&mut self, now: Tick) {
+        let count_nm = self.parameters.limits.count_nm;
+        let ending = self.motion.expire(self.senses.counts, count_nm, now);
+        self.end(ending);
+        let findings = self.reflexes.feel(&self.senses, &self.motion.status());
+        self.react(&findings, now);
+    }
+
+    /// Takes bytes from the link and carries out what they say.
+    fn listen(&mut self, now: Tick) {
+        for _ in 0..BYTES_PER_PASS {
+            let event = match self.board.link.receive() {
+                None => break,
+                Some(Received::Byte(byte)) => {
+                    self.reporter.bytes_in.add(1);
+                    self.session.receive(byte, now)
+                }
+                Some(Received::FramingError) => {
+                    self.session.framing_error();
+                    None
+                }
+                Some(Received::Overrun) => {
+                    self.session.overrun();
+                    None
+                }
+            };
+            if let Some(event) = event {
+                self.dispatch(&event, now);
+            }
+        }
+        if let Some(event) = self.session.poll(now) {
+            self.dispatch(&event, now);
+        }
+    }
+
+    /// One control period of wheels and brushes, when it is due.
+    fn control(&mut self, now: Tick) {
+        let Some(elapsed_ms) = self.motion.begin_period(&self.parameters, now) else {
+            return;
+        };
+        let status = self.motion.status();
+        let stalled = self
+            .reflexes
+            .judge_wheels::<P>(&self.senses, &status, &self.parameters);
+        for motor in stalled.into_iter().flatten() {
+            self.note_stall(motor);
+        }
+        self.watch_link(now);
+        let current = self
+            .senses
+            .currents
+            .map(|all| (all.brush_main, self.parameters.guard.brush_current_max));
+        match self.cleaning.control(&mut self.board, current, now) {
+            BrushLoad::Free => {}
+            BrushLoad::Reversing => self
+                .journal
+                .note(LogLevel::Warn, "brush main blocked,", "reversing"),
+            BrushLoad::Blocked => self.give_up_brush(),
+        }
+        let standing = self.standing();
+        let ending = self
+            .motion
+            .control(elapsed_ms, &self.parameters, self.senses.gyro, &standing);
+        self.end(ending);
+    }
+
+    /// A `move` has no lease of its own: it lives as long as the link.
+    fn watch_link(&mut self, now: Tick) {
+        let accepted = self.session.counters().accepted;
+        if accepted != self.accepted {
+            self.accepted = accepted;
+            self.heard = now;
+        }
+        let sealed = self.session.mode() == rvac_protocol::session::Mode::Sealed;
+        if sealed && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
+            self.reflexes.host.lose_link();
+        }
+    }
+
+    /// The way out to the motors: what no longer suits is forgotten, and only what the gate lets through is applied.
+    fn apply(&mut self) {
+        let standing = self.standing();
+        if !self.motion.suits(&standing, &self.parameters) {
+            let ending = self.motion.brake();
+            self.end(ending);
+        }
+        let (left, right) = self.motion.asked();
+        let permitted = self.standing().permit(left, right);
+        if permitted != self.applied {
+            self.board.wheels.drive(permitted.0, permitted.1);
+            self.applied = permitted;
+            self.motion.applied(permitted);
+        }
+        self.cleaning.apply(&mut self.board, &standing);
+        self.watch.check_in(Supervisor::Loop);
+    }
+
+    fn report(&mut self, now: Tick) {
+        self.note_edges(now);
+        self.fill_transmitter(now);
+        let sent = self.transmitter.serve(&mut self.board.link);
+        self.reporter
+            .bytes_out
+            .add(u32::try_from(sent).unwrap_or(u32::MAX));
+        self.watch.check_in(Supervisor::Comms);
+    }
+
+    /// Everything off at once, and everything that was asked forgotten. The one way to stop, for reflexes, `stop`, buttons
+    /// and faults alike.
+    pub(crate) fn stop_all(&mut self, end: MoveEnd) {
+        self.board.all_off();
+        self.applied = (WheelDrive::Brake, WheelDrive::Brake);
+        let ending = self.motion.halt(end);
+        self.motion.applied(self.applied);
+        self.cleaning.stopped();
+        self.sound.clear();
+        self.end(ending);
+    }
 
     /// A hardware fault was found (clock monitor, memory check, a trap that returned): everything off, latched as
     /// `internal`.
     pub fn hardware_fault(&mut self) {
-        self.board.all_off();
+        self.reflexes
+            .latch(rvac_protocol::message::Inhibit::InternalFault);
+        self.stop_all(MoveEnd::Inhibited);
     }
 
-    /// The board, for example to put simulated readings into its parts between two steps.
+    /// Puts a line into the log that goes to the host.
+    pub fn log(&mut self, level: LogLevel, line: &'static str) {
+        self.journal.note(level, line, "");
+    }
+
+    /// What is allowed now, and why not more.
+    #[must_use]
+    pub fn standing(&self) -> Standing {
+        self.reflexes.standing(self.motion.is_fresh())
+    }
+
+    /// Everything that keeps the robot from moving now.
+    #[must_use]
+    pub fn inhibits(&self) -> Inhibits {
+        self.reflexes.inhibits()
+    }
+
+    /// Whether the host has armed motion.
+    #[must_use]
+    pub fn is_armed(&self) -> bool {
+        self.reflexes.host.is_armed()
+    }
+
+    /// Whether a lease (or a `move` with a living link) covers wheel motion now.
+    #[must_use]
+    pub fn is_fresh(&self) -> bool {
+        self.motion.is_fresh()
+    }
+
+    /// What motion control does.
+    #[must_use]
+    pub fn phase(&self) -> MotionPhase {
+        self.motion.phase()
+    }
+
+    /// What was sent to the wheels last.
+    #[must_use]
+    pub const fn wheel_outputs(&self) -> (Throttle, Throttle) {
+        (self.applied.0.duty(), self.applied.1.duty())
+    }
+
+    /// Cliff sensors that count as seeing no floor.
+    #[must_use]
+    pub const fn cliffs(&self) -> Cliffs {
+        self.reflexes.cliffs()
+    }
+
+    /// Seconds since reset. For tests and tools: it is the only floating point in this crate.
+    pub fn time_s(&mut self) -> f64 {
+        let microseconds = f64::from(self.board.clock.microseconds());
+        self.time_ms() as f64 / 1e3 + microseconds / 1e6
+    }
+
+    /// Milliseconds since reset, without the wrap of the board's clock.
+    pub fn time_ms(&mut self) -> u64 {
+        let now = self.board.clock.tick();
+        self.clock.advance(now)
+    }
+
+    /// The board, for example to see what its parts were told.
     pub const fn board(&self) -> &Board<P> {
         &self.board
     }
 
-    /// As [`Self::board`], to change it.
+    /// As [`Self::board`], to change it: a simulator puts readings into the parts between two steps.
     pub const fn board_mut(&mut self) -> &mut Board<P> {
         &mut self.board
     }
@@ -45,22 +309,35 @@ impl<P: Parts> Cord<P> {
     pub const fn parameters(&self) -> &Parameters {
         &self.parameters
     }
+}
 
-    /// Everything that keeps the robot from moving now.
-    #[must_use]
-    pub fn inhibits(&self) -> Inhibits {
-        Inhibits::NONE
+fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters) -> RobotIdentity {
+    let boot_count = board.reset.boot_count();
+    let moment = board.clock.tick().0 ^ u32::from(board.clock.microseconds()).rotate_left(16);
+    RobotIdentity {
+        device: name(parameters.device),
+        firmware: name(parameters.firmware),
+        boot_count,
+        reset_cause: board.reset.cause(),
+        session_seed: boot_count.wrapping_mul(0x9E37_79B9) ^ moment,
+        binary: BinaryKinds {
+            state: true,
+            drive: true,
+        },
+        description: Description {
+            capabilities: Board::<P>::capabilities(),
+            limits: parameters.limits,
+        },
     }
+}
 
-    /// Whether the host has armed motion.
-    #[must_use]
-    pub fn is_armed(&self) -> bool {
-        false
+/// As much of a name as the wire can carry.
+pub(crate) fn name(text: &str) -> Name {
+    let mut name = Name::new();
+    for letter in text.chars() {
+        if name.push(letter).is_err() {
+            break;
+        }
     }
-
-    /// Whether a lease (or a `move` with a living link) covers wheel motion now.
-    #[must_use]
-    pub fn is_fresh(&self) -> bool {
-        false
-    }
+    name
 }

@@ -8,8 +8,25 @@
 #![deny(missing_docs)]
 
 pub mod board;
+mod cleaning;
 mod cord;
+mod dispatch;
+mod floor;
+mod journal;
+mod lights;
+mod motion;
 mod parameters;
+mod permit;
+mod rate;
+mod react;
+mod reflex;
+mod report;
+mod senses;
+mod sound;
+mod timing;
+mod transmitter;
+mod watch;
 
 pub use cord::Cord;
 pub use parameters::{GuardParameters, MotionParameters, Parameters, WheelParameters};
+pub use permit::Standing;

@@ -1,7 +1,7 @@
 //! What differs between machines of the same make-up: names, geometry, limits, gains.
 
 use rvac_protocol::message::Limits;
-use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
+use rvac_units::{AngularSpeed, Current, Speed, Throttle};
 
 /// Facts about one kind of robot.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,114 @@
+//! Floor or no floor: evaluation and self-test of the cliff sensors (S9).
+//!
+//! Once in 0.9 s the emitters go dark for 2 ms and each receiver's ambient level is noted. A floor is a level that lies
+//! above that by the machine's threshold. So a receiver that is stuck at any level, or drowned in sunlight, stops seeing
+//! a floor at the next test, within one second, and is treated as a cliff.
+
+use rvac_protocol::message::Cliffs;
+use rvac_units::Tick;
+
+use crate::board::{CliffLevels, CliffSensors, Emitters};
+use crate::timing::Until;
+
+/// Pause between two self-tests; with the test itself it stays below the 1 s of S9.
+const TEST_PERIOD_MS: u32 = 900;
+/// Time for a receiver to settle after the emitter has changed.
+const SETTLE_MS: u32 = 2;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Lit,
+    Dark,
+    Relighting,
+}
+
+/// State of the evaluation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FloorWatch {
+    floor_level_min: u16,
+    phase: Phase,
+    phase_end: Until,
+    ambient: CliffLevels,
+    lit: CliffLevels,
+    no_floor: Cliffs,
+    blinded: Cliffs,
+}
+
+impl FloorWatch {
+    /// Starts with a self-test, so that no level is believed before its ambient part is known.
+    pub(crate) fn new<C: CliffSensors>(sensors: &mut C, now: Tick, floor_level_min: u16) -> Self {
+        sensors.set_emitters(Emitters::Off);
+        Self {
+            floor_level_min: floor_level_min.max(1),
+            phase: Phase::Dark,
+            phase_end: Until::at(now.after(SETTLE_MS)),
+            ambient: CliffLevels::default(),
+            lit: CliffLevels::default(),
+            no_floor: Cliffs::default(),
+            blinded: Cliffs::default(),
+        }
+    }
+
+    /// Sensors that see no floor.
+    pub(crate) const fn no_floor(&self) -> Cliffs {
+        self.no_floor
+    }
+
+    /// Sensors that saw light without their emitter and no difference with it.
+    pub(crate) const fn blinded(&self) -> Cliffs {
+        self.blinded
+    }
+
+    /// One look. Between darkening and the end of relighting the previous judgement stands.
+    pub(crate) fn update<C: CliffSensors>(&mut self, sensors: &mut C, now: Tick) {
+        if C::FITTED == Cliffs::default() {
+            return;
+        }
+        let phase_over = self.phase_end.has_come(now);
+        match self.phase {
+            Phase::Lit if phase_over => {
+                sensors.set_emitters(Emitters::Off);
+                self.enter(Phase::Dark, now.after(SETTLE_MS));
+            }
+            Phase::Dark if phase_over => {
+                self.ambient = sensors.levels();
+                sensors.set_emitters(Emitters::On);
+                self.enter(Phase::Relighting, now.after(SETTLE_MS));
+            }
+            Phase::Relighting if phase_over => {
+                self.judge(sensors.levels(), C::FITTED);
+                self.blinded = self.lit_without_emitter(C::FITTED);
+                self.enter(Phase::Lit, now.after(TEST_PERIOD_MS));
+            }
+            Phase::Lit => self.judge(sensors.levels(), C::FITTED),
+            Phase::Dark | Phase::Relighting => {}
+        }
+    }
+
+    fn enter(&mut self, phase: Phase, end: Tick) {
+        self.phase = phase;
+        self.phase_end = Until::at(end);
+    }
+
+    fn judge(&mut self, lit: CliffLevels, fitted: Cliffs) {
+        if self.lit == lit && self.phase == Phase::Lit {
+            return;
+        }
+        self.lit = lit;
+        let missing = |lit: u16, ambient: u16| lit.saturating_sub(ambient) < self.floor_level_min;
+        self.no_floor = Cliffs {
+            left: fitted.left && missing(lit.left, self.ambient.left),
+            middle: fitted.middle && missing(lit.middle, self.ambient.middle),
+            right: fitted.right && missing(lit.right, self.ambient.right),
+        };
+    }
+
+    fn lit_without_emitter(&self, fitted: Cliffs) -> Cliffs {
+        let bright = |ambient: u16| ambient >= self.floor_level_min;
+        Cliffs {
+            left: fitted.left && self.no_floor.left && bright(self.ambient.left),
+            middle: fitted.middle && self.no_floor.middle && bright(self.ambient.middle),
+            right: fitted.right && self.no_floor.right && bright(self.ambient.right),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Speed of one wheel: measurement from encoder counts, and a controller whose integral part is the way that the wheel is
+//! behind, exact to the count, so that it never drifts.
+
+use rvac_units::Throttle;
+
+use crate::board::WheelDrive;
+use crate::parameters::WheelParameters;
+
+/// Length of a control period.
+pub(crate) const CONTROL_MS: u32 = 10;
+/// A wheel under speed control is never reckoned further behind than this: what a blocked wheel missed is not caught up.
+const LAG_MAX_NM: i32 = 15_000_000;
+/// Weight of the newest speed sample is one in this many.
+const FILTER: i32 = 4;
+/// Most that a duty changes in one control period, in millionths: from rest to full in 0.2 s.
+const SLEW: i32 = 50_000;
+
+/// A wheel that turns faster than this is braked before a commanded duty drives it the other way.
+const REVERSAL_UM_PER_S: i32 = 50_000;
+
+/// One wheel as the rules and the telemetry see it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct WheelStatus {
+    /// Duty that is applied, in millionths.
+    pub(crate) duty: i32,
+    /// Set point of the speed control; `Some(0)` at rest, `None` while the duty is commanded directly.
+    pub(crate) set_point_um_per_s: Option<i32>,
+    /// Measured speed, filtered.
+    pub(crate) speed_um_per_s: i32,
+    /// Speed that one count in one control period looks like.
+    pub(crate) speed_step_um_per_s: i32,
+    /// Way in the last control period.
+    pub(crate) travelled_nm: i32,
+    /// Whether the encoder counted in the last control period.
+    pub(crate) turned: bool,
+}
+
+impl WheelStatus {
+    /// Whether the wheel still turns noticeably.
+    pub(crate) fn is_turning(&self) -> bool {
+        self.speed_um_per_s.saturating_abs() > self.speed_step_um_per_s.max(20_000)
+    }
+}
+
+/// Controller of one wheel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct WheelController {
+    count: i32,
+    lag_nm: i32,
+    behind_nm: i32,
+    duty: i32,
+    status: WheelStatus,
+}
+
+/// What the wheel should do in one control period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct WheelGoal {
+    /// Speed.
+    pub(crate) speed_um_per_s: i32,
+    /// Way by which the wheel is to be ahead of its encoder's reckoning, from another sensor.
+    pub(crate) lead_nm: i32,
+    /// Deviation at rest that is small enough, or `None` to let the wheel rest wherever it stands.
+    pub(crate) settle_nm: Option<i32>,
+}
+
+impl WheelController {
+    /// Starts where the encoder stands.
+    pub(crate) fn new(count: i32, count_nm: u32) -> Self {
+        let step = i64::from(count_nm) / i64::from(CONTROL_MS);
+        Self {
+            count,
+            status: WheelStatus {
+                set_point_um_per_s: Some(0),
+                speed_step_um_per_s: saturate(step),
+                ..WheelStatus::default()
+            },
+            ..Self::default()
+        }
+    }
+
+    /// Takes the encoder total once for each control period.
+    pub(crate) fn measure(&mut self, count: i32, count_nm: u32, elapsed_ms: u32) {
+        let counts = count.wrapping_sub(self.count);
+        self.count = count;
+        let travelled_nm = saturate(i64::from(counts).saturating_mul(i64::from(count_nm)));
+        let speed = travelled_nm / i32::try_from(elapsed_ms.max(1)).unwrap_or(i32::MAX);
+        let change = speed.saturating_sub(self.status.speed_um_per_s);
+        let settled = change.saturating_abs() < FILTER;
+        let step = if settled { change } else { change / FILTER };
+        self.status.speed_um_per_s = self.status.speed_um_per_s.saturating_add(step);
+        self.status.travelled_nm = travelled_nm;
+        self.status.turned = counts != 0;
+        self.lag_nm = self.lag_nm.saturating_sub(travelled_nm);
+    }
+
+    /// Rests: nothing is to be caught up.
+    pub(crate) fn rest(&mut self) {
+        self.lag_nm = 0;
+        self.behind_nm = 0;
+        self.duty = 0;
+        self.status.set_point_um_per_s = Some(0);
+    }
+
+    /// Adds the way that the set point makes in this period. A wheel under speed control forgets what is too far behind.
+    pub(crate) fn advance(&mut self, way_nm: i32) {
+        self.lag_nm = self.lag_nm.saturating_add(way_nm);
+    }
+
+    /// Forgets what the wheel is behind beyond the limit.
+    pub(crate) fn limit_lag(&mut self) {
+        self.lag_nm = self.lag_nm.clamp(-LAG_MAX_NM, LAG_MAX_NM);
+    }
+
+    /// How far the wheel is behind.
+    pub(crate) const fn lag_nm(&self) -> i32 {
+        self.lag_nm
+    }
+
+    /// Whether it is so far behind that the set point should wait for it.
+    pub(crate) fn is_far_behind(&self) -> bool {
+        let direction = self.status.set_point_um_per_s.unwrap_or(0).signum();
+        self.behind_nm.saturating_mul(direction) > LAG_MAX_NM
+    }
+
+    /// The duty for this period: feed-forward over the dead band, the speed error, and the way behind. Never against the
+    /// direction of the set point: a wheel that is too fast brakes.
+    pub(crate) fn control(&mut self, goal: WheelGoal, parameters: &WheelParameters) -> WheelDrive {
+        self.status.set_point_um_per_s = Some(goal.speed_um_per_s);
+        let behind_nm = self.lag_nm.saturating_add(goal.lead_nm);
+        self.behind_nm = behind_nm;
+        let direction = match goal.settle_nm {
+            _ if goal.speed_um_per_s != 0 => goal.speed_um_per_s.signum(),
+            Some(tolerance_nm) if behind_nm.saturating_abs() > tolerance_nm => behind_nm.signum(),
+            _ => 0,
+        };
+        let asked = self.duty_for(goal.speed_um_per_s, behind_nm, parameters);
+        let along = i64::from(asked).saturating_mul(i64::from(direction));
+        if direction == 0 || along <= 0 {
+            self.duty = 0;
+            return WheelDrive::Brake;
+        }
+        let dead_band = parameters.dead_band.millionths();
+        let wanted = saturate(along).saturating_add(dead_band).min(1_000_000);
+        self.duty = self.slew(wanted.saturating_mul(direction), dead_band);
+        WheelDrive::Duty(Throttle::saturating_from_millionths(self.duty))
+    }
+
+    /// A directly commanded duty, reached with a ramp.
+    pub(crate) fn open_loop(&mut self, duty: Throttle, parameters: &WheelParameters) -> WheelDrive {
+        self.status.set_point_um_per_s = None;
+        self.lag_nm = 0;
+        let along = self
+            .status
+            .speed_um_per_s
+            .saturating_mul(duty.millionths().signum());
+        self.duty = if along < -REVERSAL_UM_PER_S {
+            0
+        } else {
+            self.slew(duty.millionths(), parameters.dead_band.millionths())
+        };
+        if self.duty == 0 {
+            return WheelDrive::Brake;
+        }
+        WheelDrive::Duty(Throttle::saturating_from_millionths(self.duty))
+    }
+
+    /// Notes what was really applied after the gate.
+    pub(crate) const fn applied(&mut self, drive: WheelDrive) {
+        self.status.duty = drive.duty().millionths();
+        if self.status.duty == 0 {
+            self.duty = 0;
+        }
+    }
+
+    /// The wheel for rules and telemetry.
+    pub(crate) const fn status(&self) -> WheelStatus {
+        self.status
+    }
+
+    fn duty_for(&self, speed_um_per_s: i32, behind_nm: i32, parameters: &WheelParameters) -> i32 {
+        let span = i64::from(1_000_000_i32.saturating_sub(parameters.dead_band.millionths()));
+        let full = i64::from(parameters.speed_at_full.0.max(1));
+        let speed = i64::from(speed_um_per_s);
+        let error = speed.saturating_sub(i64::from(self.status.speed_um_per_s));
+        let forward = speed.saturating_mul(span) / full;
+        let proportional = error.saturating_mul(i64::from(parameters.proportional)) / 1_000;
+        let integral = i64::from(behind_nm).saturating_mul(i64::from(parameters.integral)) / 1_000_000;
+        saturate(forward.saturating_add(proportional).saturating_add(integral))
+    }
+
+    /// One step towards the wanted duty. The dead band is jumped: nothing turns inside of it.
+    fn slew(&self, wanted: i32, dead_band: i32) -> i32 {
+        let from = if self.duty.signum() == wanted.signum() {
+            self.duty
+        } else {
+            dead_band.saturating_mul(wanted.signum())
+        };
+        wanted.clamp(from.saturating_sub(SLEW), from.saturating_add(SLEW))
+    }
+}
+
+fn saturate(value: i64) -> i32 {
+    i32::try_from(value).unwrap_or(if value < 0 { i32::MIN } else { i32::MAX })
+}

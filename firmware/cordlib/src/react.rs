@@ -1,0 +1,69 @@
+//! What follows from findings: of the reflexes, of motion that ended, of motors that were overloaded.
+
+use rvac_protocol::message::{EdgeKind, Inhibit, LogLevel, Motor, MoveEnd};
+use rvac_units::Tick;
+
+use crate::board::Parts;
+use crate::cord::Cord;
+use crate::motion::Ending;
+use crate::reflex::{DockChange, Findings};
+
+impl<P: Parts> Cord<P> {
+    /// Carries out what the contact rules found.
+    pub(crate) fn react(&mut self, findings: &Findings, now: Tick) {
+        match findings.dock {
+            Some(DockChange::Arrived | DockChange::TakenOff) => {
+                self.reflexes.host.disarm();
+                self.stop_all(MoveEnd::Inhibited);
+            }
+            Some(DockChange::Left) | None => {}
+        }
+        let changed = findings.buttons.pressed | findings.buttons.released;
+        if changed == 0 {
+            return;
+        }
+        if findings.buttons.pressed != 0 && self.is_in_motion() {
+            self.reflexes.host.button();
+            self.stop_all(MoveEnd::Inhibited);
+        }
+        for button in (0..8).filter(|number| changed & (1 << number) != 0) {
+            let pressed = findings.buttons.pressed & (1 << button) != 0;
+            self.session.queue_edge(EdgeKind::Button { button, pressed }, now);
+        }
+    }
+
+    /// Whether anything moves or is about to.
+    fn is_in_motion(&self) -> bool {
+        let status = self.motion.status();
+        self.motion.is_active()
+            || self.cleaning.is_running()
+            || status.left.is_turning()
+            || status.right.is_turning()
+    }
+
+    /// Reports motion that ended, and notes a lost link.
+    pub(crate) fn end(&mut self, ending: Option<Ending>) {
+        match ending {
+            Some(Ending::Move(end)) => {
+                let now = self.senses.now;
+                self.session.queue_edge(EdgeKind::MoveFinished(end), now);
+            }
+            Some(Ending::LeaseLost) => self.reflexes.host.lose_link(),
+            None => {}
+        }
+    }
+
+    /// Reports a wheel that was switched off for its load.
+    pub(crate) fn note_stall(&mut self, motor: Motor) {
+        let now = self.senses.now;
+        self.session.queue_edge(EdgeKind::Stall(motor), now);
+        self.journal.note(LogLevel::Error, "overload of", motor.name());
+    }
+
+    /// The main brush stays blocked.
+    pub(crate) fn give_up_brush(&mut self) {
+        self.reflexes.latch(Inhibit::BrushStall);
+        self.note_stall(Motor::BrushMain);
+        self.stop_all(MoveEnd::Inhibited);
+    }
+}

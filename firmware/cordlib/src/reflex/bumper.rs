@@ -1,0 +1,59 @@
+//! S6: a press brakes at once, and only motion away from the pressed side is allowed until it is released.
+//! S7: a bumper that stays pressed for 3 s while the robot backs off, or for 10 s off the dock, is stuck; that is latched.
+
+use rvac_protocol::message::Bumpers;
+use rvac_units::Tick;
+
+use crate::timing::{Debounced, Held};
+
+/// Release must be stable this long; a press counts at once.
+const RELEASE_MS: u32 = 30;
+const STUCK_BACKING_MS: u32 = 3_000;
+const STUCK_MS: u32 = 10_000;
+
+/// The bumper as the rules see it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BumperRule {
+    left: Debounced<0, RELEASE_MS>,
+    right: Debounced<0, RELEASE_MS>,
+    pressed: Held,
+    backing: Held,
+}
+
+/// What the robot does while the bumper is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BumperContext {
+    /// Both wheels are driven backwards.
+    pub(crate) backing: bool,
+    /// The robot stands on the dock, which may press on the bumper for ever.
+    pub(crate) docked: bool,
+}
+
+impl BumperRule {
+    /// Takes the raw switches; returns whether the bumper is stuck.
+    pub(crate) fn update(&mut self, raw: Bumpers, context: BumperContext, now: Tick) -> bool {
+        let left = self.left.update(raw.left, now);
+        let right = self.right.update(raw.right, now);
+        let pressed = left || right;
+        let stuck_anyhow = self
+            .pressed
+            .for_at_least(pressed && !context.docked, now, STUCK_MS);
+        let stuck_backing = self
+            .backing
+            .for_at_least(pressed && context.backing, now, STUCK_BACKING_MS);
+        stuck_anyhow || stuck_backing
+    }
+
+    /// Zones that count as pressed.
+    pub(crate) const fn pressed(&self) -> Bumpers {
+        Bumpers {
+            left: self.left.is_active(),
+            right: self.right.is_active(),
+        }
+    }
+
+    /// Whether any zone counts as pressed.
+    pub(crate) const fn any(&self) -> bool {
+        self.left.is_active() || self.right.is_active()
+    }
+}

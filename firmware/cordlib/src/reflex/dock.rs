@@ -1,0 +1,69 @@
+//! S19: on the dock the robot moves only after `arm` with `undock`. Whenever the contacts close or open, all stored
+//! motion is cleared, and it must be armed again: lifted off the dock, the robot stays still.
+
+use rvac_units::Tick;
+
+use crate::timing::{Debounced, Held};
+
+/// One sample is noise; contacts that bounce open keep the robot docked.
+const SET_MS: u32 = 20;
+const CLEAR_MS: u32 = 300;
+/// A robot that has been off the contacts this long has left the dock; closing again is a new arrival.
+const LEFT_MS: u32 = 1_000;
+
+/// What changed at the dock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DockChange {
+    /// Arrived, or put on it.
+    Arrived,
+    /// Taken off without an `undock`.
+    TakenOff,
+    /// Off the contacts, as `undock` asked.
+    Left,
+}
+
+/// The dock contacts as the rule sees them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct DockRule {
+    contacts: Debounced<SET_MS, CLEAR_MS>,
+    undocking: bool,
+    away: Held,
+}
+
+impl DockRule {
+    /// Takes the raw contacts; returns a change that clears stored motion.
+    pub(crate) fn update(&mut self, raw: bool, now: Tick) -> Option<DockChange> {
+        let before = self.contacts.is_active();
+        let docked = self.contacts.update(raw, now);
+        if self.undocking && self.away.for_at_least(!docked, now, LEFT_MS) {
+            self.undocking = false;
+        }
+        match (before, docked) {
+            (false, true) if !self.undocking => Some(DockChange::Arrived),
+            (true, false) if self.undocking => Some(DockChange::Left),
+            (true, false) => Some(DockChange::TakenOff),
+            _ => None,
+        }
+    }
+
+    /// Allows motion off the dock.
+    pub(crate) const fn undock(&mut self) {
+        self.undocking = true;
+        self.away.restart();
+    }
+
+    /// Takes the permission back.
+    pub(crate) const fn stay(&mut self) {
+        self.undocking = false;
+    }
+
+    /// Whether the contacts are closed.
+    pub(crate) const fn is_docked(&self) -> bool {
+        self.contacts.is_active()
+    }
+
+    /// Whether that forbids motion.
+    pub(crate) const fn inhibits(&self) -> bool {
+        self.contacts.is_active() && !self.undocking
+    }
+}

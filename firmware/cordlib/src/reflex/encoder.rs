@@ -1,0 +1,29 @@
+//! S13: an encoder that disagrees with its command for 500 ms, in direction or by showing less than a fifth of the speed,
+//! is a fault; latched.
+
+use rvac_units::Tick;
+
+use crate::motion::WheelStatus;
+use crate::timing::Held;
+
+const DISAGREEMENT_MS: u32 = 480;
+/// Below this set point the quantisation of an encoder proves nothing, in µm/s.
+const SET_POINT_MIN_UM_PER_S: i32 = 50_000;
+
+/// Plausibility of one encoder.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct EncoderRule {
+    disagreement: Held,
+}
+
+impl EncoderRule {
+    /// Returns whether the encoder disagrees.
+    pub(crate) fn update(&mut self, wheel: WheelStatus, now: Tick) -> bool {
+        let set_point = wheel.set_point_um_per_s.unwrap_or(0);
+        let along = wheel.speed_um_per_s.saturating_mul(set_point.signum());
+        let disagrees = wheel.duty != 0
+            && set_point.saturating_abs() >= SET_POINT_MIN_UM_PER_S
+            && along < set_point.saturating_abs() / 5;
+        self.disagreement.for_at_least(disagrees, now, DISAGREEMENT_MS)
+    }
+}

@@ -1,0 +1,269 @@
+//! The reflexes: one file for each family of rules, and [`Reflexes`], which gathers what they inhibit.
+//!
+//! Rule numbers are those of SAFETY.md. S2 and S3 end in the protocol session, S5 in `watch`, S9 in `floor`, S22 in the
+//! integer types, S29 in `cleaning`.
+
+mod bumper;
+mod button;
+mod cliff;
+mod dock;
+mod encoder;
+mod host;
+mod lift;
+mod progress;
+mod reset;
+mod runaway;
+mod stall;
+
+pub(crate) use button::ButtonChange;
+pub(crate) use dock::DockChange;
+pub(crate) use stall::{Load, StallRule};
+
+use rvac_protocol::message::{Bumpers, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
+
+use crate::board::{Encoders, Parts, ResetRecord};
+use crate::motion::{MotionStatus, WheelStatus};
+use crate::parameters::Parameters;
+use crate::permit::Standing;
+use crate::senses::Senses;
+
+use bumper::{BumperContext, BumperRule};
+use button::ButtonRule;
+use cliff::{CliffContext, CliffRule};
+use dock::DockRule;
+use encoder::EncoderRule;
+use host::HostRule;
+use lift::LiftRule;
+use progress::{Headway, ProgressRule};
+use reset::ResetRule;
+use runaway::RunawayRule;
+
+/// State of all rules.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflexes {
+    pub(crate) host: HostRule,
+    pub(crate) dock: DockRule,
+    buttons: ButtonRule,
+    bumper: BumperRule,
+    cliff: CliffRule,
+    lift: LiftRule,
+    reset: ResetRule,
+    stall: [StallRule; 2],
+    runaway: [RunawayRule; 2],
+    encoder: [EncoderRule; 2],
+    progress: ProgressRule,
+    blinded: bool,
+    lifted: bool,
+    idle: bool,
+    latched: Inhibits,
+    wheel_turns: bool,
+}
+
+/// What the fast rules found in one pass.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Findings {
+    pub(crate) dock: Option<DockChange>,
+    pub(crate) buttons: ButtonChange,
+}
+
+impl Reflexes {
+    /// Starts disarmed; a reset loop is latched from the start.
+    pub(crate) fn new<R: ResetRecord>(record: &mut R, now: rvac_units::Tick) -> Self {
+        let (reset, is_loop) = ResetRule::new(record, now);
+        let mut latched = Inhibits::NONE;
+        if is_loop {
+            latched.insert(Inhibit::ResetLoop);
+        }
+        Self {
+            host: HostRule::default(),
+            dock: DockRule::default(),
+            buttons: ButtonRule::default(),
+            bumper: BumperRule::default(),
+            cliff: CliffRule::default(),
+            lift: LiftRule::default(),
+            reset,
+            stall: [StallRule::default(); 2],
+            runaway: [RunawayRule::default(); 2],
+            encoder: [EncoderRule::default(); 2],
+            progress: ProgressRule::default(),
+            blinded: false,
+            lifted: false,
+            idle: false,
+            latched,
+            wheel_turns: false,
+        }
+    }
+
+    /// The rules that look at contacts and the floor, on every pass.
+    pub(crate) fn feel(&mut self, senses: &Senses, motion: &MotionStatus) -> Findings {
+        let now = senses.now;
+        let dock = self.dock.update(senses.docked, now);
+        let backing = motion.left.duty < 0 && motion.right.duty < 0;
+        let docked = self.dock.is_docked();
+        let context = BumperContext { backing, docked };
+        if self.bumper.update(senses.bumpers, context, now) {
+            self.latched.insert(Inhibit::BumperStuck);
+        }
+        let context = CliffContext {
+            driven: motion.left.duty != 0 || motion.right.duty != 0,
+            travelled_nm: motion.travelled_nm,
+        };
+        if self.cliff.update(senses.no_floor, context, now) {
+            self.latched.insert(Inhibit::CliffTrapped);
+        }
+        self.blinded = senses.blinded != Cliffs::default();
+        self.lifted = self.lift.update(senses.wheel_drops, now);
+        Findings {
+            dock,
+            buttons: self.buttons.update(senses.buttons, now),
+        }
+    }
+
+    /// The rules that look at motors, once for each control period. Returns wheels that were switched off for load.
+    pub(crate) fn judge_wheels<P: Parts>(
+        &mut self,
+        senses: &Senses,
+        motion: &MotionStatus,
+        parameters: &Parameters,
+    ) -> [Option<Motor>; 2] {
+        if self.lifted {
+            return [None; 2];
+        }
+        let limit = parameters.guard.wheel_current_max;
+        let currents = senses.currents.map(|all| [all.wheel_left, all.wheel_right]);
+        let loads = [
+            (motion.left, currents.map(|[left, _]| (left, limit))),
+            (motion.right, currents.map(|[_, right]| (right, limit))),
+        ];
+        let mut stalled = [None; 2];
+        let motors = [Motor::WheelLeft, Motor::WheelRight];
+        for (((load, rule), out), motor) in loads
+            .into_iter()
+            .zip(&mut self.stall)
+            .zip(&mut stalled)
+            .zip(motors)
+        {
+            let (wheel, current) = load;
+            let turned = P::Encoders::PRESENT.then_some(wheel.turned);
+            let load = Load {
+                duty: wheel.duty,
+                turned,
+                current,
+            };
+            if rule.update(load, senses.now) {
+                rule.restart();
+                self.latched.insert(Inhibit::WheelStall);
+                *out = Some(motor);
+            }
+        }
+        if P::Encoders::PRESENT {
+            self.judge_encoders(senses, motion, parameters);
+        }
+        stalled
+    }
+
+    fn judge_encoders(&mut self, senses: &Senses, motion: &MotionStatus, parameters: &Parameters) {
+        let wheels = [motion.left, motion.right];
+        self.wheel_turns = wheels.iter().any(WheelStatus::is_turning);
+        for (wheel, rule) in wheels.into_iter().zip(&mut self.encoder) {
+            if rule.update(wheel, senses.now) {
+                self.latched.insert(Inhibit::EncoderFault);
+            }
+        }
+        for (wheel, rule) in wheels.into_iter().zip(&mut self.runaway) {
+            let is_runaway = rule.update(wheel, senses.now);
+            if is_runaway && self.host.is_armed() {
+                self.latched.insert(Inhibit::Runaway);
+            }
+        }
+        let headway = Headway {
+            duty: motion
+                .left
+                .duty
+                .saturating_abs()
+                .max(motion.right.duty.saturating_abs()),
+            left_nm: motion.left.travelled_nm,
+            right_nm: motion.right.travelled_nm,
+            track_um: parameters.limits.track.0,
+            gyro: senses.gyro,
+        };
+        self.idle = self.progress.update(headway, senses.now);
+    }
+
+    /// Lets the record of resets age.
+    pub(crate) fn age<R: ResetRecord>(&mut self, record: &mut R, now: rvac_units::Tick) {
+        self.reset.update(record, now);
+    }
+
+    /// Latches a fault that was found elsewhere.
+    pub(crate) const fn latch(&mut self, inhibit: Inhibit) {
+        self.latched.insert(inhibit);
+    }
+
+    /// Takes a latched inhibit away if its cause is gone; false if it is still there.
+    pub(crate) fn clear(&mut self, inhibit: Inhibit) -> bool {
+        let cause_remains = match inhibit {
+            Inhibit::ResetLoop => self.reset.is_young(),
+            Inhibit::BumperStuck => self.bumper.any(),
+            Inhibit::CliffTrapped => self.cliff.any(),
+            Inhibit::Runaway => self.wheel_turns,
+            Inhibit::WheelStall | Inhibit::BrushStall | Inhibit::EncoderFault | Inhibit::InternalFault => {
+                false
+            }
+            other => self.inhibits().contains(other),
+        };
+        if !cause_remains {
+            self.latched.remove(inhibit);
+        }
+        !cause_remains
+    }
+
+    /// Everything that inhibits now.
+    pub(crate) fn inhibits(&self) -> Inhibits {
+        let mut all = Inhibits::from_bits(self.latched.bits() | self.host.inhibits().bits());
+        let present = [
+            (Inhibit::Bumper, self.bumper.any()),
+            (Inhibit::Cliff, self.cliff.any()),
+            (Inhibit::CliffSensorFault, self.blinded),
+            (Inhibit::WheelDrop, self.lifted),
+            (Inhibit::NotMoving, self.idle),
+            (Inhibit::Docked, self.dock.inhibits()),
+        ];
+        for (inhibit, is_present) in present {
+            if is_present {
+                all.insert(inhibit);
+            }
+        }
+        all
+    }
+
+    /// What is allowed, given whether a lease is fresh.
+    pub(crate) fn standing(&self, fresh: bool) -> Standing {
+        Standing {
+            armed: self.host.is_armed(),
+            fresh,
+            inhibits: self.inhibits(),
+            bumpers: self.bumper.pressed(),
+        }
+    }
+
+    /// Bumper zones that count as pressed.
+    pub(crate) const fn bumpers(&self) -> Bumpers {
+        self.bumper.pressed()
+    }
+
+    /// Sensors that count as seeing no floor.
+    pub(crate) const fn cliffs(&self) -> Cliffs {
+        self.cliff.seen()
+    }
+
+    /// Wheels that hang.
+    pub(crate) const fn wheel_drops(&self) -> WheelDrops {
+        self.lift.hanging()
+    }
+
+    /// Buttons that are down, bit by number.
+    pub(crate) const fn buttons(&self) -> u8 {
+        self.buttons.down()
+    }
+}

@@ -1,0 +1,36 @@
+//! S12: a wheel that turns without a command, or faster than 1.5 times its set point, for 200 ms is a runaway; both
+//! bridges brake, latched. Only while armed: a robot that is pushed about by hand when it rests is no fault, and its
+//! bridges are off anyway.
+
+use rvac_units::Tick;
+
+use crate::motion::WheelStatus;
+use crate::timing::Held;
+
+/// Looked at every 10 ms; with the filter of the speed measurement this stays within 250 ms.
+const RUNAWAY_MS: u32 = 190;
+/// Speed that a stopped wheel may have for a while, for example from a push, in µm/s.
+const SLACK_UM_PER_S: i32 = 60_000;
+
+/// Runaway of one wheel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RunawayRule {
+    excess: Held,
+}
+
+impl RunawayRule {
+    /// Returns whether the wheel has run away.
+    pub(crate) fn update(&mut self, wheel: WheelStatus, now: Tick) -> bool {
+        let Some(set_point) = wheel.set_point_um_per_s else {
+            self.excess.restart();
+            return false;
+        };
+        let set_point = set_point.saturating_abs();
+        let limit = set_point
+            .saturating_add(set_point / 2)
+            .saturating_add(SLACK_UM_PER_S)
+            .saturating_add(wheel.speed_step_um_per_s);
+        let excess = wheel.speed_um_per_s.saturating_abs() > limit;
+        self.excess.for_at_least(excess, now, RUNAWAY_MS)
+    }
+}

@@ -1,0 +1,48 @@
+//! S11: a wheel motor above its current limit for 100 ms, or driven above 30 % for 300 ms without a single encoder
+//! count, is switched off; that is latched. (The brush half of S11 is in `cleaning`, next to the motor it reverses.)
+
+use rvac_units::{Current, Tick};
+
+use crate::timing::Held;
+
+/// Duty above which a motor that does not turn is stalled, in millionths.
+pub(crate) const STALL_DUTY: i32 = 300_000;
+/// These rules look every 10 ms, so that they trip one period early to be within 100 and 300 ms.
+pub(crate) const OVER_CURRENT_MS: u32 = 90;
+pub(crate) const STANDSTILL_MS: u32 = 290;
+
+/// Overload of one motor.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StallRule {
+    over_current: Held,
+    standing: Held,
+}
+
+/// What the rule looks at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Load {
+    /// Duty in millionths.
+    pub(crate) duty: i32,
+    /// Whether its sensor counted since the last look; `None` without a sensor.
+    pub(crate) turned: Option<bool>,
+    /// Current and its limit, if measured.
+    pub(crate) current: Option<(Current, Current)>,
+}
+
+impl StallRule {
+    /// Returns whether the motor is overloaded.
+    pub(crate) fn update(&mut self, load: Load, now: Tick) -> bool {
+        let above = load
+            .current
+            .is_some_and(|(current, limit)| current.magnitude() > limit.0);
+        let blocked = load.duty.saturating_abs() > STALL_DUTY && load.turned == Some(false);
+        let over_current = self.over_current.for_at_least(above, now, OVER_CURRENT_MS);
+        self.standing.for_at_least(blocked, now, STANDSTILL_MS) || over_current
+    }
+
+    /// Forgets how long it lasted, after the motor was switched off.
+    pub(crate) const fn restart(&mut self) {
+        self.over_current.restart();
+        self.standing.restart();
+    }
+}

@@ -1,0 +1,224 @@
+//! Telemetry: `state` and `info` at their periods, edges when something changes, log lines when there are any.
+
+use rvac_protocol::message::{
+    Bumpers, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
+};
+use rvac_protocol::session::Mode;
+use rvac_units::Tick;
+
+use crate::board::{BatteryGauge, DockBeams, DustBox, Parts, ProximitySensors};
+use crate::cord::{Cord, name};
+use crate::rate::Rate;
+use crate::reflex::Reflexes;
+use crate::timing::Periodic;
+
+const STATE_PERIOD_MS: u32 = 20;
+const INFO_PERIOD_MS: u32 = 1_000;
+const RATE_PERIOD_MS: u32 = 1_000;
+/// Version of this crate, for `info`.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What the host was told last, what is due, and the counters of the loop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reporter {
+    pub(crate) bytes_in: Rate,
+    pub(crate) bytes_out: Rate,
+    steps: Rate,
+    rates: Periodic,
+    state: Schedule,
+    info: Schedule,
+    told: Told,
+}
+
+/// One kind of report: its period (0 = never unasked) and whether one waits for the link.
+#[derive(Clone, Copy, Debug)]
+struct Schedule {
+    period_ms: u32,
+    next: Periodic,
+    waits: bool,
+}
+
+/// The facts whose changes are edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Told {
+    bumpers: Bumpers,
+    cliffs: Cliffs,
+    wheel_drops: WheelDrops,
+    docked: bool,
+    inhibits: Inhibits,
+}
+
+impl Schedule {
+    const fn every(period_ms: u32, now: Tick) -> Self {
+        Self {
+            period_ms,
+            next: Periodic::starting_at(now.after(period_ms)),
+            waits: false,
+        }
+    }
+
+    const fn update(&mut self, now: Tick) {
+        if self.period_ms > 0 && self.next.is_due(now, self.period_ms) {
+            self.waits = true;
+        }
+    }
+
+    const fn take(&mut self) -> bool {
+        core::mem::replace(&mut self.waits, false)
+    }
+}
+
+impl Told {
+    fn of(reflexes: &Reflexes) -> Self {
+        Self {
+            bumpers: reflexes.bumpers(),
+            cliffs: reflexes.cliffs(),
+            wheel_drops: reflexes.wheel_drops(),
+            docked: reflexes.dock.is_docked(),
+            inhibits: reflexes.inhibits(),
+        }
+    }
+}
+
+impl Reporter {
+    /// Nothing is due yet; what is so at reset is no edge.
+    pub(crate) fn new(reflexes: &Reflexes, now: Tick) -> Self {
+        Self {
+            bytes_in: Rate::starting_at(now),
+            bytes_out: Rate::starting_at(now),
+            steps: Rate::starting_at(now),
+            rates: Periodic::starting_at(now.after(RATE_PERIOD_MS)),
+            state: Schedule::every(STATE_PERIOD_MS, now),
+            info: Schedule::every(INFO_PERIOD_MS, now),
+            told: Told::of(reflexes),
+        }
+    }
+
+    /// One `info` was asked for.
+    pub(crate) const fn want_info(&mut self) {
+        self.info.waits = true;
+    }
+
+    /// One `state` was asked for.
+    pub(crate) const fn want_state(&mut self) {
+        self.state.waits = true;
+    }
+
+    /// Changes the pause between `state` reports; 0 = only when asked.
+    pub(crate) const fn set_state_period(&mut self, period_ms: u32, now: Tick) {
+        self.state = Schedule::every(period_ms, now);
+    }
+
+    /// Changes the pause between `info` reports; 0 = only when asked.
+    pub(crate) const fn set_info_period(&mut self, period_ms: u32, now: Tick) {
+        self.info = Schedule::every(period_ms, now);
+    }
+
+    /// Counts a pass and notes what is due. A person at a terminal gets no telemetry unasked.
+    fn tick(&mut self, mode: Mode, now: Tick) {
+        self.steps.add(1);
+        if self.rates.is_due(now, RATE_PERIOD_MS) {
+            self.steps.take(now);
+            self.bytes_in.take(now);
+            self.bytes_out.take(now);
+        }
+        self.info.update(now);
+        if mode == Mode::Sealed {
+            self.state.update(now);
+        }
+    }
+}
+
+impl<P: Parts> Cord<P> {
+    /// Queues an edge for every fact that differs from what the host was told.
+    pub(crate) fn note_edges(&mut self, now: Tick) {
+        let told = self.reporter.told;
+        let facts = Told::of(&self.reflexes);
+        if facts == told {
+            return;
+        }
+        self.reporter.told = facts;
+        let edges = [
+            (facts.bumpers != told.bumpers, EdgeKind::Bump(facts.bumpers)),
+            (facts.cliffs != told.cliffs, EdgeKind::Cliff(facts.cliffs)),
+            (
+                facts.wheel_drops != told.wheel_drops,
+                EdgeKind::Lift(facts.wheel_drops),
+            ),
+            (facts.docked != told.docked, EdgeKind::Docked(facts.docked)),
+            (
+                facts.inhibits != told.inhibits,
+                EdgeKind::Inhibits(facts.inhibits),
+            ),
+        ];
+        for (_, kind) in edges.into_iter().filter(|(changed, _)| *changed) {
+            self.session.queue_edge(kind, now);
+        }
+        let new = Inhibits::from_bits(facts.inhibits.bits() & !told.inhibits.bits());
+        for inhibit in new.iter().filter(|inhibit| inhibit.is_latched()) {
+            self.journal.note(LogLevel::Error, "latched", inhibit.name());
+        }
+    }
+
+    /// Writes the next packet if the last one is gone: what the session wants sent, then rare reports, then `state`.
+    pub(crate) fn fill_transmitter(&mut self, now: Tick) {
+        self.reporter.tick(self.session.mode(), now);
+        let Some(packet) = self.transmitter.next() else {
+            return;
+        };
+        if self.session.next_packet(packet) {
+            return;
+        }
+        let report = if self.reporter.info.take() {
+            Report::Info(self.info())
+        } else if let Some((level, text)) = self.journal.take() {
+            Report::Log { level, text }
+        } else if self.reporter.state.take() {
+            Report::State(self.state(now))
+        } else {
+            return;
+        };
+        if let Some(packet) = self.transmitter.next() {
+            // No `info`, `state` or log line is too long for a packet; if one were, the buffer would be empty.
+            self.session.encode(&report, packet).ok();
+        }
+    }
+
+    fn info(&mut self) -> Info {
+        Info {
+            firmware_version: name(self.parameters.firmware),
+            cordlib_version: name(VERSION),
+            main_steps_hz: self.reporter.steps.per_second(),
+            battery: self.board.battery.battery(),
+            bandwidth_in: self.reporter.bytes_in.per_second(),
+            bandwidth_out: self.reporter.bytes_out.per_second(),
+            link: self.session.counters(),
+        }
+    }
+
+    fn state(&mut self, now: Tick) -> State {
+        let battery = self.board.battery.battery();
+        State {
+            tick: now,
+            count_left: self.senses.counts.left,
+            count_right: self.senses.counts.right,
+            gyro: self.senses.gyro,
+            bumpers: self.reflexes.bumpers(),
+            cliffs: self.reflexes.cliffs(),
+            wheel_drops: self.reflexes.wheel_drops(),
+            proximity: self.board.proximity.closeness(),
+            dock: self.board.dock_beams.symbols(),
+            buttons: self.reflexes.buttons(),
+            // The wire has no word for a machine without this switch: its box is never missed.
+            dust_box: self.board.dust_box.inserted().unwrap_or(true),
+            currents: self.senses.currents.unwrap_or_default(),
+            battery_voltage: battery.map(|battery| battery.voltage).unwrap_or_default(),
+            battery_current: battery.map(|battery| battery.current).unwrap_or_default(),
+            charge: battery.map(|battery| battery.state).unwrap_or_default(),
+            docked: self.reflexes.dock.is_docked(),
+            inhibits: self.reflexes.inhibits(),
+            motion: self.motion.phase(),
+            cleaners: self.cleaning.running(),
+        }
+    }
+}
