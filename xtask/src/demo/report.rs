@@ -1,7 +1,6 @@
 //! The one JSON object that a run without a browser ends with.
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 /// What a run came to. The simulator writes the same object; the keys are a promise to scripts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,8 +19,8 @@ pub(crate) struct Report {
     pub(crate) path_m: f64,
     /// Contacts.
     pub(crate) bumps: u32,
-    /// Whether, or how often, the robot was stuck: as the simulator counts it.
-    pub(crate) stuck: Value,
+    /// How often the robot was stuck.
+    pub(crate) stuck: u32,
     /// Violations of the global safety monitor.
     pub(crate) monitor_violations: u64,
     /// Distance between the believed and the true pose, in metres.
@@ -58,7 +57,7 @@ mod tests {
             t0_s: 1.0,
             path_m,
             bumps: 0,
-            stuck: serde_json::Value::Bool(false),
+            stuck: 0,
             monitor_violations: violations,
             pose_rmse_m: 0.0,
             sim_seconds: 1.0,
