@@ -25,7 +25,6 @@ pub(crate) fn build() -> anyhow::Result<PathBuf> {
     .arg(workspace::target().join("uipack"))
     .arg("--")
     .arg(&wasm)
-    .arg(workspace::root().join("clients/panel/static"))
     .arg(&folder);
     process::run(
         "pack the panel (its packer takes about 30 s to build the first time)",
