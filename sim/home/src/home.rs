@@ -2,34 +2,98 @@
 
 use std::path::Path;
 
-use crate::load::HomeError;
+use crate::load::{self, DockWish, Draft, HomeError};
 use crate::model::RobotModel;
-use crate::plan::Grid;
+use crate::plan::{
+    Cell, DistanceField, DockSearch, Door, Grid, Regions, SurfaceMap, blocked_field, cliff_field,
+    docked_pose, solid_field,
+};
 use crate::pose::Pose;
 
 /// A floor plan, prepared for one model of robot. All poses are in the plan frame (see [`Grid`]).
 #[derive(Clone, Debug)]
 pub struct Home {
-    pub(crate) name: String,
-    pub(crate) grid: Grid,
-    pub(crate) file_from_plan: Pose,
-    pub(crate) dock: Option<Pose>,
-    pub(crate) start: Pose,
-    pub(crate) reachable: Vec<bool>,
-    pub(crate) reachable_cells: u32,
-    pub(crate) t0_s: f64,
+    name: String,
+    grid: Grid,
+    file_from_plan: Pose,
+    dock: Option<Pose>,
+    start: Pose,
+    reachable: Vec<bool>,
+    reachable_cells: u32,
+    t0_s: f64,
+    pub(crate) solid: DistanceField,
+    pub(crate) cliffs: Option<DistanceField>,
+    pub(crate) surfaces: SurfaceMap,
+    pub(crate) doors: Vec<Door>,
 }
 
 impl Home {
     /// Reads a home and prepares it for this model. The format is recognised by the content: a ROS `map_server` YAML
-    /// (with the PGM or PNG that it names), a Valetudo map JSON of version 2, or a home TOML of our own.
+    /// (with the PGM or PNG that it names), a Valetudo map JSON of version 1 or 2, or a home TOML of our own.
     ///
     /// # Errors
     /// [`HomeError`]; nothing else can happen, whatever the file contains.
-    pub fn load(_path: &Path, _model: &RobotModel) -> Result<Self, HomeError> {
-        Err(HomeError::Missing {
-            path: _path.to_owned(),
+    pub fn load(path: &Path, model: &RobotModel) -> Result<Self, HomeError> {
+        let draft = load::read_draft(path, model.body.climb_m)?;
+        Self::prepare(draft, model, path)
+    }
+
+    /// As [`Self::load`], for the text of a home TOML of our own that is not in a file. `name` stands for the file in
+    /// errors, and for the home's name if the text gives none.
+    ///
+    /// # Errors
+    /// [`HomeError`], as for a file with this text.
+    pub fn from_floorplan(name: &str, text: &str, model: &RobotModel) -> Result<Self, HomeError> {
+        let path = Path::new(name);
+        let draft = load::read_floorplan(path, text, model.body.climb_m)?;
+        Self::prepare(draft, model, path)
+    }
+
+    fn prepare(draft: Draft, model: &RobotModel, path: &Path) -> Result<Self, HomeError> {
+        if !draft.grid.cells.iter().any(|cell| cell.is_floor()) {
+            return Err(HomeError::NoFloor {
+                path: path.to_owned(),
+            });
+        }
+        let widest = with_doors_open(&draft);
+        let blocked = blocked_field(&widest);
+        let regions = Regions::new(&widest, &blocked, model.body.radius_m);
+        let search = Search {
+            grid: &widest,
+            blocked: &blocked,
+            regions: &regions,
+            model,
+            path,
+        };
+        let place = search.place(draft.dock)?;
+        let reachable = regions.swept_from(place.region, &widest, model.body.swath_m);
+        let reachable_cells = reachable.iter().filter(|cell| **cell).count() as u32;
+        let area_m2 = f64::from(reachable_cells) * widest.cell_area_m2();
+        Ok(Self {
+            name: draft.name,
+            file_from_plan: draft.file_from_plan,
+            dock: place.dock,
+            start: place.start,
+            reachable,
+            reachable_cells,
+            t0_s: area_m2 / (model.body.swath_m * model.drive.cruise_m_per_s),
+            solid: solid_field(&draft.grid),
+            cliffs: cliff_field(&draft.grid),
+            surfaces: draft.surfaces,
+            doors: draft.doors,
+            grid: draft.grid,
         })
+    }
+
+    /// The same home with one door open or closed. A number that it has not changes nothing.
+    pub(crate) fn with_door(&self, number: usize, open: bool) -> Self {
+        let mut changed = self.clone();
+        if let Some(door) = changed.doors.get_mut(number) {
+            door.open = open;
+            set_door(&mut changed.grid, door, open);
+            changed.solid = solid_field(&changed.grid);
+        }
+        changed
     }
 
     /// Name of the home: the `name` in its file, else the file's name without extension.
@@ -44,14 +108,15 @@ impl Home {
         &self.grid
     }
 
-    /// The plan frame in the frame that the file uses (ROS `origin`, centimetres of Valetudo turned into metres with y up,
-    /// the coordinates of our own format).
+    /// The plan frame in the frame that the file uses (ROS `origin`, the pixels of Valetudo in metres with y up, the
+    /// coordinates of our own format).
     #[must_use]
     pub const fn file_from_plan(&self) -> Pose {
         self.file_from_plan
     }
 
-    /// The dock: the middle of its back at the wall, heading into the room. Maps without a dock get one at a wall.
+    /// The dock: the middle of its back at the wall, heading into the room. Maps without a dock get one at a wall where
+    /// there is room for it.
     #[must_use]
     pub const fn dock(&self) -> Option<Pose> {
         self.dock
@@ -71,6 +136,7 @@ impl Home {
     }
 
     /// Area that a disc of the swath's width can sweep from poses that the body can reach from the start, square metres.
+    /// Doors that are ever open count as open.
     #[must_use]
     pub fn reachable_area_m2(&self) -> f64 {
         f64::from(self.reachable_cells) * self.grid.cell_area_m2()
@@ -82,9 +148,115 @@ impl Home {
         &self.reachable
     }
 
+    pub(crate) const fn reachable_cells(&self) -> u32 {
+        self.reachable_cells
+    }
+
     /// Lower bound of the cleaning time in seconds: reachable area / (swath x cruise speed).
     #[must_use]
     pub const fn t0_s(&self) -> f64 {
         self.t0_s
+    }
+
+    /// Distance in metres from a place to the nearest solid thing; negative inside of one.
+    #[must_use]
+    pub fn clearance_m(&self, x_m: f64, y_m: f64) -> f64 {
+        self.solid.at(x_m, y_m)
+    }
+}
+
+fn set_door(grid: &mut Grid, door: &Door, open: bool) {
+    for (index, behind) in &door.cells {
+        if let Some(cell) = grid.cells.get_mut(*index) {
+            *cell = if open { *behind } else { Cell::Obstacle };
+        }
+    }
+}
+
+fn with_doors_open(draft: &Draft) -> Grid {
+    let mut grid = draft.grid.clone();
+    for door in draft.doors.iter().filter(|door| door.ever_open()) {
+        set_door(&mut grid, door, true);
+    }
+    grid
+}
+
+/// Region, dock and start that belong together.
+struct Place {
+    region: u32,
+    dock: Option<Pose>,
+    start: Pose,
+}
+
+struct Search<'a> {
+    grid: &'a Grid,
+    blocked: &'a DistanceField,
+    regions: &'a Regions,
+    model: &'a RobotModel,
+    path: &'a Path,
+}
+
+impl Search<'_> {
+    fn place(&self, wish: DockWish) -> Result<Place, HomeError> {
+        let biggest = self.regions.biggest().ok_or_else(|| self.no_place())?;
+        let radius_m = self.model.body.radius_m;
+        let docks = DockSearch {
+            grid: self.grid,
+            blocked: self.blocked,
+            regions: self.regions,
+            radius_m,
+        };
+        let (region, dock, on_dock) = match wish {
+            DockWish::Anywhere => (biggest, docks.find(biggest, None), false),
+            DockWish::Near(x_m, y_m) => (biggest, docks.find(biggest, Some((x_m, y_m))), true),
+            DockWish::At(dock) => (self.region_of_dock(dock)?, Some(dock), true),
+        };
+        let start = match dock {
+            Some(dock) if on_dock => docked_pose(dock, radius_m),
+            _ => self.roomiest(region),
+        };
+        Ok(Place { region, dock, start })
+    }
+
+    /// The region in front of the dock.
+    fn region_of_dock(&self, dock: Pose) -> Result<u32, HomeError> {
+        let docked = docked_pose(dock, self.model.body.radius_m);
+        let steps = 10;
+        (0..=steps)
+            .map(|step| docked.point(-0.3 * f64::from(step) / f64::from(steps), 0.0))
+            .filter_map(|(x_m, y_m)| self.grid.index(x_m, y_m))
+            .map(|index| self.regions.label(index))
+            .find(|region| *region != 0)
+            .ok_or_else(|| HomeError::Invalid {
+                path: self.path.to_owned(),
+                place: "dock".to_owned(),
+                problem: format!(
+                    "there is no room for the robot (radius {} m) in front of it; move the dock or turn it into the room",
+                    self.model.body.radius_m
+                ),
+            })
+    }
+
+    fn roomiest(&self, region: u32) -> Pose {
+        let mut best = (f32::NEG_INFINITY, 0);
+        for index in self.regions.cells(region) {
+            let clearance = self.blocked.cell(index);
+            if clearance > best.0 {
+                best = (clearance, index);
+            }
+        }
+        let (x_m, y_m) = self.grid.centre(best.1);
+        Pose::new(x_m, y_m, 0.0)
+    }
+
+    fn no_place(&self) -> HomeError {
+        let clear = (0..self.grid.cells.len())
+            .map(|index| self.blocked.cell(index))
+            .fold(0.0, f32::max);
+        HomeError::NoPlace {
+            path: self.path.to_owned(),
+            radius_m: self.model.body.radius_m,
+            clear_m: f64::from(clear),
+        }
     }
 }

@@ -40,7 +40,7 @@ pub enum HomeError {
         limit: u64,
     },
     /// The content is none of the known formats.
-    #[error("{} is no home: {found}; it must be a ROS map .yaml, a Valetudo map .json of version 2 or a home .toml (homes/README.md)", path.display())]
+    #[error("{} is no home: {found}; it must be a ROS map .yaml, a Valetudo map .json or a home .toml (homes/README.md)", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,

@@ -63,6 +63,17 @@ impl Grid {
         (column < self.width && row < self.height).then(|| row * self.width + column)
     }
 
+    /// Centre of a cell in metres.
+    #[must_use]
+    pub fn centre(&self, index: usize) -> (f64, f64) {
+        let width = self.width.max(1);
+        let (column, row) = (index % width, index / width);
+        (
+            (column as f64 + 0.5) * self.cell_m,
+            (row as f64 + 0.5) * self.cell_m,
+        )
+    }
+
     /// Area of one cell, square metres.
     #[must_use]
     pub fn cell_area_m2(&self) -> f64 {

@@ -1,9 +1,20 @@
 //! A robot in a home, advanced millisecond by millisecond.
 
 mod actuation;
+mod battery;
+mod body;
+mod dirt;
+mod dock;
 mod fault;
+mod floor;
+mod gyro;
+mod lidar;
+mod proximity;
 mod sensors;
+mod slip;
+mod step;
 mod truth;
+mod wheel;
 
 use std::sync::Arc;
 
@@ -12,48 +23,112 @@ pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
 
-use crate::{Home, Noise, Pose, RobotModel};
+use crate::{Home, Noise, Pcg, Pose, RobotModel};
+use battery::Battery;
+use body::Body;
+use dirt::Dirt;
+use dock::Dock;
+use fault::Faults;
+use floor::Underneath;
+use gyro::Gyro;
+use lidar::Lidar;
+use proximity::Proximity;
+use slip::Slip;
+use wheel::Wheel;
 
 /// A robot in a home. The same seed and the same sequence of calls give the same bits.
 #[derive(Clone, Debug)]
 pub struct World {
     home: Arc<Home>,
+    model: RobotModel,
+    noise: Noise,
+    body: Body,
+    left: Wheel,
+    right: Wheel,
+    slip: Slip,
+    underneath: Underneath,
+    proximity: Option<Proximity>,
+    gyro: Option<Gyro>,
+    dock: Option<Dock>,
+    battery: Battery,
+    dirt: Dirt,
+    lidar: Option<Lidar>,
+    faults: Faults,
+    /// State of each door at the start.
+    doors: Vec<bool>,
+    random: Pcg,
     sensors: Sensors,
     truth: Truth,
 }
 
+/// Streams of random numbers, so that one part's draws do not shift another's.
+#[derive(Clone, Copy)]
+enum Stream {
+    Build = 1,
+    Run = 2,
+    Dirt = 3,
+    Faults = 4,
+}
+
 impl World {
     /// Puts a robot into a home: at `start` (plan frame), or where the home says. Whatever differs from run to run
-    /// (wheel errors, gyro bias, albedo, dirt) comes from `noise` and `seed`.
+    /// (wheel errors, gyro bias, albedo, dirt) comes from `noise` and `seed`. The battery is full.
     #[must_use]
     #[expect(
         clippy::too_many_arguments,
         reason = "home, robot, noise, seed and start are five different things"
     )]
-    pub fn new(
-        home: Arc<Home>,
-        _model: &RobotModel,
-        _noise: &Noise,
-        _seed: u64,
-        start: Option<Pose>,
-    ) -> Self {
-        let truth = Truth::at(start.unwrap_or(home.start()));
-        Self {
+    pub fn new(home: Arc<Home>, model: &RobotModel, noise: &Noise, seed: u64, start: Option<Pose>) -> Self {
+        let mut build = Pcg::new(seed, Stream::Build as u64);
+        let random = &mut build;
+        let pose = start.unwrap_or(home.start());
+        let (slip, errors) = Slip::new(model, noise, random);
+        let mut world = Self {
+            body: Body::new(model, pose),
+            left: Wheel::new(model, errors.left),
+            right: Wheel::new(model, errors.right),
+            slip,
+            underneath: Underneath::new(model, noise, random),
+            proximity: model
+                .proximity
+                .as_ref()
+                .map(|part| Proximity::new(part, model.body.radius_m, noise, random)),
+            gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
+            dock: Dock::of(&home, model),
+            battery: Battery::new(model.battery, 1.0),
+            dirt: Dirt::new(
+                &home,
+                model.body.swath_m,
+                &mut Pcg::new(seed, Stream::Dirt as u64),
+            ),
+            lidar: model.lidar.map(Lidar::new),
+            faults: Faults::new(Pcg::new(seed, Stream::Faults as u64)),
+            doors: home.doors.iter().map(|door| door.open).collect(),
+            random: Pcg::new(seed, Stream::Run as u64),
+            sensors: Sensors {
+                dust_box: true,
+                gyro: model.gyro.map(|_| GyroReading::default()),
+                ..Sensors::default()
+            },
+            truth: Truth::at(pose),
+            model: model.clone(),
+            noise: *noise,
             home,
-            sensors: Sensors::default(),
-            truth,
-        }
-    }
-
-    /// Advances exactly one millisecond with these outputs of the firmware.
-    pub fn step(&mut self, _actuation: &Actuation) {
-        self.truth.time_ms += 1;
+        };
+        world.settle();
+        world
     }
 
     /// What the firmware can read now.
     #[must_use]
-    pub const fn sensors(&self) -> &Sensors {
-        &self.sensors
+    pub fn sensors(&self) -> &Sensors {
+        self.faults.shown().unwrap_or(&self.sensors)
+    }
+
+    /// The last complete turn of the lidar, if the robot has one.
+    #[must_use]
+    pub fn lidar(&self) -> Option<&LidarScan> {
+        self.lidar.as_ref().map(|lidar| &lidar.scan)
     }
 
     /// What is really so.
@@ -68,31 +143,50 @@ impl World {
         &self.home
     }
 
+    /// The robot.
+    #[must_use]
+    pub const fn model(&self) -> &RobotModel {
+        &self.model
+    }
+
     /// The cells of the reachable floor that the swath has passed, in the order of the grid's cells.
     #[must_use]
     pub fn swept(&self) -> &[bool] {
-        &[]
+        &self.dirt.swept
     }
 
     /// Somebody lifts the robot: both wheels hang, it does not move any more.
     pub fn lift(&mut self) {
         self.truth.lifted = true;
+        self.body.leave_contact();
+        self.settle();
     }
 
-    /// Puts the robot down where it was lifted, or where it fell down.
+    /// Puts the robot down where it was lifted. A robot that fell down the stairs is put back to the place where it
+    /// started.
     pub fn put_down(&mut self) {
-        self.truth.lifted = false;
+        let pose = if self.truth.fallen {
+            self.home.start()
+        } else {
+            self.body.pose()
+        };
+        self.put_down_at(pose);
     }
 
     /// Puts the robot down somewhere else (plan frame).
     pub fn put_down_at(&mut self, pose: Pose) {
-        self.truth.pose = pose;
-        self.put_down();
+        self.truth.lifted = false;
+        self.truth.fallen = false;
+        self.body.place(pose);
+        self.underneath.forget();
+        self.settle();
     }
 
     /// Somebody presses a button until it is released. A number that the robot has not is ignored.
     pub fn press_button(&mut self, button: u8) {
-        self.sensors.buttons |= 1u8.checked_shl(button.into()).unwrap_or(0);
+        if button < self.model.buttons {
+            self.sensors.buttons |= 1u8.checked_shl(button.into()).unwrap_or(0);
+        }
     }
 
     /// Somebody lets go of a button.
@@ -101,20 +195,23 @@ impl World {
     }
 
     /// Takes the dust box out.
-    pub fn remove_dust_box(&mut self) {
+    pub const fn remove_dust_box(&mut self) {
         self.sensors.dust_box = false;
     }
 
     /// Puts the dust box in.
-    pub fn insert_dust_box(&mut self) {
+    pub const fn insert_dust_box(&mut self) {
         self.sensors.dust_box = true;
     }
 
     /// Sets the charge of the battery, clamped to 0..1.
     pub fn set_battery_charge(&mut self, charge: f64) {
-        self.truth.battery_charge = charge.clamp(0.0, 1.0);
+        self.battery = Battery::new(self.model.battery, charge.clamp(0.0, 1.0));
+        self.truth.battery_charge = self.battery.charge;
     }
 
     /// Makes a sensor lie, or (`None`) tell the truth again. A sensor that the robot has not is ignored.
-    pub fn set_fault(&mut self, _sensor: SensorId, _fault: Option<SensorFault>) {}
+    pub fn set_fault(&mut self, sensor: SensorId, fault: Option<SensorFault>) {
+        self.faults.set(sensor, fault, &self.sensors);
+    }
 }

@@ -4,7 +4,7 @@ use rvac_units::{Angle, AngularSpeed, Current, Temperature, Voltage};
 
 /// Readings after the last [`super::World::step`], faults included. Arrays hold as many valid entries as the robot has
 /// sensors of the kind, the rest stays 0 or false.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensors {
     /// Left encoder total, forward positive, wraps. With one encoder line every count adds.
     pub count_left: i32,
@@ -45,8 +45,6 @@ pub struct Sensors {
     pub dust_box: bool,
     /// Buttons that are down, bit by number.
     pub buttons: u8,
-    /// The last complete turn of the lidar, if the robot has one.
-    pub lidar: Option<LidarScan>,
 }
 
 /// What the gyro module tells.

@@ -1,0 +1,228 @@
+//! The body in the plan: pose, contact with solid things, bumper.
+
+use crate::model::RobotModel;
+use crate::plan::DistanceField;
+use crate::pose::{Pose, wrap_angle};
+
+/// A switch stays closed this long after the last step in which it was pressed: springs are slower than a step, and in a
+/// corner the nearest wall changes from step to step.
+const RELEASE_MS: u64 = 15;
+/// A new contact counts when the last one is at least this long ago, milliseconds.
+const CONTACT_PAUSE_MS: u64 = 100;
+/// Most corrections in one step: a corner needs two.
+const CORRECTIONS_MAX: usize = 3;
+/// Share of the normal displacement that friction takes from the sliding one.
+const WALL_FRICTION: f64 = 0.2;
+/// Steps after which cosine and sine are computed afresh.
+const REFRESH_STEPS: u32 = 64;
+
+/// The body.
+#[derive(Clone, Debug)]
+pub(crate) struct Body {
+    radius_m: f64,
+    travel_m: f64,
+    switch_m: f64,
+    arc_cos: f64,
+    overlap_sin: f64,
+    pub(crate) x_m: f64,
+    pub(crate) y_m: f64,
+    pub(crate) heading_rad: f64,
+    pub(crate) cos: f64,
+    pub(crate) sin: f64,
+    steps: u32,
+    /// No solid thing is nearer to the rim than this, metres.
+    pub(crate) free_m: f64,
+    /// Direction of the present contact from straight ahead.
+    pub(crate) contact: Option<Contact>,
+    left_until_ms: u64,
+    right_until_ms: u64,
+    last_contact_ms: Option<u64>,
+    pub(crate) contacts: u32,
+}
+
+/// What the body touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Contact {
+    /// Cosine of its direction from straight ahead.
+    pub(crate) forward: f64,
+    /// Sine of its direction from straight ahead, left positive.
+    pub(crate) left: f64,
+    /// The bumper is pressed to its end, or the touched part of the body does not give way.
+    pub(crate) rigid: bool,
+}
+
+impl Body {
+    pub(crate) fn new(model: &RobotModel, pose: Pose) -> Self {
+        let mut body = Self {
+            radius_m: model.body.radius_m,
+            travel_m: model.bumper.travel_m,
+            switch_m: model.bumper.switch_m,
+            arc_cos: libm::cos(model.bumper.half_arc_rad),
+            overlap_sin: libm::sin(model.bumper.overlap_rad),
+            x_m: 0.0,
+            y_m: 0.0,
+            heading_rad: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            steps: 0,
+            free_m: 0.0,
+            contact: None,
+            left_until_ms: 0,
+            right_until_ms: 0,
+            last_contact_ms: None,
+            contacts: 0,
+        };
+        body.place(pose);
+        body
+    }
+
+    /// Puts the body somewhere.
+    pub(crate) fn place(&mut self, pose: Pose) {
+        (self.x_m, self.y_m, self.heading_rad) = (pose.x_m, pose.y_m, pose.heading_rad);
+        (self.sin, self.cos) = libm::sincos(self.heading_rad);
+        self.free_m = 0.0;
+        self.contact = None;
+    }
+
+    pub(crate) const fn pose(&self) -> Pose {
+        Pose::new(self.x_m, self.y_m, self.heading_rad)
+    }
+
+    /// A point of the body in the plan.
+    pub(crate) fn point(&self, x_m: f64, y_m: f64) -> (f64, f64) {
+        (
+            self.x_m + self.cos * x_m - self.sin * y_m,
+            self.y_m + self.sin * x_m + self.cos * y_m,
+        )
+    }
+
+    /// Moves along a small arc as if nothing stood in the way.
+    pub(crate) fn advance(&mut self, way_m: f64, turn_rad: f64) {
+        let half = 0.5 * turn_rad;
+        self.x_m += way_m * (self.cos - self.sin * half);
+        self.y_m += way_m * (self.sin + self.cos * half);
+        self.free_m -= way_m.abs();
+        self.turn(turn_rad);
+    }
+
+    /// Rotates the direction by a small angle: series up to the second order, refreshed before errors add up.
+    fn turn(&mut self, turn_rad: f64) {
+        self.heading_rad += turn_rad;
+        self.steps += 1;
+        if self.steps >= REFRESH_STEPS {
+            self.steps = 0;
+            (self.sin, self.cos) = libm::sincos(self.heading_rad);
+            return;
+        }
+        let less = 1.0 - 0.5 * turn_rad * turn_rad;
+        (self.cos, self.sin) = (
+            self.cos * less - self.sin * turn_rad,
+            self.sin * less + self.cos * turn_rad,
+        );
+    }
+
+    /// Pushes the body out of what it ran into, and presses the bumper.
+    pub(crate) fn collide(&mut self, solid: &DistanceField, now_ms: u64) {
+        if self.free_m > 0.0 {
+            self.contact = None;
+            return;
+        }
+        self.free_m = solid.at(self.x_m, self.y_m) - self.radius_m;
+        if self.free_m >= 0.0 {
+            self.contact = None;
+            return;
+        }
+        for _ in 0..CORRECTIONS_MAX {
+            if !self.push_out(solid, now_ms) {
+                break;
+            }
+        }
+        let pause = self.last_contact_ms.map(|last| now_ms - last);
+        if pause.is_none_or(|pause| pause > CONTACT_PAUSE_MS) {
+            self.contacts += 1;
+        }
+        self.last_contact_ms = Some(now_ms);
+    }
+
+    /// One correction; false when none is needed any more.
+    fn push_out(&mut self, solid: &DistanceField, now_ms: u64) -> bool {
+        let depth_m = self.radius_m - solid.at(self.x_m, self.y_m);
+        if depth_m <= 0.0 {
+            return false;
+        }
+        let (nx, ny) = solid.away(self.x_m, self.y_m);
+        let forward = -(nx * self.cos + ny * self.sin);
+        let left = -(ny * self.cos - nx * self.sin);
+        let gives_way = forward >= self.arc_cos;
+        let allowed_m = if gives_way { self.travel_m } else { 0.0 };
+        let excess_m = depth_m - allowed_m;
+        self.contact = Some(Contact {
+            forward,
+            left,
+            rigid: excess_m > -1e-4,
+        });
+        if gives_way && depth_m >= self.switch_m {
+            self.press(left, now_ms);
+        }
+        if excess_m <= 0.0 {
+            return false;
+        }
+        self.x_m += nx * excess_m;
+        self.y_m += ny * excess_m;
+        true
+    }
+
+    /// A body that stands still keeps pressing what it presses.
+    pub(crate) const fn rest(&mut self, now_ms: u64) {
+        if self.contact.is_none() {
+            return;
+        }
+        if self.left_until_ms >= now_ms {
+            self.left_until_ms = now_ms + RELEASE_MS;
+        }
+        if self.right_until_ms >= now_ms {
+            self.right_until_ms = now_ms + RELEASE_MS;
+        }
+    }
+
+    /// Lifted, the body touches nothing.
+    pub(crate) const fn leave_contact(&mut self) {
+        self.contact = None;
+    }
+
+    fn press(&mut self, left: f64, now_ms: u64) {
+        if left >= -self.overlap_sin {
+            self.left_until_ms = now_ms + RELEASE_MS;
+        }
+        if left <= self.overlap_sin {
+            self.right_until_ms = now_ms + RELEASE_MS;
+        }
+    }
+
+    /// Left and right switch.
+    pub(crate) fn pressed(&self, now_ms: u64) -> (bool, bool) {
+        (now_ms < self.left_until_ms, now_ms < self.right_until_ms)
+    }
+
+    /// Direction of the present contact, radians from straight ahead.
+    pub(crate) fn contact_rad(&self) -> Option<f64> {
+        self.contact
+            .map(|contact| wrap_angle(libm::atan2(contact.left, contact.forward)))
+    }
+
+    /// Share of the wheels' greatest force that a contact takes when they push into this direction (sign of the way).
+    pub(crate) fn blocked(&self, direction: f64) -> f64 {
+        match self.contact {
+            Some(contact) if contact.rigid => (contact.forward * direction).max(0.0),
+            _ => 0.0,
+        }
+    }
+
+    /// Friction of a wall on a sliding body, as a share of the way.
+    pub(crate) fn wall_friction(&self) -> f64 {
+        match self.contact {
+            Some(contact) if contact.rigid => WALL_FRICTION * contact.forward.abs(),
+            _ => 0.0,
+        }
+    }
+}

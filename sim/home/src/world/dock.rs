@@ -1,0 +1,130 @@
+//! The dock: two beams that overlap in the middle, a weak one around, and two contacts.
+
+use super::body::Body;
+use super::sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT};
+use crate::home::Home;
+use crate::model::RobotModel;
+use crate::plan::{DistanceField, docked_pose};
+use crate::pose::{Pose, wrap_angle};
+
+/// The two beams reach so far, metres.
+const BEAM_M: f64 = 3.0;
+/// The weak beam reaches so far, metres.
+const NEAR_M: f64 = 0.5;
+/// Tangent of the outer edge of a beam (35 degrees).
+const BEAM_TAN: f64 = 0.70;
+/// Tangent of how far a beam reaches over the middle (4 degrees).
+const OVERLAP_TAN: f64 = 0.07;
+/// The emitters stand so far in front of the dock's back, metres.
+const EMITTER_M: f64 = 0.04;
+/// Greatest errors with which the contacts still touch: along, aside in metres, and in heading.
+const CONTACT_ALONG_M: f64 = 0.018;
+const CONTACT_ASIDE_M: f64 = 0.02;
+const CONTACT_RAD: f64 = 0.2;
+/// Most steps of a line of sight.
+const SIGHT_MAX: usize = 200;
+
+/// The dock as the robot meets it.
+#[derive(Clone, Debug)]
+pub(crate) struct Dock {
+    pose: Pose,
+    plan_cos: f64,
+    plan_sin: f64,
+    docked: Pose,
+    /// What the receivers hear.
+    pub(crate) symbols: [u8; 4],
+    /// The contacts touch.
+    pub(crate) docked_now: bool,
+}
+
+impl Dock {
+    pub(crate) fn of(home: &Home, model: &RobotModel) -> Option<Self> {
+        let pose = home.dock()?;
+        let (plan_sin, plan_cos) = libm::sincos(pose.heading_rad);
+        Some(Self {
+            pose,
+            plan_cos,
+            plan_sin,
+            docked: docked_pose(pose, model.body.radius_m),
+            symbols: [0; 4],
+            docked_now: false,
+        })
+    }
+
+    /// A place relative to the dock: metres into the room and to the dock's left.
+    fn relative(&self, x_m: f64, y_m: f64) -> (f64, f64) {
+        let (dx, dy) = (x_m - self.pose.x_m, y_m - self.pose.y_m);
+        (
+            dx * self.plan_cos + dy * self.plan_sin,
+            dy * self.plan_cos - dx * self.plan_sin,
+        )
+    }
+
+    /// Samples the contacts.
+    pub(crate) fn sample_contacts(&mut self, body: &Body) {
+        let (along, aside) = self.relative(body.x_m, body.y_m);
+        let (rest, _) = self.relative(self.docked.x_m, self.docked.y_m);
+        self.docked_now = (along - rest).abs() <= CONTACT_ALONG_M
+            && aside.abs() <= CONTACT_ASIDE_M
+            && wrap_angle(body.heading_rad - self.docked.heading_rad).abs() <= CONTACT_RAD;
+    }
+
+    /// Samples the receivers.
+    pub(crate) fn sample_beams(&mut self, model: &RobotModel, solid: &DistanceField, body: &Body) {
+        self.symbols = [0; 4];
+        let (along, aside) = self.relative(body.x_m, body.y_m);
+        let symbol = beams_at(along - EMITTER_M, aside);
+        if symbol == 0 {
+            return;
+        }
+        let emitter = self.pose.point(EMITTER_M, 0.0);
+        if !in_sight(solid, (body.x_m, body.y_m), emitter) {
+            return;
+        }
+        let direction = libm::atan2(emitter.1 - body.y_m, emitter.0 - body.x_m) - body.heading_rad;
+        for (mount, heard) in model.dock_receivers.iter().zip(&mut self.symbols) {
+            if wrap_angle(direction - mount.heading_rad).abs() <= mount.half_angle_rad {
+                *heard = symbol;
+            }
+        }
+    }
+}
+
+/// Symbols at a place relative to the emitters. A robot that faces the dock has the dock's right on its left.
+fn beams_at(along: f64, aside: f64) -> u8 {
+    let squared = along * along + aside * aside;
+    let mut symbols = 0;
+    if along > 0.0 && squared < BEAM_M * BEAM_M {
+        if aside < OVERLAP_TAN * along && aside > -BEAM_TAN * along {
+            symbols |= DOCK_LEFT;
+        }
+        if aside > -OVERLAP_TAN * along && aside < BEAM_TAN * along {
+            symbols |= DOCK_RIGHT;
+        }
+    }
+    if squared < NEAR_M * NEAR_M {
+        symbols |= DOCK_NEAR;
+    }
+    symbols
+}
+
+/// Whether nothing solid lies between two places.
+fn in_sight(solid: &DistanceField, from: (f64, f64), to: (f64, f64)) -> bool {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let length = libm::sqrt(dx * dx + dy * dy);
+    if length < 1e-6 {
+        return true;
+    }
+    let mut way_m = 0.0;
+    for _ in 0..SIGHT_MAX {
+        if way_m >= length {
+            return true;
+        }
+        let clear_m = solid.at(from.0 + dx / length * way_m, from.1 + dy / length * way_m);
+        if clear_m < 0.0 {
+            return false;
+        }
+        way_m += clear_m.max(0.015);
+    }
+    false
+}

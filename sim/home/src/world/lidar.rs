@@ -1,0 +1,80 @@
+//! A turning lidar.
+
+use super::body::Body;
+use super::sensors::LidarScan;
+use super::wheel::STEP_S;
+use crate::plan::DistanceField;
+use crate::{Pcg, model};
+
+/// Most marching steps of one beam.
+const MARCH_MAX: usize = 96;
+/// A beam ends where something solid is nearer than this, metres.
+const HIT_M: f64 = 0.003;
+
+/// The lidar: measures a few beams in every step, so a scan is taken while the robot moves, as a real one is.
+#[derive(Clone, Debug)]
+pub(crate) struct Lidar {
+    part: model::Lidar,
+    beams_per_step: f64,
+    due: f64,
+    next: usize,
+    growing: Vec<f32>,
+    /// The last complete turn.
+    pub(crate) scan: LidarScan,
+}
+
+impl Lidar {
+    pub(crate) fn new(part: model::Lidar) -> Self {
+        let beams = usize::from(part.beams);
+        Self {
+            part,
+            beams_per_step: f64::from(part.beams) * part.turns_hz * STEP_S,
+            due: 0.0,
+            next: 0,
+            growing: vec![0.0; beams],
+            scan: LidarScan {
+                turn: 0,
+                ranges_m: vec![0.0; beams],
+            },
+        }
+    }
+
+    pub(crate) fn step(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+        self.due += self.beams_per_step;
+        while self.due >= 1.0 {
+            self.due -= 1.0;
+            self.measure(solid, body, random);
+        }
+    }
+
+    fn measure(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+        let share = self.next as f64 / self.growing.len() as f64;
+        let (sin, cos) = libm::sincos(body.heading_rad + core::f64::consts::TAU * share);
+        let distance_m = self.march(solid, (body.x_m, body.y_m), (cos, sin));
+        if let Some(range) = self.growing.get_mut(self.next) {
+            *range = (distance_m * (1.0 + self.part.noise * random.normal())) as f32;
+        }
+        self.next += 1;
+        if self.next >= self.growing.len() {
+            self.next = 0;
+            self.scan.turn = self.scan.turn.wrapping_add(1);
+            self.scan.ranges_m.copy_from_slice(&self.growing);
+        }
+    }
+
+    /// Distance to what the beam meets; 0 when nothing is within range.
+    fn march(&self, solid: &DistanceField, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
+        let mut way_m = 0.0;
+        for _ in 0..MARCH_MAX {
+            let clear_m = solid.at(x_m + dx * way_m, y_m + dy * way_m);
+            if clear_m < HIT_M {
+                return way_m;
+            }
+            way_m += clear_m;
+            if way_m > self.part.range_m {
+                return 0.0;
+            }
+        }
+        0.0
+    }
+}

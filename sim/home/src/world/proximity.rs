@@ -1,0 +1,124 @@
+//! Infrared proximity: each sensor sends a narrow cone outward and measures how much comes back.
+
+use super::body::Body;
+use crate::model;
+use crate::plan::DistanceField;
+use crate::{Noise, Pcg};
+
+/// Most marching steps of one beam; enough to creep along a wall for the whole range.
+const MARCH_MAX: usize = 32;
+/// Smallest marching step, metres.
+const MARCH_M: f64 = 0.004;
+/// Side of the patches of walls and furniture that share one albedo, metres.
+const PATCH_M: f64 = 0.4;
+
+/// All proximity sensors of the robot.
+#[derive(Clone, Debug)]
+pub(crate) struct Proximity {
+    /// Directions in the body's frame.
+    directions: Vec<(f64, f64)>,
+    mount_m: f64,
+    skin_m: f64,
+    range_m: f64,
+    spread: f64,
+    half_level_m: f64,
+    noise: f64,
+    albedo: f64,
+    dropout: f64,
+    patches: u64,
+    next: usize,
+    pub(crate) levels: [u8; 8],
+}
+
+impl Proximity {
+    pub(crate) fn new(part: &model::Proximity, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
+        Self {
+            directions: part
+                .headings_rad
+                .iter()
+                .map(|heading| {
+                    let (sin, cos) = libm::sincos(*heading);
+                    (cos, sin)
+                })
+                .collect(),
+            mount_m: part.mount_radius_m,
+            skin_m: radius_m - part.mount_radius_m,
+            range_m: part.range_m,
+            spread: libm::tan(part.half_angle_rad),
+            half_level_m: part.half_level_m,
+            noise: noise.infrared_noise,
+            albedo: noise.infrared_albedo,
+            dropout: noise.infrared_dropout,
+            patches: u64::from(random.next_u32()) << 32 | u64::from(random.next_u32()),
+            next: 0,
+            levels: [0; 8],
+        }
+    }
+
+    /// Samples the next sensor in turn.
+    pub(crate) fn sample_next(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+        let sensor = self.next;
+        self.next += 1;
+        if self.next >= self.directions.len() {
+            self.next = 0;
+        }
+        let Some((cos, sin)) = self.directions.get(sensor).copied() else {
+            return;
+        };
+        let level = if body.free_m > self.range_m {
+            0
+        } else {
+            let direction = (body.cos * cos - body.sin * sin, body.sin * cos + body.cos * sin);
+            self.sample(solid, (body.x_m, body.y_m), direction, random)
+        };
+        if let Some(shown) = self.levels.get_mut(sensor) {
+            *shown = level;
+        }
+    }
+
+    fn sample(
+        &self,
+        solid: &DistanceField,
+        (x_m, y_m): (f64, f64),
+        (dx, dy): (f64, f64),
+        random: &mut Pcg,
+    ) -> u8 {
+        let start = (x_m + dx * self.mount_m, y_m + dy * self.mount_m);
+        let Some(distance_m) = self.march(solid, start, (dx, dy)) else {
+            return 0;
+        };
+        if random.unit() < self.dropout {
+            return 0;
+        }
+        let hit = (start.0 + dx * distance_m, start.1 + dy * distance_m);
+        let beyond = (distance_m - self.skin_m).max(0.0) / self.half_level_m;
+        let light = self.reflection(hit) / (1.0 + beyond * beyond);
+        (255.0 * light * (1.0 + self.noise * random.normal())) as u8
+    }
+
+    /// Distance from the sensor to what its cone meets.
+    fn march(&self, solid: &DistanceField, start: (f64, f64), (dx, dy): (f64, f64)) -> Option<f64> {
+        let mut way_m = 0.0;
+        for _ in 0..MARCH_MAX {
+            let clear_m = solid.at(start.0 + dx * way_m, start.1 + dy * way_m);
+            if clear_m <= self.spread * way_m + 0.001 {
+                return Some(way_m + clear_m.max(0.0));
+            }
+            way_m += (0.95 * clear_m).max(MARCH_M);
+            if way_m > self.range_m {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Reflection of the patch around a place, 1 on average.
+    fn reflection(&self, (x_m, y_m): (f64, f64)) -> f64 {
+        let (column, row) = ((x_m / PATCH_M) as i64, (y_m / PATCH_M) as i64);
+        let mut hash = self.patches ^ (column as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        hash ^= (row as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
+        hash = (hash ^ (hash >> 31)).wrapping_mul(0xd6e8_feb8_6659_fd93);
+        let unit = f64::from((hash >> 32) as u32) / 4_294_967_296.0;
+        1.0 + self.albedo * (2.0 * unit - 1.0)
+    }
+}

@@ -1,0 +1,282 @@
+//! One millisecond of the world: what happens in which order, and how often each sensor is sampled.
+
+use std::sync::Arc;
+
+use rvac_units::{Current, Temperature, Voltage};
+
+use super::wheel::STEP_S;
+use super::{Actuation, World};
+
+/// Milliseconds between two samples of one proximity sensor after the other: 7 sensors at 48 Hz.
+const PROXIMITY_MS: u64 = 3;
+/// Milliseconds between two samples of the cliff sensors.
+const CLIFF_MS: u64 = 4;
+/// Milliseconds between two samples of the floor's surface.
+const SURFACE_MS: u64 = 8;
+/// Milliseconds between two steps of battery and currents.
+const BATTERY_MS: u64 = 10;
+/// Milliseconds between two draws of slip and gyro noise.
+const DRAW_MS: u64 = super::slip::DRAW_STEPS;
+/// Milliseconds between two samples of the dock's beams.
+const DOCK_MS: u64 = 40;
+/// Milliseconds between two looks at the doors.
+const DOOR_MS: u64 = 256;
+/// Milliseconds between two steps of the gyro's bias.
+const DRIFT_MS: u64 = 1024;
+/// A door waits until the robot is this far from its leaf, metres beyond the body.
+const DOOR_GAP_M: f64 = 0.02;
+
+impl World {
+    /// Advances exactly one millisecond with these outputs of the firmware.
+    pub fn step(&mut self, actuation: &Actuation) {
+        self.truth.time_ms += 1;
+        let turn_rad = self.move_body(actuation);
+        if let Some(gyro) = &mut self.gyro {
+            gyro.step(turn_rad);
+        }
+        self.sample(actuation);
+        self.publish(actuation);
+        self.faults.apply(&self.sensors);
+    }
+
+    /// Brings all sensors up to date after the robot was put somewhere.
+    pub(super) fn settle(&mut self) {
+        let actuation = Actuation {
+            cliff_emitter: true,
+            ..Actuation::default()
+        };
+        let now_ms = self.truth.time_ms;
+        if !self.is_in_air() {
+            self.body.collide(&self.home.solid, now_ms);
+        }
+        self.underneath.move_on(&self.home, &self.body, 0.0);
+        self.underneath.sample_surface(&self.home, &self.body);
+        self.sample_cliffs();
+        self.step_battery(&actuation, 0.0);
+        if let Some(dock) = &mut self.dock {
+            dock.sample_contacts(&self.body);
+            dock.sample_beams(&self.model, &self.home.solid, &self.body);
+        }
+        self.publish(&actuation);
+        self.faults.apply(&self.sensors);
+    }
+
+    fn is_in_air(&self) -> bool {
+        self.truth.lifted || self.truth.fallen
+    }
+
+    /// Turns the wheels and moves the body; gives the true turn in radians.
+    fn move_body(&mut self, actuation: &Actuation) -> f64 {
+        let (left, right) = (actuation.wheel_left, actuation.wheel_right);
+        let driven = left.pwm != 0.0 || right.pwm != 0.0;
+        if !driven && self.left.is_standing() && self.right.is_standing() {
+            (self.left.current_a, self.right.current_a) = (0.0, 0.0);
+            self.truth.speed_m_per_s = 0.0;
+            self.truth.turn_rad_per_s = 0.0;
+            self.body.rest(self.truth.time_ms);
+            return 0.0;
+        }
+        let supply = self.battery.supply();
+        let (load_left, load_right) = (self.load_n(left.pwm), self.load_n(right.pwm));
+        let mut left_m = self.left.step(left, supply, load_left);
+        let mut right_m = self.right.step(right, supply, load_right);
+        if self.is_in_air() {
+            self.truth.speed_m_per_s = 0.0;
+            self.truth.turn_rad_per_s = 0.0;
+            return 0.0;
+        }
+        if self.underneath.left_over_cliff {
+            left_m = 0.0;
+        }
+        if self.underneath.right_over_cliff {
+            right_m = 0.0;
+        }
+        self.roll(left_m, right_m)
+    }
+
+    /// Force against a wheel: rugs and thresholds, and whatever the body pushes against.
+    fn load_n(&self, pwm: f64) -> f64 {
+        if self.is_in_air() {
+            return 0.0;
+        }
+        let pushed = self.body.blocked(pwm) * self.model.wheel_motor.traction_n;
+        self.underneath.surface.drag_n + pushed.min(self.model.wheel_motor.traction_n)
+    }
+
+    fn roll(&mut self, left_m: f64, right_m: f64) -> f64 {
+        let (way_m, mut turn_rad) = self.slip.motion(left_m, right_m, &self.underneath.surface);
+        turn_rad *= 1.0 - self.body.wall_friction();
+        let (x_m, y_m) = (self.body.x_m, self.body.y_m);
+        self.body.advance(way_m, turn_rad);
+        self.body.collide(&self.home.solid, self.truth.time_ms);
+        self.underneath.move_on(&self.home, &self.body, way_m);
+        let (dx, dy) = (self.body.x_m - x_m, self.body.y_m - y_m);
+        let along_m = dx * self.body.cos + dy * self.body.sin;
+        self.truth.path_m += libm::sqrt(dx * dx + dy * dy);
+        self.truth.speed_m_per_s = along_m / STEP_S;
+        self.truth.turn_rad_per_s = turn_rad / STEP_S;
+        if self.underneath.centre_over_cliff {
+            self.truth.fallen = true;
+        }
+        turn_rad
+    }
+
+    /// Samples what is due in this millisecond. Phases differ, so that the work is spread.
+    fn sample(&mut self, actuation: &Actuation) {
+        let now_ms = self.truth.time_ms;
+        if now_ms.is_multiple_of(PROXIMITY_MS)
+            && let Some(proximity) = &mut self.proximity
+        {
+            proximity.sample_next(&self.home.solid, &self.body, &mut self.random);
+        }
+        if now_ms % CLIFF_MS == 1 {
+            self.sample_cliffs();
+        }
+        if now_ms % SURFACE_MS == 2 {
+            self.underneath.sample_surface(&self.home, &self.body);
+        }
+        if now_ms % BATTERY_MS == 3 {
+            self.step_battery(actuation, BATTERY_MS as f64 * STEP_S);
+            self.sweep(actuation);
+        }
+        if now_ms % DRAW_MS == 5 {
+            self.slip.draw(&mut self.random);
+            if let Some(gyro) = &mut self.gyro {
+                gyro.walk(&mut self.random);
+            }
+        }
+        if let Some(lidar) = &mut self.lidar {
+            lidar.step(&self.home.solid, &self.body, &mut self.random);
+        }
+        self.sample_seldom(now_ms);
+    }
+
+    fn sample_seldom(&mut self, now_ms: u64) {
+        if now_ms % DOCK_MS == 7
+            && let Some(dock) = &mut self.dock
+        {
+            dock.sample_contacts(&self.body);
+            dock.sample_beams(&self.model, &self.home.solid, &self.body);
+        }
+        if now_ms % DOOR_MS == 9 && !self.doors.is_empty() {
+            self.move_doors();
+        }
+        if now_ms % DRIFT_MS == 11 {
+            self.underneath.flicker(&mut self.random);
+            if let Some(gyro) = &mut self.gyro {
+                gyro.drift(&mut self.random);
+            }
+        }
+    }
+
+    fn sample_cliffs(&mut self) {
+        let in_air = self.is_in_air();
+        self.underneath
+            .sample_cliffs(&self.model, (&self.home, &self.body), in_air);
+    }
+
+    fn sweep(&mut self, actuation: &Actuation) {
+        if !self.truth.hanging() {
+            let cleaning = actuation.brush_main.abs() > 0.05 && actuation.vacuum;
+            self.dirt.pass(&self.home, self.body.pose(), cleaning);
+        }
+    }
+
+    /// Opens and closes doors; a leaf waits for the robot to leave.
+    fn move_doors(&mut self) {
+        let now_ms = self.truth.time_ms;
+        for (number, initially) in self.doors.iter().enumerate() {
+            let Some(door) = self.home.doors.get(number) else {
+                continue;
+            };
+            let open = door.wanted_open(now_ms, *initially);
+            if open == door.open {
+                continue;
+            }
+            let near_m = self.model.body.radius_m + DOOR_GAP_M;
+            let in_the_way = door.cells.iter().any(|(index, _)| {
+                let (x_m, y_m) = self.home.grid().centre(*index);
+                libm::hypot(x_m - self.body.x_m, y_m - self.body.y_m) < near_m
+            });
+            if open || !in_the_way {
+                self.home = Arc::new(self.home.with_door(number, open));
+                self.body.free_m = 0.0;
+                return;
+            }
+        }
+    }
+
+    fn step_battery(&mut self, actuation: &Actuation, dt_s: f64) {
+        let cleaners = &self.model.cleaners;
+        let brush_a = cleaners.main_a * actuation.brush_main.abs().min(1.0);
+        let sides_a = if actuation.brush_sides {
+            cleaners.sides_a
+        } else {
+            0.0
+        };
+        let vacuum_a = if actuation.vacuum { cleaners.vacuum_a } else { 0.0 };
+        let motors_a = self.left.current_a + self.right.current_a + brush_a + sides_a + vacuum_a;
+        let dock_a = match &self.dock {
+            Some(dock) if dock.docked_now && !self.is_in_air() => {
+                if actuation.dock_signal {
+                    self.model.battery.charge_a
+                } else {
+                    self.model.battery.trickle_a
+                }
+            }
+            _ => 0.0,
+        };
+        self.battery
+            .step(self.model.battery.electronics_a + motors_a, dock_a, dt_s);
+        self.publish_battery(brush_a);
+    }
+
+    fn publish_battery(&mut self, brush_a: f64) {
+        let deviation = self.noise.analog;
+        let mut noisy = |value: f64| value * (1.0 + 0.2 * deviation * self.random.normal());
+        self.sensors.battery_voltage = Voltage::from_v(noisy(self.battery.voltage_v));
+        self.sensors.battery_current = Current::from_a(noisy(self.battery.current_a));
+        self.sensors.battery_temperature = Temperature::from_celsius(self.battery.temperature_c);
+        self.sensors.wheel_left_current = Current::from_a(noisy(self.left.current_a));
+        self.sensors.wheel_right_current = Current::from_a(noisy(self.right.current_a));
+        self.sensors.brush_main_current = Current::from_a(noisy(brush_a));
+        self.truth.battery_charge = self.battery.charge;
+        self.truth.dirt_share = self.dirt.share();
+        self.truth.swept_m2 = f64::from(self.dirt.swept_cells) * self.home.grid().cell_area_m2();
+        self.truth.swept_share =
+            f64::from(self.dirt.swept_cells) / f64::from(self.home.reachable_cells().max(1));
+    }
+
+    /// Copies the state of this millisecond to where firmware and judges read it.
+    fn publish(&mut self, actuation: &Actuation) {
+        let now_ms = self.truth.time_ms;
+        let in_air = self.is_in_air();
+        self.sensors.count_left = self.left.count;
+        self.sensors.count_right = self.right.count;
+        self.sensors.gyro = self.gyro.as_ref().map(super::Gyro::reading);
+        (self.sensors.bumper_left, self.sensors.bumper_right) = self.body.pressed(now_ms);
+        self.sensors.cliff_levels = self.underneath.levels(actuation.cliff_emitter);
+        self.sensors.wheel_drop_left = in_air || self.underneath.left_over_cliff;
+        self.sensors.wheel_drop_right = in_air || self.underneath.right_over_cliff;
+        if self.model.wheel_drops < 2 {
+            let any = self.sensors.wheel_drop_left || self.sensors.wheel_drop_right;
+            let any = any && self.model.wheel_drops > 0;
+            (self.sensors.wheel_drop_left, self.sensors.wheel_drop_right) = (any, any);
+        }
+        if let Some(proximity) = &self.proximity {
+            self.sensors.proximity = proximity.levels;
+        }
+        if let Some(dock) = &self.dock {
+            self.sensors.dock_receivers = dock.symbols;
+            self.sensors.dock_contacts = dock.docked_now && !in_air;
+            self.truth.docked = self.sensors.dock_contacts;
+        }
+        self.truth.pose = self.body.pose();
+        self.truth.rim_left_m_per_s = self.left.rim_m_per_s;
+        self.truth.rim_right_m_per_s = self.right.rim_m_per_s;
+        self.truth.left_over_cliff = self.underneath.left_over_cliff;
+        self.truth.right_over_cliff = self.underneath.right_over_cliff;
+        self.truth.contact_rad = self.body.contact_rad();
+        self.truth.contacts = self.body.contacts;
+    }
+}

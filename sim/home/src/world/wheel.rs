@@ -1,0 +1,138 @@
+//! One driven wheel: bridge, motor, gear with play, encoder.
+
+use super::Bridge;
+use crate::model::{RobotModel, WheelMotor};
+
+/// Length of a step, seconds.
+pub(crate) const STEP_S: f64 = 0.001;
+/// A wheel slower than this that is not driven stands, m/s.
+const STANDING_M_PER_S: f64 = 1e-5;
+/// How much longer than under drive the speed takes to fall when the bridge coasts.
+const COAST_FACTOR: f64 = 5.0;
+
+/// What makes wheels of one robot differ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WheelErrors {
+    /// True way of the rim over nominal way.
+    pub(crate) way_factor: f64,
+    /// Play of the gear at the rim, metres.
+    pub(crate) backlash_m: f64,
+}
+
+/// A wheel.
+#[derive(Clone, Debug)]
+pub(crate) struct Wheel {
+    motor: WheelMotor,
+    errors: WheelErrors,
+    counts_per_m: f64,
+    has_direction: bool,
+    /// Speed of the rim as the motor turns it, m/s, nominal.
+    pub(crate) rim_m_per_s: f64,
+    /// Nominal way of the motor side, metres.
+    travel_m: f64,
+    /// Nominal way of the wheel behind the play, metres.
+    rolled_m: f64,
+    count_signed: i32,
+    /// What the encoder shows.
+    pub(crate) count: i32,
+    /// Current of the motor, ampere.
+    pub(crate) current_a: f64,
+}
+
+impl Wheel {
+    pub(crate) fn new(model: &RobotModel, errors: WheelErrors) -> Self {
+        Self {
+            motor: model.wheel_motor,
+            errors,
+            counts_per_m: 1.0 / model.drive.count_m,
+            has_direction: model.drive.encoder_lines >= 2,
+            rim_m_per_s: 0.0,
+            travel_m: 0.0,
+            rolled_m: 0.0,
+            count_signed: 0,
+            count: 0,
+            current_a: 0.0,
+        }
+    }
+
+    pub(crate) fn is_standing(&self) -> bool {
+        self.rim_m_per_s == 0.0
+    }
+
+    /// Advances the motor one step under a load that opposes its motion; `supply` is the battery voltage over the nominal.
+    /// Gives the true way of the rim on the floor in metres.
+    pub(crate) fn step(&mut self, bridge: Bridge, supply: f64, load_n: f64) -> f64 {
+        let free = self.free_speed(bridge) * supply;
+        let lost = load_n * self.motor.free_speed_m_per_s / self.motor.stall_force_n;
+        let target = if free > lost {
+            free - lost
+        } else if free < -lost {
+            free + lost
+        } else {
+            0.0
+        };
+        let driven = free != 0.0;
+        let lag_s = if driven || bridge.brake {
+            self.motor.lag_s
+        } else {
+            self.motor.lag_s * COAST_FACTOR
+        };
+        self.rim_m_per_s += (target - self.rim_m_per_s) * (STEP_S / lag_s);
+        if !driven && self.rim_m_per_s.abs() < STANDING_M_PER_S {
+            self.rim_m_per_s = 0.0;
+        }
+        self.current_a = if driven {
+            let strain = (free - self.rim_m_per_s).abs() / self.motor.free_speed_m_per_s;
+            self.motor.idle_current_a + self.motor.stall_current_a * strain
+        } else {
+            0.0
+        };
+        self.roll()
+    }
+
+    /// Rim speed that the bridge asks for at the nominal voltage without load.
+    fn free_speed(&self, bridge: Bridge) -> f64 {
+        let dead = if bridge.brake {
+            self.motor.dead_band_brake
+        } else {
+            self.motor.dead_band_coast
+        };
+        let pwm = if bridge.pwm.is_nan() {
+            0.0
+        } else {
+            bridge.pwm.clamp(-1.0, 1.0)
+        };
+        let beyond = pwm.abs() - dead;
+        if beyond <= 0.0 {
+            return 0.0;
+        }
+        (beyond / (1.0 - dead) * self.motor.free_speed_m_per_s).copysign(pwm)
+    }
+
+    fn roll(&mut self) -> f64 {
+        self.travel_m += self.rim_m_per_s * STEP_S;
+        self.take_counts();
+        let rolled_m = self
+            .rolled_m
+            .clamp(self.travel_m - self.errors.backlash_m, self.travel_m);
+        let way_m = rolled_m - self.rolled_m;
+        self.rolled_m = rolled_m;
+        way_m * self.errors.way_factor
+    }
+
+    fn take_counts(&mut self) {
+        let exact = self.travel_m * self.counts_per_m;
+        let whole = exact as i64;
+        let floor = if exact < whole as f64 { whole - 1 } else { whole } as i32;
+        let change = floor.wrapping_sub(self.count_signed);
+        if change != 0 {
+            self.count_signed = floor;
+            let seen = if self.has_direction {
+                change
+            } else {
+                change.wrapping_abs()
+            };
+            self.count = self.count.wrapping_add(seen);
+        }
+    }
+}
