@@ -1,4 +1,20 @@
+//! The web page that shows and drives the robot. What can be decided without a browser is in `panel-logic`.
+#![forbid(unsafe_code)]
+
+mod actions;
+mod app;
+mod device_view;
+mod drive_pad;
+mod header;
+mod icons;
+mod link;
+mod log_view;
+mod map;
+mod status_view;
+mod store;
+mod tabs;
+mod theme;
+
 fn main() {
-    leptos::mount::mount_to_body(|| leptos::view! { <p>"x"</p> });
-    let _ = serde_json::to_string(&1);
+    leptos::mount::mount_to_body(app::App);
 }

@@ -1,0 +1,113 @@
+//! The buttons that start and end jobs.
+
+use leptos::prelude::*;
+use panel_logic::{Offer, PauseKind};
+use rvac_api::RequestBody;
+
+use crate::icons::{Icon, icon};
+use crate::store::Store;
+
+/// How a button looks and what it is called.
+#[derive(Clone, Copy, Debug)]
+struct Face {
+    id: &'static str,
+    class: &'static str,
+    label: &'static str,
+    icon: Icon,
+}
+
+#[component]
+pub(crate) fn Actions(store: Store) -> impl IntoView {
+    let strategy = RwSignal::new(String::new());
+    let chosen = move || {
+        let strategies = store.strategies.get_untracked();
+        let wanted = strategy.get_untracked();
+        strategies.into_iter().find(|name| *name == wanted)
+    };
+    let face = |id, class, label, icon| Face {
+        id,
+        class,
+        label,
+        icon,
+    };
+    let resumes = Memo::new(move |_| store.offers().pause_kind == PauseKind::Resume);
+    let pause = move || {
+        if resumes.get() {
+            RequestBody::Resume
+        } else {
+            RequestBody::Pause
+        }
+    };
+    let clear = move || RequestBody::Clear {
+        reason: store.status.with_untracked(|status| {
+            status
+                .as_ref()
+                .map(|status| status.reason.clone())
+                .unwrap_or_default()
+        }),
+    };
+    let start = move || RequestBody::Start { strategy: chosen() };
+    view! {
+        <section class="actions" id="actions" tabindex="-1" aria-label="Controls">
+            {action(store, face("start", "primary", "Start", Icon::Play), move || store.offers().start, start)}
+            {action(store, face("stop", "strong", "Stop", Icon::Stop), move || store.offers().stop, || RequestBody::Stop)}
+            {move || {
+                let pause_face = if resumes.get() {
+                    face("pause", "plain", "Resume", Icon::Play)
+                } else {
+                    face("pause", "plain", "Pause", Icon::Pause)
+                };
+                action(store, pause_face, move || store.offers().pause, pause)
+            }}
+            {action(store, face("spot", "plain", "Spot", Icon::Spot), move || store.offers().spot, || RequestBody::Spot)}
+            {action(store, face("dock", "plain", "Dock", Icon::Dock), move || store.offers().dock, || RequestBody::Dock)}
+            {action(store, face("locate", "plain", "Find", Icon::Bell), move || store.offers().locate, || RequestBody::Locate)}
+            {action(store, face("clear", "primary", "Clear the fault", Icon::Warning), move || store.offers().clear, clear)}
+            <Show when=move || store.strategies.with(|strategies| strategies.len() > 1)>
+                <label class="field">
+                    "Way of cleaning"
+                    <select on:change=move |event| strategy.set(event_target_value(&event))>
+                        <For each=move || store.strategies.get() key=String::clone let:name>
+                            <option value=name.clone()>{name.clone()}</option>
+                        </For>
+                    </select>
+                </label>
+            </Show>
+        </section>
+    }
+}
+
+/// A button that is absent, waits with a reason, or asks. A waiting button stays focusable, so that its reason can be read.
+fn action(
+    store: Store,
+    face: Face,
+    offer: impl Fn() -> Offer + Copy + Send + Sync + 'static,
+    request: impl Fn() -> RequestBody + Copy + Send + Sync + 'static,
+) -> impl IntoView {
+    let offer = Memo::new(move |_| offer());
+    let waits = move || match offer.get() {
+        Offer::NotNow(why) => Some(why),
+        Offer::Ready | Offer::Absent => None,
+    };
+    let press = move |_| {
+        if offer.get_untracked() == Offer::Ready {
+            store.ask(request());
+        }
+    };
+    view! {
+        <Show when=move || offer.get() != Offer::Absent>
+            <button
+                type="button"
+                id=face.id
+                class=format!("action {}", face.class)
+                aria-disabled=move || if waits().is_some() { "true" } else { "false" }
+                title=waits
+                on:click=press
+            >
+                {icon(face.icon)}
+                <span>{face.label}</span>
+                <span class="visually-hidden">{move || waits().map(|why| format!(", not now: {why}"))}</span>
+            </button>
+        </Show>
+    }
+}

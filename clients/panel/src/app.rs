@@ -1,0 +1,32 @@
+//! The page as a whole.
+
+use leptos::prelude::*;
+
+use crate::actions::Actions;
+use crate::header::Header;
+use crate::map::MapView;
+use crate::status_view::{RefusalView, StatusView};
+use crate::store::Store;
+use crate::tabs::Tabs;
+use crate::theme::Theme;
+
+#[component]
+pub(crate) fn App() -> impl IntoView {
+    let store = Store::new();
+    let theme = RwSignal::new(Theme::at_start());
+    store.map.with_value(|map| map.set_theme(theme.get_untracked()));
+    store.connect();
+    view! {
+        <a class="skip" href="#actions">"Skip to the controls"</a>
+        <Header store theme />
+        <main class="page">
+            <MapView store />
+            <div class="side">
+                <StatusView store />
+                <RefusalView store />
+                <Actions store />
+                <Tabs store />
+            </div>
+        </main>
+    }
+}

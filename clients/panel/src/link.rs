@@ -1,0 +1,118 @@
+//! The WebSocket to the server, made again for ever.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Duration;
+
+use leptos::prelude::*;
+use panel_logic::Backoff;
+use rvac_api::{Request, RequestBody, Update};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
+use web_sys::{Event, MessageEvent, WebSocket};
+
+use crate::store::Store;
+
+/// Bytes that may wait in the browser. A drive request behind more than this would arrive late and still look fresh.
+const WAITING_MAX: u32 = 2048;
+
+/// The connection or the wish for one.
+#[derive(Clone, Default)]
+pub(crate) struct Link {
+    inner: Rc<RefCell<Inner>>,
+}
+
+#[derive(Default)]
+struct Inner {
+    socket: Option<WebSocket>,
+    listeners: Option<Listeners>,
+    backoff: Backoff,
+}
+
+/// Kept alive as long as the socket that calls them.
+struct Listeners {
+    _open: Closure<dyn FnMut(Event)>,
+    _message: Closure<dyn FnMut(MessageEvent)>,
+    _close: Closure<dyn FnMut(Event)>,
+}
+
+impl Link {
+    /// Connects; after a loss tries again with growing pauses.
+    pub(crate) fn connect(&self, store: Store) {
+        let Ok(socket) = WebSocket::new(&address()) else {
+            self.retry(store);
+            return;
+        };
+        let listeners = self.listen(&socket, store);
+        let mut inner = self.inner.borrow_mut();
+        inner.socket = Some(socket);
+        inner.listeners = Some(listeners);
+    }
+
+    /// Sends a request if the connection stands. A drive request is dropped rather than sent late.
+    pub(crate) fn send(&self, request: &Request) {
+        let inner = self.inner.borrow();
+        let Some(socket) = inner
+            .socket
+            .as_ref()
+            .filter(|socket| socket.ready_state() == WebSocket::OPEN)
+        else {
+            return;
+        };
+        let drives = matches!(request.body, RequestBody::Drive { .. });
+        if drives && socket.buffered_amount() > WAITING_MAX {
+            return;
+        }
+        if let Ok(text) = serde_json::to_string(request) {
+            socket.send_with_str(&text).ok(); // A socket that is closing tells so by its own event.
+        }
+    }
+
+    fn listen(&self, socket: &WebSocket, store: Store) -> Listeners {
+        let link = self.clone();
+        let open = Closure::<dyn FnMut(Event)>::new(move |_| {
+            link.inner.borrow_mut().backoff.succeeded();
+            store.on_open();
+        });
+        let message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+            let text = event.data().as_string().unwrap_or_default();
+            match serde_json::from_str::<Update>(&text) {
+                Ok(update) => store.on_update(update),
+                Err(error) => leptos::logging::warn!("a message could not be read: {error}"),
+            }
+        });
+        let link = self.clone();
+        let close = Closure::<dyn FnMut(Event)>::new(move |_| {
+            store.on_close();
+            link.retry(store);
+        });
+        socket.set_onopen(Some(open.as_ref().unchecked_ref()));
+        socket.set_onmessage(Some(message.as_ref().unchecked_ref()));
+        socket.set_onclose(Some(close.as_ref().unchecked_ref()));
+        Listeners {
+            _open: open,
+            _message: message,
+            _close: close,
+        }
+    }
+
+    fn retry(&self, store: Store) {
+        let pause = self.inner.borrow_mut().backoff.pause_ms();
+        let link = self.clone();
+        set_timeout(move || link.connect(store), Duration::from_millis(pause.into()));
+    }
+}
+
+fn address() -> String {
+    let host = window().location().host().unwrap_or_default();
+    let scheme = if window()
+        .location()
+        .protocol()
+        .is_ok_and(|protocol| protocol == "https:")
+    {
+        "wss"
+    } else {
+        "ws"
+    };
+    format!("{scheme}://{host}/api/ws")
+}

@@ -1,0 +1,66 @@
+//! Fingers and mouse on the map: one drags, two zoom.
+
+/// A finger or a mouse button that is down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Touch {
+    id: i32,
+    x: f64,
+    y: f64,
+}
+
+/// What a movement means for the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Movement {
+    /// Nothing.
+    Nothing,
+    /// The map is dragged by these pixels.
+    Drag { dx: f64, dy: f64 },
+    /// The map is zoomed about a pixel and dragged along.
+    Pinch {
+        at: (f64, f64),
+        factor: f64,
+        dx: f64,
+        dy: f64,
+    },
+}
+
+/// Everything that is down.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gestures {
+    touches: Vec<Touch>,
+}
+
+impl Gestures {
+    pub(crate) fn down(&mut self, id: i32, (x, y): (f64, f64)) {
+        self.up(id);
+        self.touches.push(Touch { id, x, y });
+    }
+
+    pub(crate) fn up(&mut self, id: i32) {
+        self.touches.retain(|touch| touch.id != id);
+    }
+
+    /// A touch moved to a pixel.
+    pub(crate) fn moved(&mut self, id: i32, (x, y): (f64, f64)) -> Movement {
+        let before = self.touches.clone();
+        let Some(touch) = self.touches.iter_mut().find(|touch| touch.id == id) else {
+            return Movement::Nothing;
+        };
+        let (dx, dy) = (x - touch.x, y - touch.y);
+        (touch.x, touch.y) = (x, y);
+        match (before.as_slice(), self.touches.as_slice()) {
+            ([_], [_]) => Movement::Drag { dx, dy },
+            ([a0, b0, ..], [a1, b1, ..]) => {
+                let spread = |a: &Touch, b: &Touch| (a.x - b.x).hypot(a.y - b.y).max(1.0);
+                let at = (f64::midpoint(a1.x, b1.x), f64::midpoint(a1.y, b1.y));
+                Movement::Pinch {
+                    at,
+                    factor: spread(a1, b1) / spread(a0, b0),
+                    dx: dx / 2.0,
+                    dy: dy / 2.0,
+                }
+            }
+            _ => Movement::Nothing,
+        }
+    }
+}

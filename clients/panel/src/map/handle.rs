@@ -1,0 +1,177 @@
+//! The map as the rest of the page sees it: takes what is new and draws when there is something to draw.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use leptos::prelude::{request_animation_frame, window};
+use panel_logic::FrameMeter;
+use rvac_api::{MapDelta, MapSnapshot, Pose, RobotDescription, SimulatedPlan};
+use wasm_bindgen::JsCast;
+use web_sys::{HtmlCanvasElement, WebGl2RenderingContext, WebGlContextAttributes};
+
+use super::gl::GlError;
+use super::renderer::Renderer;
+use super::scene::Scene;
+use crate::theme::Theme;
+
+/// A shared handle on the map; cheap to clone.
+#[derive(Clone, Default)]
+pub(crate) struct MapHandle {
+    shared: Rc<Shared>,
+}
+
+#[derive(Default)]
+struct Shared {
+    scene: RefCell<Scene>,
+    renderer: RefCell<Option<Renderer>>,
+    canvas: RefCell<Option<HtmlCanvasElement>>,
+    meter: RefCell<FrameMeter>,
+    scheduled: Cell<bool>,
+}
+
+/// Seconds of the browser's clock.
+fn now_s() -> f64 {
+    window()
+        .performance()
+        .map_or(0.0, |performance| performance.now() / 1000.0)
+}
+
+impl MapHandle {
+    /// Begins to draw on `canvas`.
+    pub(crate) fn attach(&self, canvas: HtmlCanvasElement) -> Result<(), GlError> {
+        *self.shared.canvas.borrow_mut() = Some(canvas);
+        self.restart()
+    }
+
+    /// Makes the renderer anew: at the start, and after the browser took the graphics memory away.
+    pub(crate) fn restart(&self) -> Result<(), GlError> {
+        let canvas = self.shared.canvas.borrow();
+        let canvas = canvas.as_ref().ok_or_else(|| GlError("no canvas".to_owned()))?;
+        let renderer = Renderer::new(&context(canvas)?)?;
+        *self.shared.renderer.borrow_mut() = Some(renderer);
+        self.change(|scene| {
+            scene.plan_changed = true;
+            scene.path_restarted = true;
+        });
+        Ok(())
+    }
+
+    /// The browser took the graphics memory away.
+    pub(crate) fn on_context_lost(&self) {
+        *self.shared.renderer.borrow_mut() = None;
+    }
+
+    pub(crate) fn set_robot(&self, robot: Option<&RobotDescription>) {
+        if let Some(robot) = robot.filter(|robot| robot.radius_m > 0.0) {
+            self.change(|scene| scene.radius_m = robot.radius_m);
+        }
+    }
+
+    pub(crate) fn set_plan(&self, plan: SimulatedPlan) {
+        self.change(|scene| scene.set_plan(plan));
+    }
+
+    pub(crate) fn set_theme(&self, theme: Theme) {
+        self.change(|scene| scene.set_theme(theme));
+    }
+
+    pub(crate) fn on_pose(&self, pose: Pose) {
+        self.change(|scene| scene.believed.push(pose, now_s()));
+        if let Some(canvas) = self.shared.canvas.borrow().as_ref() {
+            let text = format!("{:.3},{:.3},{:.3}", pose.x, pose.y, pose.heading);
+            canvas.set_attribute("data-pose", &text).ok(); // For tests; the picture does not depend on it.
+        }
+    }
+
+    pub(crate) fn on_truth(&self, pose: Pose) {
+        self.change(|scene| scene.truth.push(pose, now_s()));
+    }
+
+    pub(crate) fn on_snapshot(&self, snapshot: &MapSnapshot) {
+        self.change(|scene| scene.on_snapshot(snapshot));
+    }
+
+    pub(crate) fn on_delta(&self, delta: &MapDelta) {
+        self.change(|scene| scene.on_delta(delta));
+    }
+
+    /// Reads the scene.
+    pub(crate) fn with<T>(&self, read: impl FnOnce(&Scene) -> T) -> T {
+        read(&self.shared.scene.borrow())
+    }
+
+    /// Changes the scene and has it drawn.
+    pub(crate) fn change(&self, change: impl FnOnce(&mut Scene)) {
+        {
+            let mut scene = self.shared.scene.borrow_mut();
+            change(&mut scene);
+            scene.changed = true;
+        }
+        self.schedule();
+    }
+
+    /// Frames per second and the longest frame in ms while the robot moves.
+    pub(crate) fn smoothness(&self) -> Option<(f64, f64)> {
+        let meter = self.shared.meter.borrow();
+        meter.per_second().map(|rate| (rate, meter.longest_ms()))
+    }
+
+    /// Writes what tests and curious people read from the canvas.
+    pub(crate) fn publish_figures(&self) {
+        let canvas = self.shared.canvas.borrow();
+        let Some(canvas) = canvas.as_ref() else { return };
+        let set = |name: &str, value: String| {
+            canvas.set_attribute(name, &value).ok(); // The names are valid ones.
+        };
+        if let Some((rate, longest)) = self.smoothness() {
+            set("data-frames-per-second", format!("{rate:.1}"));
+            set("data-longest-frame-ms", format!("{longest:.1}"));
+        }
+        set(
+            "data-swept-cells",
+            self.with(|scene| scene.swept_cells.to_string()),
+        );
+    }
+
+    fn schedule(&self) {
+        if self.shared.renderer.borrow().is_none() || self.shared.scheduled.replace(true) {
+            return;
+        }
+        let map = self.clone();
+        request_animation_frame(move || {
+            map.shared.scheduled.set(false);
+            map.draw();
+        });
+    }
+
+    fn draw(&self) {
+        let now = now_s();
+        let mut scene = self.shared.scene.borrow_mut();
+        let moving = scene.is_moving(now);
+        if moving || scene.changed {
+            scene.changed = false;
+            let places = scene.advance(now);
+            if let Some(renderer) = self.shared.renderer.borrow_mut().as_mut() {
+                renderer.draw(&mut scene, places);
+            }
+        }
+        drop(scene);
+        if moving {
+            self.shared.meter.borrow_mut().frame(now);
+            self.schedule();
+        }
+    }
+}
+
+fn context(canvas: &HtmlCanvasElement) -> Result<WebGl2RenderingContext, GlError> {
+    let attributes = WebGlContextAttributes::new();
+    attributes.set_alpha(false);
+    attributes.set_depth(false);
+    attributes.set_antialias(false);
+    let context = canvas
+        .get_context_with_context_options("webgl2", &attributes)
+        .ok()
+        .flatten();
+    let context = context.and_then(|context| context.dyn_into::<WebGl2RenderingContext>().ok());
+    context.ok_or_else(|| GlError("This browser offers no WebGL 2.".to_owned()))
+}

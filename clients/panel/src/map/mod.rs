@@ -1,0 +1,13 @@
+//! The live map: the scene is what is to be seen, the renderer draws it with WebGL2, the view puts it on the page.
+
+mod gestures;
+mod gl;
+mod handle;
+mod palette;
+mod renderer;
+mod scene;
+mod shaders;
+mod view;
+
+pub(crate) use handle::MapHandle;
+pub(crate) use view::MapView;

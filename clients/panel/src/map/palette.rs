@@ -1,0 +1,76 @@
+//! Colours of the map in both looks.
+
+use panel_logic::PlanPalette;
+
+use crate::theme::Theme;
+
+/// Red, green, blue, 0..=1.
+pub(crate) type Rgb = [f32; 3];
+
+/// Colours of the map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Palette {
+    pub(crate) outside: Rgb,
+    pub(crate) grid: Rgb,
+    pub(crate) swept: Rgb,
+    pub(crate) path: Rgb,
+    pub(crate) mark: Rgb,
+    pub(crate) body: Rgb,
+    pub(crate) front: Rgb,
+    pub(crate) halo: Rgb,
+    pub(crate) plan: PlanPalette,
+}
+
+const fn rgb(hex: u32) -> Rgb {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    [red as f32 / 255.0, green as f32 / 255.0, blue as f32 / 255.0]
+}
+
+const fn bytes(hex: u32) -> [u8; 3] {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    [red, green, blue]
+}
+
+const LIGHT: Palette = Palette {
+    outside: rgb(0xe9_ed_f1),
+    grid: rgb(0xdd_e3_e9),
+    swept: rgb(0x9f_dc_d2),
+    path: rgb(0x0f_76_6e),
+    mark: rgb(0xb4_53_09),
+    body: rgb(0x14_21_3a),
+    front: rgb(0x4c_c9_ad),
+    halo: rgb(0xff_ff_ff),
+    plan: PlanPalette {
+        floor: bytes(0xff_ff_ff),
+        obstacle: bytes(0x8a_96_a6),
+        cliff: bytes(0xf0_cf_c2),
+        rug: bytes(0xf1_ec_e1),
+    },
+};
+
+const DARK: Palette = Palette {
+    outside: rgb(0x0e_13_1a),
+    grid: rgb(0x16_1d_27),
+    swept: rgb(0x1d_5a_57),
+    path: rgb(0x5e_ea_d4),
+    mark: rgb(0xfb_bf_24),
+    body: rgb(0xee_f3_f8),
+    front: rgb(0x0f_9d_8a),
+    halo: rgb(0x0e_13_1a),
+    plan: PlanPalette {
+        floor: bytes(0x1f_29_36),
+        obstacle: bytes(0x59_68_7b),
+        cliff: bytes(0x53_34_2c),
+        rug: bytes(0x28_31_3b),
+    },
+};
+
+impl Palette {
+    /// The colours of a look.
+    pub(crate) const fn of(theme: Theme) -> Self {
+        match theme {
+            Theme::Light => LIGHT,
+            Theme::Dark => DARK,
+        }
+    }
+}

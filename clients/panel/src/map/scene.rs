@@ -1,0 +1,174 @@
+//! What is to be seen on the map.
+
+use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, plan_bounds};
+use rvac_api::{BumpMark, MapDelta, MapSnapshot, Pose, SimulatedPlan};
+
+use crate::theme::Theme;
+
+/// Who moves the camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CameraMode {
+    /// Shows everything, also when there is more.
+    Fitted,
+    /// Keeps the robot in the middle.
+    Following,
+    /// Stays where a person put it.
+    Free,
+}
+
+/// The scene. Whoever changes it sets `changed`.
+#[derive(Debug)]
+pub(crate) struct Scene {
+    pub(crate) camera: Camera,
+    pub(crate) mode: CameraMode,
+    pub(crate) theme: Theme,
+    pub(crate) radius_m: f64,
+    pub(crate) believed: Playout,
+    pub(crate) truth: Playout,
+    pub(crate) plan: Option<SimulatedPlan>,
+    pub(crate) plan_changed: bool,
+    pub(crate) swept: SweptGrid,
+    pub(crate) swept_cells: usize,
+    pub(crate) cell_m: f64,
+    pub(crate) path: Vec<f32>,
+    pub(crate) path_restarted: bool,
+    pub(crate) bumps: Vec<BumpMark>,
+    pub(crate) changed: bool,
+    map: u32,
+    drawn_s: f64,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            camera: Camera::default(),
+            mode: CameraMode::Fitted,
+            theme: Theme::Light,
+            radius_m: 0.175,
+            believed: Playout::default(),
+            truth: Playout::default(),
+            plan: None,
+            plan_changed: true,
+            swept: SweptGrid::default(),
+            swept_cells: 0,
+            cell_m: 0.05,
+            path: Vec::new(),
+            path_restarted: true,
+            bumps: Vec::new(),
+            changed: true,
+            map: 0,
+            drawn_s: 0.0,
+        }
+    }
+}
+
+/// Where the robot is drawn in this frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Places {
+    pub(crate) believed: Option<Pose>,
+    pub(crate) truth: Option<Pose>,
+}
+
+impl Scene {
+    pub(crate) fn set_plan(&mut self, plan: SimulatedPlan) {
+        self.plan = Some(plan);
+        self.plan_changed = true;
+        self.refit();
+    }
+
+    pub(crate) fn set_theme(&mut self, theme: Theme) {
+        self.theme = theme;
+        self.plan_changed = true;
+        self.changed = true;
+    }
+
+    /// Takes a whole map in place of what was there.
+    pub(crate) fn on_snapshot(&mut self, snapshot: &MapSnapshot) {
+        self.map = snapshot.map;
+        if snapshot.cell_m > 0.0 {
+            self.cell_m = snapshot.cell_m;
+        }
+        self.swept.clear();
+        self.swept_cells = 0;
+        self.path.clear();
+        self.path_restarted = true;
+        self.bumps.clear();
+        self.add(&snapshot.swept, &snapshot.path_mm, &snapshot.bumps);
+    }
+
+    /// Takes what was added. What belongs to another map waits for its snapshot.
+    pub(crate) fn on_delta(&mut self, delta: &MapDelta) {
+        if delta.map == self.map {
+            self.add(&delta.swept, &delta.path_mm, &delta.bumps);
+        }
+    }
+
+    fn add(&mut self, swept: &[i32], path_mm: &[i32], bumps: &[BumpMark]) {
+        self.swept.mark_all(swept);
+        self.swept_cells += swept.len() / 2;
+        let whole_points = path_mm.len() / 2 * 2;
+        self.path.extend(
+            path_mm
+                .iter()
+                .take(whole_points)
+                .map(|&millimetres| millimetres as f32 / 1000.0),
+        );
+        self.bumps.extend_from_slice(bumps);
+        self.changed = true;
+        if self.plan.is_none() {
+            self.refit();
+        }
+    }
+
+    /// Shows everything again if that is what the camera does.
+    pub(crate) fn refit(&mut self) {
+        self.changed = true;
+        if self.mode == CameraMode::Fitted {
+            self.camera.fit(self.extent());
+        }
+    }
+
+    pub(crate) fn resize(&mut self, view: View) {
+        self.camera.resize(view);
+        self.refit();
+    }
+
+    /// All that there is: the plan, or what was swept, and at least three metres around the start.
+    fn extent(&self) -> Bounds {
+        if let Some(bounds) = self.plan.as_ref().and_then(plan_bounds) {
+            return bounds;
+        }
+        let start = Bounds::around(0.0, 0.0, 1.5);
+        let (x0, y0) = self.swept.origin();
+        let (width, height) = self.swept.size();
+        if width == 0 {
+            return start;
+        }
+        let at = |cell: i32| f64::from(cell) * self.cell_m;
+        start.with(Bounds {
+            x_min: at(x0),
+            y_min: at(y0),
+            x_max: at(x0 + width),
+            y_max: at(y0 + height),
+        })
+    }
+
+    /// Moves on to `now_s` and says where the robot is drawn.
+    pub(crate) fn advance(&mut self, now_s: f64) -> Places {
+        let elapsed_s = (now_s - self.drawn_s).clamp(0.0, 0.1);
+        self.drawn_s = now_s;
+        let places = Places {
+            believed: self.believed.sample(now_s),
+            truth: self.truth.sample(now_s),
+        };
+        if let (CameraMode::Following, Some(pose)) = (self.mode, places.believed) {
+            self.camera.follow((pose.x, pose.y), elapsed_s);
+        }
+        places
+    }
+
+    /// Whether the robot moves on the picture, so that the next frame differs from this one.
+    pub(crate) fn is_moving(&self, now_s: f64) -> bool {
+        self.believed.is_moving(now_s)
+    }
+}

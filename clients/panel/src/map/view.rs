@@ -1,0 +1,290 @@
+//! The map on the page: canvas, its buttons, legend and scale.
+
+use std::time::Duration;
+
+use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
+use leptos::html;
+use leptos::prelude::*;
+use panel_logic::{View, scale_bar};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
+use web_sys::ResizeObserver;
+
+use super::MapHandle;
+use super::gestures::{Gestures, Movement};
+use super::scene::{CameraMode, Scene};
+use crate::icons::{Icon, icon};
+use crate::store::Store;
+
+/// Zoom of one press of a button or key.
+const STEP: f64 = 1.4;
+
+/// Pixels of one press of an arrow key.
+const PAN_PX: f64 = 60.0;
+
+#[component]
+pub(crate) fn MapView(store: Store) -> impl IntoView {
+    let map = store.map.get_value();
+    let failure = RwSignal::new(None::<String>);
+    let mode = RwSignal::new(CameraMode::Fitted);
+    let footer = RwSignal::new(Footer::default());
+    refresh(store, mode, footer);
+    let follow = {
+        let map = StoredValue::new_local(map.clone());
+        move |_| {
+            let next = if mode.get_untracked() == CameraMode::Following {
+                CameraMode::Free
+            } else {
+                CameraMode::Following
+            };
+            mode.set(next);
+            map.with_value(|map| map.change(|scene| scene.mode = next));
+        }
+    };
+    let button = move |label: &'static str, shape: Icon, change: fn(&mut Scene)| {
+        view! {
+            <button type="button" class="round" aria-label=label title=label on:click=move |_| apply(store, mode, change)>
+                {icon(shape)}
+            </button>
+        }
+    };
+    view! {
+        <section class="map" aria-label="Map">
+            <MapCanvas store mode failure />
+            <Show when=move || failure.get().is_some()>
+                <p class="map-failure" role="alert">
+                    {move || failure.get()} " The map cannot be drawn; everything else works."
+                </p>
+            </Show>
+            <div class="map-tools" role="group" aria-label="View of the map">
+                {button("Zoom in", Icon::Plus, |scene| zoom(scene, STEP))}
+                {button("Zoom out", Icon::Minus, |scene| zoom(scene, 1.0 / STEP))}
+                {button("Show everything", Icon::Fit, fit)}
+                <button
+                    type="button"
+                    class="round"
+                    id="follow"
+                    aria-label="Follow the robot"
+                    title="Follow the robot"
+                    aria-pressed=move || if mode.get() == CameraMode::Following { "true" } else { "false" }
+                    on:click=follow
+                >
+                    {icon(Icon::Follow)}
+                </button>
+            </div>
+            <MapFooter store footer />
+        </section>
+    }
+}
+
+/// What the footer of the map shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Footer {
+    scale_name: String,
+    scale_px: f64,
+    frames: String,
+}
+
+#[component]
+fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
+    let simulated = move || store.home.with(Option::is_some);
+    view! {
+        <div class="map-footer">
+            <ul class="legend" aria-label="Legend">
+                <li><span class="key swept" aria-hidden="true"></span>"Swept"</li>
+                <li><span class="key path" aria-hidden="true"></span>"Path"</li>
+                <li><span class="key bump" aria-hidden="true"></span>"Bump"</li>
+                <Show when=simulated>
+                    <li><span class="key truth" aria-hidden="true"></span>"True place"</li>
+                </Show>
+            </ul>
+            <span class="spring"></span>
+            <span class="frames" id="frames">{move || footer.get().frames}</span>
+            <span class="scale">
+                <span class="scale-bar" aria-hidden="true" style:width=move || format!("{:.0}px", footer.get().scale_px)></span>
+                {move || footer.get().scale_name}
+            </span>
+        </div>
+    }
+}
+
+/// Keeps the figures beside the map up to date, four times a second.
+fn refresh(store: Store, mode: RwSignal<CameraMode>, footer: RwSignal<Footer>) {
+    let update = move || {
+        store.map.with_value(|map| {
+            map.publish_figures();
+            let (name, width) = scale_bar(map.with(|scene| scene.camera.scale()));
+            let frames = map
+                .smoothness()
+                .map(|(rate, _)| format!("{rate:.0} frames/s"))
+                .unwrap_or_default();
+            let next = Footer {
+                scale_name: name,
+                scale_px: width,
+                frames,
+            };
+            if footer.with_untracked(|now| *now != next) {
+                footer.set(next);
+            }
+            let current = map.with(|scene| scene.mode);
+            if mode.get_untracked() != current {
+                mode.set(current);
+            }
+        });
+    };
+    if let Ok(timer) = set_interval_with_handle(update, Duration::from_millis(250)) {
+        on_cleanup(move || timer.clear());
+    }
+}
+
+/// Zooms about the middle; the camera stays where a person put it unless it follows the robot.
+fn zoom(scene: &mut Scene, factor: f64) {
+    scene.camera.zoom(factor);
+    if scene.mode == CameraMode::Fitted {
+        scene.mode = CameraMode::Free;
+    }
+}
+
+fn fit(scene: &mut Scene) {
+    scene.mode = CameraMode::Fitted;
+    scene.refit();
+}
+
+fn pan(scene: &mut Scene, dx: f64, dy: f64) {
+    scene.camera.drag(dx, dy);
+    scene.mode = CameraMode::Free;
+}
+
+fn apply(store: Store, mode: RwSignal<CameraMode>, change: impl FnOnce(&mut Scene)) {
+    store.map.with_value(|map| {
+        map.change(change);
+        mode.set(map.with(|scene| scene.mode));
+    });
+}
+
+#[component]
+fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<String>>) -> impl IntoView {
+    let canvas = NodeRef::<html::Canvas>::new();
+    let gestures = StoredValue::new(Gestures::default());
+    Effect::new(move |_| {
+        if let Some(canvas) = canvas.get() {
+            begin(&store.map.get_value(), canvas, failure);
+        }
+    });
+    let on_wheel = move |event: WheelEvent| {
+        event.prevent_default();
+        // Line-wise wheels report lines of about 16 pixels.
+        let pixels = if event.delta_mode() == WheelEvent::DOM_DELTA_PIXEL {
+            event.delta_y()
+        } else {
+            event.delta_y() * 16.0
+        };
+        let at = (f64::from(event.offset_x()), f64::from(event.offset_y()));
+        apply(store, mode, |scene| {
+            scene
+                .camera
+                .zoom_at(at, (-pixels * 0.0018).clamp(-0.7, 0.7).exp());
+            if scene.mode == CameraMode::Fitted {
+                scene.mode = CameraMode::Free;
+            }
+        });
+    };
+    let on_down = move |event: PointerEvent| {
+        gestures.update_value(|gestures| gestures.down(event.pointer_id(), place(&event)));
+        if let Some(canvas) = canvas.get_untracked() {
+            canvas.set_pointer_capture(event.pointer_id()).ok(); // A pointer that is gone already ends the gesture by itself.
+        }
+    };
+    let on_move = move |event: PointerEvent| {
+        let movement =
+            gestures.try_update_value(|gestures| gestures.moved(event.pointer_id(), place(&event)));
+        move_camera(store, mode, movement.unwrap_or(Movement::Nothing));
+    };
+    let on_up = move |event: PointerEvent| gestures.update_value(|gestures| gestures.up(event.pointer_id()));
+    view! {
+        <canvas
+            node_ref=canvas
+            id="map"
+            tabindex="0"
+            role="img"
+            aria-label="Map with the robot, its path and the swept area. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot."
+            on:wheel=on_wheel
+            on:pointerdown=on_down
+            on:pointermove=on_move
+            on:pointerup=on_up
+            on:pointercancel=on_up
+            on:keydown=move |event| on_key(store, mode, &event)
+        ></canvas>
+    }
+}
+
+fn place(event: &PointerEvent) -> (f64, f64) {
+    (f64::from(event.offset_x()), f64::from(event.offset_y()))
+}
+
+fn move_camera(store: Store, mode: RwSignal<CameraMode>, movement: Movement) {
+    match movement {
+        Movement::Nothing => {}
+        Movement::Drag { dx, dy } => apply(store, mode, |scene| pan(scene, dx, dy)),
+        Movement::Pinch { at, factor, dx, dy } => apply(store, mode, |scene| {
+            scene.camera.zoom_at(at, factor);
+            pan(scene, dx, dy);
+        }),
+    }
+}
+
+fn on_key(store: Store, mode: RwSignal<CameraMode>, event: &KeyboardEvent) {
+    if event.ctrl_key() || event.alt_key() || event.meta_key() {
+        return;
+    }
+    let change: fn(&mut Scene) = match event.key().as_str() {
+        "ArrowLeft" => |scene| pan(scene, PAN_PX, 0.0),
+        "ArrowRight" => |scene| pan(scene, -PAN_PX, 0.0),
+        "ArrowUp" => |scene| pan(scene, 0.0, PAN_PX),
+        "ArrowDown" => |scene| pan(scene, 0.0, -PAN_PX),
+        "+" | "=" => |scene| zoom(scene, STEP),
+        "-" => |scene| zoom(scene, 1.0 / STEP),
+        "0" => fit,
+        "f" | "F" => |scene| scene.mode = CameraMode::Following,
+        _ => return,
+    };
+    event.prevent_default();
+    apply(store, mode, change);
+}
+
+/// Attaches the map to its canvas, follows its size, and survives the loss of graphics memory.
+fn begin(map: &MapHandle, canvas: web_sys::HtmlCanvasElement, failure: RwSignal<Option<String>>) {
+    let sized = map.clone();
+    let observed = canvas.clone();
+    let on_resize = Closure::<dyn FnMut()>::new(move || {
+        let view = View {
+            width: f64::from(observed.client_width()),
+            height: f64::from(observed.client_height()),
+        };
+        sized.change(|scene| scene.resize(view));
+    });
+    if let Ok(observer) = ResizeObserver::new(on_resize.as_ref().unchecked_ref()) {
+        observer.observe(&canvas);
+    }
+    on_resize.forget(); // The map lives as long as the page.
+    let (lost, restored) = (map.clone(), map.clone());
+    let listen = |name: &'static str, act: Box<dyn FnMut(web_sys::Event)>| {
+        let closure = Closure::<dyn FnMut(web_sys::Event)>::wrap(act);
+        canvas
+            .add_event_listener_with_callback(name, closure.as_ref().unchecked_ref())
+            .ok(); // A listener cannot be refused.
+        closure.forget(); // The map lives as long as the page.
+    };
+    listen(
+        "webglcontextlost",
+        Box::new(move |event| {
+            event.prevent_default();
+            lost.on_context_lost();
+        }),
+    );
+    listen(
+        "webglcontextrestored",
+        Box::new(move |_| failure.set(restored.restart().err().map(|error| error.0))),
+    );
+    failure.set(map.attach(canvas.clone()).err().map(|error| error.0));
+}

@@ -1,0 +1,148 @@
+//! What the robot is doing and why, in words, and the figures of the job.
+
+use leptos::prelude::*;
+use panel_logic::{area_text, clock_text, distance_text, explain, percent_text, state_title};
+use rvac_api::Status;
+
+use crate::icons::{Icon, icon};
+use crate::store::Store;
+
+#[component]
+pub(crate) fn StatusView(store: Store) -> impl IntoView {
+    let state = Memo::new(move |_| {
+        store.status.with(|status| {
+            status
+                .as_ref()
+                .map_or_else(|| "disconnected".to_owned(), |status| status.state.clone())
+        })
+    });
+    let reason = Memo::new(move |_| {
+        store
+            .status
+            .with(|status| status.as_ref().map(reason_text).unwrap_or_default())
+    });
+    view! {
+        <section class="card now" aria-labelledby="state" data-state=move || state.get() id="now">
+            <div role="status" aria-live="polite">
+                <h2 id="state">{move || state_title(&state.get())}</h2>
+                <p id="reason">{move || reason.get()}</p>
+            </div>
+            <Inhibits store />
+            <Figures store />
+        </section>
+    }
+}
+
+/// Why the robot is in its state. That somebody asked for it needs no words while it works.
+fn reason_text(status: &Status) -> String {
+    let plain = matches!(status.reason.as_str(), "" | "command" | "start-up");
+    match (plain, status.state.as_str()) {
+        (true, "idle") => "Press Start and it cleans the floor.".to_owned(),
+        (true, "starting") => "It beeps before its wheels turn.".to_owned(),
+        (true, "paused") => "The job waits until you resume it.".to_owned(),
+        (true, "manual") => status
+            .driver
+            .as_ref()
+            .map_or_else(String::new, |driver| format!("In the driver's seat: {driver}.")),
+        (true, _) => String::new(),
+        (false, _) => code_text(&status.reason),
+    }
+}
+
+/// The sentences for a code; a code without any is shown as it is.
+fn code_text(code: &str) -> String {
+    explain(code).map_or_else(
+        || format!("Reason: {code}."),
+        |explanation| {
+            format!("{} {}", explanation.what, explanation.remedy)
+                .trim_end()
+                .to_owned()
+        },
+    )
+}
+
+/// What the firmware says against moving, as far as it is not the reason already.
+#[component]
+fn Inhibits(store: Store) -> impl IntoView {
+    let sentences = Memo::new(move |_| {
+        store.status.with(|status| {
+            let status = status.as_ref()?;
+            let normal = ["not-armed", "stopped", "docked", "link-lost"];
+            let shown = status
+                .inhibits
+                .iter()
+                .filter(|code| **code != status.reason && !normal.contains(&code.as_str()));
+            let sentences: Vec<String> = shown.map(|code| code_text(code)).collect();
+            (!sentences.is_empty()).then_some(sentences)
+        })
+    });
+    view! {
+        <Show when=move || sentences.get().is_some()>
+            <ul class="inhibits">
+                {move || {
+                    let sentences = sentences.get().unwrap_or_default();
+                    sentences.into_iter().map(|text| view! { <li>{icon(Icon::Warning)} {text}</li> }).collect_view()
+                }}
+            </ul>
+        </Show>
+    }
+}
+
+#[component]
+fn Figures(store: Store) -> impl IntoView {
+    let figure = move |text: fn(&Status) -> String| {
+        Memo::new(move |_| {
+            store
+                .status
+                .with(|status| status.as_ref().map_or_else(|| "–".to_owned(), text))
+        })
+    };
+    let swept = figure(|status| area_text(status.swept_m2));
+    let time = figure(|status| clock_text(status.job_s));
+    let path = figure(|status| distance_text(status.path_m));
+    let bumps = figure(|status| status.bumps.to_string());
+    let covered = Memo::new(move |_| {
+        store
+            .truth
+            .with(|truth| truth.map(|truth| percent_text(truth.covered)))
+    });
+    view! {
+        <dl class="figures">
+            <div><dt>"Swept"</dt><dd id="swept">{move || swept.get()}</dd></div>
+            <div><dt>"Time"</dt><dd>{move || time.get()}</dd></div>
+            <div><dt>"Way"</dt><dd>{move || path.get()}</dd></div>
+            <div><dt>"Bumps"</dt><dd>{move || bumps.get()}</dd></div>
+            <Show when=move || covered.get().is_some()>
+                <div><dt>"Covered"</dt><dd title="True share of the reachable floor of the simulated home">{move || covered.get()}</dd></div>
+            </Show>
+        </dl>
+    }
+}
+
+/// The last refusal, in words.
+#[component]
+pub(crate) fn RefusalView(store: Store) -> impl IntoView {
+    let text = move || store.refusal.with(|refusal| refusal.as_ref().map(refusal_text));
+    view! {
+        <div role="alert" class="alert-place">
+            <Show when=move || text().is_some()>
+                <div class="alert" id="refusal">
+                    {icon(Icon::Warning)}
+                    <p>{text}</p>
+                    <button type="button" class="round" aria-label="Dismiss" on:click=move |_| store.refusal.set(None)>
+                        {icon(Icon::Close)}
+                    </button>
+                </div>
+            </Show>
+        </div>
+    }
+}
+
+fn refusal_text(refusal: &rvac_api::Failure) -> String {
+    match explain(&refusal.reason) {
+        Some(explanation) => format!("{} {}", explanation.what, explanation.remedy)
+            .trim_end()
+            .to_owned(),
+        None => refusal.text.clone(),
+    }
+}

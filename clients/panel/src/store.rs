@@ -1,0 +1,172 @@
+//! What the page knows, as signals that the views follow.
+
+use leptos::prelude::*;
+use panel_logic::{Driver, LogBook, Offers};
+use rvac_api::{DeviceTable, Failure, Request, RequestBody, RobotDescription, SimulatedTruth, Status, Topic};
+
+use rvac_api::Update as Message;
+
+use crate::link::Link;
+use crate::map::MapHandle;
+
+/// Number of the drive requests, so that a refusal of one is known as such.
+const DRIVE_ID: u32 = 1;
+
+/// Number of all other requests.
+const OTHER_ID: u32 = 2;
+
+/// Everything the views share. It is a bundle of handles and cheap to copy.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Store {
+    /// What the robot does; none before the first word.
+    pub(crate) status: RwSignal<Option<Status>>,
+    /// The robot, once known.
+    pub(crate) robot: RwSignal<Option<RobotDescription>>,
+    /// Strategies that can be started.
+    pub(crate) strategies: RwSignal<Vec<String>>,
+    /// The device table.
+    pub(crate) device: RwSignal<Option<DeviceTable>>,
+    /// Where a simulated robot really is.
+    pub(crate) truth: RwSignal<Option<SimulatedTruth>>,
+    /// Name of the simulated home.
+    pub(crate) home: RwSignal<Option<String>>,
+    /// The log.
+    pub(crate) log: RwSignal<LogBook>,
+    /// The last refusal, until it is dismissed.
+    pub(crate) refusal: RwSignal<Option<Failure>>,
+    /// What is held to drive.
+    pub(crate) driver: StoredValue<Driver>,
+    /// The map.
+    pub(crate) map: StoredValue<MapHandle, LocalStorage>,
+    /// The connection to the server.
+    link: StoredValue<Link, LocalStorage>,
+}
+
+impl Store {
+    pub(crate) fn new() -> Self {
+        Self {
+            status: RwSignal::new(None),
+            robot: RwSignal::new(None),
+            strategies: RwSignal::new(Vec::new()),
+            device: RwSignal::new(None),
+            truth: RwSignal::new(None),
+            home: RwSignal::new(None),
+            log: RwSignal::new(LogBook::default()),
+            refusal: RwSignal::new(None),
+            driver: StoredValue::new(Driver::default()),
+            map: StoredValue::new_local(MapHandle::default()),
+            link: StoredValue::new_local(Link::default()),
+        }
+    }
+
+    /// Connects to the server, for ever.
+    pub(crate) fn connect(self) {
+        self.link.with_value(|link| link.connect(self));
+    }
+
+    /// The offers of the moment; a view that asks follows them.
+    pub(crate) fn offers(self) -> Offers {
+        self.status.with(|status| {
+            self.robot
+                .with(|robot| Offers::of(status.as_ref(), robot.as_ref()))
+        })
+    }
+
+    /// Asks for something that a person pressed.
+    pub(crate) fn ask(self, body: RequestBody) {
+        self.refusal.set(None);
+        self.send(Some(OTHER_ID), body);
+    }
+
+    /// Sends what the driver wants now. To be called ten times a second and at each change.
+    pub(crate) fn drive(self) {
+        let limits = self
+            .robot
+            .with_untracked(|robot| panel_logic::DriveLimits::of(robot.as_ref()));
+        let request = self
+            .driver
+            .try_update_value(|driver| driver.request(limits))
+            .flatten();
+        if let Some(body) = request {
+            self.send(Some(DRIVE_ID), body);
+        }
+    }
+
+    /// Lets go of everything and says so at once.
+    pub(crate) fn let_go(self) {
+        self.driver.update_value(Driver::drop_all);
+        self.drive();
+    }
+
+    /// The connection stands: introduces the page.
+    pub(crate) fn on_open(self) {
+        self.log.update(LogBook::clear);
+        self.send(
+            None,
+            RequestBody::Hello {
+                name: "panel".to_owned(),
+            },
+        );
+        let topics = vec![Topic::Status, Topic::Pose, Topic::Device, Topic::Map, Topic::Log];
+        self.send(None, RequestBody::Watch { topics });
+    }
+
+    /// The connection is lost.
+    pub(crate) fn on_close(self) {
+        self.driver.update_value(Driver::drop_all);
+        let status = Status {
+            state: "disconnected".to_owned(),
+            reason: "no-server".to_owned(),
+            ..Status::default()
+        };
+        self.status.set(Some(status));
+        self.device.set(None);
+    }
+
+    /// A message came.
+    pub(crate) fn on_update(self, update: Message) {
+        match update {
+            Message::Hello {
+                robot, strategies, ..
+            } => {
+                self.map.with_value(|map| map.set_robot(robot.as_ref()));
+                self.robot.set(robot);
+                self.strategies.set(strategies);
+            }
+            Message::Status(status) => self.on_status(status),
+            Message::Device(table) => self.device.set(Some(table)),
+            Message::Log(entry) => self.log.update(|log| log.push(entry)),
+            Message::Failed(failure) => self.on_failed(failure),
+            Message::SimulatedTruth(truth) => {
+                self.map.with_value(|map| map.on_truth(truth.pose));
+                self.truth.set(Some(truth));
+            }
+            Message::SimulatedPlan(plan) => {
+                self.home.set(Some(plan.name.clone()));
+                self.map.with_value(|map| map.set_plan(plan));
+            }
+            Message::Pose(pose) => self.map.with_value(|map| map.on_pose(pose)),
+            Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
+            Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
+            Message::Done { .. } | Message::Packet { .. } => {}
+        }
+    }
+
+    fn on_status(self, status: Status) {
+        if status.state == "disconnected" {
+            self.device.set(None);
+        }
+        self.status.set(Some(status));
+    }
+
+    fn on_failed(self, failure: Failure) {
+        if failure.id == Some(DRIVE_ID) {
+            self.driver.update_value(Driver::on_refused);
+        }
+        self.refusal.set(Some(failure));
+    }
+
+    fn send(self, id: Option<u32>, body: RequestBody) {
+        self.link.with_value(|link| link.send(&Request { id, body }));
+    }
+}

@@ -1,0 +1,71 @@
+//! Drive, device and log as tabs, with the keys that tabs have everywhere.
+
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+use wasm_bindgen::JsCast;
+
+use crate::device_view::DeviceView;
+use crate::drive_pad::DrivePad;
+use crate::log_view::LogView;
+use crate::store::Store;
+
+const TABS: [(&str, &str); 3] = [("drive", "Drive"), ("device", "Device"), ("log", "Log")];
+
+#[component]
+pub(crate) fn Tabs(store: Store) -> impl IntoView {
+    let open = RwSignal::new(0_usize);
+    let on_key = move |event: KeyboardEvent| {
+        let now = open.get_untracked();
+        let next = match event.key().as_str() {
+            "ArrowRight" => (now + 1) % TABS.len(),
+            "ArrowLeft" => (now + TABS.len() - 1) % TABS.len(),
+            "Home" => 0,
+            "End" => TABS.len() - 1,
+            _ => return,
+        };
+        event.prevent_default();
+        open.set(next);
+        focus(&format!("tab-{}", TABS[next].0));
+    };
+    let tab = move |index: usize| {
+        let (id, label) = TABS[index];
+        view! {
+            <button
+                type="button"
+                role="tab"
+                id=format!("tab-{id}")
+                aria-controls=format!("sheet-{id}")
+                aria-selected=move || if open.get() == index { "true" } else { "false" }
+                tabindex=move || if open.get() == index { "0" } else { "-1" }
+                on:click=move |_| open.set(index)
+            >
+                {label}
+            </button>
+        }
+    };
+    view! {
+        <section class="card tabs" aria-label="Details">
+            <div role="tablist" aria-label="Details" on:keydown=on_key>
+                {(0..TABS.len()).map(tab).collect_view()}
+            </div>
+            <div role="tabpanel" id="sheet-drive" aria-labelledby="tab-drive" hidden=move || open.get() != 0>
+                <DrivePad store />
+            </div>
+            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 1>
+                <Show when=move || open.get() == 1><DeviceView store /></Show>
+            </div>
+            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 2>
+                <Show when=move || open.get() == 2><LogView store /></Show>
+            </div>
+        </section>
+    }
+}
+
+fn focus(id: &str) {
+    let element = document()
+        .get_element_by_id(id)
+        .and_then(|element| element.dyn_into::<web_sys::HtmlElement>().ok());
+    if let Some(element) = element {
+        element.focus().ok(); // An element that cannot take the focus leaves it where it is.
+    }
+}
