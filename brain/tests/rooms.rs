@@ -2,7 +2,7 @@
 
 mod plane;
 
-use brain::{BehaviorState, Brain, Command, Point2, Pose2, StrategyName};
+use brain::{BehaviorState, Brain, CELL_M, Command, Pose2, StrategyName};
 use plane::{BODY, Rectangle, Room, SPEEDS, World, config, run};
 
 const CLEAN: Command = Command::Clean {
@@ -91,5 +91,99 @@ fn bounce_covers_a_furnished_room_as_random_bounce_does() {
     println!("furnished room: {covered:.2?}");
     for (covered, least) in covered.iter().zip([0.40, 0.58, 0.84]) {
         assert!(*covered >= least, "{covered} is below {least}");
+    }
+}
+
+/// The disc is one metre across and swept without holes.
+#[test]
+fn spot_sweeps_a_disc_of_a_metre() {
+    let room = Room::empty((4.0, 4.0));
+    let pose = middle_of(&room);
+    let mut world = World::new(room, pose);
+    let mut brain = Brain::new(config(), 1);
+    run(&mut world, &mut brain, Some(Command::Spot), 60.0);
+    assert_eq!(brain.status().state, BehaviorState::Idle, "{:?}", brain.status());
+    let swept: Vec<(f64, f64)> = brain
+        .map()
+        .snapshot()
+        .swept
+        .iter()
+        .map(|cell| {
+            (
+                (f64::from(cell.x) + 0.5) * CELL_M,
+                (f64::from(cell.y) + 0.5) * CELL_M,
+            )
+        })
+        .collect();
+    let count = swept.len() as f64;
+    let (sum_x, sum_y) = swept
+        .iter()
+        .fold((0.0, 0.0), |sum, cell| (sum.0 + cell.0, sum.1 + cell.1));
+    let radius = |cell: &(f64, f64)| (cell.0 - sum_x / count).hypot(cell.1 - sum_y / count);
+    let farthest_m = swept.iter().map(radius).fold(0.0, f64::max);
+    assert!((0.48..0.56).contains(&farthest_m), "reaches {farthest_m} m");
+    let inside = swept.iter().filter(|cell| radius(cell) < 0.47).count() as f64;
+    let share = inside * CELL_M * CELL_M / (core::f64::consts::PI * 0.47 * 0.47);
+    assert!(share > 0.97, "only {share} of the inner disc");
+}
+
+/// A pocket a little wider than the robot lets it out again.
+#[test]
+fn a_narrow_pocket_is_left() {
+    for seed in 1..=20 {
+        let room = Room::empty((4.0, 4.0)).with(&[
+            Rectangle::new((0.0, 0.0), (1.0, 0.8)),
+            Rectangle::new((1.42, 0.0), (2.4, 0.8)),
+        ]);
+        let pose = Pose2 {
+            x_m: 1.21,
+            y_m: 0.3,
+            heading_rad: -1.5,
+        };
+        let mut world = World::new(room, pose);
+        let mut brain = Brain::new(config(), seed);
+        run(&mut world, &mut brain, Some(CLEAN), 180.0);
+        assert_eq!(world.violations, Vec::<String>::new());
+        assert!(
+            world.covered() > 0.15,
+            "seed {seed}: {} {:?}",
+            world.covered(),
+            brain.status()
+        );
+    }
+}
+
+/// Stairs: it turns away every time and never drives on.
+#[test]
+fn stairs_are_left_alone() {
+    for seed in 1..=10 {
+        let mut room = Room::empty((3.0, 3.0));
+        room.holes.push(Rectangle::new((2.0, 0.0), (3.0, 3.0)));
+        let mut world = World::new(
+            room,
+            Pose2 {
+                x_m: 1.0,
+                y_m: 1.5,
+                heading_rad: 0.0,
+            },
+        );
+        let mut brain = Brain::new(config(), seed);
+        run(&mut world, &mut brain, Some(CLEAN), 300.0);
+        assert_eq!(world.violations, Vec::<String>::new());
+        assert!(world.pose.x_m < 2.0, "seed {seed} fell");
+        assert_eq!(
+            brain.status().state,
+            BehaviorState::Cleaning,
+            "seed {seed}: {:?}",
+            brain.status()
+        );
+        assert!(
+            brain
+                .map()
+                .snapshot()
+                .marks
+                .iter()
+                .any(|mark| mark.kind == brain::MarkKind::Cliff)
+        );
     }
 }

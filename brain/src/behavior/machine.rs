@@ -8,6 +8,7 @@ use crate::action::{Arm, Motion, Tone};
 use crate::checkpoint::JobCheckpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
+use crate::manoeuvre::BACK_AT_CLIFF_M_PER_S;
 use crate::task::{Mind, Situation};
 
 /// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
@@ -360,12 +361,18 @@ impl Behavior {
             return Motion::Rest;
         }
         let share = speed_share.clamp(0.0, 1.0);
-        let held = facts.touching || facts.at_cliff || facts.cliff_sensor;
+        let at_cliff = facts.at_cliff || facts.cliff_sensor;
+        let held = facts.touching || at_cliff;
         if share.is_nan() || share <= 0.0 || (held && speed_m_per_s >= 0.0) {
             return Motion::Halt;
         }
+        let slowest_m_per_s = if at_cliff {
+            -BACK_AT_CLIFF_M_PER_S
+        } else {
+            f64::NEG_INFINITY
+        };
         Motion::Drive {
-            speed_m_per_s: share * speed_m_per_s,
+            speed_m_per_s: (share * speed_m_per_s).max(slowest_m_per_s),
             turn_rad_per_s: if held { 0.0 } else { share * turn_rad_per_s },
         }
     }

@@ -6,7 +6,7 @@ use crate::task::Situation;
 /// Reverse speed after a contact.
 const BACK_M_PER_S: f64 = 0.15;
 /// Reverse speed at a cliff; the firmware allows 0.1 m/s (S8).
-const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
+pub(crate) const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
 /// Slowest turn that is still a turn for a motor with a dead band.
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
 /// Turn rate asked for each radian that is left: the robot brakes over the last part.
@@ -15,6 +15,10 @@ const TURN_GAIN_PER_S: f64 = 4.0;
 const TURN_DONE_RAD: f64 = 0.03;
 /// Time a leg may take beyond what its length needs.
 const GRACE_S: f64 = 1.0;
+/// Backing that makes no way for this long is over: something stands behind.
+const BLOCKED_S: f64 = 0.4;
+/// Share of the commanded speed below which no way is made.
+const BLOCKED_SHARE: f64 = 0.2;
 
 /// State of a leg after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +37,7 @@ pub(crate) struct BackOff {
     left_m: f64,
     speed_m_per_s: f64,
     left_s: f64,
+    blocked_s: f64,
 }
 
 impl BackOff {
@@ -51,6 +56,7 @@ impl BackOff {
             left_m: length_m,
             speed_m_per_s,
             left_s: 2.0 * length_m / speed_m_per_s + GRACE_S,
+            blocked_s: 0.0,
         }
     }
 
@@ -61,11 +67,18 @@ impl BackOff {
     }
 
     pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Leg {
-        self.left_m += situation.advance.distance_m.min(0.0);
-        self.left_s -= situation.advance.time_s;
+        let advance = situation.advance;
+        self.left_m += advance.distance_m.min(0.0);
+        self.left_s -= advance.time_s;
+        let makes_way = -advance.distance_m > BLOCKED_SHARE * self.speed_m_per_s * advance.time_s;
+        self.blocked_s = if makes_way {
+            0.0
+        } else {
+            self.blocked_s + advance.time_s
+        };
         if self.left_m <= 0.0 {
             Leg::Arrived
-        } else if self.left_s <= 0.0 {
+        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S {
             Leg::Late
         } else {
             Leg::Going(Motion::Drive {

@@ -5,5 +5,5 @@ mod leg;
 mod sequence;
 
 pub(crate) use evasion::{Evasion, EvasionStep};
-pub(crate) use leg::{BackOff, Leg, Turn};
+pub(crate) use leg::{BACK_AT_CLIFF_M_PER_S, BackOff, Leg, Turn};
 pub(crate) use sequence::{Part, Sequence};

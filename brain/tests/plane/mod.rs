@@ -8,13 +8,13 @@
 use brain::observation::{Cliffs, Contacts};
 use brain::{Actions, Body, Brain, BrainConfig, Command, Motion, Observation, Point2, Pose2, Speeds};
 
-pub const STEP_S: f64 = 0.02;
-pub const BODY: Body = Body {
+pub(crate) const STEP_S: f64 = 0.02;
+pub(crate) const BODY: Body = Body {
     radius_m: 0.175,
     swath_m: 0.30,
     track_m: 0.23,
 };
-pub const SPEEDS: Speeds = Speeds {
+pub(crate) const SPEEDS: Speeds = Speeds {
     cruise_m_per_s: 0.25,
     max_m_per_s: 0.35,
     turn_max_rad_per_s: 1.5,
@@ -22,19 +22,19 @@ pub const SPEEDS: Speeds = Speeds {
 const CELL_M: f64 = 0.025;
 const CLIFF_LEAD_M: f64 = 0.155;
 
-pub fn config() -> BrainConfig {
+pub(crate) fn config() -> BrainConfig {
     BrainConfig::new(BODY, SPEEDS)
 }
 
 /// An axis-parallel rectangle.
 #[derive(Clone, Copy, Debug)]
-pub struct Rectangle {
-    pub low: (f64, f64),
-    pub high: (f64, f64),
+pub(crate) struct Rectangle {
+    pub(crate) low: (f64, f64),
+    pub(crate) high: (f64, f64),
 }
 
 impl Rectangle {
-    pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
+    pub(crate) fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { low, high }
     }
 
@@ -53,14 +53,14 @@ impl Rectangle {
 }
 
 /// A room with the origin in its lower left corner, and what stands in it.
-pub struct Room {
-    pub size_m: (f64, f64),
-    pub furniture: Vec<Rectangle>,
-    pub holes: Vec<Rectangle>,
+pub(crate) struct Room {
+    pub(crate) size_m: (f64, f64),
+    pub(crate) furniture: Vec<Rectangle>,
+    pub(crate) holes: Vec<Rectangle>,
 }
 
 impl Room {
-    pub fn empty(size_m: (f64, f64)) -> Self {
+    pub(crate) fn empty(size_m: (f64, f64)) -> Self {
         let (width, depth) = size_m;
         let wall = 1.0;
         let walls = vec![
@@ -76,7 +76,7 @@ impl Room {
         }
     }
 
-    pub fn with(mut self, furniture: &[Rectangle]) -> Self {
+    pub(crate) fn with(mut self, furniture: &[Rectangle]) -> Self {
         self.furniture.extend_from_slice(furniture);
         self
     }
@@ -92,18 +92,18 @@ impl Room {
 }
 
 /// The robot in the room, and the judge.
-pub struct World {
-    pub room: Room,
-    pub pose: Pose2,
-    pub observation: Observation,
-    pub violations: Vec<String>,
-    pub swept: Vec<bool>,
+pub(crate) struct World {
+    pub(crate) room: Room,
+    pub(crate) pose: Pose2,
+    pub(crate) observation: Observation,
+    pub(crate) violations: Vec<String>,
+    pub(crate) swept: Vec<bool>,
     columns: usize,
     motion: (f64, f64),
 }
 
 impl World {
-    pub fn new(room: Room, pose: Pose2) -> Self {
+    pub(crate) fn new(room: Room, pose: Pose2) -> Self {
         let columns = (room.size_m.0 / CELL_M) as usize;
         let rows = (room.size_m.1 / CELL_M) as usize;
         Self {
@@ -121,7 +121,7 @@ impl World {
     }
 
     /// Moves for one step as the brain asked, and perceives.
-    pub fn step(&mut self, actions: &Actions) {
+    pub(crate) fn step(&mut self, actions: &Actions) {
         self.check(actions);
         let wish = match actions.motion {
             Motion::Drive {
@@ -133,21 +133,32 @@ impl World {
         // Motors follow within about 60 ms.
         self.motion.0 += (wish.0 - self.motion.0) * (STEP_S / 0.06);
         self.motion.1 += (wish.1 - self.motion.1) * (STEP_S / 0.06);
-        let (mut speed, turn) = self.motion;
-        let (distance_m, turn_rad) = (speed * STEP_S, turn * STEP_S);
-        let next = self.pose.after_arc(distance_m, turn_rad);
-        let (clearance_m, _) = self.room.clearance(next.position());
-        if clearance_m < BODY.radius_m {
-            speed = 0.0;
-            self.motion.0 = 0.0;
-            self.pose.heading_rad = next.heading_rad;
-        } else {
-            self.pose = next;
-        }
-        self.roll(speed * STEP_S, turn_rad);
+        let (distance_m, turn_rad) = (self.motion.0 * STEP_S, self.motion.1 * STEP_S);
+        let before = self.pose;
+        self.pose = self.pushed_out(before.after_arc(distance_m, turn_rad));
+        let made = before.inverse().transform(self.pose.position());
+        self.roll(made.x_m, turn_rad);
         self.perceive(wish.0);
         if actions.cleaners {
             self.sweep();
+        }
+    }
+
+    /// Obstacles are hard and smooth: the disc slides along them.
+    fn pushed_out(&self, pose: Pose2) -> Pose2 {
+        let (clearance_m, nearest) = self.room.clearance(pose.position());
+        if clearance_m >= BODY.radius_m || clearance_m == 0.0 {
+            return if clearance_m == 0.0 { self.pose } else { pose };
+        }
+        let grow = BODY.radius_m / clearance_m;
+        let x_m = nearest.x_m + (pose.x_m - nearest.x_m) * grow;
+        let y_m = nearest.y_m + (pose.y_m - nearest.y_m) * grow;
+        let pushed = Pose2 { x_m, y_m, ..pose };
+        // Two obstacles at once leave no way.
+        if self.room.clearance(pushed.position()).0 < BODY.radius_m - 1e-6 {
+            self.pose
+        } else {
+            pushed
         }
     }
 
@@ -160,15 +171,16 @@ impl World {
     }
 
     fn perceive(&mut self, wished_m_per_s: f64) {
-        let (clearance_m, nearest) = self.room.clearance(self.pose.position());
-        let local = self.pose.inverse().transform(nearest);
-        let bearing = local.y_m.atan2(local.x_m);
         let pushes = wished_m_per_s > 0.0 || self.observation.contacts.any();
-        let touches = clearance_m < BODY.radius_m + 0.008 && bearing.abs() < 1.57 && pushes;
-        let contacts = Contacts {
-            left: touches && bearing > -0.2,
-            right: touches && bearing < 0.2,
-        };
+        let mut contacts = Contacts::default();
+        for thing in &self.room.furniture {
+            let local = self.pose.inverse().transform(thing.nearest(self.pose.position()));
+            let bearing_rad = local.y_m.atan2(local.x_m);
+            if pushes && local.x_m > 0.0 && local.x_m.hypot(local.y_m) < BODY.radius_m + 0.008 {
+                contacts.left |= bearing_rad > -0.2;
+                contacts.right |= bearing_rad < 0.2;
+            }
+        }
         let hole = |side_m: f64| {
             let eye = self.pose.transform(Point2 {
                 x_m: CLIFF_LEAD_M,
@@ -232,7 +244,7 @@ impl World {
     }
 
     /// Share of the floor that the robot's centre can reach within half a swath that was swept.
-    pub fn covered(&self) -> f64 {
+    pub(crate) fn covered(&self) -> f64 {
         let free = |index: &usize| {
             let (x, y) = (index % self.columns, index / self.columns);
             let point = Point2 {
@@ -251,7 +263,7 @@ impl World {
 }
 
 /// Runs a brain in a world for a while and gives it back.
-pub fn run(world: &mut World, brain: &mut Brain, command: Option<Command>, seconds: f64) {
+pub(crate) fn run(world: &mut World, brain: &mut Brain, command: Option<Command>, seconds: f64) {
     let mut commands = Vec::from_iter(command);
     for _ in 0..(seconds / STEP_S) as u32 {
         let actions = brain.step(&world.observation, &commands);

@@ -7,22 +7,33 @@ use crate::geometry::TurnSide;
 const SHORT_RUN_M: f64 = 0.25;
 /// A run above this leads out of the pocket.
 const FREE_RUN_M: f64 = 0.6;
+/// Short runs until the robot feels its way along the edge.
+const EDGE_AFTER: u32 = 3;
+/// Short runs until it scans round for an opening.
+const SCAN_AFTER: u32 = 10;
 /// Short runs until the pocket is called closed.
-const CLOSED_AFTER: u32 = 18;
-/// Short runs until ranges grow by a level.
-const RUNS_PER_LEVEL: u32 = 3;
-/// Way back in the open.
+const CLOSED_AFTER: u32 = 22;
+/// Way back in the open and along an edge.
 const BACK_M: f64 = 0.03;
-/// Way back that each level adds.
-const BACK_PER_LEVEL_M: f64 = 0.03;
-/// Most levels.
-const LEVEL_MAX: u32 = 4;
+/// Way back while scanning: between chair legs a turn needs other ground than the one it was tried on.
+const SCAN_BACK_M: f64 = 0.08;
 
 /// What the last runs tell about the place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pocket {
     short_runs: u32,
     side: Option<TurnSide>,
+}
+
+/// How to behave in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// No pocket.
+    Open,
+    /// Narrow: small turns away from each contact follow the edge out.
+    Edge,
+    /// A corner or a cage: steps to one and the same side look for the opening.
+    Cage,
 }
 
 impl Pocket {
@@ -32,32 +43,34 @@ impl Pocket {
             *self = Self::default();
         } else if run_m < SHORT_RUN_M {
             self.short_runs += 1;
-            self.side.get_or_insert(side);
+            if self.place() == Place::Cage {
+                self.side.get_or_insert(side);
+            }
         }
     }
 
-    /// The side to keep to, once the place looks like a pocket.
+    /// The side to keep to, if the place asks for it.
     pub(super) fn side(&self) -> Option<TurnSide> {
-        self.side.filter(|_| self.level() > 0)
+        self.side
     }
 
     /// Way back for the next evasion.
     pub(super) fn back_m(&self) -> f64 {
-        BACK_M + BACK_PER_LEVEL_M * f64::from(self.level())
+        if self.place() == Place::Cage {
+            SCAN_BACK_M
+        } else {
+            BACK_M
+        }
     }
 
-    /// Range of the next turn in radians. Head-on a turn must be larger to come free than on one side.
+    /// Range of the next turn in radians. Head-on a turn must be larger to come free than after a touch on one side.
     pub(super) fn turn_range_rad(&self, met: Reason) -> (f64, f64) {
-        let (low, high) = if met == Reason::BumpFront {
-            (1.3, 3.1)
-        } else {
-            (0.7, 2.6)
-        };
-        // In a pocket small steps to the same side scan for the opening.
-        if self.level() == 0 {
-            (low, high)
-        } else {
-            (0.5, 1.1 + 0.3 * f64::from(self.level()))
+        match (self.place(), met) {
+            (Place::Open, Reason::BumpFront) => (1.3, 3.1),
+            (Place::Open, _) => (0.7, 2.6),
+            (Place::Edge, Reason::BumpFront) => (0.8, 1.8),
+            (Place::Edge, _) => (0.15, 0.6),
+            (Place::Cage, _) => (0.4, 1.4),
         }
     }
 
@@ -66,35 +79,45 @@ impl Pocket {
         self.short_runs >= CLOSED_AFTER
     }
 
-    fn level(&self) -> u32 {
-        (self.short_runs / RUNS_PER_LEVEL).min(LEVEL_MAX)
+    fn place(&self) -> Place {
+        match self.short_runs {
+            0..EDGE_AFTER => Place::Open,
+            EDGE_AFTER..SCAN_AFTER => Place::Edge,
+            _ => Place::Cage,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Pocket;
+    use crate::behavior::Reason;
     use crate::geometry::TurnSide;
 
     #[test]
-    fn short_runs_widen_the_back_off_and_keep_the_side() {
+    fn short_runs_lead_along_the_edge_then_round_to_one_side() {
         let mut pocket = Pocket::default();
-        let open_back_m = pocket.back_m();
-        for encounter in 0..6 {
+        let open = (pocket.back_m(), pocket.turn_range_rad(Reason::BumpLeft));
+        for _ in 0..5 {
+            pocket.enter(0.1, TurnSide::Left);
+        }
+        assert!(pocket.turn_range_rad(Reason::BumpLeft).1 < open.1.1);
+        assert_eq!(pocket.side(), None);
+        for encounter in 0..8 {
             assert!(!pocket.is_closed());
             pocket.enter(
                 0.1,
                 if encounter % 2 == 0 {
-                    TurnSide::Left
-                } else {
                     TurnSide::Right
+                } else {
+                    TurnSide::Left
                 },
             );
         }
-        assert_eq!(pocket.side(), Some(TurnSide::Left));
-        assert!(pocket.back_m() > open_back_m);
+        assert_eq!(pocket.side(), Some(TurnSide::Right), "the first side in the cage");
+        assert!(pocket.back_m() > open.0);
         pocket.enter(0.7, TurnSide::Right);
-        assert_eq!((pocket.side(), pocket.back_m()), (None, open_back_m));
+        assert_eq!((pocket.back_m(), pocket.turn_range_rad(Reason::BumpLeft)), open);
     }
 
     #[test]
@@ -104,6 +127,6 @@ mod tests {
             pocket.enter(0.0, TurnSide::Left);
             pocket.is_closed()
         });
-        assert_eq!(runs, Some(18));
+        assert_eq!(runs, Some(22));
     }
 }
