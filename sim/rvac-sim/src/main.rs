@@ -1,1 +1,107 @@
-fn main() {}
+//! `rvac-sim`: a simulated robot in a simulated home.
+#![forbid(unsafe_code)]
+
+mod arguments;
+mod progress;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::Context;
+use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments};
+use clap::Parser;
+use home::RobotModel;
+use progress::Progress;
+use rvac_sim::faults::{Homes, Summary, trials};
+use rvac_sim::run::{household, run};
+use rvac_sim::serve::serve;
+use rvac_sim::{Report, Scene};
+
+/// Bad input; nothing was done.
+const BAD_INPUT: u8 = 2;
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Serve(arguments) => serve_robot(&arguments),
+        Command::Run(arguments) => run_household(&arguments),
+        Command::Faults(arguments) => run_trials(&arguments),
+    };
+    outcome.unwrap_or_else(|error| {
+        // When even standard error is gone there is nobody left to tell.
+        writeln!(io::stderr(), "rvac-sim: {error:#}").ok();
+        ExitCode::from(BAD_INPUT)
+    })
+}
+
+fn serve_robot(arguments: &ServeArguments) -> anyhow::Result<ExitCode> {
+    let scene = Scene::load(&arguments.scene.settings())?;
+    serve(&scene, &arguments.settings())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
+    let scene = Scene::load(&arguments.scene.settings())?;
+    let settings = arguments.settings()?;
+    let started = Instant::now();
+    let progress = Progress::new("simulating");
+    let mut household = household(&scene, &settings);
+    let report = run(&mut household, &settings, |share| progress.show(share));
+    progress.clear();
+    let report = Report {
+        wall_seconds: started.elapsed().as_secs_f64(),
+        ..report
+    };
+    if arguments.json {
+        print(&serde_json::to_string(&report)?)?;
+    } else {
+        print(&report.to_string())?;
+    }
+    for violation in household.robot().monitor().violations() {
+        writeln!(io::stderr(), "violation: {violation}")?;
+    }
+    Ok(verdict(u64::from(report.monitor_violations)))
+}
+
+fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
+    let model = RobotModel::by_name("sr8730")?;
+    let homes = Homes::load(&model)?;
+    let seeds = arguments.seeds.clone();
+    let count = seeds.end - seeds.start;
+    let duration_ms = arguments.duration_ms();
+    let started = Instant::now();
+    let progress = Progress::new("trials");
+    let outcomes = trials(&homes, &model, (seeds, duration_ms), &|done| {
+        progress.show(done as f64 / count as f64);
+    });
+    progress.clear();
+    let summary = Summary::of(&outcomes, duration_ms, started.elapsed().as_secs_f64());
+    if arguments.json {
+        print(&summary.to_json().to_string())?;
+    } else {
+        print(&summary.to_string())?;
+    }
+    for outcome in outcomes.iter().filter(|outcome| outcome.violation_count > 0) {
+        let seed = outcome.seed;
+        let minutes = arguments.minutes;
+        writeln!(
+            io::stderr(),
+            "seed {seed} violated {} rules; replay it with: rvac-sim faults --seeds {seed}..{} --minutes {minutes}",
+            outcome.violation_count,
+            seed + 1,
+        )?;
+    }
+    Ok(verdict(summary.violations()))
+}
+
+fn verdict(violations: u64) -> ExitCode {
+    if violations == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn print(text: &str) -> anyhow::Result<()> {
+    writeln!(io::stdout(), "{text}").context("cannot write to standard output")
+}

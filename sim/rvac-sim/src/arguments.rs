@@ -1,0 +1,192 @@
+//! The command line.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use anyhow::bail;
+use brain::command::StrategyName;
+use clap::{Args, Parser, Subcommand};
+use rvac_sim::SceneSettings;
+use rvac_sim::run::RunSettings;
+use rvac_sim::serve::ServeSettings;
+use vthal_core::Recording;
+
+/// A simulated robot in a simulated home.
+#[derive(Debug, Parser)]
+#[command(version)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Puts a robot behind a pseudoterminal, at the pace of the wall clock.
+    Serve(ServeArguments),
+    /// Runs robot and brain in memory at full speed and reports how well they clean.
+    Run(RunArguments),
+    /// Injects random faults and lets the safety monitor judge every millisecond.
+    Faults(FaultArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Home: a ROS map .yaml, a Valetudo map .json, or a home .toml.
+    #[arg(long)]
+    home: PathBuf,
+    /// Robot by name.
+    #[arg(long, default_value = "sr8730")]
+    robot: String,
+    /// Noise class: ideal, good, nominal or bad.
+    #[arg(long, default_value = "nominal")]
+    noise: String,
+}
+
+impl SceneArguments {
+    pub(crate) fn settings(&self) -> SceneSettings {
+        SceneSettings {
+            home: self.home.clone(),
+            robot: self.robot.clone(),
+            noise: self.noise.clone(),
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ServeArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Seed of everything random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// How many times as fast as the wall clock.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
+    speed: u32,
+    /// Bits per second of the serial line.
+    #[arg(long, default_value_t = 230_400, value_parser = clap::value_parser!(u32).range(1_200..=4_000_000))]
+    baud: u32,
+    /// Where to put the symbolic link to the terminal.
+    #[arg(long)]
+    link: PathBuf,
+    /// Where to put the Unix socket.
+    #[arg(long)]
+    socket: PathBuf,
+}
+
+impl ServeArguments {
+    pub(crate) fn settings(&self) -> ServeSettings {
+        ServeSettings {
+            seed: self.seed,
+            speed: self.speed,
+            baud: self.baud,
+            link: self.link.clone(),
+            socket: self.socket.clone(),
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Cleaning strategy by name.
+    #[arg(long, default_value = "bounce")]
+    strategy: String,
+    /// Seed of everything random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Simulated minutes.
+    #[arg(long, default_value_t = 10.0, value_parser = minutes)]
+    minutes: f64,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl RunArguments {
+    pub(crate) fn settings(&self) -> anyhow::Result<RunSettings> {
+        let Some(strategy) = StrategyName::from_name(&self.strategy) else {
+            let known: Vec<_> = StrategyName::ALL.iter().map(|strategy| strategy.name()).collect();
+            bail!(
+                "there is no strategy `{}`; known are {}",
+                self.strategy,
+                known.join(", ")
+            );
+        };
+        Ok(RunSettings {
+            strategy,
+            seed: self.seed,
+            duration_ms: (self.minutes * 60_000.0) as u64,
+            recording: Recording::Off,
+        })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FaultArguments {
+    /// Seeds: `A..B` without B, or one number.
+    #[arg(long, default_value = "0..1000", value_parser = seeds)]
+    pub(crate) seeds: Range<u64>,
+    /// Simulated minutes of each seed.
+    #[arg(long, default_value_t = 2.0, value_parser = minutes)]
+    pub(crate) minutes: f64,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl FaultArguments {
+    pub(crate) fn duration_ms(&self) -> u64 {
+        (self.minutes * 60_000.0) as u64
+    }
+}
+
+/// A day is more than any battery lasts.
+const MINUTES_MAX: f64 = 1_440.0;
+
+fn minutes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(minutes) if minutes > 0.0 && minutes <= MINUTES_MAX => Ok(minutes),
+        _ => Err(format!(
+            "give a number of minutes above 0 and up to {MINUTES_MAX}"
+        )),
+    }
+}
+
+fn seeds(text: &str) -> Result<Range<u64>, String> {
+    let wanted = "give seeds as A..B, for example 0..1000, or one number";
+    let number = |text: &str| text.parse::<u64>().map_err(|_| wanted.to_owned());
+    let range = match text.split_once("..") {
+        Some((first, end)) => number(first)?..number(end)?,
+        None => {
+            let only = number(text)?;
+            only..only.checked_add(1).ok_or(wanted)?
+        }
+    };
+    if range.is_empty() {
+        return Err(format!("{text} holds no seed; {wanted}"));
+    }
+    Ok(range)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{minutes, seeds};
+
+    #[test]
+    fn ranges_of_seeds() {
+        assert_eq!(seeds("3..9"), Ok(3..9));
+        assert_eq!(seeds("7"), Ok(7..8));
+        for wrong in ["", "9..3", "3..3", "a..b", "1..", "-1..4", "18446744073709551615"] {
+            assert!(seeds(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn minutes_are_positive_and_finite() {
+        assert_eq!(minutes("0.5"), Ok(0.5));
+        for wrong in ["0", "-1", "nan", "inf", "1e9", "x"] {
+            assert!(minutes(wrong).is_err(), "{wrong}");
+        }
+    }
+}

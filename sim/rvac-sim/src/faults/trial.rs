@@ -1,0 +1,233 @@
+//! One seed: a home, a household, ten minutes of misfortune.
+
+use brain::command::StrategyName;
+use home::{Noise, Pcg, RobotModel, SensorId};
+use robot::{Bridges, FaultRates, RobotSettings};
+use rvac_api::RequestBody;
+use rvac_protocol::message::{Inhibit, Inhibits};
+use vthal_core::{CoreConfig, Recording};
+
+use super::draw::{Fault, FaultDraw, FaultKind};
+use super::homes::Homes;
+use crate::{Host, Household};
+
+/// What came of a seed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// The seed.
+    pub seed: u64,
+    /// Name of the home.
+    pub home: String,
+    /// Faults by kind, in the order of [`FaultKind::ALL`].
+    pub faults: [u32; FaultKind::ALL.len()],
+    /// Times each inhibit came to stand, in the order of [`Inhibit::ALL`].
+    pub stops: [u32; Inhibit::ALL.len()],
+    /// Violations in words.
+    pub violations: Vec<String>,
+    /// How many violations there were.
+    pub violation_count: u32,
+    /// True way in metres.
+    pub path_m: f64,
+    /// The state of everything at the end, as one number.
+    pub state_hash: u64,
+}
+
+/// How a trial is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrialSettings {
+    /// Seed of everything.
+    pub seed: u64,
+    /// Simulated milliseconds.
+    pub duration_ms: u64,
+    /// What the bridges are like; broken ones show that the monitor sees it.
+    pub bridges: Bridges,
+}
+
+/// What ends by itself, some time after it began.
+#[derive(Clone, Debug)]
+enum End {
+    Noise,
+    Host(Box<CoreConfig>),
+    Sensor(SensorId),
+    Lift,
+    Button(u8),
+}
+
+/// Milliseconds between two looks of the person who wants the robot to clean.
+const LOOK_MS: u64 = 1_000;
+const STREAM: u64 = 0x7E57;
+
+struct Trial {
+    household: Household,
+    draw: FaultDraw,
+    ends: Vec<(u64, End)>,
+    next_fault_ms: u64,
+    inhibits: Inhibits,
+    settings: TrialSettings,
+    outcome: Outcome,
+}
+
+/// Runs one seed.
+#[must_use]
+pub fn trial(homes: &Homes, model: &RobotModel, settings: TrialSettings) -> Outcome {
+    let mut random = Pcg::new(settings.seed, STREAM);
+    let noise = [Noise::ideal(), Noise::good(), Noise::nominal(), Noise::bad()][random.below(4) as usize];
+    let scene = homes.scene(settings.seed, model, noise);
+    let robot = scene.robot(
+        settings.seed,
+        &RobotSettings {
+            seed: settings.seed,
+            bridges: settings.bridges,
+            ..RobotSettings::default()
+        },
+    );
+    let mut trial = Trial {
+        household: Household::new(robot, Host::start(0, config(settings.seed, None))),
+        draw: FaultDraw::new(settings.seed),
+        ends: Vec::new(),
+        next_fault_ms: 2_000,
+        inhibits: Inhibits::NONE,
+        settings,
+        outcome: Outcome {
+            seed: settings.seed,
+            home: scene.home().name().to_owned(),
+            ..Outcome::default()
+        },
+    };
+    while trial.household.robot().now_ms() < settings.duration_ms {
+        trial.tick();
+    }
+    trial.finish()
+}
+
+fn config(seed: u64, before: Option<&Host>) -> CoreConfig {
+    CoreConfig {
+        resume: before.and_then(Host::checkpoint).cloned(),
+        ..Host::config(seed, StrategyName::default(), Recording::Off)
+    }
+}
+
+impl Trial {
+    fn tick(&mut self) {
+        self.household.tick();
+        let now_ms = self.household.robot().now_ms();
+        self.count_stops();
+        if now_ms >= self.next_fault_ms {
+            self.next_fault_ms = now_ms + self.draw.pause_ms();
+            let fault = self.draw.fault();
+            self.begin(now_ms, fault);
+        }
+        self.end_due(now_ms);
+        if now_ms.is_multiple_of(LOOK_MS) {
+            self.look();
+        }
+    }
+
+    fn count_stops(&mut self) {
+        let inhibits = self.household.robot().inhibits();
+        if inhibits == self.inhibits {
+            return;
+        }
+        for (count, inhibit) in self.outcome.stops.iter_mut().zip(Inhibit::ALL) {
+            if inhibits.contains(inhibit) && !self.inhibits.contains(inhibit) {
+                *count += 1;
+            }
+        }
+        self.inhibits = inhibits;
+    }
+
+    fn begin(&mut self, now_ms: u64, fault: Fault) {
+        if self.is_busy(&fault) {
+            return;
+        }
+        self.outcome.faults[fault.kind() as usize] += 1;
+        let robot = self.household.robot_mut();
+        match fault {
+            Fault::Noise { rates, ms } => {
+                robot.set_line_rates(rates);
+                self.ends.push((now_ms + ms, End::Noise));
+            }
+            Fault::CutOut { ms } => robot.cut_line(ms),
+            Fault::Delay { ms } => robot.hold_line(ms),
+            Fault::Reset(cause) => robot.reset(cause),
+            Fault::HostDeath { ms } => {
+                let dead = self.household.kill_host();
+                let heir = config(self.settings.seed, dead.as_ref());
+                self.ends.push((now_ms + ms, End::Host(Box::new(heir))));
+            }
+            Fault::Sensor { sensor, lie, ms } => {
+                robot.world_mut().set_fault(sensor, Some(lie));
+                self.ends.push((now_ms + ms, End::Sensor(sensor)));
+            }
+            Fault::Lift { ms } => {
+                robot.world_mut().lift();
+                self.ends.push((now_ms + ms, End::Lift));
+            }
+            Fault::Button { button, ms } => {
+                robot.world_mut().press_button(button);
+                self.ends.push((now_ms + ms, End::Button(button)));
+            }
+            Fault::Request(body) => self.household.ask(body),
+        }
+    }
+
+    /// Whether something of the same kind is still going on; sensors lie one at a time.
+    fn is_busy(&self, fault: &Fault) -> bool {
+        self.ends.iter().any(|(_, end)| {
+            matches!(
+                (end, fault),
+                (End::Noise, Fault::Noise { .. })
+                    | (End::Host(_), Fault::HostDeath { .. })
+                    | (End::Sensor(_), Fault::Sensor { .. })
+                    | (End::Lift, Fault::Lift { .. })
+                    | (End::Button(_), Fault::Button { .. })
+            )
+        })
+    }
+
+    fn end_due(&mut self, now_ms: u64) {
+        while let Some(index) = self.ends.iter().position(|(due_ms, _)| *due_ms <= now_ms) {
+            let (_, end) = self.ends.remove(index);
+            let robot = self.household.robot_mut();
+            match end {
+                End::Noise => robot.set_line_rates(FaultRates::NONE),
+                End::Host(config) => {
+                    let now_us = self.household.now_us();
+                    self.household.revive_host(Host::start(now_us, *config));
+                }
+                End::Sensor(sensor) => robot.world_mut().set_fault(sensor, None),
+                End::Lift => robot.world_mut().put_down(),
+                End::Button(button) => robot.world_mut().release_button(button),
+            }
+        }
+    }
+
+    /// A person who wants the robot to clean does what the panel asks for.
+    fn look(&mut self) {
+        let Some(status) = self.household.host().map(Host::status) else {
+            return;
+        };
+        match status.state.as_str() {
+            "idle" | "docked" => self.household.ask(RequestBody::Start { strategy: None }),
+            "paused" => self.household.ask(RequestBody::Resume),
+            "error" | "stuck" => {
+                for reason in status.inhibits.into_iter().chain([status.reason]) {
+                    self.household.ask(RequestBody::Clear { reason });
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn finish(self) -> Outcome {
+        let robot = self.household.robot();
+        let monitor = robot.monitor();
+        Outcome {
+            violations: monitor.violations().iter().map(ToString::to_string).collect(),
+            violation_count: monitor.count(),
+            path_m: robot.world().truth().path_m,
+            state_hash: robot.state_hash(),
+            ..self.outcome
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The daemon's core without the daemon: it talks to the robot in memory.
+
+use brain::command::StrategyName;
+use rvac_api::{Pose, Request, RequestBody, Status};
+use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs, Record, Recording};
+
+/// A core and the shell's duties towards it.
+#[derive(Debug)]
+pub struct Host {
+    core: Core,
+    outputs: Outputs,
+    /// Bytes for the robot that its line has not taken yet.
+    pending: Vec<u8>,
+    checkpoint: Option<Checkpoint>,
+    records: Vec<Record>,
+    born_us: u64,
+}
+
+const CLIENT: ClientId = ClientId(1);
+
+impl Host {
+    /// Starts at `now_us` with an open link and one client. `now_us` is any clock; the core's own begins with 0.
+    #[must_use]
+    pub fn start(now_us: u64, config: CoreConfig) -> Self {
+        let mut host = Self {
+            core: Core::new(config),
+            outputs: Outputs::default(),
+            pending: Vec::new(),
+            checkpoint: None,
+            records: Vec::new(),
+            born_us: now_us,
+        };
+        host.handle(now_us, Input::ClientConnected(CLIENT));
+        host.handle(now_us, Input::LinkOpened);
+        host
+    }
+
+    /// A core for `strategy`.
+    #[must_use]
+    pub fn config(seed: u64, strategy: StrategyName, recording: Recording) -> CoreConfig {
+        CoreConfig {
+            seed,
+            strategy,
+            recording,
+            ..CoreConfig::default()
+        }
+    }
+
+    /// Hands over what came from the robot and lets time pass.
+    pub fn step(&mut self, now_us: u64, from_robot: &[u8]) {
+        if !from_robot.is_empty() {
+            self.handle(now_us, Input::LinkBytes(from_robot));
+        }
+        if self
+            .core
+            .next_wake_us()
+            .is_some_and(|wake| wake <= now_us - self.born_us)
+        {
+            self.handle(now_us, Input::Wake);
+        }
+    }
+
+    /// The client asks for something.
+    pub fn ask(&mut self, now_us: u64, body: RequestBody) {
+        let request = Request { id: None, body };
+        self.handle(
+            now_us,
+            Input::Client {
+                client: CLIENT,
+                request,
+            },
+        );
+    }
+
+    fn handle(&mut self, now_us: u64, input: Input<'_>) {
+        self.core.handle(now_us - self.born_us, input, &mut self.outputs);
+        self.pending.append(&mut self.outputs.link);
+        self.records.append(&mut self.outputs.records);
+        if let Some(checkpoint) = self.outputs.checkpoint.take() {
+            self.checkpoint = Some(checkpoint);
+        }
+        self.outputs.clear();
+    }
+
+    /// Bytes for the robot; what is not taken stays.
+    pub fn pending(&mut self) -> &mut Vec<u8> {
+        &mut self.pending
+    }
+
+    /// Records since this was called last.
+    pub fn take_records(&mut self) -> Vec<Record> {
+        core::mem::take(&mut self.records)
+    }
+
+    /// What a daemon that comes after this one finds on its disk.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<&Checkpoint> {
+        self.checkpoint.as_ref()
+    }
+
+    /// Where the host believes the robot to be.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.core.pose()
+    }
+
+    /// What the host says the robot is doing.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        self.core.status()
+    }
+}

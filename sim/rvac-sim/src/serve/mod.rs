@@ -1,0 +1,226 @@
+//! A simulated robot behind a pseudoterminal, for a daemon in another process.
+//!
+//! One thread, one loop: sleep until the next millisecond or until somebody writes, carry bytes, advance the robot to the
+//! present. The wall clock enters here and nowhere below.
+
+mod clients;
+mod pace;
+mod pty;
+mod request;
+mod socket;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use home::Pose;
+use robot::{RobotSettings, SimulatedRobot};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rvac_api::Update;
+
+use crate::report::{Driven, Report, StuckWatch};
+use crate::{Scene, SceneError, plan};
+use clients::Clients;
+use pace::Pace;
+use pty::{Peer, Pty, PtyError};
+use request::SimulatorRequest;
+use socket::{Listener, SocketError};
+
+/// What the server is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ServeSettings {
+    /// Seed of everything random.
+    pub seed: u64,
+    /// How many times as fast as the wall clock.
+    pub speed: u32,
+    /// Bits per second of the line.
+    pub baud: u32,
+    /// Where the symbolic link to the terminal goes.
+    pub link: PathBuf,
+    /// Where the socket goes.
+    pub socket: PathBuf,
+}
+
+/// Why the server cannot start or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// No scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// No terminal.
+    #[error(transparent)]
+    Pty(#[from] PtyError),
+    /// No socket.
+    #[error(transparent)]
+    Socket(#[from] SocketError),
+    /// The system fails in the middle of the work.
+    #[error("the simulator cannot go on: {0}")]
+    System(#[from] io::Error),
+}
+
+/// Truths a client gets in a second of the wall clock.
+const TRUTHS_PER_S: u32 = 10;
+/// How long a press of a button lasts, simulated.
+const PRESS_MS: u64 = 200;
+/// Simulated milliseconds between two looks at whether the robot is stuck.
+const STUCK_SAMPLE_MS: u64 = 100;
+
+/// Opens everything, says `ready` on standard output, and serves until SIGTERM or SIGINT.
+///
+/// # Errors
+/// See [`ServeError`].
+pub fn serve(scene: &Scene, settings: &ServeSettings) -> Result<(), ServeError> {
+    let ended = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
+        signal_hook::flag::register(signal, Arc::clone(&ended))?;
+    }
+    let mut server = Server::open(scene, settings)?;
+    writeln!(io::stdout(), "ready")?;
+    io::stdout().flush()?;
+    while !ended.load(Ordering::Relaxed) {
+        server.turn()?;
+    }
+    Ok(())
+}
+
+struct Server {
+    robot: SimulatedRobot,
+    pty: Pty,
+    listener: Listener,
+    clients: Clients,
+    pace: Pace,
+    map_from_plan: Pose,
+    stuck: StuckWatch,
+    presses: Vec<(u8, u64)>,
+    to_host: Vec<u8>,
+    started: Instant,
+    truths: u32,
+}
+
+impl Server {
+    fn open(scene: &Scene, settings: &ServeSettings) -> Result<Self, ServeError> {
+        let robot = scene.robot(
+            settings.seed,
+            &RobotSettings {
+                baud: settings.baud,
+                seed: settings.seed,
+                ..RobotSettings::default()
+            },
+        );
+        let map_from_plan = robot.world().truth().pose.inverse();
+        let greeting = Update::SimulatedPlan(plan::plan(robot.world().home(), map_from_plan));
+        let started = Instant::now();
+        Ok(Self {
+            listener: Listener::open(&settings.socket)?,
+            pty: Pty::open(&settings.link)?,
+            clients: Clients::new(&greeting),
+            pace: Pace::starting(started, settings.speed),
+            robot,
+            map_from_plan,
+            stuck: StuckWatch::default(),
+            presses: Vec::new(),
+            to_host: Vec::new(),
+            started,
+            truths: 0,
+        })
+    }
+
+    fn turn(&mut self) -> Result<(), ServeError> {
+        self.sleep()?;
+        self.clients.accept(&self.listener)?;
+        self.answer();
+        self.carry()?;
+        let due = self.started.elapsed().as_millis() * u128::from(TRUTHS_PER_S) / 1000;
+        if due > u128::from(self.truths) {
+            self.truths = u32::try_from(due).unwrap_or(u32::MAX);
+            let truth = plan::truth(&self.robot, self.map_from_plan);
+            self.clients.tell_newest(&Update::SimulatedTruth(truth));
+        }
+        self.clients.flush();
+        Ok(())
+    }
+
+    /// Until the next tick is due or somebody connects or asks. The terminal is looked at with each tick: its bytes are
+    /// paced anyway.
+    fn sleep(&self) -> Result<(), ServeError> {
+        let pause = self.pace.until_next(Instant::now());
+        let timeout = Timespec::try_from(pause).map_err(|_| io::Error::other("pause does not fit"))?;
+        let mut watched = vec![PollFd::new(&self.listener, PollFlags::IN)];
+        watched.extend(
+            self.clients
+                .sources()
+                .map(|client| PollFd::new(client, PollFlags::IN)),
+        );
+        match poll(&mut watched, Some(&timeout)) {
+            Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
+            Err(error) => Err(io::Error::from(error).into()),
+        }
+    }
+
+    /// Advances the robot to the present with the bytes of the terminal.
+    fn carry(&mut self) -> Result<(), ServeError> {
+        let due = self.pace.take_due(Instant::now());
+        if due == 0 {
+            return Ok(());
+        }
+        let mut buffer = [0; 1024];
+        let room = self.robot.line_room().min(buffer.len());
+        let peer = match buffer.get_mut(..room) {
+            Some(free) if !free.is_empty() => self.pty.read(free)?,
+            _ => Peer::Present(0),
+        };
+        if let Peer::Present(count) = peer {
+            self.robot.send(buffer.get(..count).unwrap_or_default());
+        }
+        self.to_host.clear();
+        for _ in 0..due {
+            self.robot.tick(&mut self.to_host);
+            self.release_buttons();
+            self.watch_stuck();
+        }
+        if peer != Peer::Absent && !self.to_host.is_empty() {
+            // What does not fit is lost, as bytes are that a receiver does not take in time.
+            self.pty.write(&self.to_host)?;
+        }
+        Ok(())
+    }
+
+    fn watch_stuck(&mut self) {
+        if self.robot.now_ms().is_multiple_of(STUCK_SAMPLE_MS) {
+            let driven = Driven::of(&self.robot);
+            self.stuck
+                .watch(STUCK_SAMPLE_MS as u32, self.robot.world().truth(), driven);
+        }
+    }
+
+    fn release_buttons(&mut self) {
+        let now_ms = self.robot.now_ms();
+        while let Some(index) = self.presses.iter().position(|(_, until)| *until <= now_ms) {
+            let (button, _) = self.presses.swap_remove(index);
+            self.robot.world_mut().release_button(button);
+        }
+    }
+
+    fn answer(&mut self) {
+        for (client, request) in self.clients.requests() {
+            match request {
+                Ok(SimulatorRequest::Report) => {
+                    let report = Report {
+                        wall_seconds: self.started.elapsed().as_secs_f64(),
+                        ..Report::of(&self.robot, &self.stuck)
+                    };
+                    self.clients.answer(client, &request::Answer::Report(report));
+                }
+                Ok(SimulatorRequest::Lift) => self.robot.world_mut().lift(),
+                Ok(SimulatorRequest::PutDown) => self.robot.world_mut().put_down(),
+                Ok(SimulatorRequest::Press { button }) => {
+                    self.presses.push((button, self.robot.now_ms() + PRESS_MS));
+                    self.robot.world_mut().press_button(button);
+                }
+                Err(refusal) => self.clients.answer(client, &request::Answer::Failed(refusal)),
+            }
+        }
+    }
+}
