@@ -69,7 +69,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         Subject::Sim => &[
             "run",
             "--home",
-            "homes/flat.toml",
+            "homes/two-room-flat.toml",
             "--robot",
             "sr8730",
             "--strategy",

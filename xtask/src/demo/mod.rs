@@ -17,11 +17,14 @@ use stack::Stack;
 use state::State;
 use std::path::PathBuf;
 
+/// The home of who names none.
+const DEFAULT_HOME: &str = "homes/two-room-flat.toml";
+
 /// Arguments of `cargo xtask demo`.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Floor plan: a map_server YAML, a Valetudo map JSON, or a home of ours in TOML.
-    #[arg(long, default_value = "homes/flat.toml")]
+    #[arg(long, default_value = DEFAULT_HOME)]
     home: PathBuf,
     /// Robot, by the name of its robot.toml.
     #[arg(long, default_value = "sr8730")]

@@ -1,6 +1,6 @@
 //! Checks of what a person gave, before anything is started or written.
 
-use super::Arguments;
+use super::{Arguments, DEFAULT_HOME};
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -13,13 +13,12 @@ const MINUTES_MAX: f64 = 10_080.0;
 
 /// Checks what needs no program of ours.
 pub(crate) fn arguments(arguments: &Arguments) -> anyhow::Result<()> {
-    let home = workspace::root().join(&arguments.home);
     let meta = match std::fs::metadata(here(arguments)) {
         Ok(meta) => meta,
         Err(error) if error.kind() == ErrorKind::NotFound => bail!(
             "home {}: there is no such file; give a map_server YAML, a Valetudo map JSON or a TOML such as {}",
             arguments.home.display(),
-            home.with_file_name("flat.toml").display()
+            DEFAULT_HOME
         ),
         Err(error) => return Err(error).with_context(|| format!("home {}", arguments.home.display())),
     };
@@ -74,21 +73,18 @@ pub(crate) fn port(port: u16) -> anyhow::Result<()> {
     }
 }
 
-/// Builds the simulator and lets it read the home.
+/// Builds the simulator and lets it try the home for a blink: it knows the formats and what can be wrong with each.
 pub(crate) fn home(arguments: &Arguments) -> anyhow::Result<()> {
     system::need("cc", &["gcc", "libc6-dev"]).context("Rust programs need a linker")?;
     workspace::build(&["rvac-sim"], Profile::Dev)?;
     let mut check = Command::new(workspace::program("rvac-sim", Profile::Dev));
-    check
-        .arg("check")
-        .arg("--home")
-        .arg(here(arguments))
-        .args(["--robot", &arguments.robot]);
+    check.args(["run", "--json", "--minutes", "0.001", "--robot", &arguments.robot]);
+    check.arg("--home").arg(std::path::absolute(here(arguments))?);
     check.current_dir(workspace::root());
     let output = process::finish(&mut check)?;
     if output.status.success() {
         return Ok(());
     }
     let said = String::from_utf8_lossy(&output.stderr);
-    bail!("{}", said.trim().trim_start_matches("error: "))
+    bail!("{}", said.trim().trim_start_matches("rvac-sim: "))
 }
