@@ -19,7 +19,7 @@ pub const STATE: u8 = 0x82;
 /// Bytes of a `drive` body.
 pub const DRIVE_BYTES: usize = 16;
 /// Bytes of a `state` body.
-pub const STATE_BYTES: usize = 52;
+pub const STATE_BYTES: usize = 50;
 
 /// Kind and body of a packet.
 pub(crate) type Packet = Vec<u8, { STATE_BYTES + 1 }>;
@@ -57,7 +57,11 @@ pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
 }
 
 fn within<T: Copy + Into<i64>>(value: T, span: Span) -> Result<T, Refusal> {
-    if span.contains(value.into()) { Ok(value) } else { Err(Refusal::Range) }
+    if span.contains(value.into()) {
+        Ok(value)
+    } else {
+        Err(Refusal::Range)
+    }
 }
 
 /// Bits of the flags in a `state` body, from bit 0.

@@ -101,11 +101,12 @@ impl Framer {
         }
     }
 
-    /// From the next packet on seals are those of `session`. Call it between packets, that is when `push` has just given
-    /// one.
+    /// From the next packet on seals are those of `session`; a packet that has begun is still measured by the old one.
     pub fn set_session(&mut self, session: u16) {
         self.start = Digest::start(self.direction, session);
-        self.restart();
+        if self.length == 0 {
+            self.digest = self.start;
+        }
     }
 
     /// Takes one byte. Separators give what they end; empty packets give nothing.

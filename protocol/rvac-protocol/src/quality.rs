@@ -1,7 +1,9 @@
 //! How good the link is, and what that means for speed.
 
+use rvac_units::Tick;
+
 /// What the quality of the link allows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Verdict {
     /// At most 1 % of the packets of the last 5 s were bad: full speed.
     #[default]
@@ -21,6 +23,104 @@ pub struct LinkQuality {
     pub bad: u32,
     /// Newest round trip of a numbered command in ms.
     pub round_trip_ms: Option<u32>,
-    /// What this allows.
+    /// What this allows: the worse of both directions.
     pub verdict: Verdict,
+}
+
+/// Length of the window in slices.
+const SLICES: usize = 5;
+/// Length of a slice.
+const SLICE_MS: u32 = 1_000;
+
+/// Good and bad packets of the last five seconds, in one direction.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Window {
+    slices: [Slice; SLICES],
+    newest: usize,
+    newest_since: Tick,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Slice {
+    good: u32,
+    bad: u32,
+}
+
+impl Window {
+    pub(crate) fn record(&mut self, good: u32, bad: u32, now: Tick) {
+        self.turn(now);
+        if let Some(slice) = self.slices.get_mut(self.newest) {
+            slice.good = slice.good.saturating_add(good);
+            slice.bad = slice.bad.saturating_add(bad);
+        }
+    }
+
+    /// Lets slices grow old.
+    pub(crate) fn turn(&mut self, now: Tick) {
+        let passed = now.since(self.newest_since) / SLICE_MS;
+        for _ in 0..passed.min(SLICES as u32) {
+            self.newest = (self.newest + 1) % SLICES;
+            if let Some(slice) = self.slices.get_mut(self.newest) {
+                *slice = Slice::default();
+            }
+        }
+        self.newest_since = self.newest_since.after(passed * SLICE_MS);
+    }
+
+    /// Good and bad packets.
+    pub(crate) fn totals(&self) -> (u32, u32) {
+        self.slices
+            .iter()
+            .fold((0, 0), |(good, bad), slice| (good + slice.good, bad + slice.bad))
+    }
+
+    pub(crate) fn verdict(&self) -> Verdict {
+        let (good, bad) = self.totals();
+        let all = u64::from(good) + u64::from(bad);
+        let bad = u64::from(bad);
+        if bad * 10 > all {
+            Verdict::Bad
+        } else if bad * 100 > all {
+            Verdict::Poor
+        } else {
+            Verdict::Good
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_units::Tick;
+
+    use super::{Verdict, Window};
+
+    #[track_caller]
+    fn check(good: u32, bad: u32, expected: Verdict) {
+        let mut window = Window::default();
+        window.record(good, bad, Tick(10));
+        assert_eq!(window.verdict(), expected, "{bad} bad of {}", good + bad);
+    }
+
+    #[test]
+    fn limits_are_one_and_ten_percent() {
+        check(0, 0, Verdict::Good);
+        check(99, 1, Verdict::Good);
+        check(98, 2, Verdict::Poor);
+        check(90, 10, Verdict::Poor);
+        check(89, 11, Verdict::Bad);
+    }
+
+    #[test]
+    fn what_is_older_than_five_seconds_does_not_count() {
+        let mut window = Window::default();
+        let start = Tick(u32::MAX - 2_000);
+        window.turn(start);
+        window.record(0, 50, start);
+        window.record(50, 0, start.after(4_000));
+        assert_eq!(window.totals(), (50, 50));
+        window.turn(start.after(6_000));
+        assert_eq!(window.totals(), (50, 0));
+        window.turn(start.after(60_000));
+        assert_eq!(window.totals(), (0, 0));
+    }
 }

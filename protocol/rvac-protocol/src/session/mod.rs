@@ -4,14 +4,28 @@
 //! out. [`RobotSession`] runs in the firmware, [`HostSession`] in the daemon and in tools. Either is driven alike:
 //!
 //! ```text
-//! every received byte   -> receive(byte, now)          -> Option<event>
-//! receiver hardware     -> framing_error(), overrun()
-//! from time to time     -> poll(now)                   -> Option<event>   (at next_poll() at the latest)
-//! whenever there is room-> next_packet(&mut buffer)    -> whether there is something to send
+//! every received byte    -> receive(byte, now)          -> Option<event>
+//! receiver hardware      -> framing_error(), overrun()
+//! from time to time      -> poll(now)                   -> Option<event>   (at next_poll() at the latest)
+//! whenever there is room -> next_packet(&mut buffer)    -> whether there is something to send
 //! ```
 
 mod host;
 mod robot;
 
 pub use host::{HostEvent, HostSession, SendError};
-pub use robot::{Mode, RobotEvent, RobotIdentity, RobotSession, SessionEnd};
+pub use robot::{
+    FRESHNESS_MS, HAND_LEASE_MS_MAX, HAND_SPEED_MAX, HAND_TURN_MAX, Mode, RobotEvent, RobotIdentity,
+    RobotSession, SESSION_SILENCE_MS, SessionEnd,
+};
+
+/// After this long without sending, a separator goes before the next packet.
+const FLUSH_AFTER_MS: u32 = 100;
+/// Bad packets in a row that make either side leave the binary forms.
+const BAD_IN_ROW_MAX: u8 = 3;
+/// Commands that must arrive and wait for their answer at a time.
+const COMMANDS_UNDER_WAY: usize = 8;
+/// Ten edges at the pace of the bits, for a robot that measures the baud rate. A packet of nothing else is empty.
+const BAUD_RATE_PATTERN: u8 = b'U';
+/// Edges that wait for their confirmation. When more come, the oldest is given up; the host sees the gap in the numbers.
+const EDGES_WAITING: usize = 16;

@@ -180,7 +180,11 @@ fn read_drive(text: &[u8], form: Form) -> Read {
 }
 
 fn read_motor(text: &[u8], form: Form) -> Read {
-    let fields = Fields::read(text, ["c", "motor", "throttle", "ttl", "n", "t"], UnknownKeys::Refuse)?;
+    let fields = Fields::read(
+        text,
+        ["c", "motor", "throttle", "ttl", "n", "t"],
+        UnknownKeys::Refuse,
+    )?;
     let throttle = fields.int(2, span::THROTTLE)?;
     let freshness = Freshness::read(&fields, [3, 4, 5], form)?;
     Ok(Command::Motor(MotorCommand {

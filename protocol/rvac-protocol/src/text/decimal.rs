@@ -112,7 +112,10 @@ impl Reader<'_> {
         self.take(first);
         if first == 0 {
             // JSON has no leading zeros.
-            return self.peek().is_none_or(|next| !next.is_ascii_digit()).then_some(());
+            return self
+                .peek()
+                .is_none_or(|next| !next.is_ascii_digit())
+                .then_some(());
         }
         while let Some(digit) = self.digit() {
             if !self.take(digit) {
@@ -216,7 +219,9 @@ mod tests {
 
     #[test]
     fn what_is_no_number_or_too_large() {
-        for spelling in ["", "-", "+1", ".5", "1.", "01", "1e", "1e+", "nan", "NaN", "Infinity", "0x10", "1_0", "--1"] {
+        for spelling in [
+            "", "-", "+1", ".5", "1.", "01", "1e", "1e+", "nan", "NaN", "Infinity", "0x10", "1_0", "--1",
+        ] {
             check(spelling, 0, None);
         }
         check("1e999", 0, None);

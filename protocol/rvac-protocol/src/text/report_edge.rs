@@ -66,7 +66,11 @@ fn write_members(kind: &EdgeKind, object: &mut ObjectWriter<'_>) {
         EdgeKind::MoveFinished(end) => object.name("end", end_name(*end)),
         EdgeKind::Inhibits(inhibits) => object
             .number("bits", inhibits.bits(), span::TOTAL)
-            .names_that_fit("names", inhibits.iter().map(crate::message::Inhibit::name), TAIL_BYTES),
+            .names_that_fit(
+                "names",
+                inhibits.iter().map(crate::message::Inhibit::name),
+                TAIL_BYTES,
+            ),
         EdgeKind::Stall(motor) => object.name("motor", motor.name()),
     };
 }
@@ -83,12 +87,13 @@ pub(super) fn read(text: &[u8], word: &[u8]) -> Result<Edge, Refusal> {
 
 fn read_kind(text: &[u8], word: &[u8]) -> Result<EdgeKind, Refusal> {
     match word {
-        b"bump" => read_flags(text, ["left", "right"]).map(|[left, right]| EdgeKind::Bump(Bumpers { left, right })),
+        b"bump" => {
+            read_flags(text, ["left", "right"]).map(|[left, right]| EdgeKind::Bump(Bumpers { left, right }))
+        }
         b"cliff" => read_flags(text, ["left", "middle", "right"])
             .map(|[left, middle, right]| EdgeKind::Cliff(Cliffs { left, middle, right })),
-        b"lift" => {
-            read_flags(text, ["left", "right"]).map(|[left, right]| EdgeKind::Lift(WheelDrops { left, right }))
-        }
+        b"lift" => read_flags(text, ["left", "right"])
+            .map(|[left, right]| EdgeKind::Lift(WheelDrops { left, right })),
         b"button" => {
             let fields = Fields::read(text, ["button", "pressed"], UnknownKeys::Ignore)?;
             Ok(EdgeKind::Button {
@@ -124,8 +129,13 @@ fn read_flags<const N: usize>(text: &[u8], keys: [&str; N]) -> Result<[bool; N],
 fn read_end(text: &[u8]) -> Result<MoveEnd, Refusal> {
     let fields = Fields::read(text, ["end"], UnknownKeys::Ignore)?;
     let name = fields.text(0)?;
-    [MoveEnd::Done, MoveEnd::Inhibited, MoveEnd::Replaced, MoveEnd::TimedOut]
-        .into_iter()
-        .find(|end| end_name(*end).as_bytes() == name)
-        .ok_or(Refusal::Unknown)
+    [
+        MoveEnd::Done,
+        MoveEnd::Inhibited,
+        MoveEnd::Replaced,
+        MoveEnd::TimedOut,
+    ]
+    .into_iter()
+    .find(|end| end_name(*end).as_bytes() == name)
+    .ok_or(Refusal::Unknown)
 }

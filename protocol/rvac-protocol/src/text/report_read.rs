@@ -26,8 +26,13 @@ pub fn read_report(text: &[u8]) -> Result<ReportPacket, Refusal> {
     while let Some((key, value)) = members.next()? {
         match key {
             b"c" => return read_named(text, value.text()?),
-            b"e" => return report_edge::read(text, value.text()?).map(|edge| ReportPacket::Report(Report::Edge(edge))),
-            b"a" => return read_answer(text).map(|answer| ReportPacket::Report(Report::Acknowledgement(answer))),
+            b"e" => {
+                return report_edge::read(text, value.text()?)
+                    .map(|edge| ReportPacket::Report(Report::Edge(edge)));
+            }
+            b"a" => {
+                return read_answer(text).map(|answer| ReportPacket::Report(Report::Acknowledgement(answer)));
+            }
             _ => {}
         }
     }
@@ -78,7 +83,11 @@ fn unescape(raw: &[u8]) -> Result<LogText, Refusal> {
     let mut text = LogText::new();
     let mut rest = raw.chars();
     while let Some(character) = rest.next() {
-        let character = if character == '\\' { unescape_one(&mut rest)? } else { character };
+        let character = if character == '\\' {
+            unescape_one(&mut rest)?
+        } else {
+            character
+        };
         if text.push(character).is_err() {
             break;
         }
@@ -122,7 +131,10 @@ fn unescape_low_surrogate(high: u32, rest: &mut core::str::Chars<'_>) -> Result<
 fn unescape_unit(rest: &mut core::str::Chars<'_>) -> Result<u32, Refusal> {
     let mut unit = 0;
     for _ in 0..4 {
-        let digit = rest.next().and_then(|digit| digit.to_digit(16)).ok_or(Refusal::Syntax)?;
+        let digit = rest
+            .next()
+            .and_then(|digit| digit.to_digit(16))
+            .ok_or(Refusal::Syntax)?;
         unit = unit << 4 | digit;
     }
     Ok(unit)

@@ -10,8 +10,8 @@ use crate::message::{
 };
 use crate::span;
 
-const KEYS: [&str; 17] = [
-    "c", "t", "l", "r", "h", "g", "p", "d", "f", "k", "x", "y", "z", "v", "a", "s", "i",
+const KEYS: [&str; 18] = [
+    "c", "t", "l", "r", "h", "g", "p", "d", "f", "k", "x", "y", "z", "v", "a", "s", "i", "m",
 ];
 
 /// The letter of what the charger does.
@@ -88,7 +88,6 @@ pub(super) fn write(state: &State, object: &mut ObjectWriter<'_>) -> Result<(), 
 
 pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
     let fields = Fields::read(text, KEYS, UnknownKeys::Ignore)?;
-    let motion = Fields::read(text, ["m"], UnknownKeys::Ignore)?;
     let flags = fields.text(8)?;
     let flag = |letter: u8| flags.contains(&letter);
     let cleaners = u8::from(flag(b'h')) | u8::from(flag(b's')) << 1 | u8::from(flag(b'v')) << 2;
@@ -125,12 +124,12 @@ pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
         charge: charge_from_letter(fields.text(15)?)?,
         docked: flag(b'd'),
         inhibits: Inhibits::from_bits(fields.total(16)?),
-        motion: motion_from_letter(motion.text(0)?)?,
+        motion: motion_from_letter(fields.text(17)?)?,
         cleaners,
     })
 }
 
-fn read_gyro(fields: &Fields<'_, 17>) -> Result<Option<Gyro>, Refusal> {
+fn read_gyro(fields: &Fields<'_, 18>) -> Result<Option<Gyro>, Refusal> {
     if !fields.has(4) && !fields.has(5) {
         return Ok(None);
     }

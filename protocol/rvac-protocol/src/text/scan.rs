@@ -225,7 +225,11 @@ impl<'a> Members<'a> {
     }
 
     fn expect(&mut self, byte: u8) -> Result<(), Refusal> {
-        if self.token()? == byte { Ok(()) } else { Err(Refusal::Syntax) }
+        if self.token()? == byte {
+            Ok(())
+        } else {
+            Err(Refusal::Syntax)
+        }
     }
 
     /// Of JSON's white space only the space can arrive: the others poison a packet.

@@ -1,13 +1,26 @@
 //! The robot's end.
 
+mod answers;
+mod edges;
+mod hand;
+mod inbound;
+mod outbound;
+
+pub use hand::{HAND_LEASE_MS_MAX, HAND_SPEED_MAX, HAND_TURN_MAX};
+
+use heapless::Deque;
 use rvac_units::Tick;
 
-use crate::buffer::{PacketBuffer, EncodeError};
-use crate::frame::Framer;
+use self::answers::Answers;
+use self::edges::Edges;
+use crate::buffer::{EncodeError, PacketBuffer};
+use crate::frame::{Framer, Poison};
 use crate::message::{
-    BinaryKinds, Command, Description, EdgeKind, LinkCounters, Name, Refusal, Report, ResetCause, Sequence,
+    Acknowledgement, BinaryKinds, Command, Description, EdgeKind, HostHello, LinkCounters, Name, Refusal,
+    Report, ResetCause, Sequence,
 };
 use crate::seal::Direction;
+use crate::session::{BAD_IN_ROW_MAX, FLUSH_AFTER_MS};
 
 /// Who the robot is; fixed from reset on.
 #[derive(Clone, Debug)]
@@ -33,7 +46,8 @@ pub struct RobotIdentity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// A person may type without seals; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of at
-    /// most 500 ms. The session has clamped what it can see; the speed of a `move` is the firmware's part.
+    /// most 500 ms, moves of at most 5 cm. The session has clamped what it can see; the speed of a `move` is the
+    /// firmware's part ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
     Hand,
     /// Only the host of this session, sealed.
     Sealed,
@@ -63,57 +77,121 @@ pub enum RobotEvent {
     SessionClosed(SessionEnd),
 }
 
+/// A session ends after this long without a valid sealed packet.
+pub const SESSION_SILENCE_MS: u32 = 2_000;
+/// Motion whose `t` is older is refused.
+pub const FRESHNESS_MS: u32 = 400;
+/// Answers that wait for room on the line. More are dropped; the host repeats its question.
+const REPLIES: usize = 8;
+
 /// The robot's end of the link.
 #[derive(Clone, Debug)]
 pub struct RobotSession {
     framer: Framer,
+    core: Core,
+}
+
+/// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
+#[derive(Clone, Debug)]
+struct Core {
     identity: RobotIdentity,
     mode: Mode,
+    session: u16,
+    now: Tick,
     counters: LinkCounters,
+    /// When the last valid sealed packet came.
+    heard: Tick,
+    /// What opened the session, until another sealed packet comes: a repeat of it does not open another one.
+    opened_by: Option<HostHello>,
+    motion: Option<(Sequence, Tick)>,
+    answers: Answers,
+    edges: Edges,
+    replies: Deque<Reply, REPLIES>,
+    binary: BinaryKinds,
+    binary_left: bool,
+    bad_in_row: u8,
+    sent: Option<Tick>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Reply {
+    Hello,
+    Row(u8),
+    Answer(Acknowledgement),
 }
 
 impl RobotSession {
     /// A session after reset, in hand mode. The first packets are a separator and an unasked `hello`.
     #[must_use]
     pub fn new(identity: RobotIdentity, now: Tick) -> Self {
-        let _ = now;
-        Self {
-            framer: Framer::new(Direction::HostToRobot),
+        let mut core = Core {
             identity,
             mode: Mode::Hand,
+            session: 0,
+            now,
             counters: LinkCounters::default(),
+            heard: now,
+            opened_by: None,
+            motion: None,
+            answers: Answers::default(),
+            edges: Edges::default(),
+            replies: Deque::new(),
+            binary: BinaryKinds::NONE,
+            binary_left: false,
+            bad_in_row: 0,
+            sent: None,
+        };
+        core.reply(Reply::Hello);
+        Self {
+            framer: Framer::new(Direction::HostToRobot),
+            core,
         }
     }
 
     /// Takes one received byte.
     #[must_use]
+    #[inline]
     pub fn receive(&mut self, byte: u8, now: Tick) -> Option<RobotEvent> {
-        let _ = (now, self.framer.push(byte), &self.identity);
-        None
+        let framed = self.framer.push(byte)?;
+        let event = self.core.take(framed, now);
+        self.framer.set_session(self.core.session);
+        event
     }
 
     /// The receiver saw a wrong stop bit.
     pub fn framing_error(&mut self) {
-        self.counters.framing = self.counters.framing.wrapping_add(1);
+        count(&mut self.core.counters.framing);
+        self.framer.poison(Poison::FramingError);
     }
 
     /// The receiver lost bytes.
     pub fn overrun(&mut self) {
-        self.counters.overrun = self.counters.overrun.wrapping_add(1);
+        count(&mut self.core.counters.overrun);
+        self.framer.poison(Poison::Overrun);
     }
 
     /// Lets time pass: silence ends a session, unconfirmed edges become due again. Cheap; call it in every pass of the main
     /// loop or at [`next_poll`](Self::next_poll).
     #[must_use]
     pub fn poll(&mut self, now: Tick) -> Option<RobotEvent> {
-        let _ = now;
-        None
+        self.core.now = now;
+        let silent = now.since(self.core.heard) > SESSION_SILENCE_MS;
+        if self.core.mode == Mode::Hand || !silent {
+            return None;
+        }
+        let event = self.core.close(SessionEnd::Silence);
+        self.framer.set_session(self.core.session);
+        Some(event)
     }
 
-    /// When `poll` has something to do at the latest.
+    /// When `poll` or [`next_packet`](Self::next_packet) has something to do at the latest.
     #[must_use]
     pub fn next_poll(&self) -> Tick {
-        Tick(0)
+        if self.core.edges.is_empty() && self.core.mode == Mode::Sealed {
+            self.core.heard.after(SESSION_SILENCE_MS + 1)
+        } else {
+            self.core.now.after(edges::REPEAT_MS)
+        }
     }
 
     /// Writes the next packet that the session itself wants sent (handshake, acknowledgements, rows of the description,
@@ -121,39 +199,55 @@ impl RobotSession {
     #[must_use]
     pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
         buffer.clear();
-        false
+        let Some(report) = self.core.next_report() else {
+            return false;
+        };
+        self.core.write(&report, buffer).is_ok()
     }
 
     /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: sealed, in binary if
     /// that is agreed, with a separator before it if the line was silent.
     ///
     /// # Errors
-    /// [`EncodeError`] if the report does not fit a packet; the buffer is empty then. No `State`, `Info` or `Log` is too long.
+    /// [`EncodeError`] if the report does not fit; the buffer is empty then. Every `State`, `Info` and `Log` fits.
     pub fn encode(&mut self, report: &Report, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
-        let _ = report;
         buffer.clear();
-        Ok(())
+        self.core.write(report, buffer).inspect_err(|_| buffer.clear())
     }
 
     /// Answers a numbered command: done (`None`) or refused.
     pub fn answer(&mut self, sequence: Sequence, refusal: Option<Refusal>) {
-        let _ = (sequence, refusal);
+        self.core.answers.give(sequence, refusal);
+        if refusal.is_some() {
+            count(&mut self.core.counters.refused);
+        }
+        self.core.reply_answer(Some(sequence), refusal);
     }
 
     /// Queues an edge. The session numbers it and repeats it until the host confirms it.
     pub fn queue_edge(&mut self, kind: EdgeKind, tick: Tick) {
-        let _ = (kind, tick);
+        self.core.edges.queue(kind, tick);
     }
 
     /// Hand or sealed mode.
     #[must_use]
     pub fn mode(&self) -> Mode {
-        self.mode
+        self.core.mode
+    }
+
+    /// Number of the open session, 0 = none.
+    #[must_use]
+    pub fn session(&self) -> u16 {
+        self.core.session
     }
 
     /// Totals since reset.
     #[must_use]
     pub fn counters(&self) -> LinkCounters {
-        self.counters
+        self.core.counters
     }
+}
+
+fn count(total: &mut u32) {
+    *total = total.wrapping_add(1);
 }

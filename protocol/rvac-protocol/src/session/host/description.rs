@@ -1,0 +1,101 @@
+//! Gathering the rows of the robot's description.
+
+use rvac_units::Tick;
+
+use crate::message::{Capabilities, CommandNames, DescribeRow, Description, Limits, RowContent};
+
+/// Pause before a row is asked for again.
+pub(super) const ASK_AGAIN_MS: u32 = 250;
+/// How often a row is asked for before the rest is left unknown.
+const ASKS_MAX: u8 = 20;
+
+/// What has come so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gathering {
+    progress: Progress,
+    limits: Option<Limits>,
+    capabilities: Option<Capabilities>,
+    commands: CommandNames,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+enum Progress {
+    #[default]
+    Finished,
+    Asking {
+        row: u8,
+        asked: Option<Tick>,
+        asks: u8,
+    },
+}
+
+impl Gathering {
+    /// Begins with row 0.
+    pub(super) fn begin() -> Self {
+        Self {
+            progress: Progress::Asking {
+                row: 0,
+                asked: None,
+                asks: 0,
+            },
+            ..Self::default()
+        }
+    }
+
+    /// The row to ask for now.
+    pub(super) fn take_due(&mut self, now: Tick) -> Option<u8> {
+        let Progress::Asking { row, asked, asks } = self.progress else {
+            return None;
+        };
+        if asked.is_some_and(|asked| now.since(asked) < ASK_AGAIN_MS) {
+            return None;
+        }
+        self.progress = if asks == ASKS_MAX {
+            Progress::Finished
+        } else {
+            Progress::Asking {
+                row,
+                asked: Some(now),
+                asks: asks + 1,
+            }
+        };
+        Some(row)
+    }
+
+    /// Takes a row; gives the whole description with the last one.
+    pub(super) fn take(&mut self, row: &DescribeRow) -> Option<Description> {
+        let Progress::Asking { row: expected, .. } = self.progress else {
+            return None;
+        };
+        if row.row != expected {
+            return None;
+        }
+        match row.content {
+            RowContent::Limits(limits) => self.limits = Some(limits),
+            RowContent::Capabilities(capabilities) => self.capabilities = Some(capabilities),
+            RowContent::Commands(commands) => self.commands = commands,
+            RowContent::Parameter { .. } | RowContent::Unknown => {}
+        }
+        if row.row.saturating_add(1) < row.rows {
+            self.progress = Progress::Asking {
+                row: row.row + 1,
+                asked: None,
+                asks: 0,
+            };
+            return None;
+        }
+        self.progress = Progress::Finished;
+        Some(Description {
+            capabilities: self.capabilities?,
+            limits: self.limits?,
+        })
+    }
+
+    pub(super) fn understood(&self) -> CommandNames {
+        self.commands
+    }
+
+    pub(super) fn is_finished(&self) -> bool {
+        matches!(self.progress, Progress::Finished)
+    }
+}

@@ -1,0 +1,306 @@
+//! What comes from the robot.
+
+use rvac_units::Tick;
+
+use super::edges::{Arrival, EdgeOrder};
+use super::{
+    Core, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, Phase,
+    SILENCE_MS,
+};
+use crate::binary;
+use crate::frame::{Framed, Poison};
+use crate::message::{
+    Acknowledgement, BinaryKinds, Edge, Info, ProtocolVersion, Report, RobotHello, Sequence, State,
+};
+use crate::seal::{Direction, seal};
+use crate::session::BAD_IN_ROW_MAX;
+use crate::text::{InfoPart, ReportPacket, read_report};
+
+impl Core {
+    pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<HostEvent> {
+        self.now = now;
+        match framed {
+            Framed::Sealed(text) => {
+                self.good();
+                self.take_text(text)
+            }
+            Framed::Binary { kind, body } => self.take_binary(kind, body),
+            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
+            // A robot seals whatever it says; an open packet has lost its seal on the way.
+            Framed::Open(_) | Framed::BinaryMissealed => {
+                count(&mut self.counters.bad_seal);
+                self.bad()
+            }
+            Framed::Poisoned(poison) => {
+                if matches!(poison, Poison::TooLong | Poison::ControlByte) {
+                    count(&mut self.counters.malformed);
+                }
+                count(&mut self.counters.resync);
+                self.bad()
+            }
+        }
+    }
+
+    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
+        if self.session != 0 && found == seal(Direction::RobotToHost, 0, text) {
+            if let Ok(ReportPacket::Report(Report::Hello(hello))) = read_report(text) {
+                self.good();
+                return self.take_hello(hello);
+            }
+        }
+        count(&mut self.counters.bad_seal);
+        self.bad()
+    }
+
+    fn take_binary(&mut self, kind: u8, body: &[u8]) -> Option<HostEvent> {
+        self.good();
+        if kind != binary::STATE || !self.binary.state {
+            return self.unreadable();
+        }
+        match binary::read_state(body) {
+            Ok(state) => self.take_state(state),
+            Err(_) => self.unreadable(),
+        }
+    }
+
+    fn take_text(&mut self, text: &[u8]) -> Option<HostEvent> {
+        match read_report(text) {
+            Ok(ReportPacket::Report(report)) => self.take_report(report),
+            Ok(ReportPacket::Info(part)) => self.take_info(part),
+            Err(_) => self.unreadable(),
+        }
+    }
+
+    fn take_report(&mut self, report: Report) -> Option<HostEvent> {
+        match report {
+            Report::Hello(hello) => self.take_hello(hello),
+            Report::Describe(row) => self.gathering.take(&row).map(HostEvent::Described),
+            Report::State(state) => {
+                // A robot that has agreed on a binary form and writes text has left it, and so do we.
+                self.binary_left |= self.binary.state;
+                self.take_state(state)
+            }
+            Report::Edge(edge) => self.take_edge(edge),
+            Report::Acknowledgement(answer) => self.take_answer(answer),
+            Report::Info(_) | Report::Log { .. } => Some(HostEvent::Report(report)),
+        }
+    }
+
+    fn take_state(&mut self, state: State) -> Option<HostEvent> {
+        self.hear_tick(state.tick);
+        self.state_wanted = false;
+        Some(HostEvent::Report(Report::State(state)))
+    }
+
+    fn take_edge(&mut self, edge: Edge) -> Option<HostEvent> {
+        self.hear_tick(edge.tick);
+        match self.edges.take(edge.number, self.now) {
+            Arrival::Next => Some(HostEvent::Report(Report::Edge(edge))),
+            Arrival::Hold => None,
+            Arrival::Lost(count) => Some(HostEvent::EdgesLost { count }),
+        }
+    }
+
+    fn take_info(&mut self, part: InfoPart) -> Option<HostEvent> {
+        if part.battery.is_some() {
+            self.info_battery = part.battery;
+        }
+        if let Some(link) = part.link {
+            self.judge_outbound(link);
+            self.info_link = link;
+        }
+        let firmware = part.firmware?;
+        Some(HostEvent::Report(Report::Info(Info {
+            firmware_version: firmware.firmware_version,
+            cordlib_version: firmware.cordlib_version,
+            main_steps_hz: firmware.main_steps_hz,
+            battery: self.info_battery,
+            bandwidth_in: firmware.bandwidth_in,
+            bandwidth_out: firmware.bandwidth_out,
+            link: self.info_link,
+        })))
+    }
+
+    /// What the robot has counted since its last `info` is the quality of our packets on their way.
+    fn judge_outbound(&mut self, link: LinkCounters) {
+        let old = self.info_link;
+        if old == LinkCounters::default() {
+            return;
+        }
+        let good = link.accepted.checked_sub(old.accepted);
+        let seals = link.bad_seal.checked_sub(old.bad_seal);
+        let resyncs = link.resync.checked_sub(old.resync);
+        if let (Some(good), Some(seals), Some(resyncs)) = (good, seals, resyncs) {
+            self.outbound
+                .record(good, seals.saturating_add(resyncs), self.now);
+        }
+    }
+
+    fn take_answer(&mut self, answer: Acknowledgement) -> Option<HostEvent> {
+        let Acknowledgement { sequence, refusal } = answer;
+        if let Some(number) = sequence {
+            if let Some((_, sent)) = self.ping.under_way.take_if(|(ping, _)| *ping == number) {
+                self.round_trip_ms = Some(self.now.since(sent));
+                return None;
+            }
+            if let Some(round_trip) = self.delivery.answered(number, self.now) {
+                self.round_trip_ms = round_trip.or(self.round_trip_ms);
+                return Some(HostEvent::Answered { sequence, refusal });
+            }
+        }
+        // The answer to a repeat whose first answer has come already says nothing new.
+        refusal
+            .is_some()
+            .then_some(HostEvent::Answered { sequence, refusal })
+    }
+
+    fn take_hello(&mut self, hello: RobotHello) -> Option<HostEvent> {
+        let common =
+            hello.version_min <= ProtocolVersion::CURRENT && hello.version_max >= ProtocolVersion::MIN;
+        if !common {
+            return self.take_incompatible(&hello);
+        }
+        if hello.session == self.session && self.phase == Phase::Open {
+            return None;
+        }
+        if hello.session != 0 {
+            return Some(self.open(hello));
+        }
+        let was_open = self.phase == Phase::Open;
+        if was_open {
+            self.close();
+            return Some(HostEvent::Closed(hello));
+        }
+        None
+    }
+
+    fn take_incompatible(&mut self, hello: &RobotHello) -> Option<HostEvent> {
+        let told = matches!(
+            self.phase,
+            Phase::Greeting {
+                told_incompatible: true,
+                ..
+            }
+        );
+        self.close();
+        self.phase = Phase::Greeting {
+            due: self.now.after(GREETING_INCOMPATIBLE_MS),
+            told_incompatible: true,
+        };
+        (!told).then_some(HostEvent::Incompatible {
+            version_min: hello.version_min,
+            version_max: hello.version_max,
+        })
+    }
+
+    fn open(&mut self, hello: RobotHello) -> HostEvent {
+        self.close();
+        self.phase = Phase::Open;
+        self.session = hello.session;
+        self.binary = self.binary_wanted.common(hello.binary);
+        self.robot_tick = Some((hello.tick, self.now));
+        self.gathering = Gathering::begin();
+        self.ping.due = self.now.after(PING_MS);
+        HostEvent::Opened(hello)
+    }
+
+    /// Forgets the session; the next greeting is due at once.
+    fn close(&mut self) {
+        while let Some(sequence) = self.delivery.take_any() {
+            self.events.push_back(HostEvent::Unanswered(sequence)).ok();
+        }
+        self.phase = Phase::Greeting {
+            due: self.now,
+            told_incompatible: false,
+        };
+        self.session = 0;
+        self.binary = BinaryKinds::NONE;
+        self.binary_left = false;
+        self.bad_in_row = 0;
+        self.robot_tick = None;
+        self.edges = EdgeOrder::default();
+        self.gathering = Gathering::default();
+        self.ping.under_way = None;
+        self.state_wanted = false;
+        self.info_link = LinkCounters::default();
+    }
+
+    pub(super) fn poll(&mut self, now: Tick) -> Option<HostEvent> {
+        self.now = now;
+        self.inbound.turn(now);
+        self.outbound.turn(now);
+        if let Some(event) = self.events.pop_front() {
+            return Some(event);
+        }
+        if self.phase != Phase::Open {
+            return None;
+        }
+        if now.since(self.heard) > SILENCE_MS {
+            self.close();
+            return Some(HostEvent::Silent);
+        }
+        self.delivery.take_hopeless(now).map(HostEvent::Unanswered)
+    }
+
+    pub(super) fn next_poll(&self) -> Tick {
+        if !self.events.is_empty() {
+            return self.now;
+        }
+        match self.phase {
+            Phase::Greeting { due, .. } => due,
+            Phase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
+            Phase::Open if !self.gathering.is_finished() => self.now.after(super::description::ASK_AGAIN_MS),
+            Phase::Open => self.ping.due,
+        }
+    }
+
+    /// The newest tick counts; a repeated edge brings an old one.
+    fn hear_tick(&mut self, tick: Tick) {
+        let newer = self.robot_tick.is_none_or(|(known, _)| tick.reached(known));
+        if newer {
+            self.robot_tick = Some((tick, self.now));
+        }
+    }
+
+    fn good(&mut self) {
+        count(&mut self.counters.accepted);
+        self.heard = self.now;
+        self.bad_in_row = 0;
+        self.inbound.record(1, 0, self.now);
+    }
+
+    fn bad(&mut self) -> Option<HostEvent> {
+        self.inbound.record(0, 1, self.now);
+        self.bad_in_row = self.bad_in_row.saturating_add(1);
+        if self.bad_in_row >= BAD_IN_ROW_MAX {
+            self.binary_left = true;
+        }
+        None
+    }
+
+    /// Whole, but of a newer robot: counted, and no sign of a bad line.
+    fn unreadable(&mut self) -> Option<HostEvent> {
+        count(&mut self.counters.refused);
+        None
+    }
+
+    /// The number for the next command.
+    pub(super) fn take_sequence(&mut self) -> Sequence {
+        let sequence = self.next_sequence;
+        self.next_sequence = sequence.next();
+        sequence
+    }
+
+    /// When to greet again after a greeting.
+    pub(super) fn greeting_pause_ms(told_incompatible: bool) -> u32 {
+        if told_incompatible {
+            GREETING_INCOMPATIBLE_MS
+        } else {
+            GREETING_MS
+        }
+    }
+}
+
+fn count(total: &mut u32) {
+    *total = total.wrapping_add(1);
+}

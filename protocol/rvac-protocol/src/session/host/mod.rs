@@ -1,0 +1,288 @@
+//! The host's end.
+
+mod delivery;
+mod description;
+mod edges;
+mod inbound;
+mod outbound;
+
+use heapless::Deque;
+use rvac_units::Tick;
+
+use self::delivery::Delivery;
+use self::description::Gathering;
+use self::edges::EdgeOrder;
+use crate::buffer::{EncodeError, PacketBuffer};
+use crate::frame::{Framer, Poison};
+use crate::message::{
+    Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
+    RobotHello, Sequence,
+};
+use crate::quality::{LinkQuality, Window};
+use crate::seal::Direction;
+
+/// What the host learns.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HostEvent {
+    /// A session is open; commands can be sent.
+    Opened(RobotHello),
+    /// The robot has told everything about itself. Comes some packets after `Opened`.
+    Described(Description),
+    /// `Info`, `State`, `Log`, or an `Edge` that was not delivered before. Edges come in order and once.
+    Report(Report),
+    /// The robot has answered a numbered command: carried out (`None`) or refused. Refused `drive` and `motor` are
+    /// answered too.
+    Answered {
+        /// The number that [`HostSession::send`] gave; `None` if the robot could not read it.
+        sequence: Option<Sequence>,
+        /// Why it was refused.
+        refusal: Option<Refusal>,
+    },
+    /// A command that must arrive was not answered in time. It may or may not have been carried out.
+    Unanswered(Sequence),
+    /// Edges were lost: the robot's queue overflowed. Levels are in the next `State`.
+    EdgesLost {
+        /// How many.
+        count: u16,
+    },
+    /// The session is over: the robot was reset, or it went back to hand mode. The session opens a new one by itself.
+    Closed(RobotHello),
+    /// Nothing valid came for 2 s. The session opens a new one by itself, for ever.
+    Silent,
+    /// No common version. `hello`, `info`, `log` and `stop` still work.
+    Incompatible {
+        /// Oldest version of the robot.
+        version_min: ProtocolVersion,
+        /// Newest version of the robot.
+        version_max: ProtocolVersion,
+    },
+}
+
+/// Why a command was not sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SendError {
+    /// No session is open.
+    NotOpen,
+    /// Too many commands wait for their answer (at most 8).
+    Busy,
+    /// A number is outside of what the wire allows.
+    Range,
+    /// `Hello`, `Hand`, `Describe`, `Ping` and `Seen` are the session's own.
+    Reserved,
+}
+
+impl From<EncodeError> for SendError {
+    fn from(_: EncodeError) -> Self {
+        // No command is too long: only numbers can be wrong.
+        Self::Range
+    }
+}
+
+/// Pause between greetings.
+const GREETING_MS: u32 = 250;
+/// Pause between greetings once the robot has turned out to speak no common version.
+const GREETING_INCOMPATIBLE_MS: u32 = 5_000;
+/// Pause between pings, which keep the session alive and measure the round trip.
+const PING_MS: u32 = 500;
+/// The link is dead after this long without a valid packet.
+const SILENCE_MS: u32 = 2_000;
+/// If the robot's clock was last heard this long ago, motion would soon be refused as stale: ask for a `state`.
+const TICK_OLD_MS: u32 = 150;
+/// Events that wait for `poll`.
+const EVENTS: usize = 12;
+
+/// The host's end of the link. `now` is the host's own millisecond clock; its zero does not matter.
+#[derive(Clone, Debug)]
+pub struct HostSession {
+    framer: Framer,
+    core: Core,
+}
+
+/// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
+#[derive(Clone, Debug)]
+struct Core {
+    binary_wanted: BinaryKinds,
+    phase: Phase,
+    session: u16,
+    now: Tick,
+    counters: LinkCounters,
+    heard: Tick,
+    next_sequence: Sequence,
+    /// The robot's newest tick and when it came.
+    robot_tick: Option<(Tick, Tick)>,
+    delivery: Delivery,
+    gathering: Gathering,
+    edges: EdgeOrder,
+    ping: Ping,
+    state_wanted: bool,
+    info_battery: Option<Battery>,
+    info_link: LinkCounters,
+    inbound: Window,
+    outbound: Window,
+    round_trip_ms: Option<u32>,
+    binary: BinaryKinds,
+    binary_left: bool,
+    bad_in_row: u8,
+    sent: Option<Tick>,
+    events: Deque<HostEvent, EVENTS>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Greeting { due: Tick, told_incompatible: bool },
+    Open,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Ping {
+    due: Tick,
+    under_way: Option<(Sequence, Tick)>,
+}
+
+impl HostSession {
+    /// A session that is about to send `U`, a separator and its `hello`. `binary` are the kinds to agree upon.
+    #[must_use]
+    pub fn new(binary: BinaryKinds, now: Tick) -> Self {
+        let mut inbound = Window::default();
+        inbound.turn(now);
+        let core = Core {
+            binary_wanted: binary,
+            phase: Phase::Greeting {
+                due: now,
+                told_incompatible: false,
+            },
+            session: 0,
+            now,
+            counters: LinkCounters::default(),
+            heard: now,
+            next_sequence: Sequence(1),
+            robot_tick: None,
+            delivery: Delivery::default(),
+            gathering: Gathering::default(),
+            edges: EdgeOrder::default(),
+            ping: Ping {
+                due: now,
+                under_way: None,
+            },
+            state_wanted: false,
+            info_battery: None,
+            info_link: LinkCounters::default(),
+            inbound,
+            outbound: inbound,
+            round_trip_ms: None,
+            binary: BinaryKinds::NONE,
+            binary_left: false,
+            bad_in_row: 0,
+            sent: None,
+            events: Deque::new(),
+        };
+        Self {
+            framer: Framer::new(Direction::RobotToHost),
+            core,
+        }
+    }
+
+    /// Takes one received byte.
+    #[must_use]
+    #[inline]
+    pub fn receive(&mut self, byte: u8, now: Tick) -> Option<HostEvent> {
+        let framed = self.framer.push(byte)?;
+        let event = self.core.take(framed, now);
+        self.framer.set_session(self.core.session);
+        event
+    }
+
+    /// The receiver saw a wrong stop bit.
+    pub fn framing_error(&mut self) {
+        self.core.counters.framing = self.core.counters.framing.wrapping_add(1);
+        self.framer.poison(Poison::FramingError);
+    }
+
+    /// The receiver lost bytes.
+    pub fn overrun(&mut self) {
+        self.core.counters.overrun = self.core.counters.overrun.wrapping_add(1);
+        self.framer.poison(Poison::Overrun);
+    }
+
+    /// Lets time pass; call until it gives `None`.
+    #[must_use]
+    pub fn poll(&mut self, now: Tick) -> Option<HostEvent> {
+        let event = self.core.poll(now);
+        self.framer.set_session(self.core.session);
+        event
+    }
+
+    /// When `poll` and [`next_packet`](Self::next_packet) have something to do at the latest.
+    #[must_use]
+    pub fn next_poll(&self) -> Tick {
+        self.core.next_poll()
+    }
+
+    /// Writes the next packet that the session itself wants sent (handshake, repeats, confirmations, keep-alive) into
+    /// `buffer`, replacing its content. `false` = nothing to send. Call it after `receive`, `poll` and `send`.
+    #[must_use]
+    pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
+        buffer.clear();
+        self.core.next_packet(buffer).unwrap_or(false)
+    }
+
+    /// Writes `command` into `buffer`, replacing its content, with the session's own `sequence` and `seen_tick` whatever
+    /// the caller put there. Commands that must arrive are repeated until they are answered. Gives the number, if the
+    /// command carries one. `Stop` and `Info` can be sent at any time, open session or not.
+    ///
+    /// # Errors
+    /// See [`SendError`]; the buffer is empty then.
+    pub fn send(
+        &mut self,
+        command: Command,
+        now: Tick,
+        buffer: &mut PacketBuffer,
+    ) -> Result<Option<Sequence>, SendError> {
+        self.core.now = now;
+        buffer.clear();
+        self.core.send(command, buffer).inspect_err(|_| buffer.clear())
+    }
+
+    /// Whether a session is open.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.core.phase == Phase::Open
+    }
+
+    /// Number of the open session, 0 = none.
+    #[must_use]
+    pub fn session(&self) -> u16 {
+        self.core.session
+    }
+
+    /// What the robot understands, as far as its description has come; empty before.
+    #[must_use]
+    pub fn understood(&self) -> CommandNames {
+        self.core.gathering.understood()
+    }
+
+    /// The robot's clock: newest tick heard and when that was on the host's clock.
+    #[must_use]
+    pub fn robot_tick(&self) -> Option<(Tick, Tick)> {
+        self.core.robot_tick
+    }
+
+    /// Quality of the link over the last 5 s.
+    #[must_use]
+    pub fn quality(&self) -> LinkQuality {
+        let (good_in, bad_in) = self.core.inbound.totals();
+        let (good_out, bad_out) = self.core.outbound.totals();
+        LinkQuality {
+            packets: good_in + bad_in + good_out + bad_out,
+            bad: bad_in + bad_out,
+            round_trip_ms: self.core.round_trip_ms,
+            verdict: self.core.inbound.verdict().max(self.core.outbound.verdict()),
+        }
+    }
+
+    /// Totals of what this end received.
+    #[must_use]
+    pub fn counters(&self) -> LinkCounters {
+        self.core.counters
+    }
+}

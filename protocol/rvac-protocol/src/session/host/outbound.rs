@@ -1,0 +1,177 @@
+//! What goes to the robot.
+
+use super::{Core, PING_MS, Phase, SendError, TICK_OLD_MS};
+use crate::binary;
+use crate::buffer::{EncodeError, PacketBuffer};
+use crate::frame::SEPARATOR;
+use crate::message::{Command, HostHello, ProtocolVersion, Sequence};
+use crate::seal::Direction;
+use crate::session::{BAUD_RATE_PATTERN, FLUSH_AFTER_MS};
+use crate::text::write_sealed_command;
+
+impl Core {
+    pub(super) fn send(
+        &mut self,
+        command: Command,
+        buffer: &mut PacketBuffer,
+    ) -> Result<Option<Sequence>, SendError> {
+        if is_reserved(&command) {
+            return Err(SendError::Reserved);
+        }
+        let always = matches!(command, Command::Stop | Command::Info);
+        if self.phase != Phase::Open && !always {
+            return Err(SendError::NotOpen);
+        }
+        if command.must_arrive() && self.delivery.is_full() {
+            return Err(SendError::Busy);
+        }
+        let stamped = self.stamp(command);
+        self.write(&stamped, buffer)?;
+        let sequence = stamped.sequence();
+        if let Some(number) = sequence {
+            self.take_sequence();
+            if stamped.must_arrive() {
+                self.delivery.sent(stamped, number, self.now);
+            }
+        }
+        Ok(sequence)
+    }
+
+    /// Puts the session's number and the robot's newest tick into the command.
+    fn stamp(&mut self, command: Command) -> Command {
+        let next = self.next_sequence;
+        let (tick, heard) = self.robot_tick.unwrap_or_default();
+        let is_motion = matches!(command, Command::Drive(_) | Command::Motor(_) | Command::Move(_));
+        self.state_wanted |= is_motion && self.now.since(heard) >= TICK_OLD_MS;
+        match command {
+            Command::Drive(mut drive) => {
+                drive.sequence = next;
+                drive.seen_tick = tick;
+                Command::Drive(drive)
+            }
+            Command::Motor(mut motor) => {
+                motor.sequence = next;
+                motor.seen_tick = tick;
+                Command::Motor(motor)
+            }
+            Command::Move(mut movement) => {
+                movement.sequence = next;
+                movement.seen_tick = tick;
+                Command::Move(movement)
+            }
+            Command::Arm { undock, .. } => Command::Arm {
+                sequence: next,
+                undock,
+            },
+            Command::Clear { inhibit, .. } => Command::Clear {
+                sequence: next,
+                inhibit,
+            },
+            Command::Set { parameter, value, .. } => Command::Set {
+                sequence: next,
+                parameter,
+                value,
+            },
+            Command::Ping { .. } => Command::Ping { sequence: next },
+            Command::Hello(_)
+            | Command::Hand
+            | Command::Describe { .. }
+            | Command::Info
+            | Command::State
+            | Command::Stop
+            | Command::Beep(_)
+            | Command::Led(_)
+            | Command::Seen { .. } => command,
+        }
+    }
+
+    /// What the session itself has to send: `Ok(false)` = nothing.
+    pub(super) fn next_packet(&mut self, buffer: &mut PacketBuffer) -> Result<bool, EncodeError> {
+        if let Phase::Greeting {
+            due,
+            told_incompatible,
+        } = self.phase
+        {
+            return self.greet(due, told_incompatible, buffer);
+        }
+        let Some(command) = self.next_command() else {
+            return Ok(false);
+        };
+        self.write(&command, buffer).map(|()| true)
+    }
+
+    fn greet(
+        &mut self,
+        due: rvac_units::Tick,
+        told_incompatible: bool,
+        buffer: &mut PacketBuffer,
+    ) -> Result<bool, EncodeError> {
+        if !self.now.reached(due) {
+            return Ok(false);
+        }
+        self.phase = Phase::Greeting {
+            due: self.now.after(Self::greeting_pause_ms(told_incompatible)),
+            told_incompatible,
+        };
+        self.sent = Some(self.now);
+        buffer.push(BAUD_RATE_PATTERN)?;
+        buffer.push(SEPARATOR)?;
+        let hello = Command::Hello(HostHello {
+            version_min: ProtocolVersion::MIN,
+            version_max: ProtocolVersion::CURRENT,
+            binary: self.binary_wanted,
+        });
+        write_sealed_command(&hello, 0, buffer).map(|()| true)
+    }
+
+    fn next_command(&mut self) -> Option<Command> {
+        if let Some(edge) = self.edges.take_confirmation() {
+            return Some(Command::Seen { edge });
+        }
+        if let Some(command) = self.delivery.take_due(self.now) {
+            return Some(command);
+        }
+        if core::mem::take(&mut self.state_wanted) {
+            return Some(Command::State);
+        }
+        if let Some(row) = self.gathering.take_due(self.now) {
+            return Some(Command::Describe { row });
+        }
+        if !self.now.reached(self.ping.due) {
+            return None;
+        }
+        let sequence = self.take_sequence();
+        self.ping.under_way = Some((sequence, self.now));
+        self.ping.due = self.now.after(PING_MS);
+        Some(Command::Ping { sequence })
+    }
+
+    fn write(&mut self, command: &Command, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+        let silent = self
+            .sent
+            .is_none_or(|sent| self.now.since(sent) >= FLUSH_AFTER_MS);
+        if silent {
+            buffer.push(SEPARATOR)?;
+        }
+        self.sent = Some(self.now);
+        match command {
+            Command::Drive(drive) if self.binary.drive && !self.binary_left => {
+                let packet = binary::write_drive(drive).ok_or(EncodeError::Range)?;
+                buffer.push_binary(&packet, Direction::HostToRobot, self.session)
+            }
+            _ => write_sealed_command(command, self.session, buffer),
+        }
+    }
+}
+
+/// Whether only the session itself sends it.
+const fn is_reserved(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::Hello(_)
+            | Command::Hand
+            | Command::Describe { .. }
+            | Command::Ping { .. }
+            | Command::Seen { .. }
+    )
+}

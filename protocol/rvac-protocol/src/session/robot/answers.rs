@@ -1,0 +1,144 @@
+//! Which numbered commands were carried out, so that a repeat is answered again and not carried out again.
+
+use heapless::Vec;
+use rvac_units::Tick;
+
+use crate::message::{Refusal, Sequence};
+
+/// Commands that are remembered.
+const REMEMBERED: usize = crate::session::COMMANDS_UNDER_WAY;
+/// After this long a number may be taken again: it has gone round, or its sender is long gone.
+pub(super) const MEMORY_MS: u32 = 10_000;
+
+#[derive(Clone, Copy, Debug)]
+struct Remembered {
+    sequence: Sequence,
+    since: Tick,
+    answer: Answer,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Answer {
+    Pending,
+    Given(Option<Refusal>),
+}
+
+/// What is known of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    /// Never seen: carry it out. It is remembered from now on.
+    New,
+    /// Carried out at this moment; the answer will come.
+    Pending,
+    /// Answer this again.
+    Answered(Option<Refusal>),
+    /// Older than all that is remembered: refuse it.
+    Forgotten,
+}
+
+/// The memory.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Answers {
+    remembered: Vec<Remembered, REMEMBERED>,
+}
+
+impl Answers {
+    /// Looks a number up and remembers it if it is new.
+    pub(super) fn note(&mut self, sequence: Sequence, now: Tick) -> Known {
+        self.remembered.retain(|entry| now.since(entry.since) < MEMORY_MS);
+        if let Some(entry) = self.remembered.iter().find(|entry| entry.sequence == sequence) {
+            return match entry.answer {
+                Answer::Pending => Known::Pending,
+                Answer::Given(refusal) => Known::Answered(refusal),
+            };
+        }
+        if self.remembered.is_full() && !self.make_room_for(sequence) {
+            return Known::Forgotten;
+        }
+        let entry = Remembered {
+            sequence,
+            since: now,
+            answer: Answer::Pending,
+        };
+        // There is room: either there was, or it was made.
+        self.remembered.push(entry).ok();
+        Known::New
+    }
+
+    /// Keeps the answer to a number for its repeats.
+    pub(super) fn give(&mut self, sequence: Sequence, refusal: Option<Refusal>) {
+        let entry = self
+            .remembered
+            .iter_mut()
+            .find(|entry| entry.sequence == sequence);
+        if let Some(entry) = entry {
+            entry.answer = Answer::Given(refusal);
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.remembered.clear();
+    }
+
+    /// Forgets the lowest number, unless `sequence` is lower still.
+    fn make_room_for(&mut self, sequence: Sequence) -> bool {
+        let mut lowest = (0, sequence);
+        let mut found = false;
+        for (index, entry) in self.remembered.iter().enumerate() {
+            if lowest.1.is_newer_than(entry.sequence) {
+                lowest = (index, entry.sequence);
+                found = true;
+            }
+        }
+        if found {
+            self.remembered.swap_remove(lowest.0);
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_units::Tick;
+
+    use super::{Answers, Known, MEMORY_MS, REMEMBERED};
+    use crate::message::{Refusal, Sequence};
+
+    #[test]
+    fn a_repeat_is_known_and_keeps_its_answer() {
+        let mut answers = Answers::default();
+        assert_eq!(answers.note(Sequence(7), Tick(0)), Known::New);
+        assert_eq!(answers.note(Sequence(7), Tick(1)), Known::Pending);
+        answers.give(Sequence(7), Some(Refusal::Busy));
+        assert_eq!(
+            answers.note(Sequence(7), Tick(2)),
+            Known::Answered(Some(Refusal::Busy))
+        );
+    }
+
+    #[test]
+    fn what_is_older_than_the_memory_is_not_carried_out_again() {
+        let mut answers = Answers::default();
+        let first = 65_530_u16;
+        for step in 0..=REMEMBERED as u16 {
+            assert_eq!(
+                answers.note(Sequence(first.wrapping_add(step)), Tick(0)),
+                Known::New
+            );
+        }
+        assert_eq!(answers.note(Sequence(first), Tick(0)), Known::Forgotten);
+        assert_eq!(
+            answers.note(Sequence(first.wrapping_add(1)), Tick(0)),
+            Known::Pending
+        );
+        assert_eq!(answers.note(Sequence(first), Tick(MEMORY_MS)), Known::New);
+    }
+
+    #[test]
+    fn numbers_may_come_in_any_order() {
+        let mut answers = Answers::default();
+        for number in [5, 3, 4, 9, 1] {
+            assert_eq!(answers.note(Sequence(number), Tick(0)), Known::New);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Edges on their way to the host: numbered, repeated until confirmed.
+
+use heapless::Deque;
+use rvac_units::Tick;
+
+use super::Mode;
+use crate::message::{Edge, EdgeKind, Sequence};
+use crate::session::EDGES_WAITING;
+
+/// Pause between repeats.
+pub(super) const REPEAT_MS: u32 = 100;
+/// Edges that are repeated at a time, so that repeats leave room on the line.
+const REPEATED: usize = 4;
+
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    edge: Edge,
+    sent: Option<Tick>,
+}
+
+/// The queue.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Edges {
+    waiting: Deque<Waiting, EDGES_WAITING>,
+    next_number: u16,
+}
+
+impl Edges {
+    pub(super) fn queue(&mut self, kind: EdgeKind, tick: Tick) {
+        if self.waiting.is_full() {
+            self.waiting.pop_front();
+        }
+        let edge = Edge {
+            number: self.next_number,
+            tick,
+            kind,
+        };
+        self.next_number = self.next_number.wrapping_add(1);
+        // There is room: the oldest has just left.
+        self.waiting.push_back(Waiting { edge, sent: None }).ok();
+    }
+
+    /// The edge that is to be sent now. In hand mode each is sent once and forgotten: nobody confirms.
+    pub(super) fn take_due(&mut self, mode: Mode, now: Tick) -> Option<Edge> {
+        if mode == Mode::Hand {
+            return self.waiting.pop_front().map(|waiting| waiting.edge);
+        }
+        let due = self
+            .waiting
+            .iter_mut()
+            .enumerate()
+            .find(|(index, waiting)| match waiting.sent {
+                None => true,
+                Some(sent) => *index < REPEATED && now.since(sent) >= REPEAT_MS,
+            });
+        due.map(|(_, waiting)| {
+            waiting.sent = Some(now);
+            waiting.edge
+        })
+    }
+
+    /// Drops all edges up to and including `number`.
+    pub(super) fn confirm(&mut self, number: u16) {
+        while let Some(waiting) = self.waiting.front() {
+            if Sequence(waiting.edge.number).is_newer_than(Sequence(number)) {
+                break;
+            }
+            self.waiting.pop_front();
+        }
+    }
+
+    /// A new session: numbers begin with 0, what was before is in the first `state`.
+    pub(super) fn restart(&mut self) {
+        *self = Self::default();
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
+    }
+}

@@ -1,0 +1,291 @@
+//! What comes from the host.
+
+use rvac_units::Tick;
+
+use super::answers::{Known, MEMORY_MS};
+use super::{BAD_IN_ROW_MAX, Core, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
+use crate::binary;
+use crate::frame::{Framed, Poison};
+use crate::message::{Acknowledgement, Command, HostHello, ProtocolVersion, Refusal, Sequence};
+use crate::seal::{Direction, seal};
+use crate::session::BAUD_RATE_PATTERN;
+use crate::text::{Form, RefusedCommand, is_stop, read_command};
+
+/// Whether the packet carried a right seal.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Trust {
+    Sealed,
+    Open,
+}
+
+impl Core {
+    pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<RobotEvent> {
+        self.now = now;
+        match framed {
+            Framed::Sealed(text) => self.take_sealed(text),
+            Framed::Binary { kind, body } => self.take_binary(kind, body),
+            Framed::Open(text) => self.take_open(text),
+            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
+            Framed::BinaryMissealed => {
+                count(&mut self.counters.bad_seal);
+                self.bad()
+            }
+            Framed::Poisoned(poison) => {
+                if matches!(poison, Poison::TooLong | Poison::ControlByte) {
+                    count(&mut self.counters.malformed);
+                }
+                count(&mut self.counters.resync);
+                self.bad()
+            }
+        }
+    }
+
+    fn take_sealed(&mut self, text: &[u8]) -> Option<RobotEvent> {
+        self.good();
+        match read_command(text, self.form()) {
+            Ok(command) => {
+                // A host that has agreed on a binary form and writes text has left it, and so do we.
+                self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
+                self.accept(command, Trust::Sealed)
+            }
+            Err(refused) => self.refuse(refused),
+        }
+    }
+
+    fn take_binary(&mut self, kind: u8, body: &[u8]) -> Option<RobotEvent> {
+        self.good();
+        if kind != binary::DRIVE || !self.binary.drive {
+            return self.refuse_with(None, Refusal::Unknown);
+        }
+        match binary::read_drive(body) {
+            Ok(drive) => self.accept(Command::Drive(drive), Trust::Sealed),
+            Err(refusal) => self.refuse_with(None, refusal),
+        }
+    }
+
+    fn take_open(&mut self, text: &[u8]) -> Option<RobotEvent> {
+        if text.iter().all(|byte| *byte == BAUD_RATE_PATTERN) {
+            return None;
+        }
+        if is_stop(text) {
+            return self.accept(Command::Stop, Trust::Open);
+        }
+        if self.mode == Mode::Sealed {
+            self.bad();
+            return self.refuse_with(None, Refusal::Unsealed);
+        }
+        match read_command(text, self.form()) {
+            Ok(command) => self.accept(command, Trust::Open),
+            Err(refused) => self.refuse(refused),
+        }
+    }
+
+    /// A seal that is not this session's: `stop` counts anyway, and a `hello` is always sealed for session 0.
+    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
+        if is_stop(text) {
+            return self.accept(Command::Stop, Trust::Open);
+        }
+        if self.session != 0 && found == seal(Direction::HostToRobot, 0, text) {
+            if let Ok(command @ Command::Hello(_)) = read_command(text, self.form()) {
+                return self.accept(command, Trust::Sealed);
+            }
+        }
+        count(&mut self.counters.bad_seal);
+        self.bad()
+    }
+
+    fn form(&self) -> Form {
+        match self.mode {
+            Mode::Sealed => Form::Sealed,
+            Mode::Hand => Form::Hand { now: self.now },
+        }
+    }
+
+    fn accept(&mut self, command: Command, trust: Trust) -> Option<RobotEvent> {
+        match command {
+            Command::Hello(hello) => self.greet(hello, trust),
+            Command::Hand => {
+                self.accepted();
+                (self.mode == Mode::Sealed).then(|| self.close(SessionEnd::Hand))
+            }
+            Command::Describe { row } => self.describe(row),
+            Command::Ping { sequence } => {
+                self.accepted();
+                self.reply_answer(Some(sequence), None);
+                None
+            }
+            Command::Seen { edge } => {
+                self.accepted();
+                self.edges.confirm(edge);
+                None
+            }
+            Command::Drive(drive) => {
+                let outcome = self.fresh(drive.sequence, drive.seen_tick);
+                self.act(command, outcome)
+            }
+            Command::Motor(motor) => {
+                let outcome = self.fresh(motor.sequence, motor.seen_tick);
+                self.act(command, outcome)
+            }
+            Command::Move(_) | Command::Arm { .. } | Command::Clear { .. } | Command::Set { .. } => {
+                self.accept_once(command)
+            }
+            Command::Info | Command::State | Command::Stop | Command::Beep(_) | Command::Led(_) => {
+                self.act(command, Ok(()))
+            }
+        }
+    }
+
+    /// A command that must arrive: carried out once, answered as often as it is asked.
+    fn accept_once(&mut self, command: Command) -> Option<RobotEvent> {
+        let sequence = command.sequence()?;
+        if self.mode == Mode::Sealed {
+            match self.answers.note(sequence, self.now) {
+                Known::New => {}
+                Known::Pending => {
+                    self.accepted();
+                    return None;
+                }
+                Known::Answered(refusal) => {
+                    self.accepted();
+                    self.reply_answer(Some(sequence), refusal);
+                    return None;
+                }
+                Known::Forgotten => return self.refuse_with(Some(sequence), Refusal::Old),
+            }
+        }
+        let outcome = match command {
+            Command::Move(movement) => self.fresh(movement.sequence, movement.seen_tick),
+            _ => Ok(()),
+        };
+        if let Err(refusal) = outcome {
+            self.answers.give(sequence, Some(refusal));
+        }
+        self.act(command, outcome)
+    }
+
+    fn act(&mut self, command: Command, outcome: Result<(), Refusal>) -> Option<RobotEvent> {
+        if let Err(refusal) = outcome {
+            return self.refuse_with(command.sequence(), refusal);
+        }
+        self.accepted();
+        Some(RobotEvent::Command(match self.mode {
+            Mode::Hand => hand::clamp(command),
+            Mode::Sealed => command,
+        }))
+    }
+
+    /// Whether motion is meant for now. Numbers compare with those of the last seconds only: what is older is kept out by
+    /// its tick, and after hours of rest a number may have gone half way round.
+    fn fresh(&mut self, sequence: Sequence, seen: Tick) -> Result<(), Refusal> {
+        if self.now.since(seen) > FRESHNESS_MS {
+            return Err(Refusal::Stale);
+        }
+        if self.mode == Mode::Hand {
+            return Ok(());
+        }
+        if let Some((last, when)) = self.motion {
+            if self.now.since(when) < MEMORY_MS && !sequence.is_newer_than(last) {
+                return Err(Refusal::Old);
+            }
+        }
+        self.motion = Some((sequence, self.now));
+        Ok(())
+    }
+
+    fn greet(&mut self, hello: HostHello, trust: Trust) -> Option<RobotEvent> {
+        self.accepted();
+        self.reply(Reply::Hello);
+        let common =
+            hello.version_min <= ProtocolVersion::CURRENT && hello.version_max >= ProtocolVersion::MIN;
+        let repeated = self.opened_by == Some(hello);
+        if trust == Trust::Open || !common || repeated {
+            return None;
+        }
+        self.session = self.new_session_number();
+        self.mode = Mode::Sealed;
+        self.binary = hello.binary.common(self.identity.binary);
+        self.binary_left = false;
+        self.motion = None;
+        self.answers.clear();
+        self.edges.restart();
+        self.good();
+        self.opened_by = Some(hello);
+        Some(RobotEvent::SessionOpened)
+    }
+
+    /// Differs from the last one and, very likely, from those before the reset.
+    fn new_session_number(&self) -> u16 {
+        let [s0, s1, s2, s3] = self.identity.session_seed.to_le_bytes();
+        let [t0, t1, t2, t3] = self.now.0.to_le_bytes();
+        let mixed = seal(
+            Direction::RobotToHost,
+            self.session,
+            &[s0, s1, s2, s3, t0, t1, t2, t3],
+        );
+        let number = (mixed ^ mixed >> 16) as u16;
+        if number == 0 || number == self.session {
+            self.session.wrapping_add(1).max(1)
+        } else {
+            number
+        }
+    }
+
+    pub(super) fn close(&mut self, end: SessionEnd) -> RobotEvent {
+        self.session = 0;
+        self.mode = Mode::Hand;
+        self.binary = crate::message::BinaryKinds::NONE;
+        self.opened_by = None;
+        self.motion = None;
+        self.answers.clear();
+        self.reply(Reply::Hello);
+        RobotEvent::SessionClosed(end)
+    }
+
+    fn describe(&mut self, row: u8) -> Option<RobotEvent> {
+        if row >= super::outbound::ROWS {
+            return self.refuse_with(None, Refusal::Range);
+        }
+        self.accepted();
+        self.reply(Reply::Row(row));
+        None
+    }
+
+    fn accepted(&mut self) {
+        count(&mut self.counters.accepted);
+    }
+
+    fn refuse(&mut self, refused: RefusedCommand) -> Option<RobotEvent> {
+        self.refuse_with(refused.sequence, refused.refusal)
+    }
+
+    fn refuse_with(&mut self, sequence: Option<Sequence>, refusal: Refusal) -> Option<RobotEvent> {
+        count(&mut self.counters.refused);
+        self.reply_answer(sequence, Some(refusal));
+        None
+    }
+
+    pub(super) fn reply_answer(&mut self, sequence: Option<Sequence>, refusal: Option<Refusal>) {
+        self.reply(Reply::Answer(Acknowledgement { sequence, refusal }));
+    }
+
+    pub(super) fn reply(&mut self, reply: Reply) {
+        // A full queue drops the answer; the host repeats its question.
+        self.replies.push_back(reply).ok();
+    }
+
+    /// A valid sealed packet.
+    fn good(&mut self) {
+        self.heard = self.now;
+        self.bad_in_row = 0;
+        self.opened_by = None;
+    }
+
+    fn bad(&mut self) -> Option<RobotEvent> {
+        self.bad_in_row = self.bad_in_row.saturating_add(1);
+        if self.bad_in_row >= BAD_IN_ROW_MAX {
+            self.binary_left = true;
+        }
+        None
+    }
+}
