@@ -188,7 +188,7 @@ fn edges_arrive_once_and_in_order_over_a_bad_line() {
     let mut random = 1_u32;
     pair.to_host = Box::new(move |bytes| {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        if random >> 30 != 0 {
+        if random >> 31 != 0 {
             bytes.clear();
         }
     });
