@@ -157,21 +157,20 @@ impl Driven {
 
 /// Root mean square of distances.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RootMeanSquare {
+pub(crate) struct RootMeanSquare {
     sum: f64,
     samples: u32,
 }
 
 impl RootMeanSquare {
     /// Takes one distance.
-    pub fn add(&mut self, distance: f64) {
+    pub(crate) fn add(&mut self, distance: f64) {
         self.sum += distance * distance;
         self.samples += 1;
     }
 
     /// The figure, if there was a sample.
-    #[must_use]
-    pub fn value(&self) -> Option<f64> {
+    pub(crate) fn value(&self) -> Option<f64> {
         (self.samples > 0).then(|| (self.sum / f64::from(self.samples)).sqrt())
     }
 }

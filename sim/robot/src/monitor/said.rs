@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::wire::{Direction, Seal, read_binary, unseal};
+use super::wire::{Direction, Seal, unseal, unseal_binary};
 
 /// A packet to the robot whose seal is right or absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub(crate) enum Said {
     Refused(u16),
 }
 
-/// A `move` has no lease; it may take as long as its way takes at walking pace of a snail, and some seconds.
+/// A `move` has no lease; it may take as long as its way takes at a crawl, and some seconds.
 const MOVE_SLOWEST_M_PER_S: f64 = 0.02;
 const MOVE_EXTRA_MS: u64 = 5_000;
 const LEASE_DEFAULT_MS: u64 = 250;
@@ -60,8 +60,11 @@ const LEASE_MAX_MS: u64 = 1_000;
 /// Reads a packet to the robot; `None` when its seal is wrong or it is no packet at all.
 pub(crate) fn read_heard(packet: &[u8], session: u16) -> Option<HeardPacket> {
     if packet[0] >= 0x80 {
-        let word = read_binary(packet, Direction::ToRobot, session)?;
-        return Some(HeardPacket { word, sealed: true });
+        let body = unseal_binary(packet, Direction::ToRobot, session)?;
+        return Some(HeardPacket {
+            word: word_of_binary(&body),
+            sealed: true,
+        });
     }
     let (json, seal) = unseal(packet, Direction::ToRobot, session);
     if seal == Seal::Wrong {
@@ -104,6 +107,20 @@ fn word_of(object: &Value) -> Heard {
         Some("move") => Heard::Wheels {
             lease_ms: move_ms(object["length"].as_f64().unwrap_or(0.0)),
             mark: mark_of(object),
+        },
+        _ => Heard::Other,
+    }
+}
+
+/// Kind 0x81 is `drive`: speed and turn rate, then lease, number and tick, all little endian.
+fn word_of_binary(body: &[u8]) -> Heard {
+    match body {
+        [0x81, _, _, _, _, _, _, _, _, l0, l1, n0, n1, t0, t1, t2, t3] => Heard::Wheels {
+            lease_ms: u64::from(u16::from_le_bytes([*l0, *l1])).min(LEASE_MAX_MS),
+            mark: Mark {
+                number: Some(u16::from_le_bytes([*n0, *n1])),
+                tick: Some(u32::from_le_bytes([*t0, *t1, *t2, *t3])),
+            },
         },
         _ => Heard::Other,
     }

@@ -336,3 +336,23 @@ fn hand_mode_ends_with_a_sealed_packet_and_comes_back_after_silence() {
     }
     assert_eq!(scene.pass(10, FORWARD).len(), 1, "hand mode takes it");
 }
+
+#[test]
+fn a_binary_drive_covers_its_lease() {
+    let mut scene = Scene::armed();
+    let body = [
+        0x81, 0x40, 0x0D, 0x03, 0, 0x1F, 0, 0, 0, 250, 0, 7, 0, 100, 0, 0, 0,
+    ];
+    let seal = seal_over(&body, Direction::ToRobot, SESSION).to_le_bytes();
+    for byte in body.into_iter().chain(seal) {
+        if matches!(byte, 0x1D..=0x1F) {
+            scene.monitor.heard(scene.now_ms, Some(0x1D));
+            scene.monitor.heard(scene.now_ms, Some(byte ^ 0x20));
+        } else {
+            scene.monitor.heard(scene.now_ms, Some(byte));
+        }
+    }
+    scene.monitor.heard(scene.now_ms, Some(0x1F));
+    assert_eq!(scene.pass(300, FORWARD), []);
+    assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease]);
+}

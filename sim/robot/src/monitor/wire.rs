@@ -4,8 +4,6 @@
 //! motors may run. It lets through rather more than the firmware does (it does not check every key), so that it can only
 //! blame the firmware for acting on something that nobody said.
 
-use super::said::Heard;
-
 const PACKET_MAX: usize = 256;
 const SEAL_LEN: usize = 9;
 
@@ -90,11 +88,11 @@ pub(crate) fn unseal(packet: &[u8], direction: Direction, session: u16) -> (&[u8
     (json, if right { Seal::Right } else { Seal::Wrong })
 }
 
-/// The word of a binary packet; `None` when its seal is wrong.
-pub(crate) fn read_binary(packet: &[u8], direction: Direction, session: u16) -> Option<Heard> {
+/// Kind and body of a binary packet, unstuffed; `None` when its seal is wrong.
+pub(crate) fn unseal_binary(packet: &[u8], direction: Direction, session: u16) -> Option<Vec<u8>> {
     let whole = unstuff(packet)?;
     let (body, seal) = whole.split_last_chunk::<4>()?;
-    (u32::from_le_bytes(*seal) == seal_over(body, direction, session)).then_some(Heard::Other)
+    (u32::from_le_bytes(*seal) == seal_over(body, direction, session)).then(|| body.to_vec())
 }
 
 /// 0x1D announces a byte whose bit 5 was turned over.

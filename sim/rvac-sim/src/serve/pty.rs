@@ -15,7 +15,7 @@ use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 ///
 /// Nobody needs to have the slave open: bytes that the robot says then are lost, as on a serial cable.
 #[derive(Debug)]
-pub struct Pty {
+pub(crate) struct Pty {
     master: fs::File,
     link: PathBuf,
     slave: PathBuf,
@@ -27,7 +27,7 @@ impl Pty {
     ///
     /// # Errors
     /// The system has no pseudoterminal left, or the link cannot be made.
-    pub fn open(link: &Path) -> Result<Self, PtyError> {
+    pub(crate) fn open(link: &Path) -> Result<Self, PtyError> {
         let (master, slave) = open_raw().map_err(PtyError::Open)?;
         link_to(link, &slave)?;
         Ok(Self {
@@ -41,7 +41,7 @@ impl Pty {
     ///
     /// # Errors
     /// What the system reports besides "nothing there".
-    pub fn read(&mut self, buffer: &mut [u8]) -> io::Result<Peer> {
+    pub(crate) fn read(&mut self, buffer: &mut [u8]) -> io::Result<Peer> {
         match self.master.read(buffer) {
             Ok(count) => Ok(Peer::Present(count)),
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(Peer::Present(0)),
@@ -57,7 +57,7 @@ impl Pty {
     ///
     /// # Errors
     /// What the system reports besides "no room".
-    pub fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+    pub(crate) fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self.master.write(bytes) {
             Ok(count) => Ok(count),
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(0),
@@ -65,12 +65,6 @@ impl Pty {
             Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(0),
             Err(error) => Err(error),
         }
-    }
-
-    /// Path of the slave side.
-    #[must_use]
-    pub fn slave(&self) -> &Path {
-        &self.slave
     }
 }
 
@@ -91,7 +85,7 @@ impl Drop for Pty {
 
 /// Whether somebody has the slave side open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Peer {
+pub(crate) enum Peer {
     /// Somebody has, and this many bytes were read.
     Present(usize),
     /// Nobody has.

@@ -1,0 +1,53 @@
+//! Whole-system tests: firmware, wire, daemon core and brain in a simulated home, on a virtual clock. The tests are in
+//! `tests/`; here is what they share.
+#![forbid(unsafe_code)]
+
+use std::path::PathBuf;
+
+use brain::command::StrategyName;
+use rvac_sim::run::{RunSettings, household, start_cleaning};
+use rvac_sim::{Household, Scene, SceneSettings};
+use vthal_core::Recording;
+
+/// The project's own homes.
+pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
+
+/// One of the project's homes with this noise.
+///
+/// # Panics
+/// When it cannot be loaded.
+#[must_use]
+pub fn scene(home: &str, noise: &str) -> Scene {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../homes/{home}.toml"));
+    Scene::load(&SceneSettings {
+        home: path,
+        robot: "sr8730".to_owned(),
+        noise: noise.to_owned(),
+    })
+    .expect("the project's homes suit the project's robot")
+}
+
+/// A run of so many milliseconds.
+#[must_use]
+pub fn settings(seed: u64, duration_ms: u64) -> RunSettings {
+    RunSettings {
+        strategy: StrategyName::Bounce,
+        seed,
+        duration_ms,
+        recording: Recording::Off,
+    }
+}
+
+/// A household that was asked to clean a moment ago.
+///
+/// # Panics
+/// When the host does not find the robot.
+#[must_use]
+pub fn cleaning(scene: &Scene, seed: u64) -> Household {
+    let mut household = household(scene, &settings(seed, 0));
+    assert!(
+        start_cleaning(&mut household, StrategyName::Bounce),
+        "the host finds the robot"
+    );
+    household
+}

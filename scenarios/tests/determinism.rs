@@ -1,0 +1,36 @@
+//! The same seed is the same run, bit for bit; another seed is another run.
+
+use robot::Bridges;
+use rvac_sim::faults::{Homes, TrialSettings, trial};
+use rvac_sim::run::{household, run};
+use scenarios::{scene, settings};
+
+fn hash_of(seed: u64) -> (u64, String) {
+    let scene = scene("two-room-flat", "nominal");
+    let settings = settings(seed, 120_000);
+    let mut household = household(&scene, &settings);
+    let report = run(&mut household, &settings, |_| {});
+    (household.robot().state_hash(), format!("{report:?}"))
+}
+
+#[test]
+fn a_run_repeats_itself() {
+    assert_eq!(hash_of(5), hash_of(5));
+    assert_ne!(hash_of(5).0, hash_of(6).0);
+}
+
+#[test]
+fn a_trial_full_of_faults_repeats_itself() {
+    let model = home::RobotModel::by_name("sr8730").unwrap();
+    let homes = Homes::load(&model).unwrap();
+    for seed in [4, 7] {
+        let settings = TrialSettings {
+            seed,
+            duration_ms: 60_000,
+            bridges: Bridges::Sound,
+        };
+        let first = trial(&homes, &model, settings);
+        assert_eq!(first, trial(&homes, &model, settings));
+        assert!(first.faults.iter().sum::<u32>() > 5, "there were faults");
+    }
+}

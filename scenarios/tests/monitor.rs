@@ -1,0 +1,31 @@
+//! The safety monitor finds a machine that does not obey its firmware.
+
+use robot::{Bridges, Rule};
+use rvac_sim::faults::{Homes, TrialSettings, trial};
+
+#[test]
+fn bridges_that_do_not_brake_are_found_out() {
+    let model = home::RobotModel::by_name("sr8730").unwrap();
+    let homes = Homes::load(&model).unwrap();
+    let outcome = |bridges| {
+        trial(
+            &homes,
+            &model,
+            TrialSettings {
+                seed: 3,
+                duration_ms: 60_000,
+                bridges,
+            },
+        )
+    };
+    assert_eq!(outcome(Bridges::Sound).violations, Vec::<String>::new());
+    let broken = outcome(Bridges::DeafToBrake);
+    assert!(
+        broken
+            .violations
+            .iter()
+            .any(|text| text.starts_with(Rule::WheelsWithoutLease.name())),
+        "{:?}",
+        broken.violations
+    );
+}
