@@ -47,101 +47,41 @@ const BRAIN: &[&str] = &[
     "tracing",
 ];
 
-const DIRECTIONS: [Direction; 17] = [
-    Direction {
-        of: "rvac-units",
-        knows: &[],
-        never: STD,
-    },
-    Direction {
-        of: "rvac-protocol",
-        knows: &["rvac-units"],
-        never: STD,
-    },
-    Direction {
-        of: "rvac-channel",
-        knows: &["rvac-protocol", "rvac-units"],
-        never: &["tokio"],
-    },
-    Direction {
-        of: "cordlib",
-        knows: &["rvac-protocol", "rvac-units"],
-        never: STD,
-    },
-    Direction {
-        of: "cordlib-c",
-        knows: &["cordlib", "rvac-protocol", "rvac-units"],
-        never: STD,
-    },
-    Direction {
-        of: "brain",
-        knows: &["rvac-units"],
-        never: BRAIN,
-    },
-    Direction {
-        of: "rvac-api",
-        knows: &["rvac-units"],
-        never: OUTSIDE,
-    },
-    Direction {
-        of: "vthal-core",
-        knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"],
-        never: OUTSIDE,
-    },
-    Direction {
-        of: "vthal",
-        knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api"],
-        never: &[],
-    },
-    Direction {
-        of: "rvac-cli",
-        knows: &["rvac-api", "rvac-protocol", "rvac-units"],
-        never: &[],
-    },
-    Direction {
-        of: "panel-server",
-        knows: &["rvac-api"],
-        never: &[],
-    },
-    Direction {
-        of: "panel",
-        knows: &["panel-logic", "rvac-api"],
-        never: &["tokio"],
-    },
-    Direction {
-        of: "panel-logic",
-        knows: &["rvac-api"],
-        never: &["tokio", "leptos", "web-sys"],
-    },
-    Direction {
-        of: "home",
-        knows: &["rvac-units"],
-        never: OUTSIDE,
-    },
-    Direction {
-        of: "robot",
-        knows: &["cordlib", "home", "rvac-protocol", "rvac-units"],
-        never: OUTSIDE,
-    },
-    Direction {
-        of: "rvac-sim",
-        knows: &[
-            "robot",
-            "home",
-            "cordlib",
-            "vthal-core",
-            "brain",
-            "rvac-api",
-            "rvac-protocol",
-            "rvac-units",
-        ],
-        never: &["vthal", "axum"],
-    },
-    Direction {
-        of: "xtask",
-        knows: &["rvac-api"],
-        never: &["tokio"],
-    },
+const WIRE: &[&str] = &["rvac-protocol", "rvac-units"];
+const SIMULATED: &[&str] = &[
+    "rvac-sim",
+    "robot",
+    "home",
+    "cordlib",
+    "vthal-core",
+    "brain",
+    "rvac-api",
+    "rvac-channel",
+    "rvac-protocol",
+    "rvac-units",
+];
+
+// One crate a line, so that it reads as the table it is.
+#[rustfmt::skip]
+const DIRECTIONS: [Direction; 18] = [
+    Direction { of: "rvac-units",    knows: &[],                                            never: STD },
+    Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
+    Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
+    Direction { of: "cordlib",       knows: WIRE,                                           never: STD },
+    Direction { of: "cordlib-c",     knows: &["cordlib", "rvac-protocol", "rvac-units"],    never: STD },
+    Direction { of: "brain",         knows: &["rvac-units"],                                never: BRAIN },
+    Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
+    Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
+    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["rvac-api", "rvac-protocol", "rvac-units"],   never: &[] },
+    Direction { of: "panel-server",  knows: &["rvac-api"],                                  never: &[] },
+    Direction { of: "panel",         knows: &["panel-logic", "rvac-api"],                   never: &["tokio"] },
+    Direction { of: "panel-logic",   knows: &["rvac-api"],                                  never: &["tokio", "leptos", "web-sys"] },
+    Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
+    Direction { of: "robot",         knows: &["cordlib", "home", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
+    Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
+    Direction { of: "scenarios",     knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
+    Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },
 ];
 
 /// Most crates in the firmware, ours included.
