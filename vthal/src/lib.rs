@@ -1,1 +1,25 @@
-//! The daemon on the Linux board
+//! The shell of the vthal daemon: it carries out what `vthal-core` decides, and decides nothing itself.
+//!
+//! One event loop ([`daemon`]) over one closed enum ([`event`]); the serial line ([`serial`]) and each client of the socket
+//! ([`socket`], [`client`], [`outbox`]) are tasks that only turn bytes into events. Disks are slow, so recordings
+//! ([`recording`]) and checkpoints ([`checkpoint_file`]) are written by threads of their own.
+#![forbid(unsafe_code)]
+
+pub mod checkpoint_file;
+mod checkpoint_thread;
+mod client;
+mod clock;
+pub mod config;
+mod daemon;
+mod event;
+mod instance;
+mod logging;
+mod outbox;
+pub mod recording;
+mod rotation;
+mod serial;
+mod service;
+mod socket;
+
+pub use clock::Clock;
+pub use service::{ServeError, serve};

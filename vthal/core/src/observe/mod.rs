@@ -10,7 +10,7 @@ use rvac_protocol::message::{Inhibit, Inhibits, State};
 use crate::device::{Description, Part};
 
 /// Name under which inhibits of newer firmware reach the brain.
-const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
+pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
 
 /// Keeps the present observation and fills it in place, so that a report costs no allocation.
 #[derive(Debug)]

@@ -1,0 +1,207 @@
+//! The checkpoint on disk: a header that proves it whole, and the state as JSON.
+//!
+//! A new file is written beside the old one, flushed, and renamed over it; the old one stays as `.old`, because SD cards
+//! lie about flushing. Age is measured on the system's uptime, which no clock change moves: a checkpoint of an earlier
+//! boot is never young.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use rvac_protocol::seal::{Digest, Direction};
+use serde::{Deserialize, Serialize};
+use vthal_core::Checkpoint;
+
+use crate::recording::format::BrainState;
+
+/// A checkpoint older than this is not taken up: somebody may have moved the robot.
+const AGE_MAX_S: f64 = 60.0;
+/// First word of the header.
+const MAGIC: &str = "vthal-checkpoint-1";
+
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    boot: String,
+    uptime_s: f64,
+    device: String,
+    brain: BrainState,
+}
+
+/// A moment of the running system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BootTime {
+    /// Identity of this boot.
+    pub boot: String,
+    /// Seconds since it.
+    pub uptime_s: f64,
+}
+
+impl BootTime {
+    /// Now.
+    ///
+    /// # Errors
+    /// When `/proc` cannot be read.
+    pub fn now() -> io::Result<Self> {
+        let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id")?
+            .trim()
+            .to_owned();
+        let uptime = fs::read_to_string("/proc/uptime")?;
+        let uptime_s = uptime.split(' ').next().and_then(|word| word.parse().ok());
+        Ok(Self {
+            boot,
+            uptime_s: uptime_s.ok_or(io::ErrorKind::InvalidData)?,
+        })
+    }
+}
+
+/// Writes `checkpoint` so that after a crash at any moment either it or its predecessor is there, whole.
+///
+/// # Errors
+/// What the file system says.
+pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<()> {
+    let stored = Stored {
+        boot: now.boot,
+        uptime_s: now.uptime_s,
+        device: checkpoint.device.clone(),
+        brain: BrainState::from(&checkpoint.brain),
+    };
+    let body = serde_json::to_vec(&stored)?;
+    let fresh = beside(path, "new");
+    let mut file = File::create(&fresh)?;
+    writeln!(file, "{MAGIC} {} {:08X}", body.len(), digest(&body))?;
+    file.write_all(&body)?;
+    file.sync_all()?;
+    if path.exists() {
+        fs::rename(path, beside(path, "old"))?;
+    }
+    fs::rename(&fresh, path)?;
+    if let Some(folder) = path.parent() {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+/// The newest whole checkpoint that is young enough, if there is one.
+#[must_use]
+pub fn load(path: &Path, now: &BootTime) -> Option<Checkpoint> {
+    [path.to_owned(), beside(path, "old")]
+        .iter()
+        .find_map(|path| load_one(path, now))
+}
+
+fn load_one(path: &Path, now: &BootTime) -> Option<Checkpoint> {
+    let bytes = fs::read(path).ok()?;
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    let (header, body) = (bytes.get(..end)?, bytes.get(end + 1..)?);
+    let expected = format!("{MAGIC} {} {:08X}", body.len(), digest(body));
+    if header != expected.as_bytes() {
+        return None;
+    }
+    let stored: Stored = serde_json::from_slice(body).ok()?;
+    let age_s = now.uptime_s - stored.uptime_s;
+    let young = stored.boot == now.boot && (0.0..=AGE_MAX_S).contains(&age_s);
+    young
+        .then(|| stored.brain.to_brain())
+        .flatten()
+        .map(|brain| Checkpoint {
+            device: stored.device,
+            brain,
+        })
+}
+
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{ending}"));
+    PathBuf::from(name)
+}
+
+fn digest(body: &[u8]) -> u32 {
+    let mut digest = Digest::start(Direction::HostToRobot, 0);
+    digest.extend(body);
+    digest.seal()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::PathBuf;
+
+    use brain::geometry::Pose2;
+    use vthal_core::Checkpoint;
+
+    use super::{BootTime, load, save};
+
+    fn at(uptime_s: f64) -> BootTime {
+        BootTime {
+            boot: "a".to_owned(),
+            uptime_s,
+        }
+    }
+
+    fn checkpoint(x_m: f64) -> Checkpoint {
+        let pose = Pose2 {
+            x_m,
+            y_m: -0.1,
+            heading_rad: 1.0 / 3.0,
+        };
+        Checkpoint {
+            device: "sr8730".to_owned(),
+            brain: brain::Checkpoint {
+                pose,
+                ..brain::Checkpoint::default()
+            },
+        }
+    }
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("vthal-checkpoint-{name}-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("creates");
+        folder
+    }
+
+    #[test]
+    fn only_young_ones_of_this_boot_count() {
+        let folder = folder("age");
+        let path = folder.join("checkpoint");
+        save(&path, &checkpoint(1.5), at(100.0)).expect("saves");
+        assert_eq!(load(&path, &at(160.0)), Some(checkpoint(1.5)));
+        assert_eq!(load(&path, &at(160.1)), None);
+        assert_eq!(load(&path, &at(99.0)), None);
+        assert_eq!(
+            load(
+                &path,
+                &BootTime {
+                    boot: "b".to_owned(),
+                    uptime_s: 101.0
+                }
+            ),
+            None
+        );
+        fs::remove_dir_all(folder).expect("cleans up");
+    }
+
+    #[test]
+    fn a_broken_one_gives_way_to_its_predecessor_at_every_byte() {
+        let folder = folder("torn");
+        let path = folder.join("checkpoint");
+        save(&path, &checkpoint(1.0), at(100.0)).expect("saves");
+        save(&path, &checkpoint(2.0), at(101.0)).expect("saves");
+        assert_eq!(load(&path, &at(102.0)), Some(checkpoint(2.0)));
+        let whole = fs::read(&path).expect("reads");
+        for length in 0..whole.len() {
+            fs::write(&path, &whole[..length]).expect("writes");
+            assert_eq!(load(&path, &at(102.0)), Some(checkpoint(1.0)), "cut at {length}");
+        }
+        for index in 0..whole.len() {
+            let mut flipped = whole.clone();
+            flipped[index] ^= 4;
+            fs::write(&path, &flipped).expect("writes");
+            assert_eq!(
+                load(&path, &at(102.0)),
+                Some(checkpoint(1.0)),
+                "flipped at {index}"
+            );
+        }
+        fs::remove_dir_all(folder).expect("cleans up");
+    }
+}

@@ -1,0 +1,429 @@
+//! The configuration: a TOML file, and flags that stand above it.
+
+use std::path::{Path, PathBuf};
+
+use brain::StrategyName;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A valid configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Serial device of the robot.
+    pub serial: PathBuf,
+    /// Bits per second.
+    pub baud: u32,
+    /// Path of the Unix socket.
+    pub socket: PathBuf,
+    /// Clients at the same time.
+    pub clients_max: usize,
+    /// Whether clients may send raw packets.
+    pub expert: bool,
+    /// Folder for checkpoints, logs and recordings.
+    pub state: PathBuf,
+    /// Strategy when a request names none.
+    pub strategy: StrategyName,
+    /// Longest job in minutes.
+    pub task_budget_min: u32,
+    /// Seed of the brain; from the clock when absent.
+    pub seed: Option<u64>,
+    /// Log.
+    pub log: LogConfig,
+    /// Recordings.
+    pub recording: RecordingConfig,
+}
+
+/// Settings of the log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LogConfig {
+    /// Least grave level that is written.
+    pub level: tracing::level_filters::LevelFilter,
+    /// Size in MiB at which a new file is begun.
+    pub size_mib: u32,
+    /// Files kept.
+    pub files: u32,
+}
+
+/// Settings of recordings.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordingConfig {
+    /// Whether runs are recorded.
+    pub enabled: bool,
+    /// Files kept.
+    pub files: u32,
+    /// MiB kept.
+    pub total_mib: u32,
+}
+
+/// What is wrong with a configuration: file, line, key, what, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("cannot read the configuration {}: {error}; check the path, or leave --config out", .path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: std::io::Error,
+    },
+    /// The file is not what it should be.
+    #[error("{}:{line}: {key}: {what}", .path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Key with its table, for example `link.baud`.
+        key: String,
+        /// What is wrong and what to write instead.
+        what: String,
+    },
+    /// Something that has no default was given nowhere.
+    #[error("no {what} is configured: give {flag}, or set {key} in the configuration")]
+    Missing {
+        /// What.
+        what: &'static str,
+        /// Flag that sets it.
+        flag: &'static str,
+        /// Key that sets it.
+        key: &'static str,
+    },
+}
+
+/// Values of flags, which stand above the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Overrides {
+    /// `--serial`
+    pub serial: Option<PathBuf>,
+    /// `--baud`
+    pub baud: Option<u32>,
+    /// `--socket`
+    pub socket: Option<PathBuf>,
+    /// `--state`
+    pub state: Option<PathBuf>,
+    /// `--seed`
+    pub seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct File {
+    link: Link,
+    socket: Socket,
+    robot: Robot,
+    state: State,
+    log: Log,
+    recording: Recording,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Link {
+    serial: Option<PathBuf>,
+    baud: Option<Spanned<u32>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Socket {
+    path: Option<PathBuf>,
+    clients_max: Option<Spanned<u32>>,
+    expert: Option<bool>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Robot {
+    strategy: Option<Spanned<String>>,
+    task_budget_min: Option<Spanned<u32>>,
+    seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct State {
+    dir: Option<PathBuf>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Log {
+    level: Option<Spanned<String>>,
+    size_mib: Option<Spanned<u32>>,
+    files: Option<Spanned<u32>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Recording {
+    enabled: Option<bool>,
+    files: Option<Spanned<u32>>,
+    total_mib: Option<Spanned<u32>>,
+}
+
+/// Reads the configuration: `path` if given, then `overrides`, then defaults.
+///
+/// # Errors
+/// See [`ConfigError`]. Nothing is written or opened besides the file.
+pub fn load(path: Option<&Path>, overrides: Overrides) -> Result<Config, ConfigError> {
+    let Some(path) = path else {
+        return validate(
+            File::default(),
+            overrides,
+            &Source {
+                path: Path::new(""),
+                text: "",
+            },
+        );
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| ConfigError::Unreadable {
+        path: path.to_owned(),
+        error,
+    })?;
+    let source = Source { path, text: &text };
+    let file = toml::from_str(&text).map_err(|error: toml::de::Error| {
+        let offset = error.span().map_or(0, |span| span.start);
+        source.invalid(
+            offset,
+            format!("{}; vthal/example.toml shows every key", error.message()),
+        )
+    })?;
+    validate(file, overrides, &source)
+}
+
+/// The file, to say where in it something is wrong.
+struct Source<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+impl Source<'_> {
+    fn invalid(&self, offset: usize, what: String) -> ConfigError {
+        let before = self.text.get(..offset).unwrap_or(self.text);
+        let line = before.matches('\n').count() + 1;
+        ConfigError::Invalid {
+            path: self.path.to_owned(),
+            line,
+            key: self.key_at(line),
+            what,
+        }
+    }
+
+    /// Table and key of a line, as a person would name them.
+    fn key_at(&self, line: usize) -> String {
+        let up_to: Vec<&str> = self.text.lines().take(line).collect();
+        let table = up_to
+            .iter()
+            .rev()
+            .find_map(|line| line.trim().strip_prefix('[')?.strip_suffix(']'));
+        let key = up_to
+            .last()
+            .and_then(|line| line.split_once('='))
+            .map(|(key, _)| key.trim());
+        match (table, key) {
+            (Some(table), Some(key)) => format!("{table}.{key}"),
+            (Some(table), None) => table.to_owned(),
+            (None, key) => key.unwrap_or("syntax").to_owned(),
+        }
+    }
+
+    fn in_range(
+        &self,
+        value: Option<Spanned<u32>>,
+        default: u32,
+        range: std::ops::RangeInclusive<u32>,
+    ) -> Result<u32, ConfigError> {
+        let Some(value) = value else { return Ok(default) };
+        if range.contains(value.get_ref()) {
+            return Ok(value.into_inner());
+        }
+        let what = format!(
+            "{} is out of range: write {} to {}",
+            value.get_ref(),
+            range.start(),
+            range.end()
+        );
+        Err(self.invalid(value.span().start, what))
+    }
+}
+
+fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config, ConfigError> {
+    let missing = |what, flag, key| ConfigError::Missing { what, flag, key };
+    let serial = flags.serial.or(file.link.serial);
+    let socket = flags.socket.or(file.socket.path);
+    let state = flags.state.or(file.state.dir);
+    let baud = source.in_range(file.link.baud, 230_400, 1_200..=4_000_000)?;
+    Ok(Config {
+        serial: serial.ok_or(missing("serial device", "--serial PATH", "link.serial"))?,
+        baud: flags.baud.unwrap_or(baud),
+        socket: socket.ok_or(missing("socket path", "--socket PATH", "socket.path"))?,
+        clients_max: source.in_range(file.socket.clients_max, 128, 1..=1024)? as usize,
+        expert: file.socket.expert.unwrap_or(false),
+        state: state.ok_or(missing("state folder", "--state DIR", "state.dir"))?,
+        strategy: strategy(file.robot.strategy, source)?,
+        task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
+        seed: flags.seed.or(file.robot.seed),
+        log: LogConfig {
+            level: level(file.log.level, source)?,
+            size_mib: source.in_range(file.log.size_mib, 4, 1..=1_024)?,
+            files: source.in_range(file.log.files, 5, 1..=100)?,
+        },
+        recording: RecordingConfig {
+            enabled: file.recording.enabled.unwrap_or(true),
+            files: source.in_range(file.recording.files, 50, 1..=100_000)?,
+            total_mib: source.in_range(file.recording.total_mib, 512, 1..=1_000_000)?,
+        },
+    })
+}
+
+fn strategy(name: Option<Spanned<String>>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
+    let Some(name) = name else {
+        return Ok(StrategyName::default());
+    };
+    StrategyName::from_name(name.get_ref()).ok_or_else(|| {
+        let known: Vec<&str> = StrategyName::ALL.iter().map(|strategy| strategy.name()).collect();
+        let what = format!(
+            "no strategy has the name {:?}: write one of {}",
+            name.get_ref(),
+            known.join(", ")
+        );
+        source.invalid(name.span().start, what)
+    })
+}
+
+fn level(
+    name: Option<Spanned<String>>,
+    source: &Source<'_>,
+) -> Result<tracing::level_filters::LevelFilter, ConfigError> {
+    use tracing::level_filters::LevelFilter;
+    let Some(name) = name else {
+        return Ok(LevelFilter::INFO);
+    };
+    match name.get_ref().as_str() {
+        "error" => Ok(LevelFilter::ERROR),
+        "warn" => Ok(LevelFilter::WARN),
+        "info" => Ok(LevelFilter::INFO),
+        "debug" => Ok(LevelFilter::DEBUG),
+        other => {
+            let what = format!("no level has the name {other:?}: write error, warn, info or debug");
+            Err(source.invalid(name.span().start, what))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+
+    use super::{ConfigError, Overrides, Source, load, validate};
+
+    fn parse(text: &str) -> Result<super::Config, ConfigError> {
+        let source = Source {
+            path: Path::new("vthal.toml"),
+            text,
+        };
+        let file = toml::from_str(text).map_err(|error: toml::de::Error| {
+            source.invalid(
+                error.span().map_or(0, |span| span.start),
+                error.message().to_owned(),
+            )
+        })?;
+        let flags = Overrides {
+            serial: Some(PathBuf::from("/dev/null")),
+            socket: Some(PathBuf::from("s")),
+            state: Some(PathBuf::from("d")),
+            ..Overrides::default()
+        };
+        validate(file, flags, &source)
+    }
+
+    #[test]
+    fn the_example_is_the_default_and_shows_every_key() {
+        let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("example.toml");
+        let text = std::fs::read_to_string(&example).expect("readable");
+        let written_out: String = text
+            .lines()
+            .map(|line| line.strip_prefix("#! ").unwrap_or(line))
+            .fold(String::new(), |all, line| all + line + "\n");
+        let config = parse(&written_out).expect("valid");
+        let mut defaults = parse("").expect("valid");
+        defaults.seed = Some(1);
+        assert_eq!(config, defaults);
+        load(Some(&example), Overrides::default()).expect("valid as it stands");
+        let fields = [
+            "serial",
+            "baud",
+            "path",
+            "clients_max",
+            "expert",
+            "dir",
+            "strategy",
+            "task_budget_min",
+            "seed",
+            "level",
+            "size_mib",
+            "files",
+            "enabled",
+            "total_mib",
+        ];
+        for field in fields {
+            assert!(
+                written_out.contains(&format!("\n{field} = ")),
+                "{field} is not in the example"
+            );
+        }
+    }
+
+    #[test]
+    fn errors_name_file_line_key_and_remedy() {
+        for (text, message) in [
+            (
+                "[link]\nbaud = 7\n",
+                "vthal.toml:2: link.baud: 7 is out of range: write 1200 to 4000000",
+            ),
+            (
+                "\n[log]\n\nlevel = \"loud\"",
+                "vthal.toml:4: log.level: no level has the name \"loud\": write error, warn, info or debug",
+            ),
+            (
+                "[robot]\nstrategy = \"b\"",
+                "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce",
+            ),
+        ] {
+            assert_eq!(parse(text).expect_err("invalid").to_string(), message);
+        }
+        for (text, place) in [
+            (
+                "[link]\nbuad = 9600",
+                "vthal.toml:2: link.buad: unknown field `buad`",
+            ),
+            (
+                "[socket]\nexpert = 1",
+                "vthal.toml:2: socket.expert: invalid type",
+            ),
+            ("[link", "vthal.toml:1: syntax: "),
+        ] {
+            let message = parse(text).expect_err("invalid").to_string();
+            assert!(message.starts_with(place), "{message}");
+        }
+    }
+
+    #[test]
+    fn what_has_no_default_is_asked_for() {
+        let message = load(None, Overrides::default())
+            .expect_err("nothing given")
+            .to_string();
+        assert_eq!(
+            message,
+            "no serial device is configured: give --serial PATH, or set link.serial in the configuration"
+        );
+        let message =
+            load(Some(Path::new("/does/not/exist.toml")), Overrides::default()).expect_err("absent");
+        assert!(
+            message
+                .to_string()
+                .starts_with("cannot read the configuration /does/not/exist.toml: ")
+        );
+    }
+}

@@ -1,0 +1,291 @@
+//! The event loop: one closed enum of events goes in, what the core answers is carried out.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::Duration;
+
+use rvac_api::{Failure, LogEntry, LogLevel, Update};
+use tokio::sync::mpsc::{Receiver, Sender};
+use tokio::time::{Instant, sleep_until};
+use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
+
+use crate::checkpoint_thread::CheckpointHandle;
+use crate::client::{self, Client, Flushed, Incoming};
+use crate::clock::Clock;
+use crate::event::{Event, SerialEvent};
+use crate::outbox::Class;
+use crate::recording::RecorderHandle;
+use crate::socket;
+
+/// Longest wait for the wheels to stand when the daemon ends.
+const STOP_WAIT: Duration = Duration::from_millis(500);
+/// Events handled before clients get their mail and the clock is looked at again.
+const BATCH_MAX: usize = 64;
+/// Longest wait when nothing is due.
+const IDLE: Duration = Duration::from_secs(60);
+
+/// Ends of the daemon's parts that the loop holds.
+#[derive(Debug)]
+pub(crate) struct Wiring {
+    /// Everything that happens.
+    pub events: Receiver<Event>,
+    /// For tasks that the loop starts.
+    pub event_sender: Sender<Event>,
+    /// Bytes for the robot.
+    pub to_robot: Sender<Vec<u8>>,
+    /// Recordings, if wanted.
+    pub recorder: Option<RecorderHandle>,
+    /// Checkpoints.
+    pub checkpoints: CheckpointHandle,
+    /// The socket's file, removed at the end.
+    pub socket: PathBuf,
+    /// Clients at the same time.
+    pub clients_max: usize,
+}
+
+/// The daemon while it runs.
+#[derive(Debug)]
+pub(crate) struct Daemon {
+    core: Core,
+    clock: Clock,
+    wiring: Wiring,
+    outputs: Outputs,
+    clients: BTreeMap<ClientId, Client>,
+    clients_seen: u64,
+    congested: bool,
+    /// When the daemon gives up waiting for the wheels; `None` while nobody told it to end.
+    ends_at: Option<Instant>,
+}
+
+impl Daemon {
+    /// A daemon at the start.
+    #[must_use]
+    pub(crate) fn new(core: Core, clock: Clock, wiring: Wiring) -> Self {
+        Self {
+            core,
+            clock,
+            wiring,
+            outputs: Outputs::default(),
+            clients: BTreeMap::new(),
+            clients_seen: 0,
+            congested: false,
+            ends_at: None,
+        }
+    }
+
+    /// Runs until a signal ends it: the wheels stand (or have had their time to), and everything is on disk.
+    pub(crate) async fn run(mut self) {
+        while !self.is_over() {
+            let event = self.next_event().await;
+            self.take(event);
+            for _ in 1..BATCH_MAX {
+                let Ok(event) = self.wiring.events.try_recv() else {
+                    break;
+                };
+                self.take(event);
+            }
+            self.flush_clients();
+        }
+        self.finish();
+    }
+
+    async fn next_event(&mut self) -> Event {
+        let due = self
+            .core
+            .next_wake_us()
+            .map_or_else(|| Instant::now() + IDLE, |due| self.clock.moment(due));
+        let due = self.ends_at.map_or(due, |end| due.min(end));
+        tokio::select! {
+            // The core's own deadlines include the dead man: they come before the next event.
+            biased;
+            () = sleep_until(due) => Event::Wake,
+            Some(event) = self.wiring.events.recv() => event,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.ends_at
+            .is_some_and(|end| self.core.stands_still() || Instant::now() >= end)
+    }
+
+    fn take(&mut self, event: Event) {
+        match event {
+            Event::Wake => self.handle(Input::Wake),
+            Event::Serial(SerialEvent::Opened) => self.handle(Input::LinkOpened),
+            Event::Serial(SerialEvent::Bytes(bytes)) => self.handle(Input::LinkBytes(&bytes)),
+            Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
+            Event::Serial(SerialEvent::Absent(error)) => tracing::warn!(part = "link", "{error}"),
+            Event::Connected(stream) => self.connect(Rc::new(stream)),
+            Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
+            Event::ClientWritable(client) => {
+                if let Some(client) = self.clients.get_mut(&client) {
+                    client.unblock();
+                }
+            }
+            Event::ClientClosed(client) => self.disconnect(client),
+            Event::Terminate(signal) => self.terminate(signal),
+        }
+    }
+
+    fn terminate(&mut self, signal: &'static str) {
+        if self.ends_at.is_none() {
+            tracing::info!(part = "vthal", "{signal}: stops the wheels and ends");
+            self.ends_at = Some(Instant::now() + STOP_WAIT);
+            self.handle(Input::Shutdown);
+        }
+    }
+
+    fn connect(&mut self, stream: Rc<tokio::net::UnixStream>) {
+        if self.clients.len() >= self.wiring.clients_max {
+            let text = "As many clients are connected as may be: close one, or raise socket.clients_max.";
+            let failure = Failure {
+                id: None,
+                reason: "too-many-clients".to_owned(),
+                text: text.to_owned(),
+            };
+            socket::turn_away(&stream, &client::spell(&Update::Failed(failure)));
+            return;
+        }
+        self.clients_seen += 1;
+        let id = ClientId(self.clients_seen);
+        tokio::task::spawn_local(client::read_for(
+            id,
+            Rc::clone(&stream),
+            self.wiring.event_sender.clone(),
+        ));
+        self.clients.insert(id, Client::new(stream));
+        self.handle(Input::ClientConnected(id));
+    }
+
+    fn disconnect(&mut self, id: ClientId) {
+        if self.clients.remove(&id).is_some() {
+            self.handle(Input::ClientGone(id));
+        }
+    }
+
+    fn client_bytes(&mut self, id: ClientId, bytes: &[u8]) {
+        let Some(client) = self.clients.get_mut(&id) else {
+            return;
+        };
+        for incoming in client.receive(bytes) {
+            match incoming {
+                Incoming::Request(request) => self.handle(Input::Client {
+                    client: id,
+                    request: *request,
+                }),
+                Incoming::Broken(failure) => {
+                    if let Some(client) = self.clients.get_mut(&id) {
+                        client.push(Class::Lossless, client::spell(&Update::Failed(failure)));
+                    }
+                }
+                Incoming::TooLong(failure) => {
+                    if let Some(client) = self.clients.get_mut(&id) {
+                        client.dismiss(failure, "too-long");
+                    }
+                }
+            }
+        }
+    }
+
+    fn handle(&mut self, input: Input<'_>) {
+        let now_us = self.clock.now_us();
+        self.core.handle(now_us, input, &mut self.outputs);
+        self.perform();
+    }
+
+    fn perform(&mut self) {
+        if !self.outputs.link.is_empty() {
+            let bytes = std::mem::take(&mut self.outputs.link);
+            let congested = self.wiring.to_robot.try_send(bytes).is_err();
+            if congested && !self.congested {
+                tracing::warn!(
+                    part = "link",
+                    "the serial line does not take what is sent: packets are dropped"
+                );
+            }
+            self.congested = congested;
+        }
+        for delivery in self.outputs.deliveries.drain(..) {
+            deliver(&self.core, &mut self.clients, &delivery);
+        }
+        for entry in self.outputs.log.drain(..) {
+            log(&entry);
+        }
+        if let Some(recorder) = &mut self.wiring.recorder {
+            for record in self.outputs.records.drain(..) {
+                recorder.send(record);
+            }
+        }
+        if let Some(checkpoint) = self.outputs.checkpoint.take() {
+            self.wiring.checkpoints.send(checkpoint);
+        }
+        self.outputs.clear();
+    }
+
+    fn flush_clients(&mut self) {
+        let mut gone = Vec::new();
+        for (id, client) in self.clients.iter_mut().filter(|(_, client)| client.has_mail()) {
+            match client.flush() {
+                Flushed::Done | Flushed::Waits => {}
+                Flushed::Blocks => {
+                    let watch = client::watch_writable(
+                        *id,
+                        Rc::clone(client.stream()),
+                        self.wiring.event_sender.clone(),
+                    );
+                    tokio::task::spawn_local(watch);
+                }
+                Flushed::Gone(reason) => gone.push((*id, reason)),
+            }
+        }
+        for (id, reason) in gone {
+            tracing::info!(part = "client", "client {} is disconnected: {reason}", id.0);
+            self.disconnect(id);
+        }
+    }
+
+    fn finish(self) {
+        if !self.core.stands_still() {
+            tracing::warn!(
+                part = "vthal",
+                "the robot did not confirm within 500 ms that it stands"
+            );
+        }
+        std::fs::remove_file(&self.wiring.socket).ok();
+        self.wiring.checkpoints.finish();
+        if let Some(recorder) = self.wiring.recorder {
+            recorder.finish();
+        }
+    }
+}
+
+/// Spells an update once for all who get it.
+fn deliver(core: &Core, clients: &mut BTreeMap<ClientId, Client>, delivery: &Delivery) {
+    let class = Class::of(&delivery.update);
+    let message = client::spell(&delivery.update);
+    match delivery.to {
+        Recipients::One(id) => {
+            if let Some(client) = clients.get_mut(&id) {
+                client.push(class, message);
+            }
+        }
+        Recipients::Followers(topic) => {
+            for id in core.followers(topic) {
+                if let Some(client) = clients.get_mut(&id) {
+                    client.push(class, Rc::clone(&message));
+                }
+            }
+        }
+    }
+}
+
+fn log(entry: &LogEntry) {
+    let LogEntry { part, text, .. } = entry;
+    match entry.level {
+        LogLevel::Debug => tracing::debug!(part, "{text}"),
+        LogLevel::Info => tracing::info!(part, "{text}"),
+        LogLevel::Warn => tracing::warn!(part, "{text}"),
+        LogLevel::Error => tracing::error!(part, "{text}"),
+    }
+}

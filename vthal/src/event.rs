@@ -1,0 +1,38 @@
+//! Everything that can wake the daemon.
+
+use tokio::net::UnixStream;
+use vthal_core::{ClientId, LinkLoss};
+
+use crate::serial::OpenError;
+
+/// The closed set of causes.
+#[derive(Debug)]
+pub(crate) enum Event {
+    /// From the serial line.
+    Serial(SerialEvent),
+    /// A client connected.
+    Connected(UnixStream),
+    /// A client sent bytes.
+    ClientBytes(ClientId, Vec<u8>),
+    /// A client's socket takes bytes again.
+    ClientWritable(ClientId),
+    /// A client is gone.
+    ClientClosed(ClientId),
+    /// The core asked to be called now.
+    Wake,
+    /// The daemon is told to end, by the named signal.
+    Terminate(&'static str),
+}
+
+/// From the serial line.
+#[derive(Debug)]
+pub(crate) enum SerialEvent {
+    /// The device is open.
+    Opened,
+    /// The device cannot be opened; told once per outage.
+    Absent(OpenError),
+    /// Bytes of the robot.
+    Bytes(Vec<u8>),
+    /// The device is lost.
+    Closed(LinkLoss),
+}

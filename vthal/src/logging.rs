@@ -1,0 +1,38 @@
+//! Where the log goes: standard error, and files of bounded size.
+
+use std::io;
+use std::path::Path;
+use std::sync::Mutex;
+
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
+use tracing_subscriber::{Layer, fmt};
+
+use crate::config::LogConfig;
+use crate::rotation::{RotatingFile, RotationLimits};
+
+/// Starts the log. Call it once.
+///
+/// # Errors
+/// When the log file cannot be opened.
+pub(crate) fn start(folder: &Path, config: &LogConfig) -> io::Result<()> {
+    let limits = RotationLimits {
+        size_max: u64::from(config.size_mib) << 20,
+        files_max: config.files,
+    };
+    let file = RotatingFile::open(&folder.join("vthal.log"), limits)?;
+    let to_stderr = fmt::layer()
+        .with_target(false)
+        .with_ansi(false)
+        .without_time()
+        .with_writer(io::stderr);
+    let to_file = fmt::layer()
+        .with_target(false)
+        .with_ansi(false)
+        .with_writer(Mutex::new(file));
+    tracing_subscriber::registry()
+        .with(to_stderr.with_filter(config.level))
+        .with(to_file.with_filter(config.level))
+        .init();
+    Ok(())
+}

@@ -1,0 +1,549 @@
+//! The recorded forms of the brain's types, and the conversions both ways.
+//!
+//! Numbers are written so that reading them gives the same bits again; a replay rests on it.
+
+use brain::action::Arm;
+use brain::geometry::{Point2, Pose2};
+use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
+use brain::observation::{Cliffs, Contacts};
+use brain::{
+    Actions, Body, BrainConfig, Checkpoint, Command, JobCheckpoint, JobFigures, JobKind, Motion, Observation,
+    Speeds, StrategyName,
+};
+use rvac_protocol::message::Inhibit;
+use serde::{Deserialize, Serialize};
+use vthal_core::RunStart;
+
+/// Version of these forms. Raised when an old recording cannot be replayed any more.
+pub const FORMAT: u32 = 1;
+
+/// Beginning of a run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RunHeader {
+    /// [`FORMAT`] of the writer.
+    pub format: u32,
+    /// Version of the daemon.
+    pub vthal: String,
+    /// Host time in microseconds.
+    pub time_us: u64,
+    /// Number since the daemon's start.
+    pub run: u32,
+    /// Why it began.
+    pub cause: String,
+    /// Seed of the brain.
+    pub seed: u64,
+    /// Device.
+    pub device: String,
+    /// Version of its firmware.
+    pub firmware: String,
+    /// Settings of the brain.
+    pub config: BrainSettings,
+    /// What the brain took up.
+    pub state: BrainState,
+}
+
+impl RunHeader {
+    /// The header for a run of this daemon.
+    #[must_use]
+    pub fn new(start: &RunStart) -> Self {
+        Self {
+            format: FORMAT,
+            vthal: env!("CARGO_PKG_VERSION").to_owned(),
+            time_us: start.time_us,
+            run: start.run,
+            cause: start.cause.name().to_owned(),
+            seed: start.seed,
+            device: start.device.clone(),
+            firmware: start.firmware.clone(),
+            config: BrainSettings::from(&start.brain),
+            state: BrainState::from(&start.checkpoint),
+        }
+    }
+}
+
+/// [`BrainConfig`]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct BrainSettings {
+    radius_m: f64,
+    swath_m: f64,
+    track_m: f64,
+    cruise_m_per_s: f64,
+    max_m_per_s: f64,
+    turn_max_rad_per_s: f64,
+    task_budget_s: f64,
+    dock_budget_s: f64,
+    battery_low: f32,
+}
+
+impl From<&BrainConfig> for BrainSettings {
+    fn from(config: &BrainConfig) -> Self {
+        Self {
+            radius_m: config.body.radius_m,
+            swath_m: config.body.swath_m,
+            track_m: config.body.track_m,
+            cruise_m_per_s: config.speeds.cruise_m_per_s,
+            max_m_per_s: config.speeds.max_m_per_s,
+            turn_max_rad_per_s: config.speeds.turn_max_rad_per_s,
+            task_budget_s: config.task_budget_s,
+            dock_budget_s: config.dock_budget_s,
+            battery_low: config.battery_low,
+        }
+    }
+}
+
+impl BrainSettings {
+    /// Back to the brain's own type.
+    #[must_use]
+    pub fn to_brain(self) -> BrainConfig {
+        BrainConfig {
+            body: Body {
+                radius_m: self.radius_m,
+                swath_m: self.swath_m,
+                track_m: self.track_m,
+            },
+            speeds: Speeds {
+                cruise_m_per_s: self.cruise_m_per_s,
+                max_m_per_s: self.max_m_per_s,
+                turn_max_rad_per_s: self.turn_max_rad_per_s,
+            },
+            task_budget_s: self.task_budget_s,
+            dock_budget_s: self.dock_budget_s,
+            battery_low: self.battery_low,
+        }
+    }
+}
+
+/// [`Checkpoint`]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct BrainState {
+    pose: [f64; 3],
+    random_state: u64,
+    job: Option<JobState>,
+    /// x, y and length of each run.
+    swept: Vec<(i32, i32, u32)>,
+    path_mm: Vec<(i32, i32)>,
+    /// x, y and whether it was a contact.
+    marks: Vec<(f64, f64, bool)>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct JobState {
+    kind: JobName,
+    time_s: f64,
+    swept_m2: f64,
+    path_m: f64,
+    bumps: u32,
+    running: bool,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum JobName {
+    Clean(String),
+    Spot,
+    Dock,
+}
+
+impl From<&Checkpoint> for BrainState {
+    fn from(checkpoint: &Checkpoint) -> Self {
+        let Pose2 {
+            x_m,
+            y_m,
+            heading_rad,
+        } = checkpoint.pose;
+        Self {
+            pose: [x_m, y_m, heading_rad],
+            random_state: checkpoint.random_state,
+            job: checkpoint.job.as_ref().map(JobState::from),
+            swept: checkpoint
+                .swept
+                .iter()
+                .map(|run| (run.start.x, run.start.y, run.length))
+                .collect(),
+            path_mm: checkpoint
+                .path
+                .iter()
+                .map(|point| (point.x_mm, point.y_mm))
+                .collect(),
+            marks: checkpoint
+                .marks
+                .iter()
+                .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
+                .collect(),
+        }
+    }
+}
+
+impl BrainState {
+    /// Back to the brain's own type; `None` if it names something that this version does not know.
+    #[must_use]
+    pub fn to_brain(&self) -> Option<Checkpoint> {
+        let [x_m, y_m, heading_rad] = self.pose;
+        let job = match &self.job {
+            None => None,
+            Some(job) => Some(job.to_brain()?),
+        };
+        Some(Checkpoint {
+            pose: Pose2 {
+                x_m,
+                y_m,
+                heading_rad,
+            },
+            random_state: self.random_state,
+            job,
+            swept: self
+                .swept
+                .iter()
+                .map(|&(x, y, length)| SweptRun {
+                    start: Cell { x, y },
+                    length,
+                })
+                .collect(),
+            path: self
+                .path_mm
+                .iter()
+                .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
+                .collect(),
+            marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
+        })
+    }
+}
+
+fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
+    let kind = if contact {
+        MarkKind::Contact
+    } else {
+        MarkKind::Cliff
+    };
+    Mark {
+        at: Point2 { x_m, y_m },
+        kind,
+    }
+}
+
+impl From<&JobCheckpoint> for JobState {
+    fn from(job: &JobCheckpoint) -> Self {
+        Self {
+            kind: match job.kind {
+                JobKind::Clean(strategy) => JobName::Clean(strategy.name().to_owned()),
+                JobKind::Spot => JobName::Spot,
+                JobKind::Dock => JobName::Dock,
+            },
+            time_s: job.figures.time_s,
+            swept_m2: job.figures.swept_m2,
+            path_m: job.figures.path_m,
+            bumps: job.figures.bumps,
+            running: job.running,
+        }
+    }
+}
+
+impl JobState {
+    fn to_brain(&self) -> Option<JobCheckpoint> {
+        let kind = match &self.kind {
+            JobName::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
+            JobName::Spot => JobKind::Spot,
+            JobName::Dock => JobKind::Dock,
+        };
+        let figures = JobFigures {
+            time_s: self.time_s,
+            swept_m2: self.swept_m2,
+            path_m: self.path_m,
+            bumps: self.bumps,
+        };
+        Some(JobCheckpoint {
+            kind,
+            figures,
+            running: self.running,
+        })
+    }
+}
+
+/// [`Observation`]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seen {
+    time_us: u64,
+    left_m: f64,
+    right_m: f64,
+    gyro_rad: Option<f64>,
+    /// Left, right.
+    contacts: [bool; 2],
+    /// Left, middle, right.
+    cliffs: [bool; 3],
+    wheel_drop: bool,
+    proximity: Vec<f32>,
+    dock_beams: Vec<u8>,
+    docked: bool,
+    battery: Option<f32>,
+    inhibits: Vec<String>,
+    link_up: bool,
+    speed_share: f64,
+}
+
+impl From<&Observation> for Seen {
+    fn from(seen: &Observation) -> Self {
+        Self {
+            time_us: seen.time_us,
+            left_m: seen.travel_left_m,
+            right_m: seen.travel_right_m,
+            gyro_rad: seen.gyro_heading_rad,
+            contacts: [seen.contacts.left, seen.contacts.right],
+            cliffs: [seen.cliffs.left, seen.cliffs.middle, seen.cliffs.right],
+            wheel_drop: seen.wheel_drop,
+            proximity: seen.proximity.clone(),
+            dock_beams: seen.dock_beams.clone(),
+            docked: seen.docked,
+            battery: seen.battery_charge,
+            inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
+            link_up: seen.link_up,
+            speed_share: seen.speed_share,
+        }
+    }
+}
+
+impl Seen {
+    /// Back to the brain's own type.
+    #[must_use]
+    pub fn to_brain(&self) -> Observation {
+        let [left, right] = self.contacts;
+        let [cliff_left, middle, cliff_right] = self.cliffs;
+        Observation {
+            time_us: self.time_us,
+            travel_left_m: self.left_m,
+            travel_right_m: self.right_m,
+            gyro_heading_rad: self.gyro_rad,
+            contacts: Contacts { left, right },
+            cliffs: Cliffs {
+                left: cliff_left,
+                middle,
+                right: cliff_right,
+            },
+            wheel_drop: self.wheel_drop,
+            proximity: self.proximity.clone(),
+            dock_beams: self.dock_beams.clone(),
+            docked: self.docked,
+            battery_charge: self.battery,
+            inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
+            link_up: self.link_up,
+            speed_share: self.speed_share,
+        }
+    }
+}
+
+fn inhibit_name(name: &str) -> &'static str {
+    Inhibit::from_name(name.as_bytes()).map_or(vthal_core::observe::UNKNOWN_INHIBIT, Inhibit::name)
+}
+
+/// [`Command`] with the time at which it was given.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Given {
+    /// Host time in microseconds.
+    pub time_us: u64,
+    /// What.
+    pub command: GivenCommand,
+}
+
+/// [`Command`]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GivenCommand {
+    /// [`Command::Clean`] by the strategy's name.
+    Clean(String),
+    /// [`Command::Spot`]
+    Spot,
+    /// [`Command::Pause`]
+    Pause,
+    /// [`Command::Resume`]
+    Resume,
+    /// [`Command::Stop`]
+    Stop,
+    /// [`Command::Dock`]
+    Dock,
+    /// [`Command::Manual`]
+    Manual {
+        /// Forward speed.
+        speed_m_per_s: f64,
+        /// Turn rate.
+        turn_rad_per_s: f64,
+        /// End of the lease.
+        valid_until_us: u64,
+        /// Brushes and suction.
+        cleaners: bool,
+    },
+    /// [`Command::ManualEnd`]
+    ManualEnd,
+    /// [`Command::ClearError`]
+    ClearError,
+}
+
+impl From<&Command> for GivenCommand {
+    fn from(command: &Command) -> Self {
+        match command {
+            Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
+            Command::Spot => Self::Spot,
+            Command::Pause => Self::Pause,
+            Command::Resume => Self::Resume,
+            Command::Stop => Self::Stop,
+            Command::Dock => Self::Dock,
+            Command::Manual {
+                speed_m_per_s,
+                turn_rad_per_s,
+                valid_until_us,
+                cleaners,
+            } => Self::Manual {
+                speed_m_per_s: *speed_m_per_s,
+                turn_rad_per_s: *turn_rad_per_s,
+                valid_until_us: *valid_until_us,
+                cleaners: *cleaners,
+            },
+            Command::ManualEnd => Self::ManualEnd,
+            Command::ClearError => Self::ClearError,
+        }
+    }
+}
+
+impl GivenCommand {
+    /// Back to the brain's own type; `None` for a strategy that this version does not have.
+    #[must_use]
+    pub fn to_brain(&self) -> Option<Command> {
+        Some(match self {
+            Self::Clean(strategy) => Command::Clean {
+                strategy: StrategyName::from_name(strategy)?,
+            },
+            Self::Spot => Command::Spot,
+            Self::Pause => Command::Pause,
+            Self::Resume => Command::Resume,
+            Self::Stop => Command::Stop,
+            Self::Dock => Command::Dock,
+            Self::Manual {
+                speed_m_per_s,
+                turn_rad_per_s,
+                valid_until_us,
+                cleaners,
+            } => Command::Manual {
+                speed_m_per_s: *speed_m_per_s,
+                turn_rad_per_s: *turn_rad_per_s,
+                valid_until_us: *valid_until_us,
+                cleaners: *cleaners,
+            },
+            Self::ManualEnd => Command::ManualEnd,
+            Self::ClearError => Command::ClearError,
+        })
+    }
+}
+
+/// [`Actions`], one way only: a replay compares what is written.
+#[derive(Debug, Serialize)]
+pub struct Answered<'a> {
+    motion: AnsweredMotion,
+    cleaners: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arm: Option<AnsweredArm>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tones: Vec<(u32, u16)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    decisions: Vec<AnsweredDecision<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum AnsweredMotion {
+    Rest,
+    Halt,
+    Drive { v: f64, w: f64 },
+}
+
+#[derive(Debug, Serialize)]
+struct AnsweredArm {
+    undock: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct AnsweredDecision<'a> {
+    what: &'a str,
+    reason: &'a str,
+    value: f64,
+}
+
+impl<'a> From<&'a Actions> for Answered<'a> {
+    fn from(actions: &'a Actions) -> Self {
+        Self {
+            motion: match actions.motion {
+                Motion::Rest => AnsweredMotion::Rest,
+                Motion::Halt => AnsweredMotion::Halt,
+                Motion::Drive {
+                    speed_m_per_s,
+                    turn_rad_per_s,
+                } => AnsweredMotion::Drive {
+                    v: speed_m_per_s,
+                    w: turn_rad_per_s,
+                },
+            },
+            cleaners: actions.cleaners,
+            arm: actions.arm.map(|Arm { undock }| AnsweredArm { undock }),
+            tones: actions
+                .tones
+                .iter()
+                .map(|tone| (tone.pitch_hz, tone.duration_ms))
+                .collect(),
+            decisions: actions
+                .decisions
+                .iter()
+                .map(|decision| AnsweredDecision {
+                    what: decision.what,
+                    reason: decision.reason,
+                    value: decision.value,
+                })
+                .collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::{Command, Observation};
+
+    use super::{Given, GivenCommand, Seen};
+
+    #[test]
+    fn observations_come_back_bit_for_bit() {
+        let observation = Observation {
+            time_us: u64::MAX / 3,
+            travel_left_m: 0.1 + 0.2,
+            travel_right_m: -1.0 / 3.0,
+            gyro_heading_rad: Some(f64::MIN_POSITIVE),
+            proximity: vec![1.0 / 255.0, 0.7],
+            inhibits: vec!["wheel-drop", "unknown-inhibit"],
+            battery_charge: Some(0.3),
+            ..Observation::default()
+        };
+        let text = serde_json::to_string(&Seen::from(&observation)).expect("plain");
+        let back: Seen = serde_json::from_str(&text).expect("just written");
+        assert_eq!(back.to_brain(), observation);
+    }
+
+    #[test]
+    fn commands_come_back() {
+        let manual = Command::Manual {
+            speed_m_per_s: 0.1,
+            turn_rad_per_s: -0.3,
+            valid_until_us: 7,
+            cleaners: true,
+        };
+        for command in [
+            Command::Spot,
+            manual,
+            Command::Clean {
+                strategy: brain::StrategyName::Bounce,
+            },
+        ] {
+            let given = Given {
+                time_us: 1,
+                command: GivenCommand::from(&command),
+            };
+            let text = serde_json::to_string(&given).expect("plain");
+            let back: Given = serde_json::from_str(&text).expect("just written");
+            assert_eq!(back.command.to_brain(), Some(command));
+        }
+    }
+}

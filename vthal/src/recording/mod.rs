@@ -1,0 +1,27 @@
+//! Recordings of runs: one MCAP file each, which Foxglove opens and [`replay`] runs again.
+
+pub mod format;
+mod library;
+pub mod replay;
+mod run_file;
+mod schemas;
+mod thread;
+
+pub use library::{Library, LibraryLimits};
+pub use run_file::{RecordError, RunFile};
+pub use thread::{RecorderHandle, start};
+
+/// Channel of the run's beginning.
+pub(crate) const RUN: &str = "/run";
+/// Channel of the brain's observations.
+pub(crate) const OBSERVATIONS: &str = "/observations";
+/// Channel of the commands that the brain was given.
+pub(crate) const COMMANDS: &str = "/commands";
+/// Channel of the brain's answers; one stands until the next.
+pub(crate) const DECISIONS: &str = "/decisions";
+/// Channel of the wire's packets.
+pub(crate) const PACKETS: &str = "/packets";
+/// Channel of the status as clients see it.
+pub(crate) const STATUS: &str = "/status";
+/// Channel of the pose, in Foxglove's own form.
+pub(crate) const POSE: &str = "/pose";

@@ -1,0 +1,236 @@
+//! One recording while it is written.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{WriteOptions, Writer};
+use rvac_api::Pose;
+use serde::Serialize;
+use serde_json::json;
+use vthal_core::{Record, RunStart};
+
+use super::format::{Answered, Given, GivenCommand, RunHeader, Seen};
+use super::schemas::CHANNELS;
+use super::{COMMANDS, DECISIONS, OBSERVATIONS, PACKETS, POSE, RUN, STATUS};
+
+/// Why a record was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The file system refuses.
+    #[error("cannot write the recording {}: {error}", .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: mcap::McapError,
+    },
+    /// The file system refuses to create the file.
+    #[error("cannot create the recording {}: {error}", .path.display())]
+    Create {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: io::Error,
+    },
+    /// The record cannot be spelled.
+    #[error("a record cannot be spelled as JSON: {0}")]
+    Spell(#[from] serde_json::Error),
+}
+
+/// A recording while it is written. What was flushed survives a kill at any later moment.
+pub struct RunFile {
+    path: PathBuf,
+    writer: Writer<BufWriter<File>>,
+    channels: BTreeMap<&'static str, u16>,
+    sequence: u32,
+    bytes: u64,
+    last_answer: Vec<u8>,
+}
+
+impl fmt::Debug for RunFile {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("RunFile")
+            .field("path", &self.path)
+            .field("bytes", &self.bytes)
+            .finish_non_exhaustive()
+    }
+}
+
+impl RunFile {
+    /// Creates the file of a run. `settings` goes into the metadata.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn create(path: &Path, start: &RunStart, settings: &str) -> Result<Self, RecordError> {
+        let file = File::create_new(path).map_err(|error| RecordError::Create {
+            path: path.to_owned(),
+            error,
+        })?;
+        let failed = |error| RecordError::Write {
+            path: path.to_owned(),
+            error,
+        };
+        let options = WriteOptions::new()
+            .compression(None)
+            .library(concat!("vthal ", env!("CARGO_PKG_VERSION")));
+        let mut writer = options.create(BufWriter::new(file)).map_err(failed)?;
+        let mut channels = BTreeMap::new();
+        for (topic, name, schema) in CHANNELS {
+            let schema = writer
+                .add_schema(name, "jsonschema", schema.as_bytes())
+                .map_err(failed)?;
+            let channel = writer
+                .add_channel(schema, topic, "json", &BTreeMap::new())
+                .map_err(failed)?;
+            channels.insert(topic, channel);
+        }
+        writer
+            .write_metadata(&metadata(start, settings))
+            .map_err(failed)?;
+        let mut run = Self {
+            path: path.to_owned(),
+            writer,
+            channels,
+            sequence: 0,
+            bytes: 0,
+            last_answer: Vec::new(),
+        };
+        run.write_json((RUN, start.time_us), &RunHeader::new(start))?;
+        run.flush()?;
+        Ok(run)
+    }
+
+    /// Bytes of messages written so far.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Adds a record. Borders of runs are not this file's business.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn write(&mut self, record: &Record) -> Result<(), RecordError> {
+        match record {
+            Record::RunStarted(_) | Record::RunEnded { .. } => Ok(()),
+            Record::Command { time_us, command } => {
+                let given = Given {
+                    time_us: *time_us,
+                    command: GivenCommand::from(command),
+                };
+                self.write_json((COMMANDS, *time_us), &given)
+            }
+            Record::Observation(observation) => {
+                self.write_json((OBSERVATIONS, observation.time_us), &Seen::from(observation))
+            }
+            Record::Actions { time_us, actions } => {
+                let answer = serde_json::to_vec(&Answered::from(actions))?;
+                if answer == self.last_answer {
+                    return Ok(());
+                }
+                self.write_bytes((DECISIONS, *time_us), &answer)?;
+                self.last_answer = answer;
+                Ok(())
+            }
+            Record::Packet {
+                time_us,
+                direction,
+                text,
+            } => self.write_json(
+                (PACKETS, *time_us),
+                &json!({"direction": direction.symbol(), "text": text}),
+            ),
+            Record::Status { time_us, status } => self.write_json((STATUS, *time_us), status),
+            Record::Pose(pose) => self.write_json((POSE, (pose.t * 1e6) as u64), &pose_in_frame(*pose)),
+        }
+    }
+
+    /// Puts what was written so far into the file, as a chunk of its own.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        self.writer.flush().map_err(|error| RecordError::Write {
+            path: self.path.clone(),
+            error,
+        })
+    }
+
+    /// Ends the file with its index.
+    ///
+    /// # Errors
+    /// See [`RecordError`].
+    pub fn finish(mut self) -> Result<(), RecordError> {
+        self.writer.finish().map_err(|error| RecordError::Write {
+            path: self.path.clone(),
+            error,
+        })?;
+        Ok(())
+    }
+
+    fn write_json(&mut self, to: (&'static str, u64), value: &impl Serialize) -> Result<(), RecordError> {
+        self.write_bytes(to, &serde_json::to_vec(value)?)
+    }
+
+    fn write_bytes(&mut self, (topic, time_us): (&'static str, u64), data: &[u8]) -> Result<(), RecordError> {
+        let time_ns = time_us.saturating_mul(1000);
+        let header = MessageHeader {
+            channel_id: self.channels.get(topic).copied().unwrap_or_default(),
+            sequence: self.sequence,
+            log_time: time_ns,
+            publish_time: time_ns,
+        };
+        self.sequence = self.sequence.wrapping_add(1);
+        self.bytes += data.len() as u64;
+        self.writer
+            .write_to_known_channel(&header, data)
+            .map_err(|error| RecordError::Write {
+                path: self.path.clone(),
+                error,
+            })
+    }
+}
+
+fn metadata(start: &RunStart, settings: &str) -> Metadata {
+    let entries = [
+        ("vthal", env!("CARGO_PKG_VERSION").to_owned()),
+        ("device", start.device.clone()),
+        ("firmware", start.firmware.clone()),
+        ("seed", start.seed.to_string()),
+        ("cause", start.cause.name().to_owned()),
+        ("config", settings.to_owned()),
+    ];
+    Metadata {
+        name: "vthal".to_owned(),
+        metadata: entries
+            .into_iter()
+            .map(|(key, value)| (key.to_owned(), value))
+            .collect(),
+    }
+}
+
+fn pose_in_frame(pose: Pose) -> serde_json::Value {
+    let half = 0.5 * pose.heading;
+    let sec = pose.t.floor();
+    json!({
+        "timestamp": {"sec": sec as u64, "nsec": ((pose.t - sec) * 1e9) as u64},
+        "frame_id": "map",
+        "pose": {
+            "position": {"x": pose.x, "y": pose.y, "z": 0.0},
+            "orientation": {"x": 0.0, "y": 0.0, "z": half.sin(), "w": half.cos()},
+        },
+    })
+}

@@ -1,0 +1,150 @@
+//! The thread that writes recordings, so that a slow disk never delays a wheel.
+
+use std::io;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime};
+
+use vthal_core::Record;
+
+use super::{Library, RecordError, RunFile};
+
+/// Records that may wait for the disk: some ten seconds of a run.
+const WAITING_MAX: usize = 4096;
+/// What was recorded longer ago than this is in the file.
+const FLUSH_AFTER: Duration = Duration::from_secs(1);
+
+/// Sends records to the thread.
+#[derive(Debug)]
+pub struct RecorderHandle {
+    records: Option<SyncSender<Record>>,
+    thread: Option<JoinHandle<()>>,
+    lost: u64,
+}
+
+/// Starts the thread. `settings` goes into the metadata of each file.
+///
+/// # Errors
+/// When the system gives no thread.
+pub fn start(library: Library, settings: String) -> io::Result<RecorderHandle> {
+    let (records, queue) = sync_channel(WAITING_MAX);
+    let thread = std::thread::Builder::new()
+        .name("recorder".to_owned())
+        .spawn(move || {
+            Recorder {
+                library,
+                settings,
+                run: None,
+                flushed: Instant::now(),
+            }
+            .serve(&queue)
+        })?;
+    Ok(RecorderHandle {
+        records: Some(records),
+        thread: Some(thread),
+        lost: 0,
+    })
+}
+
+impl RecorderHandle {
+    /// Hands a record over. When the disk is too slow for the queue the record is lost, and the first loss is told.
+    pub fn send(&mut self, record: Record) {
+        let Some(records) = &self.records else { return };
+        if let Err(TrySendError::Full(_)) = records.try_send(record) {
+            if self.lost == 0 {
+                tracing::warn!("the disk is too slow for the recording: records are lost");
+            }
+            self.lost += 1;
+        }
+    }
+
+    /// Waits until everything is in the file.
+    pub fn finish(mut self) {
+        self.records = None;
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the recorder has failed");
+        }
+    }
+}
+
+struct Recorder {
+    library: Library,
+    settings: String,
+    run: Option<RunFile>,
+    flushed: Instant,
+}
+
+impl Recorder {
+    fn serve(mut self, queue: &Receiver<Record>) {
+        loop {
+            let result = match queue.recv_timeout(FLUSH_AFTER) {
+                Ok(record) => self.take(&record).and_then(|()| self.flush_when_due()),
+                Err(RecvTimeoutError::Timeout) => self.flush(),
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            if let Err(error) = result {
+                tracing::error!("{error}; this run is not recorded further");
+                self.run = None;
+            }
+        }
+        if let Err(error) = self.end_run() {
+            tracing::error!("{error}");
+        }
+    }
+
+    fn take(&mut self, record: &Record) -> Result<(), RecordError> {
+        match record {
+            Record::RunStarted(start) => {
+                self.end_run()?;
+                let path = self.library.new_path(SystemTime::now());
+                self.run = Some(RunFile::create(&path, start, &self.settings)?);
+                tracing::info!("records to {}", path.display());
+                self.tidy();
+                Ok(())
+            }
+            Record::RunEnded { .. } => self.end_run(),
+            _ => self.add(record),
+        }
+    }
+
+    fn add(&mut self, record: &Record) -> Result<(), RecordError> {
+        let Some(run) = &mut self.run else { return Ok(()) };
+        run.write(record)?;
+        if run.bytes() > self.library.limits().bytes_max {
+            tracing::warn!(
+                "{} is as large as all recordings may be: it ends here",
+                run.path().display()
+            );
+            self.end_run()?;
+        }
+        Ok(())
+    }
+
+    fn flush_when_due(&mut self) -> Result<(), RecordError> {
+        if self.flushed.elapsed() >= FLUSH_AFTER {
+            self.flush()
+        } else {
+            Ok(())
+        }
+    }
+
+    fn flush(&mut self) -> Result<(), RecordError> {
+        self.flushed = Instant::now();
+        self.run.as_mut().map_or(Ok(()), RunFile::flush)
+    }
+
+    fn end_run(&mut self) -> Result<(), RecordError> {
+        let Some(run) = self.run.take() else { return Ok(()) };
+        run.finish()?;
+        self.tidy();
+        Ok(())
+    }
+
+    fn tidy(&self) {
+        if let Err(error) = self.library.tidy() {
+            tracing::warn!("old recordings cannot be removed: {error}");
+        }
+    }
+}

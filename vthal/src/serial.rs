@@ -1,0 +1,152 @@
+//! The serial line: opened for ever, read and written by one task that turns it into events.
+
+use std::io;
+use std::os::fd::OwnedFd;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use rustix::fs::{FlockOperation, Mode, OFlags, flock};
+use serial2_tokio::{SerialPort, Settings};
+use tokio::sync::mpsc::{Receiver, Sender};
+use vthal_core::LinkLoss;
+
+use crate::event::{Event, SerialEvent};
+
+/// First pause after a failure to open; it doubles up to [`PAUSE_MAX`].
+const PAUSE_MIN: Duration = Duration::from_millis(20);
+/// Longest pause between two attempts to open.
+const PAUSE_MAX: Duration = Duration::from_secs(2);
+/// Bytes that wait for a line which does not take them, before newer ones stay in the queue.
+const PENDING_MAX: usize = 4096;
+/// More than one packet at full rate; a pseudo terminal hands out at most this much at once.
+const READ_SIZE: usize = 4096;
+
+/// Which device and how fast.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct SerialSettings {
+    /// Path of the device; may appear later.
+    pub path: PathBuf,
+    /// Bits per second.
+    pub baud: u32,
+}
+
+/// Serves the device until the daemon's event queue closes: opens it, passes bytes both ways, and begins again when it is
+/// lost. Each outage is reported once.
+pub(crate) async fn serve(settings: SerialSettings, events: Sender<Event>, mut to_robot: Receiver<Vec<u8>>) {
+    let mut pause = PAUSE_MIN;
+    let mut told = false;
+    loop {
+        let event = match open(&settings) {
+            Ok(line) => {
+                told = false;
+                if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
+                    return;
+                }
+                drain(&mut to_robot);
+                let (reason, read_any) = pass_bytes(&line.port, &events, &mut to_robot).await;
+                if read_any {
+                    pause = PAUSE_MIN;
+                }
+                Some(SerialEvent::Closed(reason))
+            }
+            Err(_) if told => None,
+            Err(error) => {
+                told = true;
+                Some(SerialEvent::Absent(error))
+            }
+        };
+        if let Some(event) = event
+            && events.send(Event::Serial(event)).await.is_err()
+        {
+            return;
+        }
+        tokio::time::sleep(pause).await;
+        pause = (pause * 2).min(PAUSE_MAX);
+    }
+}
+
+/// Bytes for a robot that was lost must not reach the next one.
+fn drain(to_robot: &mut Receiver<Vec<u8>>) {
+    while to_robot.try_recv().is_ok() {}
+}
+
+/// An open line. The lock is advisory and dies with the process, however that ends; it has a handle of its own because the
+/// port gives its one away to nobody.
+struct Line {
+    port: SerialPort,
+    _lock: OwnedFd,
+}
+
+/// Locks the device against a second daemon, then sets raw mode at the wanted rate.
+fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
+    let path = settings.path.as_path();
+    let refused = |error: io::Error| OpenError::Open {
+        path: path.to_owned(),
+        error,
+    };
+    let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
+    let lock = rustix::fs::open(path, flags, Mode::empty()).map_err(|error| refused(error.into()))?;
+    flock(&lock, FlockOperation::NonBlockingLockExclusive).map_err(|_| OpenError::InUse(path.to_owned()))?;
+    let port = SerialPort::open(path, |mut line: Settings| {
+        line.set_raw();
+        line.set_baud_rate(settings.baud)?;
+        Ok(line)
+    })
+    .map_err(refused)?;
+    Ok(Line { port, _lock: lock })
+}
+
+/// Why the device is not open.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum OpenError {
+    /// The system refuses.
+    #[error("cannot open the serial device {}: {error}; waiting for it", .path.display())]
+    Open {
+        /// The device.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: io::Error,
+    },
+    /// Another program has locked it.
+    #[error("the serial device {} is locked by another program; waiting for it", .0.display())]
+    InUse(PathBuf),
+}
+
+async fn pass_bytes(
+    port: &SerialPort,
+    events: &Sender<Event>,
+    to_robot: &mut Receiver<Vec<u8>>,
+) -> (LinkLoss, bool) {
+    let mut buffer = [0; READ_SIZE];
+    let mut pending = Vec::new();
+    let mut read_any = false;
+    loop {
+        tokio::select! {
+            read = port.read(&mut buffer) => match read {
+                Ok(0) => return (LinkLoss::HungUp, read_any),
+                Ok(count) => {
+                    read_any = true;
+                    let bytes = buffer.get(..count).unwrap_or_default().to_vec();
+                    if events.send(Event::Serial(SerialEvent::Bytes(bytes))).await.is_err() {
+                        return (LinkLoss::HungUp, read_any);
+                    }
+                }
+                Err(error) => return (loss_of(&error), read_any),
+            },
+            written = port.write(&pending), if !pending.is_empty() => match written {
+                Ok(count) => { pending.drain(..count); }
+                Err(error) => return (loss_of(&error), read_any),
+            },
+            Some(bytes) = to_robot.recv(), if pending.len() < PENDING_MAX => pending.extend_from_slice(&bytes),
+        }
+    }
+}
+
+/// A pseudo terminal whose other end closes gives EIO, an adapter that is pulled ENXIO or ENODEV.
+fn loss_of(error: &io::Error) -> LinkLoss {
+    match error.raw_os_error().map(rustix::io::Errno::from_raw_os_error) {
+        Some(rustix::io::Errno::IO | rustix::io::Errno::NXIO | rustix::io::Errno::NODEV) => LinkLoss::HungUp,
+        _ => LinkLoss::Failed(error.to_string()),
+    }
+}

@@ -1,0 +1,156 @@
+//! Puts the daemon together and runs it.
+
+use std::io::{self, Write};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use tokio::signal::unix::{SignalKind, signal};
+use tokio::sync::mpsc;
+use tokio::task::{LocalSet, spawn_local};
+use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
+
+use crate::checkpoint_file::{self, BootTime};
+use crate::clock::Clock;
+use crate::config::Config;
+use crate::daemon::{Daemon, Wiring};
+use crate::event::Event;
+use crate::instance::{self, InstanceError};
+use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
+use crate::serial::{self, SerialSettings};
+use crate::socket::{self, SocketError};
+use crate::{checkpoint_thread, logging};
+
+/// Events that may wait for the loop; whoever brings more waits too.
+const EVENTS_MAX: usize = 64;
+/// Batches of bytes that may wait for the serial line.
+const TO_ROBOT_MAX: usize = 64;
+
+/// Why the daemon did not start.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// The state folder is taken.
+    #[error(transparent)]
+    Instance(#[from] InstanceError),
+    /// There is no socket.
+    #[error(transparent)]
+    Socket(#[from] SocketError),
+    /// The log cannot be written.
+    #[error("cannot write the log in the state folder: {0}; check that it may be written")]
+    Log(#[source] io::Error),
+    /// The folder of recordings cannot be used.
+    #[error("cannot use the folder of recordings: {0}; check that the state folder may be written")]
+    Recordings(#[source] io::Error),
+    /// The system refuses something that a daemon needs.
+    #[error("the system refuses to start the daemon: {0}")]
+    System(#[from] io::Error),
+}
+
+/// Runs the daemon until a signal ends it. Its clock runs `speed` times as fast as real time.
+///
+/// # Errors
+/// See [`ServeError`].
+pub fn serve(config: &Config, speed: f64) -> Result<(), ServeError> {
+    let _lock = instance::take(&config.state)?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()?;
+    LocalSet::new().block_on(&runtime, start(config, speed))
+}
+
+async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
+    let listener = socket::listen(&config.socket)?;
+    logging::start(&config.state.join("log"), &config.log).map_err(ServeError::Log)?;
+    let checkpoint = config.state.join("checkpoint");
+    let resume = BootTime::now()
+        .ok()
+        .and_then(|now| checkpoint_file::load(&checkpoint, &now));
+    let core_config = CoreConfig {
+        seed: config.seed.unwrap_or_else(seed_from_clock),
+        strategy: config.strategy,
+        expert: if config.expert {
+            ExpertAccess::Allowed
+        } else {
+            ExpertAccess::Denied
+        },
+        recording: if config.recording.enabled {
+            Recording::On
+        } else {
+            Recording::Off
+        },
+        checkpoints: Checkpoints::On,
+        task_budget_s: config.task_budget_min * 60,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        resume,
+    };
+    let (event_sender, events) = mpsc::channel(EVENTS_MAX);
+    let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
+    let wiring = Wiring {
+        events,
+        event_sender: event_sender.clone(),
+        to_robot,
+        recorder: recorder(config)?,
+        checkpoints: checkpoint_thread::start(checkpoint)?,
+        socket: config.socket.clone(),
+        clients_max: config.clients_max,
+    };
+    watch_signals(&event_sender)?;
+    spawn_local(socket::serve(listener, event_sender.clone()));
+    let serial = SerialSettings {
+        path: config.serial.clone(),
+        baud: config.baud,
+    };
+    spawn_local(serial::serve(serial, event_sender, robot_queue));
+    tracing::info!(
+        part = "vthal",
+        "version {} listens on {}",
+        env!("CARGO_PKG_VERSION"),
+        config.socket.display()
+    );
+    announce()?;
+    Daemon::new(Core::new(core_config), Clock::start(speed), wiring)
+        .run()
+        .await;
+    Ok(())
+}
+
+/// Tells whoever started the daemon that its socket is open.
+fn announce() -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    writeln!(stdout, "ready").and_then(|()| stdout.flush())
+}
+
+fn recorder(config: &Config) -> Result<Option<RecorderHandle>, ServeError> {
+    if !config.recording.enabled {
+        return Ok(None);
+    }
+    let limits = LibraryLimits {
+        files_max: config.recording.files as usize,
+        bytes_max: u64::from(config.recording.total_mib) << 20,
+    };
+    let library = Library::open(&config.state.join("runs"), limits).map_err(ServeError::Recordings)?;
+    Ok(Some(recording::start(library, format!("{config:?}"))?))
+}
+
+fn watch_signals(events: &mpsc::Sender<Event>) -> io::Result<()> {
+    for (kind, name) in [
+        (SignalKind::terminate(), "SIGTERM"),
+        (SignalKind::interrupt(), "SIGINT"),
+    ] {
+        let mut stream = signal(kind)?;
+        let events = events.clone();
+        spawn_local(async move {
+            while stream.recv().await.is_some() {
+                if events.send(Event::Terminate(name)).await.is_err() {
+                    return;
+                }
+            }
+        });
+    }
+    Ok(())
+}
+
+/// Different at each start; recorded, so that a replay has it.
+fn seed_from_clock() -> u64 {
+    SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .map_or(1, |since| since.as_micros() as u64)
+}
