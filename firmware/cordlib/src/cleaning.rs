@@ -177,7 +177,6 @@ impl Cleaning {
             return BrushLoad::Free;
         }
         self.stall.restart();
-        self.main.asked = Throttle::ZERO;
         if self.tried.is_running() {
             return BrushLoad::Blocked;
         }
@@ -188,10 +187,15 @@ impl Cleaning {
 }
 
 impl Wish {
+    /// One step towards the goal. A reversal never rests at 0, which would be a stop and a new start (S29); the brush has
+    /// stopped by itself when it is reversed.
     fn ramp(&mut self, goal: i32) {
         let from = self.asked.millionths();
+        let opposite = from.signum() * goal.signum() < 0;
         let next = if goal == 0 {
             0
+        } else if opposite {
+            SLEW_PER_PERIOD.min(goal.saturating_abs()) * goal.signum()
         } else {
             goal.clamp(
                 from.saturating_sub(SLEW_PER_PERIOD),

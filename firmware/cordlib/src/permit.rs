@@ -43,10 +43,12 @@ impl Standing {
     #[must_use]
     pub const fn permit(&self, left: WheelDrive, right: WheelDrive) -> (WheelDrive, WheelDrive) {
         let asked = (left.duty().millionths(), right.duty().millionths());
-        if self.armed && self.fresh && self.allows_direction(asked.0, asked.1) {
-            (left, right)
-        } else {
+        if !self.armed || !self.fresh || !self.allows_direction(asked.0, asked.1) {
             (WheelDrive::Brake, WheelDrive::Brake)
+        } else if self.inhibits_forward() {
+            (no_more_than(left, asked.1), no_more_than(right, asked.0))
+        } else {
+            (left, right)
         }
     }
 
@@ -102,6 +104,17 @@ impl Standing {
         backwards
             || (turns_right && self.bumpers.left && !self.bumpers.right)
             || (turns_left && self.bumpers.right && !self.bumpers.left)
+    }
+}
+
+/// A turn on the spot away from an obstacle must not creep forward: the wheel that turns forward gets no more than the
+/// other one, whose duty is `other`, gets backward.
+const fn no_more_than(drive: WheelDrive, other: i32) -> WheelDrive {
+    let duty = drive.duty().millionths();
+    if duty > other.saturating_neg() && duty > 0 {
+        WheelDrive::Duty(Throttle::saturating_from_millionths(other.saturating_neg()))
+    } else {
+        drive
     }
 }
 

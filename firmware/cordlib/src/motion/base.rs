@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn extreme_velocities_saturate() {
         let velocity = BaseVelocity {
-            speed_um_per_s: i32::MIN,
+            speed_um_per_s: -i32::MAX,
             turn_urad_per_s: i32::MAX,
         };
         let rims = velocity.rims(&parameters(), false);

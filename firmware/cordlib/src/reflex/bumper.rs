@@ -23,7 +23,7 @@ pub(crate) struct BumperRule {
 /// What the robot does while the bumper is looked at.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BumperContext {
-    /// Both wheels are driven backwards.
+    /// The wheels together drive the robot backwards.
     pub(crate) backing: bool,
     /// The robot stands on the dock, which may press on the bumper for ever.
     pub(crate) docked: bool,

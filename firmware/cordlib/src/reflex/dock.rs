@@ -6,7 +6,7 @@ use rvac_units::Tick;
 use crate::timing::{Debounced, Held};
 
 /// One sample is noise; contacts that bounce open keep the robot docked.
-const SET_MS: u32 = 20;
+const SET_MS: u32 = 10;
 const CLEAR_MS: u32 = 300;
 /// A robot that has been off the contacts this long has left the dock; closing again is a new arrival.
 const LEFT_MS: u32 = 1_000;

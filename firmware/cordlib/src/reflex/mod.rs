@@ -98,7 +98,7 @@ impl Reflexes {
     pub(crate) fn feel(&mut self, senses: &Senses, motion: &MotionStatus) -> Findings {
         let now = senses.now;
         let dock = self.dock.update(senses.docked, now);
-        let backing = motion.left.duty < 0 && motion.right.duty < 0;
+        let backing = motion.left.duty.saturating_add(motion.right.duty) < 0;
         let docked = self.dock.is_docked();
         let context = BumperContext { backing, docked };
         if self.bumper.update(senses.bumpers, context, now) {

@@ -7,9 +7,10 @@ use crate::timing::Held;
 
 /// Duty above which a motor that does not turn is stalled, in millionths.
 pub(crate) const STALL_DUTY: i32 = 300_000;
-/// These rules look every 10 ms, so that they trip one period early to be within 100 and 300 ms.
-pub(crate) const OVER_CURRENT_MS: u32 = 90;
-pub(crate) const STANDSTILL_MS: u32 = 290;
+/// These rules look every 10 ms. A current is seen up to one period late, a standstill up to two, for the first period
+/// without a count may have begun with one.
+const OVER_CURRENT_MS: u32 = 90;
+const STANDSTILL_MS: u32 = 270;
 
 /// Overload of one motor.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,0 +1,319 @@
+//! Board parts that are plain memory: tests write inputs and read outputs.
+
+use std::collections::VecDeque;
+
+use cordlib::board::{
+    BatteryGauge, Beeper, BumperSwitches, Buttons, CleaningMotor, CliffLevels, CliffSensors, Clock,
+    CurrentSense, DockBeams, DockContacts, DustBox, Emitters, Encoders, HeadingSensor, Lights, Link, Parts,
+    ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
+    WheelMotors,
+};
+use rvac_protocol::message::{
+    Battery, Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, ResetCause, WheelDrops,
+};
+use rvac_units::{Frequency, Ratio, Throttle, Tick};
+
+/// A board of plain memory.
+#[derive(Debug)]
+pub struct Memory;
+
+impl Parts for Memory {
+    type Clock = Time;
+    type Link = Wire;
+    type Wheels = Bridges;
+    type Reset = Record;
+    type Watchdog = Fed;
+    type Encoders = Counters;
+    type Bumpers = Switches;
+    type Cliffs = Floor;
+    type WheelDrops = Drops;
+    type Proximity = Sight;
+    type Gyro = Needle;
+    type Currents = Shunts;
+    type BrushMain = Brush;
+    type BrushSides = Brush;
+    type Vacuum = Brush;
+    type Battery = Pack;
+    type DockContacts = Contacts;
+    type DockBeams = Beams;
+    type DustBox = DustBoxSwitch;
+    type Beeper = Speaker;
+    type Lights = Lamps;
+    type Buttons = Keys;
+}
+
+#[derive(Debug, Default)]
+pub struct Time(pub u32);
+
+impl Clock for Time {
+    fn tick(&mut self) -> Tick {
+        Tick(self.0)
+    }
+
+    fn microseconds(&mut self) -> u16 {
+        250
+    }
+}
+
+/// Both directions of the serial line; `room` is what the transmit queue takes in one pass.
+#[derive(Debug)]
+pub struct Wire {
+    pub to_robot: VecDeque<Received>,
+    pub to_host: Vec<u8>,
+    pub room: usize,
+}
+
+impl Link for Wire {
+    fn receive(&mut self) -> Option<Received> {
+        self.to_robot.pop_front()
+    }
+
+    fn transmit(&mut self, bytes: &[u8]) -> usize {
+        let taken = bytes.len().min(self.room);
+        self.to_host.extend_from_slice(&bytes[..taken]);
+        taken
+    }
+}
+
+#[derive(Debug)]
+pub struct Bridges {
+    pub left: WheelDrive,
+    pub right: WheelDrive,
+}
+
+impl WheelMotors for Bridges {
+    fn drive(&mut self, left: WheelDrive, right: WheelDrive) {
+        self.left = left;
+        self.right = right;
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Record {
+    pub recent: u8,
+}
+
+impl ResetRecord for Record {
+    fn cause(&mut self) -> ResetCause {
+        ResetCause::PowerOn
+    }
+
+    fn boot_count(&mut self) -> u32 {
+        7
+    }
+
+    fn recent(&mut self) -> u8 {
+        self.recent
+    }
+
+    fn forget_recent(&mut self) {
+        self.recent = 0;
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Fed(pub u32);
+
+impl Watchdog for Fed {
+    fn feed(&mut self) {
+        self.0 += 1;
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Counters(pub WheelCounts);
+
+impl Encoders for Counters {
+    const PRESENT: bool = true;
+
+    fn counts(&mut self) -> WheelCounts {
+        self.0
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Switches(pub Bumpers);
+
+impl BumperSwitches for Switches {
+    const ZONES: u8 = 2;
+
+    fn pressed(&mut self) -> Bumpers {
+        self.0
+    }
+}
+
+/// Receivers over a floor that reflects 600 of 1023 when lit, with 40 of ambient light. `stuck` freezes one at a level.
+#[derive(Debug)]
+pub struct Floor {
+    pub missing: Cliffs,
+    pub stuck_left: Option<u16>,
+    pub emitters: Emitters,
+}
+
+impl CliffSensors for Floor {
+    const FITTED: Cliffs = Cliffs {
+        left: true,
+        middle: true,
+        right: true,
+    };
+
+    fn set_emitters(&mut self, emitters: Emitters) {
+        self.emitters = emitters;
+    }
+
+    fn levels(&mut self) -> CliffLevels {
+        let level = |missing: bool| match (self.emitters, missing) {
+            (Emitters::On, false) => 600,
+            (Emitters::On, true) | (Emitters::Off, _) => 40,
+        };
+        CliffLevels {
+            left: self.stuck_left.unwrap_or_else(|| level(self.missing.left)),
+            middle: level(self.missing.middle),
+            right: level(self.missing.right),
+        }
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Drops(pub WheelDrops);
+
+impl WheelDropSwitches for Drops {
+    const SWITCHES: u8 = 2;
+
+    fn hanging(&mut self) -> WheelDrops {
+        self.0
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Sight;
+
+impl ProximitySensors for Sight {
+    const COUNT: u8 = 7;
+
+    fn closeness(&mut self) -> [u8; PROXIMITY_SENSORS] {
+        [0, 1, 2, 3, 4, 5, 6, 0]
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Needle(pub Option<Gyro>);
+
+impl HeadingSensor for Needle {
+    const PRESENT: bool = true;
+
+    fn heading(&mut self) -> Option<Gyro> {
+        self.0
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Shunts(pub Currents);
+
+impl CurrentSense for Shunts {
+    const PRESENT: bool = true;
+
+    fn currents(&mut self) -> Option<Currents> {
+        Some(self.0)
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Brush {
+    pub duty: Throttle,
+    pub pulses: Option<u32>,
+}
+
+impl CleaningMotor for Brush {
+    const PRESENT: bool = true;
+
+    fn set(&mut self, duty: Throttle) {
+        self.duty = duty;
+    }
+
+    fn pulses(&mut self) -> Option<u32> {
+        self.pulses
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Pack(pub Option<Battery>);
+
+impl BatteryGauge for Pack {
+    const PRESENT: bool = true;
+    const CHARGES: bool = false;
+
+    fn battery(&mut self) -> Option<Battery> {
+        self.0
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Contacts(pub bool);
+
+impl DockContacts for Contacts {
+    fn closed(&mut self) -> bool {
+        self.0
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Beams;
+
+impl DockBeams for Beams {
+    const COUNT: u8 = 4;
+
+    fn symbols(&mut self) -> DockReceivers {
+        [0; 4]
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct DustBoxSwitch;
+
+impl DustBox for DustBoxSwitch {
+    fn inserted(&mut self) -> Option<bool> {
+        Some(true)
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Speaker {
+    pub tone: Option<Frequency>,
+    pub played: Vec<i32>,
+}
+
+impl Beeper for Speaker {
+    const PRESENT: bool = true;
+
+    fn sound(&mut self, pitch: Frequency, _: Ratio) {
+        self.tone = Some(pitch);
+        self.played.push(pitch.0);
+    }
+
+    fn silence(&mut self) {
+        self.tone = None;
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Lamps(pub [Ratio; 5]);
+
+impl Lights for Lamps {
+    const COUNT: u8 = 5;
+
+    fn set(&mut self, light: u8, brightness: Ratio) {
+        self.0[usize::from(light)] = brightness;
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct Keys(pub u8);
+
+impl Buttons for Keys {
+    const COUNT: u8 = 3;
+
+    fn down(&mut self) -> u8 {
+        self.0
+    }
+}
