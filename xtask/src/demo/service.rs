@@ -210,7 +210,7 @@ mod tests {
     #[test]
     fn readiness_is_heard_and_the_process_ends_when_asked() {
         let (mut service, events) =
-            shell("echo starting; echo ready http://x/; trap 'exit 7' TERM; while :; do sleep 0.1; done");
+            shell("trap 'exit 7' TERM; echo starting; echo ready http://x/; while :; do sleep 0.1; done");
         match events.recv_timeout(PATIENCE) {
             Ok(Event::Ready("shell", rest)) => assert_eq!(rest, "http://x/"),
             other => panic!("{other:?}"),
