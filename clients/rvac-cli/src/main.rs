@@ -1,1 +1,51 @@
-fn main() {}
+//! `rvac`: the robot from the command line. It talks to the daemon over its socket, and to the robot itself as a terminal
+//! for people who type packets.
+#![forbid(unsafe_code)]
+
+mod arguments;
+mod control;
+mod packet;
+mod replay;
+mod show;
+mod socket;
+mod status;
+mod term;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use arguments::{Arguments, Subcommand};
+use clap::Parser as _;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.subcommand {
+        Subcommand::Term(options) => term::run(&options),
+        Subcommand::Packet(job) => packet::run(&job),
+        Subcommand::Status(options) => status::print(&options),
+        Subcommand::Watch(options) => status::watch(&options),
+        Subcommand::Replay(options) => replay::run(&options),
+        Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
+        Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
+        Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),
+        Subcommand::Resume(daemon) => control::send(rvac_api::RequestBody::Resume, &daemon),
+        Subcommand::Dock(daemon) => control::send(rvac_api::RequestBody::Dock, &daemon),
+        Subcommand::Spot(daemon) => control::send(rvac_api::RequestBody::Spot, &daemon),
+        Subcommand::Locate(daemon) => control::send(rvac_api::RequestBody::Locate, &daemon),
+    };
+    match outcome {
+        Ok(code) => code,
+        Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nobody is left to tell when even this cannot be written.
+            writeln!(std::io::stderr(), "rvac: {error:#}").ok();
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// `rvac watch | head` ends when head does; that is no error.
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    let io = error.downcast_ref::<std::io::Error>();
+    io.is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe)
+}

@@ -1,0 +1,158 @@
+//! What can be said on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, ValueEnum};
+
+/// LibreRVAC from the command line.
+#[derive(Debug, Parser)]
+#[command(name = "rvac", version, about)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) subcommand: Subcommand,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum Subcommand {
+    /// Type packets to the robot; see both directions.
+    Term(TermOptions),
+    /// Seal, check or decode a packet.
+    Packet(PacketJob),
+    /// What the robot is doing.
+    Status(StatusOptions),
+    /// What the robot is doing, line by line, until interrupted.
+    Watch(WatchOptions),
+    /// Run a recording through the brain again.
+    Replay(ReplayOptions),
+    /// Start cleaning.
+    Start {
+        /// Strategy by name; the daemon's default when absent.
+        #[arg(long)]
+        strategy: Option<String>,
+        #[command(flatten)]
+        daemon: Daemon,
+    },
+    /// End the job and stand still.
+    Stop(Daemon),
+    /// Stand still, keep the job.
+    Pause(Daemon),
+    /// Go on with the paused job.
+    Resume(Daemon),
+    /// Dock when the way leads there.
+    Dock(Daemon),
+    /// Clean a small disc around the present place.
+    Spot(Daemon),
+    /// Beep, so that a person finds the robot.
+    Locate(Daemon),
+}
+
+/// Where the daemon listens.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Daemon {
+    /// Unix socket of vthal.
+    #[arg(
+        long,
+        value_name = "PATH",
+        env = "RVAC_SOCKET",
+        default_value = "/run/vthal/vthal.sock"
+    )]
+    pub(crate) socket: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TermOptions {
+    /// Serial device or pseudo-terminal of the robot.
+    #[arg(
+        long,
+        value_name = "PATH",
+        conflicts_with = "socket",
+        required_unless_present = "socket"
+    )]
+    pub(crate) port: Option<PathBuf>,
+    /// Bits per second on the serial device.
+    #[arg(long, default_value_t = 230_400, value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
+    pub(crate) baud: u32,
+    /// Talk through the raw pass-through of the vthal that listens here (its configuration must allow it).
+    #[arg(long, value_name = "PATH")]
+    pub(crate) socket: Option<PathBuf>,
+    /// Send what is typed as it is, without seal, as from a bare serial terminal.
+    #[arg(long, conflicts_with = "socket")]
+    pub(crate) hand: bool,
+    /// Leave packets of this word out of the view, for example `state`; may be given several times.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) skip: Vec<String>,
+    /// How long to go on showing answers after the end of the input, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 1_000)]
+    pub(crate) linger: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PacketJob {
+    #[command(subcommand)]
+    pub(crate) verb: PacketVerb,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum PacketVerb {
+    /// Print the packets with their seals.
+    Seal(PacketOptions),
+    /// Say whether the seals are right; exit code 1 if one is not.
+    Check(PacketOptions),
+    /// Say what the packets mean, or why they would be refused; exit code 1 if one is bad.
+    Decode(PacketOptions),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PacketOptions {
+    /// The packet; without it each line of the input is one (0x1F and 0x1E end a packet too).
+    pub(crate) packet: Option<String>,
+    /// Session number of the seal; 0 = before any handshake.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) session: u16,
+    /// Who speaks.
+    #[arg(long, value_enum, default_value_t = DirectionName::ToRobot)]
+    pub(crate) direction: DirectionName,
+    /// Packets are given as hexadecimal digits, as binary packets must be.
+    #[arg(long)]
+    pub(crate) hex: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DirectionName {
+    /// Commands, host to robot.
+    #[value(name = "to-robot", alias = ">")]
+    ToRobot,
+    /// Reports, robot to host.
+    #[value(name = "from-robot", alias = "<")]
+    FromRobot,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StatusOptions {
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Print the daemon's own JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct WatchOptions {
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Print the daemon's own JSON, one message a line.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// End after this many lines.
+    #[arg(long, value_name = "N")]
+    pub(crate) lines: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReplayOptions {
+    /// Recording (MCAP).
+    pub(crate) file: PathBuf,
+    /// The `vthal` executable; the one beside this program when absent, else the one in the PATH.
+    #[arg(long, value_name = "PATH")]
+    pub(crate) vthal: Option<PathBuf>,
+}

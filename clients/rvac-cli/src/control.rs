@@ -1,0 +1,39 @@
+//! Requests that are answered by done or refused.
+
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::bail;
+use rvac_api::{Request, RequestBody, Update};
+
+use crate::arguments::Daemon;
+use crate::socket::Connection;
+
+/// The daemon answers at once; this covers a machine under load.
+const ANSWER: Duration = Duration::from_secs(10);
+/// Number of our only request.
+const REQUEST_ID: u32 = 1;
+
+pub(crate) fn start(strategy: Option<String>, daemon: &Daemon) -> anyhow::Result<ExitCode> {
+    send(RequestBody::Start { strategy }, daemon)
+}
+
+/// Sends a request and waits until vthal says how it went.
+pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&daemon.socket)?;
+    connection.send(&Request {
+        id: Some(REQUEST_ID),
+        body,
+    })?;
+    let deadline = Instant::now() + ANSWER;
+    while let Some(message) = connection.receive_until(deadline)? {
+        match message.update {
+            Some(Update::Done { id: REQUEST_ID }) => return Ok(ExitCode::SUCCESS),
+            Some(Update::Failed(failure)) if failure.id.is_none_or(|id| id == REQUEST_ID) => {
+                bail!("refused ({}): {}", failure.reason, failure.text);
+            }
+            _ => {}
+        }
+    }
+    bail!("vthal did not answer within {} s", ANSWER.as_secs())
+}
