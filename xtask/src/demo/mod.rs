@@ -59,10 +59,11 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     preflight::arguments(arguments)?;
     preflight::home(arguments)?;
-    workspace::build(&["rvac-sim", "vthal", "panel-server"], workspace::Profile::Dev)?;
     if arguments.headless {
+        workspace::build(&["rvac-sim", "vthal"], workspace::Profile::Dev)?;
         return headless::run(arguments);
     }
+    workspace::build(&["rvac-sim", "vthal", "panel-server"], workspace::Profile::Dev)?;
     let assets = panel::build()?;
     preflight::port(arguments.port)?;
     let state = State::create(arguments.state.as_deref())?;
