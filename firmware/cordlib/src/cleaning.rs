@@ -4,7 +4,7 @@
 //! S10: whatever forbids them makes them forget their command, so that they never start again by themselves.
 //! S11: a blocked main brush turns backwards for 0.5 s once; blocked again within 10 s it is given up, latched.
 
-use rvac_protocol::message::{Motor, Refusal};
+use rvac_protocol::message::{Motor, MotorCommand, Refusal};
 use rvac_units::{Current, Throttle, Tick};
 
 use crate::board::{Board, CleaningMotor, Parts};
@@ -58,12 +58,12 @@ impl Cleaning {
     /// `Absent` if the machine lacks it, `Inhibited` if it must not start now.
     pub(crate) fn command<P: Parts>(
         &mut self,
-        motor: Motor,
-        duty: Throttle,
+        command: &MotorCommand,
         standing: &Standing,
         now: Tick,
     ) -> Result<(), Refusal> {
-        let (wish, present) = match motor {
+        let duty = command.throttle;
+        let (wish, present) = match command.motor {
             Motor::BrushMain => (&mut self.main, P::BrushMain::PRESENT),
             Motor::BrushSides => (&mut self.sides, P::BrushSides::PRESENT),
             Motor::Vacuum => (&mut self.vacuum, P::Vacuum::PRESENT),
@@ -173,7 +173,11 @@ impl Cleaning {
             turned,
             current,
         };
-        if !self.stall.update(load, now) || self.reversing.is_running() {
+        if self.reversing.is_running() {
+            self.stall.restart();
+            return BrushLoad::Free;
+        }
+        if !self.stall.update(load, now) {
             return BrushLoad::Free;
         }
         self.stall.restart();

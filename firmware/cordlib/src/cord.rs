@@ -13,7 +13,7 @@ use crate::cleaning::{BrushLoad, Cleaning};
 use crate::floor::FloorWatch;
 use crate::journal::Journal;
 use crate::lights::LightPatterns;
-use crate::motion::Motion;
+use crate::motion::{Motion, Period};
 use crate::parameters::Parameters;
 use crate::permit::Standing;
 use crate::reflex::Reflexes;
@@ -168,10 +168,13 @@ impl<P: Parts> Cord<P> {
                 .note(LogLevel::Warn, "brush main blocked,", "reversing"),
             BrushLoad::Blocked => self.give_up_brush(),
         }
-        let standing = self.standing();
-        let ending = self
-            .motion
-            .control(elapsed_ms, &self.parameters, self.senses.gyro, &standing);
+        let period = Period {
+            elapsed_ms,
+            parameters: &self.parameters,
+            gyro: self.senses.gyro,
+            standing: self.standing(),
+        };
+        let ending = self.motion.control(&period);
         self.end(ending);
     }
 

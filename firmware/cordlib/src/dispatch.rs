@@ -4,20 +4,20 @@
 use rvac_protocol::message::{
     Beep, Command, Drive, Inhibit, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Refusal, Sequence,
 };
-use rvac_protocol::session::{Mode, RobotEvent, SessionEnd};
+use rvac_protocol::session::{HAND_SPEED_MAX, HAND_TURN_MAX, Mode, RobotEvent, SessionEnd};
 use rvac_units::Tick;
 
 use crate::board::{Beeper, Encoders, Parts};
 use crate::cord::Cord;
-use crate::motion::{Pace, Side, suits_drive};
+use crate::motion::{Ending, Pace, Path, Side, suits_drive, suits_path};
 use crate::permit::Standing;
 
-/// Longest `move`, in µm.
-const MOVE_MAX_UM: i32 = 20_000_000;
+/// Largest turn of one `move`, in radians: ten turns.
+const MOVE_TURN_MAX: i32 = 63;
 /// Speed of a `move` that a person types.
 const HAND_PACE: Pace = Pace {
-    speed_um_per_s: 100_000,
-    turn_urad_per_s: 500_000,
+    speed_um_per_s: HAND_SPEED_MAX.0,
+    turn_urad_per_s: HAND_TURN_MAX.0,
 };
 
 type Answer = Result<(), Refusal>;
@@ -132,7 +132,7 @@ impl<P: Parts> Cord<P> {
         let side = match command.motor {
             Motor::WheelLeft => Side::Left,
             Motor::WheelRight => Side::Right,
-            cleaner => return self.cleaner(cleaner, command, now),
+            _ => return self.cleaner(command, now),
         };
         let standing = self.standing_for_command();
         let sign = command.throttle.millionths();
@@ -150,20 +150,23 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn cleaner(&mut self, motor: Motor, command: &MotorCommand, now: Tick) -> Answer {
+    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> Answer {
         let standing = self.standing_for_command();
         if !standing.armed {
             return Err(Refusal::Inhibited);
         }
-        self.cleaning
-            .command::<P>(motor, command.throttle, &standing, now)
+        self.cleaning.command::<P>(command, &standing, now)
     }
 
     fn follow(&mut self, movement: &Move, now: Tick) -> Answer {
         if !P::Encoders::PRESENT {
             return Err(Refusal::Absent);
         }
-        if movement.length.magnitude() > MOVE_MAX_UM {
+        let tightest_um = movement.length.magnitude() / MOVE_TURN_MAX;
+        if movement
+            .radius
+            .is_some_and(|radius| radius.0 != 0 && radius.magnitude() < tightest_um)
+        {
             return Err(Refusal::Range);
         }
         let motion = &self.parameters.motion;
@@ -179,16 +182,19 @@ impl<P: Parts> Cord<P> {
             return Err(Refusal::Inhibited);
         }
         let start = (now, self.senses.gyro);
-        let mut wish = self.motion;
-        let (replaced, done) = wish.follow(movement, pace, &self.parameters, start);
-        if !wish.suits(&standing, &self.parameters) {
+        let Some(path) = Path::plan(movement, pace, &self.parameters, start) else {
+            let replaced = self.motion.halt(MoveEnd::Replaced);
+            self.end(replaced);
+            self.end(Some(Ending::Move(MoveEnd::Done)));
+            return Ok(());
+        };
+        if !suits_path(&path, &standing) {
             return Err(Refusal::Inhibited);
         }
-        self.motion = wish;
         self.reflexes.host.hear();
         self.heard = now;
+        let replaced = self.motion.follow(path);
         self.end(replaced);
-        self.end(done);
         Ok(())
     }
 

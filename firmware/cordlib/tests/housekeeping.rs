@@ -230,7 +230,7 @@ fn a_late_pass_neither_doubles_nor_loses_anything() {
 fn hand_mode_drives_slowly_by_typed_packets() {
     let mut rig = Rig::switched_on(0);
     rig.host_dead = true;
-    let mut type_in = |rig: &mut Rig, text: &str| {
+    let type_in = |rig: &mut Rig, text: &str| {
         let bytes = text.bytes().chain([0x1F]);
         let received = bytes.map(cordlib::board::Received::Byte);
         rig.cord.board_mut().link.to_robot.extend(received);

@@ -353,7 +353,6 @@ fn s13_a_swapped_encoder_is_found_within_500_ms() {
         rig.repeated = vec![drive(0.25, 0.0)];
         rig
     };
-    let started = |rig: &mut Rig| drop(rig.run_until(2_000, |rig| rig.rims[0] > 0.05));
     let found = |rig: &Rig| {
         let latched = [Inhibit::EncoderFault, Inhibit::Runaway, Inhibit::WheelStall];
         latched.iter().any(|inhibit| rig.has(*inhibit)) && rig.wheels_off()
@@ -365,9 +364,27 @@ fn s13_a_swapped_encoder_is_found_within_500_ms() {
     };
     worst_reaction(500, Rig::driving, swap, found);
     let mut rig = resting(0);
-    started(&mut rig);
+    rig.run_until(2_000, |rig| rig.rims[0] > 0.05);
     rig.run(600);
-    assert!(rig.has(Inhibit::EncoderFault), "{:?}", rig.names());
+    assert!(found(&rig), "{:?}", rig.names());
+}
+
+#[test]
+fn s13_an_encoder_that_shows_a_fraction_of_the_speed_is_a_fault() {
+    let mut rig = Rig::driving(0);
+    rig.mechanics.silent = true;
+    for _ in 0..500 {
+        rig.run(1);
+        if rig.now().0.is_multiple_of(25) {
+            rig.cord.board_mut().encoders.0.left += 1;
+            rig.cord.board_mut().encoders.0.right += 1;
+        }
+    }
+    assert!(
+        rig.has(Inhibit::EncoderFault) && rig.wheels_off(),
+        "{:?}",
+        rig.names()
+    );
     rig.repeated.clear();
     assert_eq!(rig.ask(clear(Inhibit::EncoderFault)), Ok(()));
 }

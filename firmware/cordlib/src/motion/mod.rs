@@ -6,10 +6,10 @@ mod base;
 mod path;
 mod wheel;
 
-pub(crate) use path::Pace;
+pub(crate) use path::{Pace, Path};
 pub(crate) use wheel::{CONTROL_MS, WheelStatus};
 
-use rvac_protocol::message::{Drive, Gyro, MotionPhase, Move, MoveEnd};
+use rvac_protocol::message::{Drive, Gyro, MotionPhase, MoveEnd};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{WheelCounts, WheelDrive};
@@ -18,7 +18,6 @@ use crate::permit::{CLIFF_SPEED_MAX_UM_PER_S, Standing};
 use crate::timing::{Periodic, Until};
 
 use base::BaseVelocity;
-use path::Path;
 use wheel::{WheelController, WheelGoal};
 
 /// One of the two driven wheels.
@@ -50,6 +49,19 @@ pub(crate) struct MotionStatus {
     pub(crate) right: WheelStatus,
     /// Way of the robot's centre since the last pass.
     pub(crate) travelled_nm: i32,
+}
+
+/// What a control period works on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Period<'a> {
+    /// Time since the last one.
+    pub(crate) elapsed_ms: u32,
+    /// The machine.
+    pub(crate) parameters: &'a Parameters,
+    /// Gyro, if any.
+    pub(crate) gyro: Option<Gyro>,
+    /// What is allowed.
+    pub(crate) standing: Standing,
 }
 
 /// What ended in a pass.
@@ -129,18 +141,9 @@ impl Motion {
         self.replace(next)
     }
 
-    /// Starts a `move`. A move of no length is done at once.
-    pub(crate) fn follow(
-        &mut self,
-        movement: &Move,
-        pace: Pace,
-        parameters: &Parameters,
-        start: (Tick, Option<Gyro>),
-    ) -> (Option<Ending>, Option<Ending>) {
-        match Path::plan(movement, pace, parameters, start) {
-            Some(path) => (self.replace(Activity::Path(path)), None),
-            None => (self.halt(MoveEnd::Replaced), Some(Ending::Move(MoveEnd::Done))),
-        }
+    /// Starts a planned `move`. Returns how a `move` ended that it replaces.
+    pub(crate) fn follow(&mut self, path: Path) -> Option<Ending> {
+        self.replace(Activity::Path(path))
     }
 
     fn replace(&mut self, next: Activity) -> Option<Ending> {
@@ -190,12 +193,7 @@ impl Motion {
             Activity::Idle => return true,
             Activity::Drive { target, .. } => return suits_velocity(*target, standing, parameters),
             Activity::Direct { left, right } => (left.duty.millionths(), right.duty.millionths()),
-            Activity::Path(path) => {
-                if standing.inhibits_forward() && path.heading_sign() > 0 {
-                    return false;
-                }
-                path.direction()
-            }
+            Activity::Path(path) => return suits_path(path, standing),
         };
         standing.allows_direction(left, right)
     }
@@ -263,13 +261,7 @@ impl Motion {
     }
 
     /// One control period.
-    pub(crate) fn control(
-        &mut self,
-        elapsed_ms: u32,
-        parameters: &Parameters,
-        gyro: Option<Gyro>,
-        standing: &Standing,
-    ) -> Option<Ending> {
+    pub(crate) fn control(&mut self, period: &Period<'_>) -> Option<Ending> {
         match self.activity {
             Activity::Idle => {
                 self.left.rest();
@@ -277,29 +269,24 @@ impl Motion {
                 None
             }
             Activity::Drive { target, .. } => {
-                self.control_drive(target, elapsed_ms, parameters, standing);
+                self.control_drive(target, period);
                 None
             }
             Activity::Direct { left, right } => {
                 self.asked = (
-                    self.left.open_loop(left.duty, &parameters.wheel),
-                    self.right.open_loop(right.duty, &parameters.wheel),
+                    self.left.open_loop(left.duty, &period.parameters.wheel),
+                    self.right.open_loop(right.duty, &period.parameters.wheel),
                 );
                 None
             }
-            Activity::Path(path) => self.control_path(path, (elapsed_ms, gyro), parameters, standing),
+            Activity::Path(path) => self.control_path(path, period),
         }
     }
 
-    fn control_drive(
-        &mut self,
-        target: BaseVelocity,
-        elapsed_ms: u32,
-        parameters: &Parameters,
-        standing: &Standing,
-    ) {
+    fn control_drive(&mut self, target: BaseVelocity, period: &Period<'_>) {
+        let (parameters, elapsed_ms) = (period.parameters, period.elapsed_ms);
         self.velocity = self.velocity.ramp_to(target, parameters, elapsed_ms);
-        let rims = self.velocity.rims(parameters, standing.sees_cliff());
+        let rims = self.velocity.rims(parameters, period.standing.sees_cliff());
         let goal = |speed_um_per_s| WheelGoal {
             speed_um_per_s,
             lead_nm: 0,
@@ -319,15 +306,9 @@ impl Motion {
         );
     }
 
-    fn control_path(
-        &mut self,
-        mut path: Path,
-        input: (u32, Option<Gyro>),
-        parameters: &Parameters,
-        standing: &Standing,
-    ) -> Option<Ending> {
-        let (elapsed_ms, gyro) = input;
-        if standing.sees_cliff() {
+    fn control_path(&mut self, mut path: Path, period: &Period<'_>) -> Option<Ending> {
+        let (parameters, gyro) = (period.parameters, period.gyro);
+        if period.standing.sees_cliff() {
             path.limit_speed(CLIFF_SPEED_MAX_UM_PER_S);
         }
         let travelled_nm = (self.left.status().travelled_nm, self.right.status().travelled_nm);
@@ -335,7 +316,7 @@ impl Motion {
         let step = if waits {
             path.wait(travelled_nm, gyro)
         } else {
-            path.step(elapsed_ms, travelled_nm, gyro)
+            path.step(period.elapsed_ms, travelled_nm, gyro)
         };
         self.left.advance(step.left_nm);
         self.right.advance(step.right_nm);
@@ -396,6 +377,15 @@ impl DirectDuty {
 /// Whether a `drive` is allowed: a pressed bumper or a cliff forbids any part of it that goes forward.
 pub(crate) fn suits_drive(drive: &Drive, standing: &Standing, parameters: &Parameters) -> bool {
     suits_velocity(BaseVelocity::from(drive), standing, parameters)
+}
+
+/// Whether a planned `move` is allowed.
+pub(crate) fn suits_path(path: &Path, standing: &Standing) -> bool {
+    if standing.inhibits_forward() && path.heading_sign() > 0 {
+        return false;
+    }
+    let (left, right) = path.direction();
+    standing.allows_direction(left, right)
 }
 
 fn suits_velocity(velocity: BaseVelocity, standing: &Standing, parameters: &Parameters) -> bool {

@@ -6,7 +6,8 @@ use rvac_units::Tick;
 use crate::motion::WheelStatus;
 use crate::timing::Held;
 
-const DISAGREEMENT_MS: u32 = 480;
+/// With the 80 ms that the filtered speed needs to fall, this stays within the 500 ms of the rule.
+const DISAGREEMENT_MS: u32 = 410;
 /// Below this set point the quantisation of an encoder proves nothing, in µm/s.
 const SET_POINT_MIN_UM_PER_S: i32 = 50_000;
 

@@ -313,10 +313,10 @@ impl Rig {
         const DEAD_BAND: f64 = 0.12;
         let board = self.cord.board_mut();
         let duties = [board.wheels.left, board.wheels.right];
-        for side in 0..2 {
+        for (side, drive) in duties.into_iter().enumerate() {
             let duty = match (side, self.mechanics.stuck_duty) {
                 (0, Some(stuck)) => f64::from(stuck) / 1e6,
-                _ => duties[side].duty().as_f64(),
+                _ => drive.duty().as_f64(),
             };
             let beyond = (duty.abs() - DEAD_BAND).max(0.0) / (1.0 - DEAD_BAND);
             let target = beyond * duty.signum() * FULL_M_PER_S;
@@ -347,7 +347,7 @@ impl Rig {
         }
         let mut packet = PacketBuffer::new();
         while self.host.next_packet(&mut packet) {
-            self.deliver(&packet.as_bytes().to_vec());
+            self.deliver(packet.as_bytes());
         }
         for event in events {
             match event {
@@ -492,6 +492,7 @@ pub fn worst_reaction(
         fault(&mut rig);
         worst_ms = worst_ms.max(rig.run_until(limit_ms + 1, &reacted));
     }
+    println!("worst reaction {worst_ms} ms, limit {limit_ms} ms");
     assert!(
         worst_ms <= limit_ms,
         "worst reaction {worst_ms} ms, limit {limit_ms} ms"
