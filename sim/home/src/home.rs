@@ -229,7 +229,7 @@ impl Search<'_> {
             .find(|region| *region != 0)
             .ok_or_else(|| HomeError::Invalid {
                 path: self.path.to_owned(),
-                place: "dock".to_owned(),
+                place: "`dock`".to_owned(),
                 problem: format!(
                     "there is no room for the robot (radius {} m) in front of it; move the dock or turn it into the room",
                     self.model.body.radius_m

@@ -19,20 +19,19 @@ impl Regions {
             sizes: Vec::new(),
         };
         let fits = |index: usize| grid.cells[index].is_floor() && f64::from(blocked.cell(index)) >= radius_m;
-        let mut stack = Vec::new();
         for seed in 0..grid.cells.len() {
             if regions.labels[seed] == 0 && fits(seed) {
-                regions.fill(seed, grid.width, &mut stack, &fits);
+                regions.fill(seed, grid.width, &fits);
             }
         }
         regions
     }
 
-    fn fill(&mut self, seed: usize, width: usize, stack: &mut Vec<usize>, fits: &impl Fn(usize) -> bool) {
+    fn fill(&mut self, seed: usize, width: usize, fits: &impl Fn(usize) -> bool) {
         let label = self.sizes.len() as u32 + 1;
         let mut size = 0;
         self.labels[seed] = label;
-        stack.push(seed);
+        let mut stack = vec![seed];
         while let Some(index) = stack.pop() {
             size += 1;
             // The grid has a solid margin, so left and right neighbours of a cell that fits lie in the same row.

@@ -12,6 +12,20 @@ const MARCH_M: f64 = 0.004;
 /// Side of the patches of walls and furniture that share one albedo, metres.
 const PATCH_M: f64 = 0.4;
 
+/// The middle of a sensor's cone: where it starts and its direction.
+struct Beam {
+    x_m: f64,
+    y_m: f64,
+    dx: f64,
+    dy: f64,
+}
+
+impl Beam {
+    fn at(&self, way_m: f64) -> (f64, f64) {
+        (self.x_m + self.dx * way_m, self.y_m + self.dy * way_m)
+    }
+}
+
 /// All proximity sensors of the robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Proximity {
@@ -68,39 +82,38 @@ impl Proximity {
         let level = if body.free_m > self.range_m {
             0
         } else {
-            let direction = (body.cos * cos - body.sin * sin, body.sin * cos + body.cos * sin);
-            self.sample(solid, (body.x_m, body.y_m), direction, random)
+            let (dx, dy) = (body.cos * cos - body.sin * sin, body.sin * cos + body.cos * sin);
+            let beam = Beam {
+                x_m: body.x_m + dx * self.mount_m,
+                y_m: body.y_m + dy * self.mount_m,
+                dx,
+                dy,
+            };
+            self.sample(solid, &beam, random)
         };
         if let Some(shown) = self.levels.get_mut(sensor) {
             *shown = level;
         }
     }
 
-    fn sample(
-        &self,
-        solid: &DistanceField,
-        (x_m, y_m): (f64, f64),
-        (dx, dy): (f64, f64),
-        random: &mut Pcg,
-    ) -> u8 {
-        let start = (x_m + dx * self.mount_m, y_m + dy * self.mount_m);
-        let Some(distance_m) = self.march(solid, start, (dx, dy)) else {
+    fn sample(&self, solid: &DistanceField, beam: &Beam, random: &mut Pcg) -> u8 {
+        let Some(distance_m) = self.march(solid, beam) else {
             return 0;
         };
         if random.unit() < self.dropout {
             return 0;
         }
-        let hit = (start.0 + dx * distance_m, start.1 + dy * distance_m);
         let beyond = (distance_m - self.skin_m).max(0.0) / self.half_level_m;
-        let light = self.reflection(hit) / (1.0 + beyond * beyond);
+        let light = self.reflection(beam.at(distance_m)) / (1.0 + beyond * beyond);
         (255.0 * light * (1.0 + self.noise * random.normal())) as u8
     }
 
     /// Distance from the sensor to what its cone meets.
-    fn march(&self, solid: &DistanceField, start: (f64, f64), (dx, dy): (f64, f64)) -> Option<f64> {
+    fn march(&self, solid: &DistanceField, beam: &Beam) -> Option<f64> {
         let mut way_m = 0.0;
         for _ in 0..MARCH_MAX {
-            let clear_m = solid.at(start.0 + dx * way_m, start.1 + dy * way_m);
+            let (x_m, y_m) = beam.at(way_m);
+            let clear_m = solid.at(x_m, y_m);
             if clear_m <= self.spread * way_m + 0.001 {
                 return Some(way_m + clear_m.max(0.0));
             }

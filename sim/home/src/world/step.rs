@@ -99,7 +99,7 @@ impl World {
         if self.is_in_air() {
             return 0.0;
         }
-        let pushed = self.body.blocked(pwm) * self.model.wheel_motor.traction_n;
+        let pushed = self.body.blocked(1f64.copysign(pwm)) * self.model.wheel_motor.traction_n;
         self.underneath.surface.drag_n + pushed.min(self.model.wheel_motor.traction_n)
     }
 
