@@ -10,7 +10,7 @@ use panel_logic::{Driver, Intent, Key, Offer};
 use crate::store::Store;
 
 /// Share of the pad's half width that the knob can travel.
-const TRAVEL: f64 = 0.7;
+const TRAVEL: f64 = 0.63;
 
 #[component]
 pub(crate) fn DrivePad(store: Store) -> impl IntoView {
@@ -20,7 +20,7 @@ pub(crate) fn DrivePad(store: Store) -> impl IntoView {
     let why = move || match offer.get() {
         Offer::NotNow(why) => why,
         Offer::Ready | Offer::Absent => {
-            "Hold the knob, or click the pad and hold W A S D or the arrow keys. It stops when you let go."
+            "Hold the knob, or focus the pad and hold W A S D or arrow keys. Letting go stops."
         }
     };
     let cleans = move || {
@@ -48,7 +48,7 @@ pub(crate) fn DrivePad(store: Store) -> impl IntoView {
             <Show when=cleans>
                 <label class="check">
                     <input type="checkbox" id="clean-while-driving" on:change=choose_cleaners />
-                    "Brushes and suction run while driving"
+                    "Clean while driving"
                 </label>
             </Show>
         </div>
@@ -109,7 +109,7 @@ fn Pad(
     };
     let place_knob = move || {
         let (right, down) = knob.get();
-        format!("translate({}px, {}px)", right * 70.0, down * 70.0)
+        format!("translate({}px, {}px)", right * 58.0, down * 58.0)
     };
     view! {
         <div

@@ -44,6 +44,10 @@ fn reason_text(status: &Status) -> String {
             .driver
             .as_ref()
             .map_or_else(String::new, |driver| format!("In the driver's seat: {driver}.")),
+        (true, "cleaning") => status
+            .strategy
+            .as_ref()
+            .map_or_else(String::new, |name| format!("Way of cleaning: {name}.")),
         (true, _) => String::new(),
         (false, _) => code_text(&status.reason),
     }

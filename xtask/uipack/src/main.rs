@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use bundle::Bundle;
-use wasm_bindgen_cli_support::Bindgen;
+use wasm_bindgen_cli_support::{Bindgen, Output};
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = env::args_os().skip(1).collect();
@@ -83,10 +83,23 @@ fn bind(wasm: &Path) -> Result<(String, Vec<u8>)> {
                 wasm.display()
             )
         })?;
-    if !output.snippets().is_empty() || !output.local_modules().is_empty() {
-        bail!("a dependency of the panel brings JavaScript files of its own, which are not packed");
+    let foreign: Vec<&String> = foreign_scripts(&output);
+    if !foreign.is_empty() {
+        bail!(
+            "dependencies of the panel bring JavaScript files of their own, which are not packed: {foreign:?}"
+        );
     }
     Ok((output.js().to_owned(), output.wasm_mut().emit_wasm()))
+}
+
+/// Crates whose own JavaScript the module wants beside the generated one.
+fn foreign_scripts(output: &Output) -> Vec<&String> {
+    let snippets = output
+        .snippets()
+        .iter()
+        .filter(|(_, scripts)| !scripts.is_empty())
+        .map(|(name, _)| name);
+    snippets.chain(output.local_modules().keys()).collect()
 }
 
 /// The template with each `{{name}}` replaced; each must occur and none may be left.

@@ -11,7 +11,7 @@ use web_sys::{HtmlCanvasElement, WebGl2RenderingContext, WebGlContextAttributes}
 
 use super::gl::GlError;
 use super::renderer::Renderer;
-use super::scene::Scene;
+use super::scene::{Redraw, Scene};
 use crate::theme::Theme;
 
 /// A shared handle on the map; cheap to clone.
@@ -76,7 +76,7 @@ impl MapHandle {
     }
 
     pub(crate) fn on_pose(&self, pose: Pose) {
-        self.change(|scene| scene.believed.push(pose, now_s()));
+        self.animate(|scene| scene.on_pose(pose, now_s()));
         if let Some(canvas) = self.shared.canvas.borrow().as_ref() {
             let text = format!("{:.3},{:.3},{:.3}", pose.x, pose.y, pose.heading);
             canvas.set_attribute("data-pose", &text).ok(); // For tests; the picture does not depend on it.
@@ -84,15 +84,21 @@ impl MapHandle {
     }
 
     pub(crate) fn on_truth(&self, pose: Pose) {
-        self.change(|scene| scene.truth.push(pose, now_s()));
+        self.animate(|scene| scene.on_truth(pose, now_s()));
     }
 
     pub(crate) fn on_snapshot(&self, snapshot: &MapSnapshot) {
-        self.change(|scene| scene.on_snapshot(snapshot));
+        self.animate(|scene| {
+            scene.on_snapshot(snapshot);
+            true
+        });
     }
 
     pub(crate) fn on_delta(&self, delta: &MapDelta) {
-        self.change(|scene| scene.on_delta(delta));
+        self.animate(|scene| {
+            scene.on_delta(delta);
+            true
+        });
     }
 
     /// Reads the scene.
@@ -100,14 +106,21 @@ impl MapHandle {
         read(&self.shared.scene.borrow())
     }
 
-    /// Changes the scene and has it drawn.
+    /// Changes the scene and has all of it drawn.
     pub(crate) fn change(&self, change: impl FnOnce(&mut Scene)) {
-        {
-            let mut scene = self.shared.scene.borrow_mut();
-            change(&mut scene);
-            scene.changed = true;
+        self.animate(|scene| {
+            change(scene);
+            scene.redraw = Redraw::All;
+            true
+        });
+    }
+
+    /// Changes parts of the scene, which says itself whether and what is to be drawn.
+    fn animate(&self, change: impl FnOnce(&mut Scene) -> bool) {
+        let changed = change(&mut self.shared.scene.borrow_mut());
+        if changed {
+            self.schedule();
         }
-        self.schedule();
     }
 
     /// Frames per second and the longest frame in ms while the robot moves.
@@ -148,12 +161,9 @@ impl MapHandle {
         let now = now_s();
         let mut scene = self.shared.scene.borrow_mut();
         let moving = scene.is_moving(now);
-        if moving || scene.changed {
-            scene.changed = false;
-            let places = scene.advance(now);
-            if let Some(renderer) = self.shared.renderer.borrow_mut().as_mut() {
-                renderer.draw(&mut scene, places);
-            }
+        let (places, redraw) = scene.advance(now);
+        if let Some(renderer) = self.shared.renderer.borrow_mut().as_mut() {
+            renderer.draw(&mut scene, places, redraw);
         }
         drop(scene);
         if moving {
@@ -168,6 +178,8 @@ fn context(canvas: &HtmlCanvasElement) -> Result<WebGl2RenderingContext, GlError
     attributes.set_alpha(false);
     attributes.set_depth(false);
     attributes.set_antialias(false);
+    // Frames draw only what changed on top of the frame before.
+    attributes.set_preserve_drawing_buffer(true);
     let context = canvas
         .get_context_with_context_options("webgl2", &attributes)
         .ok()

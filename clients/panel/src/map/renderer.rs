@@ -1,12 +1,12 @@
 //! Draws the scene: one pass for the ground, one for the path, one for bumps, one for robot and dock.
 
-use panel_logic::{Camera, plan_pixels};
+use panel_logic::{Bounds, Camera, plan_pixels};
 use rvac_api::Pose;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, WebGlVertexArrayObject};
 
 use super::gl::{GlError, GrowingBuffer, Look, Program, texture};
 use super::palette::Palette;
-use super::scene::{Places, Scene};
+use super::scene::{Places, Redraw, Scene};
 use super::shaders;
 
 /// Numbers an instance of a mark has: place, heading, size, kind.
@@ -19,8 +19,8 @@ const ROBOT: f32 = 2.0;
 const TRUE_PLACE: f32 = 3.0;
 const DOCK: f32 = 4.0;
 
-/// The robot is never drawn smaller than this, in CSS pixels.
-const ROBOT_RADIUS_MIN_PX: f64 = 8.0;
+/// Marks and lines reach this far beyond their place, in CSS pixels.
+const MARGIN_PX: f64 = 12.0;
 
 /// Radius of a bump mark in CSS pixels.
 const BUMP_RADIUS_PX: f64 = 4.5;
@@ -145,9 +145,9 @@ impl Renderer {
         gl.bind_vertex_array(None);
     }
 
-    /// Draws one frame.
-    pub(crate) fn draw(&mut self, scene: &mut Scene, places: Places) {
-        self.fit_canvas(&scene.camera);
+    /// Draws one frame, or as much of it as changed.
+    pub(crate) fn draw(&mut self, scene: &mut Scene, places: Places, redraw: Redraw) {
+        let resized = self.fit_canvas(&scene.camera);
         let palette = Palette::of(scene.theme);
         let eye = Eye::of(&scene.camera, &self.gl);
         self.upload_plan(scene, &palette);
@@ -158,6 +158,11 @@ impl Renderer {
             self.gl.drawing_buffer_width(),
             self.gl.drawing_buffer_height(),
         );
+        match redraw {
+            Redraw::Nothing => return,
+            Redraw::Area(bounds) if !resized => self.limit_to(bounds, &scene.camera, eye),
+            Redraw::Area(_) | Redraw::All => self.gl.disable(Gl::SCISSOR_TEST),
+        }
         self.gl.disable(Gl::BLEND);
         self.draw_ground(scene, &palette, eye);
         self.gl.enable(Gl::BLEND);
@@ -167,15 +172,34 @@ impl Renderer {
         self.gl.bind_vertex_array(None);
     }
 
-    /// Gives the canvas as many pixels as it covers on the screen, at most four a CSS pixel.
-    fn fit_canvas(&self, camera: &Camera) {
+    /// Leaves everything as it is but these bounds and a margin for marks of a fixed size.
+    fn limit_to(&self, bounds: Bounds, camera: &Camera, eye: Eye) {
+        let (left, top) = camera.screen_from_map(bounds.x_min, bounds.y_max);
+        let (right, bottom) = camera.screen_from_map(bounds.x_max, bounds.y_min);
+        let device = |pixels: f64| (pixels * eye.ratio) as i32;
+        let margin = MARGIN_PX;
+        let (x, y) = (
+            device(left - margin),
+            self.gl.drawing_buffer_height() - device(bottom + margin),
+        );
+        self.gl.enable(Gl::SCISSOR_TEST);
+        self.gl.scissor(
+            x,
+            y,
+            device(right - left + 2.0 * margin),
+            device(bottom - top + 2.0 * margin),
+        );
+    }
+
+    /// Gives the canvas as many pixels as it covers on the screen, at most four a CSS pixel. True when that emptied it.
+    fn fit_canvas(&self, camera: &Camera) -> bool {
         use wasm_bindgen::JsCast;
         let Some(canvas) = self
             .gl
             .canvas()
             .and_then(|canvas| canvas.dyn_into::<HtmlCanvasElement>().ok())
         else {
-            return;
+            return false;
         };
         let ratio = leptos::prelude::window().device_pixel_ratio().clamp(1.0, 2.0);
         let view = camera.view();
@@ -183,10 +207,12 @@ impl Renderer {
             (view.width * ratio).round() as u32,
             (view.height * ratio).round() as u32,
         );
-        if canvas.width() != width || canvas.height() != height {
+        let resized = canvas.width() != width || canvas.height() != height;
+        if resized {
             canvas.set_width(width);
             canvas.set_height(height);
         }
+        resized
     }
 
     fn upload_plan(&self, scene: &mut Scene, palette: &Palette) {
@@ -355,7 +381,7 @@ fn bump_marks(scene: &Scene, ratio: f64) -> Vec<f32> {
 }
 
 fn body_marks(scene: &Scene, places: Places) -> Vec<f32> {
-    let radius = scene.radius_m.max(ROBOT_RADIUS_MIN_PX / scene.camera.scale());
+    let radius = scene.body_radius_m();
     let mark = |pose: Pose, size: f64, kind: f32| {
         [
             pose.x as f32,

@@ -62,7 +62,7 @@ void main() {
 }";
 
 pub(crate) const LINE_FRAGMENT: &str = "#version 300 es
-precision mediump float;
+precision highp float;
 in float across;
 uniform float half_width;
 uniform vec3 line_colour;
