@@ -119,12 +119,29 @@ impl Channel {
     }
 
     fn send(&mut self, levels: u16, received: &mut Vec<ReceivedByte>) {
-        let damaged = levels ^ self.draw_flips();
+        let flips = self.draw_flips();
+        if flips == 0 && self.receiver.is_idle() {
+            self.send_whole(levels, received);
+            return;
+        }
+        let damaged = levels ^ flips;
         for bit in 0..LINE_BITS {
             if let Some(reported) = self.receiver.bit(damaged >> bit & 1 == 1) {
                 self.deliver(reported, received);
             }
         }
+        self.let_go_delayed(received);
+    }
+
+    /// An undamaged byte that finds the receiver waiting needs no bits.
+    fn send_whole(&mut self, levels: u16, received: &mut Vec<ReceivedByte>) {
+        if levels & 1 == 0 {
+            self.deliver(ReceivedByte::Byte((levels >> 1) as u8), received);
+        }
+        self.let_go_delayed(received);
+    }
+
+    fn let_go_delayed(&mut self, received: &mut Vec<ReceivedByte>) {
         if self.delay_left > 0 {
             self.delay_left -= 1;
         } else {

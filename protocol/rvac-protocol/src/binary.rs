@@ -6,10 +6,12 @@
 use heapless::Vec;
 use rvac_units::{Angle, AngularSpeed, Current, Speed, Tick, Voltage};
 
+use crate::buffer::{EncodeError, PacketBuffer};
 use crate::message::{
     Bumpers, ChargeState, Cliffs, Currents, Drive, Gyro, Inhibits, MotionPhase, Refusal, Sequence, State,
     WheelDrops,
 };
+use crate::seal::Direction;
 use crate::span::{self, Span};
 
 /// Kind byte of `drive`.
@@ -54,6 +56,23 @@ pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
     Some([
         DRIVE, v0, v1, v2, v3, w0, w1, w2, w3, l0, l1, n0, n1, t0, t1, t2, t3,
     ])
+}
+
+/// Appends a `drive`, sealed for `session`, and a separator.
+///
+/// # Errors
+/// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
+pub fn write_sealed_drive(drive: &Drive, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+    let packet = write_drive(drive).ok_or(EncodeError::Range)?;
+    buffer.push_binary(&packet, Direction::HostToRobot, session)
+}
+
+/// Appends a `state`, sealed for `session`, and a separator.
+///
+/// # Errors
+/// [`EncodeError::TooLong`] if the buffer is full.
+pub fn write_sealed_state(state: &State, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+    buffer.push_binary(&write_state(state), Direction::RobotToHost, session)
 }
 
 fn within<T: Copy + Into<i64>>(value: T, span: Span) -> Result<T, Refusal> {

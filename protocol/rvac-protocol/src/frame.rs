@@ -79,6 +79,8 @@ pub struct Framer {
     buffer: [u8; PACKET_BYTES_MAX],
     length: usize,
     digested: usize,
+    /// The length at which the digest takes its next stride.
+    digest_due: usize,
     digest: Digest,
     start: Digest,
     direction: Direction,
@@ -94,6 +96,7 @@ impl Framer {
             buffer: [0; PACKET_BYTES_MAX],
             length: 0,
             digested: 0,
+            digest_due: TEXT_SEAL_BYTES + STRIDE,
             digest: start,
             start,
             direction,
@@ -112,18 +115,36 @@ impl Framer {
     /// Takes one byte. Separators give what they end; empty packets give nothing.
     #[inline]
     pub fn push(&mut self, byte: u8) -> Option<Framed<'_>> {
+        if self.absorb(byte) {
+            None
+        } else {
+            self.push_special(byte)
+        }
+    }
+
+    /// Takes a byte in the inside of a packet, as nearly every byte is; `false` if it is anything else.
+    #[inline]
+    fn absorb(&mut self, byte: u8) -> bool {
+        let inside = byte >= 0x20 && self.length != 0 && matches!(self.form, Form::Text | Form::Binary);
+        if inside {
+            self.take(byte);
+        }
+        inside
+    }
+
+    fn push_special(&mut self, byte: u8) -> Option<Framed<'_>> {
         if byte == SEPARATOR || byte == SEPARATOR_2016 {
             return self.finish();
         }
         match self.form {
             Form::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
                 self.form = Form::Binary;
-                self.take(byte, BINARY_SEAL_BYTES);
+                self.digest_due = BINARY_SEAL_BYTES + STRIDE;
+                self.take(byte);
             }
             Form::Text if byte < 0x20 => self.poison(Poison::ControlByte),
-            Form::Text => self.take(byte, TEXT_SEAL_BYTES),
             Form::Binary if byte == STUFFING => self.form = Form::BinaryStuffing,
-            Form::Binary => self.take(byte, BINARY_SEAL_BYTES),
+            Form::Text | Form::Binary => self.take(byte),
             Form::BinaryStuffing => self.unstuff(byte),
             Form::Poisoned(_) => {}
         }
@@ -147,27 +168,27 @@ impl Framer {
         let original = byte ^ STUFFED_BIT;
         if matches!(original, STUFFING | SEPARATOR | SEPARATOR_2016) {
             self.form = Form::Binary;
-            self.take(original, BINARY_SEAL_BYTES);
+            self.take(original);
         } else {
             self.poison(Poison::ControlByte);
         }
     }
 
     #[inline]
-    fn take(&mut self, byte: u8, seal_bytes: usize) {
+    fn take(&mut self, byte: u8) {
         let Some(slot) = self.buffer.get_mut(self.length) else {
             self.poison(Poison::TooLong);
             return;
         };
         *slot = byte;
         self.length += 1;
-        if self.length - self.digested == seal_bytes + STRIDE {
+        if self.length == self.digest_due {
+            self.digest_due += STRIDE;
             self.catch_up(self.digested + STRIDE);
         }
     }
 
     /// Takes the bytes up to `end` into the digest.
-    #[inline]
     fn catch_up(&mut self, end: usize) {
         if let Some(bytes) = self.buffer.get(self.digested..end) {
             self.digest.extend(bytes);
@@ -238,6 +259,7 @@ impl Framer {
     fn restart(&mut self) {
         self.length = 0;
         self.digested = 0;
+        self.digest_due = TEXT_SEAL_BYTES + STRIDE;
         self.digest = self.start;
         self.form = Form::Text;
     }

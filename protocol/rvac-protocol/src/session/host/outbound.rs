@@ -5,7 +5,6 @@ use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::SEPARATOR;
 use crate::message::{Command, HostHello, ProtocolVersion, Sequence};
-use crate::seal::Direction;
 use crate::session::{BAUD_RATE_PATTERN, FLUSH_AFTER_MS};
 use crate::text::write_sealed_command;
 
@@ -156,8 +155,7 @@ impl Core {
         self.sent = Some(self.now);
         match command {
             Command::Drive(drive) if self.binary.drive && !self.binary_left => {
-                let packet = binary::write_drive(drive).ok_or(EncodeError::Range)?;
-                buffer.push_binary(&packet, Direction::HostToRobot, self.session)
+                binary::write_sealed_drive(drive, self.session, buffer)
             }
             _ => write_sealed_command(command, self.session, buffer),
         }

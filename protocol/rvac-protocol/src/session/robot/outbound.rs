@@ -4,10 +4,7 @@ use super::{Core, FLUSH_AFTER_MS, Reply};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::{PACKET_BYTES_MAX, SEPARATOR};
-use crate::message::{
-    CommandNames, DescribeRow, Parameter, ProtocolVersion, Report, RobotHello, RowContent, State,
-};
-use crate::seal::Direction;
+use crate::message::{CommandNames, DescribeRow, Parameter, ProtocolVersion, Report, RobotHello, RowContent};
 use crate::text::write_sealed_report;
 
 /// Rows of the description before the parameters.
@@ -36,16 +33,12 @@ impl Core {
         self.sent = Some(self.now);
         match report {
             Report::State(state) if self.binary.state && !self.binary_left => {
-                self.write_binary(state, buffer)
+                binary::write_sealed_state(state, self.session, buffer)
             }
             // The host must be able to read it whatever session it believes in.
             Report::Hello(_) => write_sealed_report(report, 0, buffer),
             _ => write_sealed_report(report, self.session, buffer),
         }
-    }
-
-    fn write_binary(&self, state: &State, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
-        buffer.push_binary(&binary::write_state(state), Direction::RobotToHost, self.session)
     }
 
     fn hello(&self) -> RobotHello {
