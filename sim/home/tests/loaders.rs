@@ -43,6 +43,13 @@ fn pgm(pixels: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// The same with two bytes a pixel.
+fn wide_pgm(pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = b"P5 40 20 65535\n".to_vec();
+    bytes.extend(pixels.iter().flat_map(|pixel| [*pixel, *pixel]));
+    bytes
+}
+
 fn png_of(pixels: &[u8], color: png::ColorType) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 40, 20);
@@ -69,8 +76,9 @@ fn ros_maps_load_from_every_image_format() {
         .iter()
         .flat_map(|pixel| [*pixel, *pixel, *pixel, 255])
         .collect();
-    let images: [(&str, Vec<u8>); 4] = [
+    let images: [(&str, Vec<u8>); 5] = [
         ("ros-p5.pgm", pgm(&grey)),
+        ("ros-16-bit.pgm", wide_pgm(&grey)),
         ("ros-p2.pgm", format!("P2 40 20 255\n{text}").into_bytes()),
         ("ros-grey.png", png_of(&grey, png::ColorType::Grayscale)),
         ("ros-rgba.png", png_of(&rgba, png::ColorType::Rgba)),
@@ -166,6 +174,20 @@ fn valetudo_maps_of_version_1_have_plain_pixels() {
     );
     let home = load("valetudo1.json", text.as_bytes()).unwrap();
     check_area(home.free_area_m2(), 1.0);
+}
+
+#[test]
+fn carpets_of_valetudo_are_rugs() {
+    let carpet = r#""entities":[{"__class":"PolygonMapEntity","type":"carpet","points":[550,1050,600,1050,600,1100,550,1100]},"#;
+    let text = valetudo().replace("\"entities\":[", carpet);
+    let home = load("carpet.json", text.as_bytes()).unwrap();
+    let rugs = home
+        .grid()
+        .cells
+        .iter()
+        .filter(|cell| **cell == Cell::Rug)
+        .count();
+    check_area(rugs as f64 * home.grid().cell_area_m2(), 0.25);
 }
 
 #[test]

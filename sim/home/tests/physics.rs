@@ -111,6 +111,7 @@ fn the_bumper_stays_pressed_while_the_robot_rests_and_opens_when_it_backs_off() 
     steps(&mut world, 3_000, drive(0.0, 0.0));
     assert!(world.sensors().bumper_left && world.sensors().bumper_right);
     steps(&mut world, 500, drive(-0.5, -0.5));
+    assert_eq!(world.truth().contacts, 1, "it was one contact all the time");
     assert!(!world.sensors().bumper_left && !world.sensors().bumper_right);
     assert_eq!(world.truth().contact_rad, None);
 }

@@ -12,7 +12,7 @@ pub enum HomeError {
         path: PathBuf,
     },
     /// The file cannot be read.
-    #[error("cannot read the home file {}: {source}; check its permissions", path.display())]
+    #[error("cannot read the home file {}: {source}; give a file that you may read", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,

@@ -1,6 +1,6 @@
 //! The body in the plan: pose, contact with solid things, bumper.
 
-use crate::model::RobotModel;
+use crate::model::{RobotModel, WheelMotor};
 use crate::plan::DistanceField;
 use crate::pose::{Pose, wrap_angle};
 
@@ -21,6 +21,7 @@ const REFRESH_STEPS: u32 = 64;
 pub(crate) struct Body {
     radius_m: f64,
     travel_m: f64,
+    spring_n: f64,
     switch_m: f64,
     arc_cos: f64,
     overlap_sin: f64,
@@ -47,15 +48,19 @@ pub(crate) struct Contact {
     pub(crate) forward: f64,
     /// Sine of its direction from straight ahead, left positive.
     pub(crate) left: f64,
-    /// The bumper is pressed to its end, or the touched part of the body does not give way.
-    pub(crate) rigid: bool,
+    /// How far the bumper is pressed, 1 = to its end; a part of the body that does not give way counts as pressed.
+    pub(crate) compression: f64,
 }
+
+/// From this compression on nothing gives way any more.
+const RIGID: f64 = 0.98;
 
 impl Body {
     pub(crate) fn new(model: &RobotModel, pose: Pose) -> Self {
         let mut body = Self {
             radius_m: model.body.radius_m,
             travel_m: model.bumper.travel_m,
+            spring_n: model.bumper.force_n,
             switch_m: model.bumper.switch_m,
             arc_cos: libm::cos(model.bumper.half_arc_rad),
             overlap_sin: libm::sin(model.bumper.overlap_rad),
@@ -159,7 +164,11 @@ impl Body {
         self.contact = Some(Contact {
             forward,
             left,
-            rigid: excess_m > -1e-4,
+            compression: if gives_way {
+                (depth_m / self.travel_m).min(1.0)
+            } else {
+                1.0
+            },
         });
         if gives_way && depth_m >= self.switch_m {
             self.press(left, now_ms);
@@ -172,11 +181,12 @@ impl Body {
         true
     }
 
-    /// A body that stands still keeps pressing what it presses.
+    /// A body that stands still keeps touching and pressing what it touches and presses.
     pub(crate) const fn rest(&mut self, now_ms: u64) {
         if self.contact.is_none() {
             return;
         }
+        self.last_contact_ms = Some(now_ms);
         if self.left_until_ms >= now_ms {
             self.left_until_ms = now_ms + RELEASE_MS;
         }
@@ -210,18 +220,24 @@ impl Body {
             .map(|contact| wrap_angle(libm::atan2(contact.left, contact.forward)))
     }
 
-    /// Share of the wheels' greatest force that a contact takes when they push into this direction (sign of the way).
-    pub(crate) fn blocked(&self, direction: f64) -> f64 {
-        match self.contact {
-            Some(contact) if contact.rigid => (contact.forward * direction).max(0.0),
-            _ => 0.0,
+    /// Force against one wheel that drives into this direction (1 forward, -1 backward): the bumper's springs, then as
+    /// much as the wheel can bring before it slips.
+    pub(crate) fn push_n(&self, direction: f64, motor: &WheelMotor) -> f64 {
+        let Some(contact) = self.contact else {
+            return 0.0;
+        };
+        let against = (contact.forward * direction).max(0.0);
+        if contact.compression >= RIGID {
+            motor.traction_n * against
+        } else {
+            0.5 * self.spring_n * contact.compression * against
         }
     }
 
     /// Friction of a wall on a sliding body, as a share of the way.
     pub(crate) fn wall_friction(&self) -> f64 {
         match self.contact {
-            Some(contact) if contact.rigid => WALL_FRICTION * contact.forward.abs(),
+            Some(contact) if contact.compression >= RIGID => WALL_FRICTION * contact.forward.abs(),
             _ => 0.0,
         }
     }

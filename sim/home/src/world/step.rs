@@ -23,6 +23,8 @@ const DOCK_MS: u64 = 40;
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two steps of the gyro's bias.
 const DRIFT_MS: u64 = 1024;
+/// Milliseconds between two computations of the direction of a lasting contact.
+const CONTACT_MS: u64 = 10;
 /// A door waits until the robot is this far from its leaf, metres beyond the body.
 const DOOR_GAP_M: f64 = 0.02;
 
@@ -99,8 +101,8 @@ impl World {
         if self.is_in_air() {
             return 0.0;
         }
-        let pushed = self.body.blocked(1f64.copysign(pwm)) * self.model.wheel_motor.traction_n;
-        self.underneath.surface.drag_n + pushed.min(self.model.wheel_motor.traction_n)
+        let push_n = self.body.push_n(1f64.copysign(pwm), &self.model.wheel_motor);
+        self.underneath.surface.drag_n + push_n
     }
 
     fn roll(&mut self, left_m: f64, right_m: f64) -> f64 {
@@ -276,7 +278,11 @@ impl World {
         self.truth.rim_right_m_per_s = self.right.rim_m_per_s;
         self.truth.left_over_cliff = self.underneath.left_over_cliff;
         self.truth.right_over_cliff = self.underneath.right_over_cliff;
-        self.truth.contact_rad = self.body.contact_rad();
+        if self.body.contact.is_none() {
+            self.truth.contact_rad = None;
+        } else if self.truth.contact_rad.is_none() || now_ms.is_multiple_of(CONTACT_MS) {
+            self.truth.contact_rad = self.body.contact_rad();
+        }
         self.truth.contacts = self.body.contacts;
     }
 }

@@ -25,7 +25,8 @@ pub struct Truth {
     pub swept_m2: f64,
     /// Share of the dirt that has been taken up, 0..1; this needs main brush and suction.
     pub dirt_share: f64,
-    /// Direction of the present contact from straight ahead, radians; `None` = the body touches nothing.
+    /// Direction of the present contact from straight ahead, radians, at most 10 ms old; `None` = the body touches
+    /// nothing.
     pub contact_rad: Option<f64>,
     /// Times the body came into contact with something.
     pub contacts: u32,

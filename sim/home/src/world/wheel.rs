@@ -114,7 +114,8 @@ impl Wheel {
         self.take_counts();
         let rolled_m = self
             .rolled_m
-            .clamp(self.travel_m - self.errors.backlash_m, self.travel_m);
+            .max(self.travel_m - self.errors.backlash_m)
+            .min(self.travel_m);
         let way_m = rolled_m - self.rolled_m;
         self.rolled_m = rolled_m;
         way_m * self.errors.way_factor
