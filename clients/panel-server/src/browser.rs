@@ -97,11 +97,14 @@ struct Browser {
 impl Browser {
     async fn run(&mut self, mut stream: SplitStream<WebSocket>) -> Parting {
         let mut pulse = interval(PING_EVERY);
+        // The first request must not find the connection half made.
+        let first = self.vthal.next().await;
+        let mut turn = self.on_vthal(first).await;
         loop {
-            let turn = self.turn(&mut stream, &mut pulse).await;
             if let Err(parting) = turn {
                 return parting;
             }
+            turn = self.turn(&mut stream, &mut pulse).await;
         }
     }
 

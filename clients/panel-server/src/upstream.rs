@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::UnixStream;
+use tokio::task::JoinHandle;
 use tokio::time::{Instant, sleep_until, timeout};
 
 use rvac_api::SEPARATOR;
@@ -42,6 +43,8 @@ enum Link {
     Down {
         retry_at: Instant,
     },
+    /// A task of its own, so that a cancelled wait does not throw away a connection that is half made.
+    Coming(JoinHandle<io::Result<UnixStream>>),
     Up {
         stream: UnixStream,
         received: Vec<u8>,
@@ -62,16 +65,21 @@ impl Upstream {
 
     /// Waits for the next event. May be cancelled at any time without losing anything.
     pub(crate) async fn next(&mut self) -> Event {
+        if let Link::Down { retry_at } = self.link {
+            sleep_until(retry_at).await;
+            self.link = Link::Coming(tokio::spawn(UnixStream::connect(self.path.clone())));
+        }
         let read = match &mut self.link {
-            Link::Down { retry_at } => {
-                sleep_until(*retry_at).await;
-                return self.connect().await;
+            Link::Coming(attempt) => {
+                let made = attempt.await;
+                return self.finish(made.ok().and_then(Result::ok));
             }
             Link::Up {
                 stream,
                 received,
                 searched,
             } => next_message(stream, received, searched).await,
+            Link::Down { .. } => return Event::Lost,
         };
         match read {
             Ok(text) => Event::Message(text),
@@ -96,18 +104,14 @@ impl Upstream {
         }
     }
 
-    async fn connect(&mut self) -> Event {
-        match UnixStream::connect(&self.path).await {
-            Ok(stream) => {
-                self.link = Link::Up {
-                    stream,
-                    received: Vec::new(),
-                    searched: 0,
-                };
-                Event::Connected
-            }
-            Err(_absent) => self.lose(),
-        }
+    fn finish(&mut self, made: Option<UnixStream>) -> Event {
+        let Some(stream) = made else { return self.lose() };
+        self.link = Link::Up {
+            stream,
+            received: Vec::new(),
+            searched: 0,
+        };
+        Event::Connected
     }
 
     fn lose(&mut self) -> Event {

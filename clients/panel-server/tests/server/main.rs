@@ -1,0 +1,7 @@
+//! The server over real sockets.
+#![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
+
+mod attacks;
+mod binary;
+mod relay;
+mod rig;
