@@ -12,7 +12,7 @@ const WASM: &str = "wasm32-unknown-unknown/release/panel.wasm";
 /// Builds and packs the panel; gives the folder that the panel server serves.
 pub(crate) fn build() -> anyhow::Result<PathBuf> {
     let wasm = compile()?;
-    let folder = workspace::target().join("panel-dist");
+    let folder = workspace::target().join("panel");
     let mut pack = workspace::cargo();
     pack.args([
         "run",
@@ -35,7 +35,7 @@ pub(crate) fn build() -> anyhow::Result<PathBuf> {
 
 fn compile() -> anyhow::Result<PathBuf> {
     let toolchain = toolchain::choose()?;
-    let target = workspace::target().join("wasm");
+    let target = workspace::target().join("cross");
     let mut cargo = toolchain.cargo();
     cargo
         .args([

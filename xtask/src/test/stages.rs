@@ -164,7 +164,9 @@ fn panel_tests(_long: bool) -> Result {
         "--package",
         "panel-logic",
     ]);
-    command.arg("--target-dir").arg(workspace::target().join("panel"));
+    command
+        .arg("--target-dir")
+        .arg(workspace::target().join("panel-logic"));
     tests(&mut command)
 }
 
