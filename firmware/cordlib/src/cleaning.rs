@@ -52,30 +52,28 @@ pub(crate) struct Cleaning {
 }
 
 impl Cleaning {
-    /// A command for one cleaning motor.
+    /// A command for one cleaning motor that the machine has.
     ///
     /// # Errors
-    /// `Absent` if the machine lacks it, `Inhibited` if it must not start now.
-    pub(crate) fn command<P: Parts>(
+    /// `Inhibited` if it must not start now, `Absent` if it is none of the three.
+    pub(crate) fn command(
         &mut self,
         command: &MotorCommand,
         standing: &Standing,
         now: Tick,
     ) -> Result<(), Refusal> {
         let duty = command.throttle;
-        let (wish, present) = match command.motor {
-            Motor::BrushMain => (&mut self.main, P::BrushMain::PRESENT),
-            Motor::BrushSides => (&mut self.sides, P::BrushSides::PRESENT),
-            Motor::Vacuum => (&mut self.vacuum, P::Vacuum::PRESENT),
+        let wish = match command.motor {
+            Motor::BrushMain => &mut self.main,
+            Motor::BrushSides => &mut self.sides,
+            Motor::Vacuum => &mut self.vacuum,
             Motor::WheelLeft | Motor::WheelRight | Motor::BrushLeft | Motor::BrushRight => {
                 return Err(Refusal::Absent);
             }
         };
-        if !present {
-            return Err(Refusal::Absent);
-        }
         let starts = wish.applied == Throttle::ZERO && duty != Throttle::ZERO;
-        if standing.permit_cleaner(duty) != duty || (starts && standing.touches()) {
+        let forbidden = !standing.armed || standing.permit_cleaner(duty) != duty;
+        if forbidden || (starts && standing.touches()) {
             return Err(Refusal::Inhibited);
         }
         wish.duty = duty;

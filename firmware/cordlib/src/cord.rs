@@ -1,7 +1,7 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    BinaryKinds, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+    BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
@@ -47,6 +47,7 @@ pub struct Cord<P: Parts> {
     pub(crate) senses: Senses,
     pub(crate) clock: LongClock,
     pub(crate) heard: Tick,
+    pub(crate) fitted: Capabilities,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
@@ -78,6 +79,7 @@ impl<P: Parts> Cord<P> {
             },
             clock: LongClock::starting_at(now),
             heard: now,
+            fitted: fitted::<P>(&parameters),
             accepted: 0,
             watch: Watch::starting_at(now),
             applied: (WheelDrive::Brake, WheelDrive::Brake),
@@ -314,6 +316,11 @@ impl<P: Parts> Cord<P> {
     }
 }
 
+/// What the machine has.
+fn fitted<P: Parts>(parameters: &Parameters) -> Capabilities {
+    parameters.fitted.unwrap_or_else(Board::<P>::capabilities)
+}
+
 fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters) -> RobotIdentity {
     let boot_count = board.reset.boot_count();
     let moment = board.clock.tick().0 ^ u32::from(board.clock.microseconds()).rotate_left(16);
@@ -328,7 +335,7 @@ fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters) -> RobotIde
             drive: true,
         },
         description: Description {
-            capabilities: Board::<P>::capabilities(),
+            capabilities: fitted::<P>(parameters),
             limits: parameters.limits,
         },
     }

@@ -2,12 +2,12 @@
 //! what inhibits.
 
 use rvac_protocol::message::{
-    Beep, Command, Drive, Inhibit, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Refusal, Sequence,
+    Beep, Command, Drive, Inhibit, Led, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Refusal,
 };
 use rvac_protocol::session::{HAND_SPEED_MAX, HAND_TURN_MAX, Mode, RobotEvent, SessionEnd};
 use rvac_units::Tick;
 
-use crate::board::{Beeper, Encoders, Parts};
+use crate::board::Parts;
 use crate::cord::Cord;
 use crate::motion::{Ending, Pace, Path, Side, suits_drive, suits_path};
 use crate::permit::Standing;
@@ -50,60 +50,50 @@ impl<P: Parts> Cord<P> {
         self.stop_all(MoveEnd::Inhibited);
     }
 
+    /// Carries out a command of the host and answers it as the wire wants it.
     fn obey(&mut self, command: &Command, now: Tick) {
+        let answer = self.carry_out(command, now);
+        let Some(sequence) = command.sequence() else {
+            return;
+        };
+        // Motion that is repeated many times a second is answered only when it is refused.
+        if command.must_arrive() || answer.is_err() {
+            self.session.answer(sequence, answer.err());
+        }
+    }
+
+    /// Carries out a wish of the board's own firmware (a button that starts spot cleaning, say). It meets the same limits
+    /// and the same gate as one from the wire, and the newest motion rules (S27).
+    ///
+    /// # Errors
+    /// The named reason for which it is refused. `Hello`, `Hand`, `Describe`, `Ping` and `Seen` belong to the wire:
+    /// `Unknown`.
+    pub fn request(&mut self, command: &Command) -> Result<(), Refusal> {
+        let now = self.senses.now;
+        self.carry_out(command, now)
+    }
+
+    fn carry_out(&mut self, command: &Command, now: Tick) -> Answer {
         match command {
             Command::Info => self.reporter.want_info(),
             Command::State => self.reporter.want_state(),
-            Command::Drive(drive) => {
-                let answer = self.drive(drive, now);
-                self.answer_refusal(drive.sequence, answer);
-            }
-            Command::Motor(motor) => {
-                let answer = self.motor(motor, now);
-                self.answer_refusal(motor.sequence, answer);
-            }
-            Command::Move(movement) => {
-                let answer = self.follow(movement, now);
-                self.answer(movement.sequence, answer);
-            }
+            Command::Drive(drive) => return self.drive(drive, now),
+            Command::Motor(motor) => return self.motor(motor, now),
+            Command::Move(movement) => return self.follow(movement, now),
             Command::Stop => self.stop(),
-            Command::Beep(beep) => self.beep(*beep),
-            Command::Led(led) => {
-                self.lights.set(&mut self.board.lights, led);
-            }
-            Command::Arm { sequence, undock } => {
-                let answer = if *undock { self.undock() } else { self.arm() };
-                self.answer(*sequence, answer);
-            }
-            Command::Clear { sequence, inhibit } => {
-                let answer = self.clear(*inhibit);
-                self.answer(*sequence, answer);
-            }
-            Command::Set {
-                sequence,
-                parameter,
-                value,
-            } => {
-                let answer = self.set(*parameter, *value, now);
-                self.answer(*sequence, answer);
-            }
+            Command::Beep(beep) => return self.beep(*beep),
+            Command::Led(led) => return self.light(led),
+            Command::Arm { undock: true, .. } => return self.undock(),
+            Command::Arm { undock: false, .. } => return self.arm(),
+            Command::Clear { inhibit, .. } => return self.clear(*inhibit),
+            Command::Set { parameter, value, .. } => return self.set(*parameter, *value, now),
             Command::Hello(_)
             | Command::Hand
             | Command::Describe { .. }
             | Command::Ping { .. }
-            | Command::Seen { .. } => {}
+            | Command::Seen { .. } => return Err(Refusal::Unknown),
         }
-    }
-
-    fn answer(&mut self, sequence: Sequence, answer: Answer) {
-        self.session.answer(sequence, answer.err());
-    }
-
-    /// Motion that is repeated many times a second is answered only when it is refused.
-    fn answer_refusal(&mut self, sequence: Sequence, answer: Answer) {
-        if let Err(refusal) = answer {
-            self.session.answer(sequence, Some(refusal));
-        }
+        Ok(())
     }
 
     /// What a fresh motion command meets: it is the sign of life that ends `link-lost`.
@@ -151,15 +141,21 @@ impl<P: Parts> Cord<P> {
     }
 
     fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> Answer {
-        let standing = self.standing_for_command();
-        if !standing.armed {
-            return Err(Refusal::Inhibited);
+        let is_fitted = match command.motor {
+            Motor::BrushMain => self.fitted.brush_main,
+            Motor::BrushSides => self.fitted.brush_sides,
+            Motor::Vacuum => self.fitted.vacuum,
+            Motor::WheelLeft | Motor::WheelRight | Motor::BrushLeft | Motor::BrushRight => false,
+        };
+        if !is_fitted {
+            return Err(Refusal::Absent);
         }
-        self.cleaning.command::<P>(command, &standing, now)
+        let standing = self.standing_for_command();
+        self.cleaning.command(command, &standing, now)
     }
 
     fn follow(&mut self, movement: &Move, now: Tick) -> Answer {
-        if !P::Encoders::PRESENT {
+        if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
         let tightest_um = movement.length.magnitude() / MOVE_TURN_MAX;
@@ -204,10 +200,20 @@ impl<P: Parts> Cord<P> {
         self.stop_all(MoveEnd::Inhibited);
     }
 
-    fn beep(&mut self, beep: Beep) {
-        if P::Beeper::PRESENT && !self.sound.queue(beep) {
-            self.journal.note(LogLevel::Warn, "beep dropped,", "queue full");
+    fn beep(&mut self, beep: Beep) -> Answer {
+        if !self.fitted.beeper {
+            return Err(Refusal::Absent);
         }
+        if self.sound.queue(beep) {
+            return Ok(());
+        }
+        self.journal.note(LogLevel::Warn, "beep dropped,", "queue full");
+        Err(Refusal::Busy)
+    }
+
+    fn light(&mut self, led: &Led) -> Answer {
+        let is_there = led.led < self.fitted.leds && self.lights.set(&mut self.board.lights, led);
+        if is_there { Ok(()) } else { Err(Refusal::Absent) }
     }
 
     fn arm(&mut self) -> Answer {

@@ -1,6 +1,6 @@
 //! What differs between machines of the same make-up: names, geometry, limits, gains.
 
-use rvac_protocol::message::Limits;
+use rvac_protocol::message::{Capabilities, Limits};
 use rvac_units::{AngularSpeed, Current, Speed, Throttle};
 
 /// Facts about one kind of robot.
@@ -10,6 +10,9 @@ pub struct Parameters {
     pub device: &'static str,
     /// Version of the board's firmware; at most 24 bytes.
     pub firmware: &'static str,
+    /// What is really fitted, where a board's types serve several machines; `None` = all that the types name. Encoders
+    /// cannot be taken away here: a board without them has `Absent` for its type.
+    pub fitted: Option<Capabilities>,
     /// Geometry and limits, as they go to the host.
     pub limits: Limits,
     /// Control of the wheels.
@@ -66,6 +69,7 @@ impl Parameters {
         Self {
             device,
             firmware,
+            fitted: None,
             limits,
             wheel: WheelParameters {
                 dead_band: Throttle::saturating_from_millionths(200_000),

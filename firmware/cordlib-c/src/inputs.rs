@@ -1,0 +1,164 @@
+//! What the robot's inputs show. Pushed by the firmware, read by the main loop.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use cord::board::{CliffLevels, Received, WheelCounts};
+use rvac_protocol::message::{Battery, Bumpers, ChargeState, Currents, Gyro, WheelDrops};
+use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Voltage};
+
+/// Bytes that fit each queue of the connection.
+pub(crate) const QUEUE_BYTES: usize = 1024;
+
+/// The newest state of every input, and both byte queues.
+#[derive(Debug)]
+pub(crate) struct Inputs {
+    pub(crate) received: VecDeque<Received>,
+    pub(crate) to_send: VecDeque<u8>,
+    pub(crate) bumpers: Bumpers,
+    pub(crate) cliffs: CliffLevels,
+    pub(crate) wheel_drops: WheelDrops,
+    pub(crate) counts: WheelCounts,
+    pub(crate) buttons: u8,
+    pub(crate) docked: bool,
+    pub(crate) gyro: Option<Gyro>,
+    pub(crate) currents: Option<Currents>,
+    pub(crate) battery: Option<Battery>,
+}
+
+static INPUTS: Mutex<Inputs> = Mutex::new(Inputs {
+    received: VecDeque::new(),
+    to_send: VecDeque::new(),
+    bumpers: Bumpers {
+        left: false,
+        right: false,
+    },
+    cliffs: CliffLevels {
+        left: 0,
+        middle: 0,
+        right: 0,
+    },
+    wheel_drops: WheelDrops {
+        left: false,
+        right: false,
+    },
+    counts: WheelCounts { left: 0, right: 0 },
+    buttons: 0,
+    docked: false,
+    gyro: None,
+    currents: None,
+    battery: None,
+});
+
+/// The inputs. Never hold this while a callback runs.
+pub(crate) fn inputs() -> MutexGuard<'static, Inputs> {
+    INPUTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A bumper was pressed (1) or released (0) at this angle in radians, left positive: above 0 the left half, below 0 the
+/// right half, 0 both. NaN counts as both.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_bumper(angle: f64, pressed: i32) {
+    let mut inputs = inputs();
+    if angle >= 0.0 || angle.is_nan() {
+        inputs.bumpers.left = pressed != 0;
+    }
+    if angle <= 0.0 || angle.is_nan() {
+        inputs.bumpers.right = pressed != 0;
+    }
+}
+
+/// Light that a cliff receiver sees, 0 (dark) to 1 (saturated), with the emitters as they are: sensor 0 left, 1 middle,
+/// 2 right. NaN counts as dark, which is no floor.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_cliff(sensor: i32, level: f64) {
+    let level = (level.clamp(0.0, 1.0) * 1023.0) as u16;
+    let mut inputs = inputs();
+    match sensor {
+        0 => inputs.cliffs.left = level,
+        1 => inputs.cliffs.middle = level,
+        2 => inputs.cliffs.right = level,
+        _ => {}
+    }
+}
+
+/// A wheel hangs (1) or stands (0): wheel 0 left, 1 right.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_wheel_drop(wheel: i32, hanging: i32) {
+    let mut inputs = inputs();
+    match wheel {
+        0 => inputs.wheel_drops.left = hanging != 0,
+        1 => inputs.wheel_drops.right = hanging != 0,
+        _ => {}
+    }
+}
+
+/// Totals of the wheel encoders, forward positive, wrapping.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_encoders(left: i32, right: i32) {
+    inputs().counts = WheelCounts { left, right };
+}
+
+/// A button, 0 to 7, is down (1) or up (0).
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_button(button: i32, down: i32) {
+    let Some(bit) = u32::try_from(button)
+        .ok()
+        .and_then(|number| 1_u8.checked_shl(number))
+    else {
+        return;
+    };
+    let mut inputs = inputs();
+    if down != 0 {
+        inputs.buttons |= bit;
+    } else {
+        inputs.buttons &= !bit;
+    }
+}
+
+/// The dock's contacts are closed (1) or open (0).
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_dock(closed: i32) {
+    inputs().docked = closed != 0;
+}
+
+/// Heading since reset in radians, counter-clockwise positive, and rate in rad/s. A NaN in either means that the gyro
+/// gives nothing now.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_gyro(heading: f64, rate: f64) {
+    let known = heading.is_finite() && rate.is_finite();
+    inputs().gyro = known.then(|| Gyro {
+        // Headings wrap through the whole range of the integer.
+        heading: Angle((heading * 1e6) as i64 as i32),
+        rate: AngularSpeed::from_rad_per_s(rate),
+    });
+}
+
+/// Motor currents in amperes. A NaN in any means that there are no readings.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_currents(wheel_left: f64, wheel_right: f64, brush_main: f64) {
+    let known = [wheel_left, wheel_right, brush_main]
+        .iter()
+        .all(|current| !current.is_nan());
+    inputs().currents = known.then(|| Currents {
+        wheel_left: Current::from_a(wheel_left),
+        wheel_right: Current::from_a(wheel_right),
+        brush_main: Current::from_a(brush_main),
+    });
+}
+
+/// Battery: charge 0..1, volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_battery(charge: f64, voltage: f64, current: f64, temperature: f64) {
+    let known = [charge, voltage, current, temperature]
+        .iter()
+        .all(|value| !value.is_nan());
+    let millionths = (charge.clamp(0.0, 1.0) * 1e6) as i32;
+    inputs().battery = known.then(|| Battery {
+        charge: Ratio::from_millionths(millionths).unwrap_or_default(),
+        voltage: Voltage::from_v(voltage),
+        current: Current::from_a(current),
+        temperature: Temperature::from_celsius(temperature),
+        state: ChargeState::default(),
+    });
+}
