@@ -292,7 +292,7 @@ fn stop_is_obeyed_in_any_form_and_mode() {
         b"stop\x1f",
         b"{\"c\":\"stop\"}\x1e",
         b"{\"x\":[1,{}],\"c\":\"stop\",\"n\":\"?\"}*00000000\x1f",
-        b"{\"c\":\"stop\"}*XYZ\x1f{\"c\":\"stop\"}\x1f",
+        b"{\"c\":\"stop\"}*5b1d6f0a{\"c\":\x1f",
         sealed_elsewhere.as_bytes(),
     ];
     for form in forms {

@@ -46,15 +46,11 @@ pub fn read_command(text: &[u8], form: Form) -> Result<Command, RefusedCommand> 
     })
 }
 
-/// Whether the text is a `stop`, which is obeyed whatever else is wrong with the packet: the bare word, or an object whose
-/// `c` is `stop`.
+/// Whether the text is a `stop`, which is obeyed whatever else is wrong with the packet: the bare word, or whatever begins
+/// like an object whose `c` is `stop`.
 #[must_use]
 pub fn is_stop(text: &[u8]) -> bool {
-    text == b"stop" || (text.starts_with(b"{") && word_of(text) == Ok(b"stop") && is_object(text))
-}
-
-fn is_object(text: &[u8]) -> bool {
-    Fields::read(text, ["c"], UnknownKeys::Ignore).is_ok()
+    text == b"stop" || word_of(text) == Ok(b"stop")
 }
 
 fn read(text: &[u8], form: Form) -> Read {

@@ -10,28 +10,28 @@ use crate::message::{
 };
 use crate::span;
 
-const KEYS: [&str; 18] = [
-    "c", "t", "l", "r", "h", "g", "p", "d", "f", "k", "x", "y", "z", "v", "a", "s", "i", "m",
+const KEYS: [&str; 17] = [
+    "c", "t", "l", "r", "h", "g", "p", "d", "f", "k", "x", "y", "z", "v", "a", "s", "i",
 ];
 
 /// The letter of what the charger does.
-const fn charge_letter(charge: ChargeState) -> &'static str {
+const fn charge_letter(charge: ChargeState) -> u8 {
     match charge {
-        ChargeState::Discharging => "d",
-        ChargeState::Charging => "c",
-        ChargeState::Full => "f",
-        ChargeState::Fault => "x",
+        ChargeState::Discharging => b'd',
+        ChargeState::Charging => b'c',
+        ChargeState::Full => b'f',
+        ChargeState::Fault => b'x',
     }
 }
 
 /// The letter of what motion control does.
-const fn motion_letter(motion: MotionPhase) -> &'static str {
+const fn motion_letter(motion: MotionPhase) -> u8 {
     match motion {
-        MotionPhase::Idle => "i",
-        MotionPhase::Drive => "d",
-        MotionPhase::Move => "m",
-        MotionPhase::Motor => "w",
-        MotionPhase::Reflex => "r",
+        MotionPhase::Idle => b'i',
+        MotionPhase::Drive => b'd',
+        MotionPhase::Move => b'm',
+        MotionPhase::Motor => b'w',
+        MotionPhase::Reflex => b'r',
     }
 }
 
@@ -80,14 +80,16 @@ pub(super) fn write(state: &State, object: &mut ObjectWriter<'_>) -> Result<(), 
         .measured("z", state.currents.brush_main.0, span::CURRENT)
         .measured("v", state.battery_voltage.0, span::VOLTAGE)
         .measured("a", state.battery_current.0, span::CURRENT)
-        .name("s", charge_letter(state.charge))
+        .letters("s", [charge_letter(state.charge), motion_letter(state.motion)])
         .number("i", state.inhibits.bits(), span::TOTAL)
-        .name("m", motion_letter(state.motion))
         .finish()
 }
 
 pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
     let fields = Fields::read(text, KEYS, UnknownKeys::Ignore)?;
+    let [charge, motion] = *fields.text(15)? else {
+        return Err(Refusal::Unknown);
+    };
     let flags = fields.text(8)?;
     let flag = |letter: u8| flags.contains(&letter);
     let cleaners = u8::from(flag(b'h')) | u8::from(flag(b's')) << 1 | u8::from(flag(b'v')) << 2;
@@ -121,15 +123,15 @@ pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
         },
         battery_voltage: Voltage(fields.int(13, span::VOLTAGE)?),
         battery_current: current(14)?,
-        charge: charge_from_letter(fields.text(15)?)?,
+        charge: charge_from_letter(charge)?,
         docked: flag(b'd'),
         inhibits: Inhibits::from_bits(fields.total(16)?),
-        motion: motion_from_letter(fields.text(17)?)?,
+        motion: motion_from_letter(motion)?,
         cleaners,
     })
 }
 
-fn read_gyro(fields: &Fields<'_, 18>) -> Result<Option<Gyro>, Refusal> {
+fn read_gyro(fields: &Fields<'_, 17>) -> Result<Option<Gyro>, Refusal> {
     if !fields.has(4) && !fields.has(5) {
         return Ok(None);
     }
@@ -139,7 +141,7 @@ fn read_gyro(fields: &Fields<'_, 18>) -> Result<Option<Gyro>, Refusal> {
     }))
 }
 
-fn charge_from_letter(letter: &[u8]) -> Result<ChargeState, Refusal> {
+fn charge_from_letter(letter: u8) -> Result<ChargeState, Refusal> {
     [
         ChargeState::Discharging,
         ChargeState::Charging,
@@ -147,11 +149,11 @@ fn charge_from_letter(letter: &[u8]) -> Result<ChargeState, Refusal> {
         ChargeState::Fault,
     ]
     .into_iter()
-    .find(|charge| charge_letter(*charge).as_bytes() == letter)
+    .find(|charge| charge_letter(*charge) == letter)
     .ok_or(Refusal::Unknown)
 }
 
-fn motion_from_letter(letter: &[u8]) -> Result<MotionPhase, Refusal> {
+fn motion_from_letter(letter: u8) -> Result<MotionPhase, Refusal> {
     [
         MotionPhase::Idle,
         MotionPhase::Drive,
@@ -160,7 +162,7 @@ fn motion_from_letter(letter: &[u8]) -> Result<MotionPhase, Refusal> {
         MotionPhase::Reflex,
     ]
     .into_iter()
-    .find(|motion| motion_letter(*motion).as_bytes() == letter)
+    .find(|motion| motion_letter(*motion) == letter)
     .ok_or(Refusal::Unknown)
 }
 

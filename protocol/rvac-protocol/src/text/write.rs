@@ -54,6 +54,14 @@ impl<'b> ObjectWriter<'b> {
         self.raw(b"\"")
     }
 
+    /// A text of two letters.
+    pub(crate) fn letters(&mut self, key: &str, letters: [u8; 2]) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        self.raw(&letters);
+        self.raw(b"\"")
+    }
+
     /// Names separated by spaces.
     pub(crate) fn names<'n>(&mut self, key: &str, names: impl Iterator<Item = &'n str>) -> &mut Self {
         self.key(key);

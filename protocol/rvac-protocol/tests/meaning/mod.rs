@@ -1,0 +1,201 @@
+//! Meanings as language-neutral JSON, for comparing with the golden vectors. The matches have no wildcard: a new variant
+//! does not compile until it has a meaning here, and then a test wants a vector of it.
+
+use rvac_protocol::message::{
+    Acknowledgement, Battery, Capabilities, ChargeState, Command, DescribeRow, EdgeKind, Info, LinkCounters,
+    LogLevel, MotionPhase, MoveEnd, Report, RowContent, State,
+};
+use serde_json::{Value, json};
+
+pub(crate) fn command(command: &Command) -> Value {
+    match command {
+        Command::Hello(hello) => json!({
+            "command": "hello", "min": hello.version_min.0, "max": hello.version_max.0,
+            "binary_state": hello.binary.state, "binary_drive": hello.binary.drive,
+        }),
+        Command::Hand => json!({"command": "hand"}),
+        Command::Describe { row } => json!({"command": "describe", "row": row}),
+        Command::Info => json!({"command": "info"}),
+        Command::State => json!({"command": "state"}),
+        Command::Drive(drive) => json!({
+            "command": "drive", "speed_um_per_s": drive.speed.0, "turn_urad_per_s": drive.turn.0,
+            "lease_ms": drive.lease_ms, "number": drive.sequence.0, "seen_tick_ms": drive.seen_tick.0,
+        }),
+        Command::Motor(motor) => json!({
+            "command": "motor", "motor": motor.motor.name(), "throttle_millionths": motor.throttle.millionths(),
+            "lease_ms": motor.lease_ms, "number": motor.sequence.0, "seen_tick_ms": motor.seen_tick.0,
+        }),
+        Command::Move(movement) => json!({
+            "command": "move", "length_um": movement.length.0, "radius_um": movement.radius.map(|radius| radius.0),
+            "number": movement.sequence.0, "seen_tick_ms": movement.seen_tick.0,
+        }),
+        Command::Stop => json!({"command": "stop"}),
+        Command::Beep(beep) => json!({
+            "command": "beep", "pitch_hz": beep.pitch.0, "duration_ms": beep.duration_ms,
+            "volume_millionths": beep.volume.millionths(),
+        }),
+        Command::Led(led) => json!({
+            "command": "led", "led": led.led, "pattern": led.pattern.name(),
+            "brightness_millionths": led.brightness.millionths(),
+        }),
+        Command::Arm { sequence, undock } => {
+            json!({"command": "arm", "number": sequence.0, "undock": undock})
+        }
+        Command::Clear { sequence, inhibit } => {
+            json!({"command": "clear", "number": sequence.0, "inhibit": inhibit.name()})
+        }
+        Command::Set {
+            sequence,
+            parameter,
+            value,
+        } => json!({"command": "set", "number": sequence.0, "parameter": parameter.name(), "value": value}),
+        Command::Ping { sequence } => json!({"command": "ping", "number": sequence.0}),
+        Command::Seen { edge } => json!({"command": "seen", "edge": edge}),
+    }
+}
+
+pub(crate) fn report(report: &Report) -> Value {
+    match report {
+        Report::Hello(hello) => json!({
+            "report": "hello", "min": hello.version_min.0, "max": hello.version_max.0, "device": hello.device.as_str(),
+            "firmware": hello.firmware.as_str(), "session": hello.session, "packet_bytes_max": hello.packet_max,
+            "boots": hello.boot_count, "reset": hello.reset_cause.name(), "binary_state": hello.binary.state,
+            "binary_drive": hello.binary.drive, "tick_ms": hello.tick.0,
+        }),
+        Report::Describe(row) => describe(row),
+        Report::Info(info) => firmware(info),
+        Report::State(state) => telemetry(state),
+        Report::Edge(edge) => {
+            json!({"report": "edge", "number": edge.number, "tick_ms": edge.tick.0, "edge": edge_kind(&edge.kind)})
+        }
+        Report::Acknowledgement(Acknowledgement { sequence, refusal }) => json!({
+            "report": "answer", "number": sequence.map(|sequence| sequence.0), "refusal": refusal.map(|refusal| refusal.name()),
+        }),
+        Report::Log { level, text } => {
+            json!({"report": "log", "level": log_level(*level), "text": text.as_str()})
+        }
+    }
+}
+
+fn describe(row: &DescribeRow) -> Value {
+    let content = match &row.content {
+        RowContent::Limits(limits) => json!({
+            "of": "limits", "speed_max_um_per_s": limits.speed_max.0, "turn_max_urad_per_s": limits.turn_max.0,
+            "track_um": limits.track.0, "count_nm": limits.count_nm, "radius_um": limits.radius.0,
+            "swath_um": limits.swath.0,
+        }),
+        RowContent::Capabilities(parts) => capabilities(parts),
+        RowContent::Commands(commands) => json!({
+            "of": "commands",
+            "commands": rvac_protocol::message::CommandName::ALL
+                .into_iter()
+                .filter(|name| commands.contains(*name))
+                .map(rvac_protocol::message::CommandName::name)
+                .collect::<Vec<_>>(),
+        }),
+        RowContent::Parameter { parameter, min, max } => {
+            json!({"of": "parameter", "parameter": parameter.name(), "min": min, "max": max})
+        }
+        RowContent::Unknown => json!({"of": "unknown"}),
+    };
+    json!({"report": "describe", "row": row.row, "rows": row.rows, "content": content})
+}
+
+fn capabilities(parts: &Capabilities) -> Value {
+    json!({
+        "of": "parts", "bumpers": parts.bumpers, "cliffs": parts.cliffs, "wheel_drops": parts.wheel_drops,
+        "proximity": parts.proximity, "dock_receivers": parts.dock_receivers, "buttons": parts.buttons,
+        "leds": parts.leds, "encoders": parts.encoders, "gyro": parts.gyro, "beeper": parts.beeper,
+        "brush_main": parts.brush_main, "brush_sides": parts.brush_sides, "vacuum": parts.vacuum,
+        "currents": parts.currents, "battery": parts.battery, "charger": parts.charger,
+    })
+}
+
+pub(crate) fn firmware(info: &Info) -> Value {
+    json!({
+        "report": "info", "firmware_version": info.firmware_version.as_str(),
+        "cordlib_version": info.cordlib_version.as_str(), "main_steps_hz": info.main_steps_hz,
+        "bandwidth_in": info.bandwidth_in, "bandwidth_out": info.bandwidth_out,
+        "battery": info.battery.as_ref().map(battery), "link": link(&info.link),
+    })
+}
+
+pub(crate) fn battery(battery: &Battery) -> Value {
+    json!({
+        "charge_millionths": battery.charge.millionths(), "voltage_mv": battery.voltage.0,
+        "current_ma": battery.current.0, "temperature_tenths": battery.temperature.0,
+        "state": charge_state(battery.state),
+    })
+}
+
+pub(crate) fn link(link: &LinkCounters) -> Value {
+    json!({
+        "accepted": link.accepted, "bad_seal": link.bad_seal, "overrun": link.overrun, "framing": link.framing,
+        "malformed": link.malformed, "refused": link.refused, "resync": link.resync,
+    })
+}
+
+fn telemetry(state: &State) -> Value {
+    json!({
+        "report": "state", "tick_ms": state.tick.0, "count_left": state.count_left, "count_right": state.count_right,
+        "heading_urad": state.gyro.map(|gyro| gyro.heading.0), "rate_urad_per_s": state.gyro.map(|gyro| gyro.rate.0),
+        "bump": [state.bumpers.left, state.bumpers.right],
+        "cliff": [state.cliffs.left, state.cliffs.middle, state.cliffs.right],
+        "wheel_drop": [state.wheel_drops.left, state.wheel_drops.right],
+        "proximity": state.proximity, "dock": state.dock, "buttons": state.buttons, "dust_box": state.dust_box,
+        "current_ma": [state.currents.wheel_left.0, state.currents.wheel_right.0, state.currents.brush_main.0],
+        "battery_mv": state.battery_voltage.0, "battery_ma": state.battery_current.0,
+        "charge": charge_state(state.charge), "docked": state.docked, "inhibits": state.inhibits.bits(),
+        "motion": motion_phase(state.motion), "cleaners": state.cleaners,
+    })
+}
+
+fn edge_kind(kind: &EdgeKind) -> Value {
+    match kind {
+        EdgeKind::Bump(bumpers) => json!({"bump": [bumpers.left, bumpers.right]}),
+        EdgeKind::Cliff(cliffs) => json!({"cliff": [cliffs.left, cliffs.middle, cliffs.right]}),
+        EdgeKind::Lift(drops) => json!({"lift": [drops.left, drops.right]}),
+        EdgeKind::Button { button, pressed } => json!({"button": button, "pressed": pressed}),
+        EdgeKind::Docked(docked) => json!({"docked": docked}),
+        EdgeKind::MoveFinished(end) => json!({"move_finished": move_end(*end)}),
+        EdgeKind::Inhibits(inhibits) => json!({"inhibits": inhibits.bits()}),
+        EdgeKind::Stall(motor) => json!({"stall": motor.name()}),
+    }
+}
+
+fn move_end(end: MoveEnd) -> &'static str {
+    match end {
+        MoveEnd::Done => "done",
+        MoveEnd::Inhibited => "inhibited",
+        MoveEnd::Replaced => "replaced",
+        MoveEnd::TimedOut => "timed-out",
+    }
+}
+
+fn charge_state(charge: ChargeState) -> &'static str {
+    match charge {
+        ChargeState::Discharging => "discharging",
+        ChargeState::Charging => "charging",
+        ChargeState::Full => "full",
+        ChargeState::Fault => "fault",
+    }
+}
+
+fn motion_phase(motion: MotionPhase) -> &'static str {
+    match motion {
+        MotionPhase::Idle => "idle",
+        MotionPhase::Drive => "drive",
+        MotionPhase::Move => "move",
+        MotionPhase::Motor => "motor",
+        MotionPhase::Reflex => "reflex",
+    }
+}
+
+fn log_level(level: LogLevel) -> &'static str {
+    match level {
+        LogLevel::Debug => "debug",
+        LogLevel::Info => "info",
+        LogLevel::Warn => "warn",
+        LogLevel::Error => "error",
+    }
+}
