@@ -6,10 +6,12 @@ use super::sensors::GyroReading;
 use super::wheel::STEP_S;
 use crate::{Noise, Pcg, model};
 
-/// Seconds between two draws of the random walk.
-const WALK_PERIOD_S: f64 = super::slip::DRAW_STEPS as f64 * STEP_S;
-/// Seconds between two steps of the bias.
-const DRIFT_PERIOD_S: f64 = 1.024;
+/// Steps between two draws of the random walk.
+pub(crate) const WALK_STEPS: u64 = 16;
+const WALK_PERIOD_S: f64 = WALK_STEPS as f64 * STEP_S;
+/// Steps between two steps of the bias.
+pub(crate) const DRIFT_STEPS: u64 = 1024;
+const DRIFT_PERIOD_S: f64 = DRIFT_STEPS as f64 * STEP_S;
 
 /// The gyro.
 #[derive(Clone, Debug)]

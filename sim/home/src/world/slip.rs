@@ -11,8 +11,8 @@ pub(crate) struct BothWheels {
     pub(crate) right: WheelErrors,
 }
 
-/// Steps over which one draw is spread.
-pub(crate) const DRAW_STEPS: u64 = 16;
+/// Steps over which one draw is spread: a wheel slips for a while, it does not tremble.
+pub(crate) const DRAW_STEPS: u64 = 128;
 
 /// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in them
 /// and spread over the next ones.

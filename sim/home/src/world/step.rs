@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use rvac_units::{Current, Temperature, Voltage};
 
+use super::gyro::{DRIFT_STEPS, WALK_STEPS};
+use super::slip::DRAW_STEPS;
 use super::wheel::STEP_S;
 use super::{Actuation, World};
 
@@ -15,14 +17,10 @@ const CLIFF_MS: u64 = 4;
 const SURFACE_MS: u64 = 8;
 /// Milliseconds between two steps of battery and currents.
 const BATTERY_MS: u64 = 10;
-/// Milliseconds between two draws of slip and gyro noise.
-const DRAW_MS: u64 = super::slip::DRAW_STEPS;
 /// Milliseconds between two samples of the dock's beams.
 const DOCK_MS: u64 = 40;
 /// Milliseconds between two looks at the doors.
 const DOOR_MS: u64 = 256;
-/// Milliseconds between two steps of the gyro's bias.
-const DRIFT_MS: u64 = 1024;
 /// Milliseconds between two computations of the direction of a lasting contact.
 const CONTACT_MS: u64 = 10;
 /// A door waits until the robot is this far from its leaf, metres beyond the body.
@@ -141,11 +139,13 @@ impl World {
             self.step_battery(actuation, BATTERY_MS as f64 * STEP_S);
             self.sweep(actuation);
         }
-        if now_ms % DRAW_MS == 5 {
+        if now_ms % DRAW_STEPS == 4 {
             self.slip.draw(&mut self.random);
-            if let Some(gyro) = &mut self.gyro {
-                gyro.walk(&mut self.random);
-            }
+        }
+        if now_ms % WALK_STEPS == 5
+            && let Some(gyro) = &mut self.gyro
+        {
+            gyro.walk(&mut self.random);
         }
         if let Some(lidar) = &mut self.lidar {
             lidar.step(&self.home.solid, &self.body, &mut self.random);
@@ -163,7 +163,7 @@ impl World {
         if now_ms % DOOR_MS == 9 && !self.doors.is_empty() {
             self.move_doors();
         }
-        if now_ms % DRIFT_MS == 11 {
+        if now_ms % DRIFT_STEPS == 11 {
             self.underneath.flicker(&mut self.random);
             if let Some(gyro) = &mut self.gyro {
                 gyro.drift(&mut self.random);
