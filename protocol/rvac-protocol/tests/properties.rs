@@ -1,0 +1,239 @@
+//! Whatever can be said comes back as it was said, in text and in binary, and a damaged packet hurts only itself.
+
+use proptest::prelude::{Strategy, any, prop, prop_assert_eq, prop_oneof, proptest};
+use rvac_protocol::PacketBuffer;
+use rvac_protocol::binary::{read_drive, read_state, write_drive, write_state};
+use rvac_protocol::frame::{Framed, Framer};
+use rvac_protocol::message::{
+    Beep, Bumpers, ChargeState, Cliffs, Command, Currents, Drive, Gyro, Inhibits, LogLevel, LogText,
+    MotionPhase, Motor, MotorCommand, Move, Report, Sequence, State, WheelDrops,
+};
+use rvac_protocol::seal::Direction;
+use rvac_protocol::text::{
+    Form, ReportPacket, read_command, read_report, write_command, write_report, write_sealed_command,
+};
+use rvac_units::{Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Throttle, Tick, Voltage};
+
+fn drive() -> impl Strategy<Value = Drive> {
+    (
+        -2_000_000..=2_000_000,
+        -8_000_000..=8_000_000,
+        1..=1_000_u16,
+        any::<u16>(),
+        any::<u32>(),
+    )
+        .prop_map(|(speed, turn, lease_ms, sequence, tick)| Drive {
+            speed: Speed(speed),
+            turn: AngularSpeed(turn),
+            lease_ms,
+            sequence: Sequence(sequence),
+            seen_tick: Tick(tick),
+        })
+}
+
+fn motor() -> impl Strategy<Value = MotorCommand> {
+    (
+        0..7_usize,
+        -1_000_000..=1_000_000,
+        1..=1_000_u16,
+        any::<u16>(),
+        any::<u32>(),
+    )
+        .prop_map(|(motor, throttle, lease_ms, sequence, tick)| MotorCommand {
+            motor: Motor::ALL[motor],
+            throttle: Throttle::saturating_from_millionths(throttle),
+            lease_ms,
+            sequence: Sequence(sequence),
+            seen_tick: Tick(tick),
+        })
+}
+
+fn movement() -> impl Strategy<Value = Move> {
+    let radius = prop::option::of(-10_000_000..=10_000_000);
+    (-10_000_000..=10_000_000, radius, any::<u16>(), any::<u32>()).prop_map(
+        |(length, radius, sequence, tick)| Move {
+            length: Length(length),
+            radius: radius.map(Length),
+            sequence: Sequence(sequence),
+            seen_tick: Tick(tick),
+        },
+    )
+}
+
+fn beep() -> impl Strategy<Value = Beep> {
+    (prop_oneof![0..=0, 20..=20_000], 1..=10_000_u16, 0..=1_000_000).prop_map(
+        |(pitch, duration_ms, volume)| Beep {
+            pitch: Frequency(pitch),
+            duration_ms,
+            volume: Ratio::from_millionths(volume).expect("drawn from the range"),
+        },
+    )
+}
+
+fn command() -> impl Strategy<Value = Command> {
+    prop_oneof![
+        drive().prop_map(Command::Drive),
+        motor().prop_map(Command::Motor),
+        movement().prop_map(Command::Move),
+        beep().prop_map(Command::Beep),
+        (any::<u16>(), any::<bool>()).prop_map(|(sequence, undock)| Command::Arm {
+            sequence: Sequence(sequence),
+            undock
+        }),
+    ]
+}
+
+fn current() -> impl Strategy<Value = Current> {
+    (-32_767..=32_767).prop_map(Current)
+}
+
+fn state() -> impl Strategy<Value = State> {
+    let totals = (any::<u32>(), any::<i32>(), any::<i32>(), any::<u32>());
+    let gyro = prop::option::of((any::<i32>(), any::<i32>()));
+    let flags = any::<[bool; 9]>();
+    let bytes = (any::<[u8; 8]>(), any::<[u8; 4]>(), any::<u8>(), 0..8_u8);
+    let power = (current(), current(), current(), current(), 0..=65_535);
+    let phases = (0..4_usize, 0..5_usize);
+    (totals, gyro, flags, bytes, power, phases).prop_map(|(totals, gyro, flags, bytes, power, phases)| {
+        let [
+            bump_left,
+            bump_right,
+            cliff_left,
+            cliff_middle,
+            cliff_right,
+            drop_left,
+            drop_right,
+            dust_box,
+            docked,
+        ] = flags;
+        let charges = [
+            ChargeState::Discharging,
+            ChargeState::Charging,
+            ChargeState::Full,
+            ChargeState::Fault,
+        ];
+        let motions = [
+            MotionPhase::Idle,
+            MotionPhase::Drive,
+            MotionPhase::Move,
+            MotionPhase::Motor,
+            MotionPhase::Reflex,
+        ];
+        State {
+            tick: Tick(totals.0),
+            count_left: totals.1,
+            count_right: totals.2,
+            gyro: gyro.map(|(heading, rate)| Gyro {
+                heading: Angle(heading),
+                rate: AngularSpeed(rate),
+            }),
+            bumpers: Bumpers {
+                left: bump_left,
+                right: bump_right,
+            },
+            cliffs: Cliffs {
+                left: cliff_left,
+                middle: cliff_middle,
+                right: cliff_right,
+            },
+            wheel_drops: WheelDrops {
+                left: drop_left,
+                right: drop_right,
+            },
+            proximity: bytes.0,
+            dock: bytes.1,
+            buttons: bytes.2,
+            dust_box,
+            currents: Currents {
+                wheel_left: power.0,
+                wheel_right: power.1,
+                brush_main: power.2,
+            },
+            battery_voltage: Voltage(power.4),
+            battery_current: power.3,
+            charge: charges[phases.0],
+            docked,
+            inhibits: Inhibits::from_bits(totals.3),
+            motion: motions[phases.1],
+            cleaners: bytes.3,
+        }
+    })
+}
+
+fn report_of(text: &[u8]) -> Report {
+    match read_report(text) {
+        Ok(ReportPacket::Report(report)) => report,
+        other => panic!("{other:?}: {}", text.escape_ascii()),
+    }
+}
+
+proptest! {
+    #[test]
+    fn commands_come_back(command in command()) {
+        let mut buffer = PacketBuffer::new();
+        prop_assert_eq!(write_command(&command, &mut buffer), Ok(()));
+        prop_assert_eq!(read_command(buffer.as_bytes(), Form::Sealed), Ok(command));
+    }
+
+    #[test]
+    fn telemetry_comes_back_in_both_forms(state in state()) {
+        let mut buffer = PacketBuffer::new();
+        prop_assert_eq!(write_report(&Report::State(state), &mut buffer), Ok(()));
+        prop_assert_eq!(report_of(buffer.as_bytes()), Report::State(state));
+        prop_assert_eq!(read_state(&write_state(&state)[1..]), Ok(state));
+    }
+
+    #[test]
+    fn drives_come_back_in_binary(drive in drive()) {
+        let packet = write_drive(&drive).expect("drawn from the range");
+        prop_assert_eq!(read_drive(&packet[1..]), Ok(drive));
+    }
+
+    #[test]
+    fn log_lines_come_back_or_are_cut(text in "\\PC{0,60}") {
+        let mut line = LogText::new();
+        for character in text.chars() {
+            if line.push(character).is_err() {
+                break;
+            }
+        }
+        let report = Report::Log { level: LogLevel::Warn, text: line.clone() };
+        let mut buffer = PacketBuffer::new();
+        prop_assert_eq!(write_report(&report, &mut buffer), Ok(()));
+        let Report::Log { text, .. } = report_of(buffer.as_bytes()) else {
+            panic!("a log line became something else");
+        };
+        prop_assert_eq!(text, line);
+    }
+
+    #[test]
+    fn after_any_garbage_and_a_separator_the_next_packet_is_read(
+        garbage in prop::collection::vec(any::<u8>(), 0..600),
+        command in command(),
+    ) {
+        let mut framer = Framer::new(Direction::HostToRobot);
+        for byte in garbage {
+            framer.push(byte);
+        }
+        framer.push(0x1F);
+        let mut buffer = PacketBuffer::new();
+        write_sealed_command(&command, 0, &mut buffer).expect("drawn from the range");
+        let mut read = Vec::new();
+        for byte in buffer.as_bytes() {
+            if let Some(Framed::Sealed(text)) = framer.push(*byte) {
+                read.push(read_command(text, Form::Sealed));
+            }
+        }
+        prop_assert_eq!(read, [Ok(command)]);
+    }
+
+    #[test]
+    fn what_we_take_for_json_is_json(text in r#"[\{\}\[\],:"\\ 0-9a-z.eE+-]{0,40}"#) {
+        let packet = format!("{{\"c\":\"info\",\"x\":{text}}}");
+        if read_command(packet.as_bytes(), Form::Sealed).is_ok() {
+            let read = serde_json::from_str::<serde_json::Value>(&packet);
+            // Numbers that no 64-bit float holds are JSON, too.
+            assert!(read.is_ok() || read.is_err_and(|error| error.to_string().contains("out of range")), "{packet}");
+        }
+    }
+}
