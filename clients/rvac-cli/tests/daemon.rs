@@ -1,0 +1,242 @@
+//! Requests to a daemon, and what `rvac` makes of its answers.
+
+use std::io::{Read as _, Write as _};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use std::thread::JoinHandle;
+
+use rvac_api::{
+    DeviceTable, Failure, LinkReading, LogEntry, LogLevel, Pose, Request, RequestBody, SEPARATOR, Status,
+    Update,
+};
+
+/// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
+struct Daemon {
+    socket: PathBuf,
+    thread: JoinHandle<Vec<Request>>,
+}
+
+impl Daemon {
+    fn start(name: &str, answer: fn(&Request) -> Vec<Update>) -> Self {
+        let socket = std::env::temp_dir().join(format!("rvac-test-{}-{name}.sock", std::process::id()));
+        std::fs::remove_file(&socket).ok();
+        let listener = UnixListener::bind(&socket).expect("a socket");
+        let thread = std::thread::spawn(move || {
+            let (stream, _) = listener.accept().expect("a client");
+            serve(stream, answer)
+        });
+        Self { socket, thread }
+    }
+
+    /// Runs `rvac` with the arguments and gives its output and what the daemon was asked.
+    fn rvac(self, arguments: &[&str], typed: &str) -> (Output, Vec<Request>) {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rvac"))
+            .args(arguments)
+            .arg("--socket")
+            .arg(&self.socket)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("rvac starts");
+        child
+            .stdin
+            .take()
+            .expect("a pipe")
+            .write_all(typed.as_bytes())
+            .ok();
+        let output = child.wait_with_output().expect("rvac ends");
+        let asked = self.thread.join().expect("the daemon lives");
+        std::fs::remove_file(&self.socket).ok();
+        (output, asked)
+    }
+}
+
+fn serve(mut stream: UnixStream, answer: fn(&Request) -> Vec<Update>) -> Vec<Request> {
+    let (mut received, mut asked) = (Vec::new(), Vec::new());
+    let mut chunk = [0; 1024];
+    while let Ok(count) = stream.read(&mut chunk) {
+        if count == 0 {
+            break;
+        }
+        received.extend_from_slice(&chunk[..count]);
+        while let Some(end) = received.iter().position(|byte| *byte == SEPARATOR) {
+            let message: Vec<u8> = received.drain(..=end).collect();
+            let request: Request = serde_json::from_slice(&message[..end]).expect("a request");
+            for update in answer(&request) {
+                let mut bytes = serde_json::to_vec(&update).expect("JSON");
+                bytes.push(SEPARATOR);
+                // A client that has heard enough is gone.
+                stream.write_all(&bytes).ok();
+            }
+            asked.push(request);
+        }
+    }
+    asked
+}
+
+fn obedient(request: &Request) -> Vec<Update> {
+    request.id.map(|id| Update::Done { id }).into_iter().collect()
+}
+
+fn busy(request: &Request) -> Vec<Update> {
+    let failure = |id| Failure {
+        id: Some(id),
+        reason: "wheel-drop".to_owned(),
+        text: "Put the robot down.".to_owned(),
+    };
+    request
+        .id
+        .map(|id| Update::Failed(failure(id)))
+        .into_iter()
+        .collect()
+}
+
+fn talkative(request: &Request) -> Vec<Update> {
+    match &request.body {
+        RequestBody::Watch { .. } => vec![
+            Update::Pose(Pose {
+                x: 1.5,
+                y: -0.25,
+                heading: 0.0,
+                t: 1.0,
+            }),
+            Update::Log(LogEntry {
+                number: 1,
+                t: 2.0,
+                level: LogLevel::Warn,
+                part: "link".to_owned(),
+                text: "two bad packets".to_owned(),
+            }),
+            Update::Status(Status {
+                state: "cleaning".to_owned(),
+                reason: "command".to_owned(),
+                strategy: Some("bounce".to_owned()),
+                job_s: 90.0,
+                swept_m2: 4.2,
+                ..Status::default()
+            }),
+            Update::Device(DeviceTable {
+                link: LinkReading {
+                    up: true,
+                    ..LinkReading::default()
+                },
+                docked: true,
+                ..DeviceTable::default()
+            }),
+        ],
+        RequestBody::Raw { packet } => {
+            vec![
+                Update::Packet {
+                    t: 3.25,
+                    direction: '>',
+                    text: packet.clone(),
+                },
+                Update::Done { id: 1 },
+            ]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn every_request_goes_out_under_its_name_and_done_is_success() {
+    let cases: [(&str, &[&str], RequestBody); 8] = [
+        ("start", &["start"], RequestBody::Start { strategy: None }),
+        (
+            "bounce",
+            &["start", "--strategy", "bounce"],
+            RequestBody::Start {
+                strategy: Some("bounce".to_owned()),
+            },
+        ),
+        ("stop", &["stop"], RequestBody::Stop),
+        ("pause", &["pause"], RequestBody::Pause),
+        ("resume", &["resume"], RequestBody::Resume),
+        ("dock", &["dock"], RequestBody::Dock),
+        ("spot", &["spot"], RequestBody::Spot),
+        ("locate", &["locate"], RequestBody::Locate),
+    ];
+    for (name, arguments, body) in cases {
+        let (output, asked) = Daemon::start(name, obedient).rvac(arguments, "");
+        assert!(output.status.success(), "{name}: {output:?}");
+        assert_eq!(
+            asked[0].body,
+            RequestBody::Hello {
+                name: "rvac".to_owned()
+            }
+        );
+        assert_eq!(asked[1], Request { id: Some(1), body }, "{name}");
+    }
+}
+
+#[test]
+fn a_refusal_is_told_with_its_reason_and_fails() {
+    let (output, _) = Daemon::start("refused", busy).rvac(&["start"], "");
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        text(&output.stderr),
+        "rvac: refused (wheel-drop): Put the robot down.\n"
+    );
+}
+
+#[test]
+fn status_is_told_in_words_or_as_json() {
+    let (output, _) = Daemon::start("status", talkative).rvac(&["status"], "");
+    let words = text(&output.stdout);
+    assert!(
+        words.contains("cleaning (command), strategy bounce, 1.5 min, 4.2 m2 swept"),
+        "{words}"
+    );
+    assert!(
+        words.contains("link up") && words.contains("on the dock"),
+        "{words}"
+    );
+    let (output, _) = Daemon::start("json", talkative).rvac(&["status", "--json"], "");
+    let lines = text(&output.stdout);
+    assert!(
+        lines
+            .lines()
+            .all(|line| serde_json::from_str::<Update>(line).is_ok()),
+        "{lines}"
+    );
+}
+
+#[test]
+fn watch_tells_what_happens_line_by_line() {
+    let (output, _) = Daemon::start("watch", talkative).rvac(&["watch", "--lines", "4"], "");
+    let lines = text(&output.stdout);
+    assert!(
+        lines.contains("x 1.50 m, y -0.25 m") && lines.contains("Warn link: two bad packets"),
+        "{lines}"
+    );
+    assert_eq!(lines.lines().count(), 4);
+}
+
+#[test]
+fn a_terminal_through_the_daemon_relays_packets_and_refusals() {
+    let typed = "{\"c\":\"info\"}\n";
+    let (output, asked) = Daemon::start("relay", talkative).rvac(&["term", "--linger", "200"], typed);
+    assert!(output.status.success(), "{output:?}");
+    assert!(asked.iter().any(|request| request.body
+        == RequestBody::Raw {
+            packet: "{\"c\":\"info\"}".to_owned()
+        }));
+    assert!(
+        text(&output.stdout).contains("3.250 > {\"c\":\"info\"}"),
+        "{}",
+        text(&output.stdout)
+    );
+    let (output, _) = Daemon::start("expert", busy).rvac(&["term", "--linger", "200"], typed);
+    assert!(
+        text(&output.stdout).contains("# vthal refuses (wheel-drop)"),
+        "{}",
+        text(&output.stdout)
+    );
+    assert_eq!(output.status.code(), Some(1));
+}
