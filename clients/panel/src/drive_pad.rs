@@ -20,7 +20,7 @@ pub(crate) fn DrivePad(store: Store) -> impl IntoView {
     let why = move || match offer.get() {
         Offer::NotNow(why) => why,
         Offer::Ready | Offer::Absent => {
-            "Hold the knob, or focus the pad and hold W A S D or arrow keys. Letting go stops."
+            "Hold the knob, or focus the pad and hold W\u{a0}A\u{a0}S\u{a0}D or arrow keys. Letting go stops."
         }
     };
     let cleans = move || {

@@ -35,9 +35,12 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
 
 /// Why the robot is in its state. That somebody asked for it needs no words while it works.
 fn reason_text(status: &Status) -> String {
-    let plain = matches!(status.reason.as_str(), "" | "command" | "start-up");
+    let plain = matches!(
+        status.reason.as_str(),
+        "" | "command" | "start-up" | "link-restored" | "released" | "docked"
+    );
     match (plain, status.state.as_str()) {
-        (true, "idle") => "Press Start and it cleans the floor.".to_owned(),
+        (true, "idle" | "docked") => "Press Start and it cleans the floor.".to_owned(),
         (true, "starting") => "It beeps before its wheels turn.".to_owned(),
         (true, "paused") => "The job waits until you resume it.".to_owned(),
         (true, "manual") => status

@@ -142,8 +142,8 @@ impl Store {
                 self.truth.set(Some(truth));
             }
             Message::SimulatedPlan(plan) => {
-                self.home.set(Some(plan.name.clone()));
-                self.map.with_value(|map| map.set_plan(plan));
+                self.map.with_value(|map| map.set_plan(&plan));
+                self.home.set(Some(plan.name));
             }
             Message::Pose(pose) => self.map.with_value(|map| map.on_pose(pose)),
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),

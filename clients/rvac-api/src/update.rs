@@ -101,7 +101,8 @@ pub struct RobotDescription {
     pub turn_max_rad_per_s: f64,
     /// Number of proximity sensors.
     pub proximity: u8,
-    /// Names of optional parts it has: `gyro`, `brush-main`, `brush-sides`, `vacuum`, `beeper`, `battery`.
+    /// Names of optional parts it has: `gyro`, `brush-main`, `brush-sides`, `vacuum`, `beeper`, `battery`, `currents`,
+    /// `charger`, `dock` (receivers for the beams of a dock).
     pub parts: Vec<String>,
 }
 

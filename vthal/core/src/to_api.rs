@@ -34,7 +34,9 @@ pub(crate) fn robot(description: &Description) -> RobotDescription {
         parts: description
             .parts
             .iter()
-            .map(|part| part.name().to_owned())
+            .map(|part| part.name())
+            .chain((description.sensors.dock_receivers > 0).then_some("dock"))
+            .map(str::to_owned)
             .collect(),
     }
 }

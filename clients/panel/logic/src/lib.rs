@@ -27,6 +27,6 @@ pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar}
 pub use frame_meter::FrameMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use offers::{Offer, Offers, PauseKind};
-pub use plan::{PlanPalette, plan_bounds, plan_pixels};
+pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
 pub use swept_grid::{DirtyRows, SweptGrid};

@@ -46,6 +46,65 @@ fn runs(plan: &SimulatedPlan, mut each: impl FnMut(usize, usize, u32)) {
     }
 }
 
+/// Thickness of the outline in cells.
+const OUTLINE: usize = 2;
+
+/// The plan with a wall around it: cells outside within two cells of floor or furniture become obstacles. What stands against the
+/// border of a home is outside of it, and a home without walls is hard to read.
+#[must_use]
+pub fn outlined(plan: &SimulatedPlan) -> SimulatedPlan {
+    let grown = 2 * OUTLINE as u32;
+    if plan.width == 0 || plan.height == 0 || plan.width > SIDE_MAX - grown || plan.height > SIDE_MAX - grown
+    {
+        return plan.clone();
+    }
+    let (width, height) = (plan.width + grown, plan.height + grown);
+    let mut cells = vec![0; width as usize * height as usize];
+    let old_width = plan.width as usize;
+    runs(plan, |first, length, kind| {
+        for at in first..first + length {
+            let place = (at / old_width + OUTLINE) * width as usize + at % old_width + OUTLINE;
+            if let Some(cell) = cells.get_mut(place) {
+                *cell = kind;
+            }
+        }
+    });
+    let walls = wall_cells(&cells, width as usize);
+    for place in walls {
+        if let Some(cell) = cells.get_mut(place) {
+            *cell = 2;
+        }
+    }
+    let margin = OUTLINE as f64 * plan.cell_m;
+    let (x, y) = placed(&plan.origin, -margin, -margin);
+    let origin = Pose { x, y, ..plan.origin };
+    SimulatedPlan {
+        name: plan.name.clone(),
+        width,
+        height,
+        origin,
+        cells: cells.into_iter().flat_map(|kind| [kind, 1]).collect(),
+        ..*plan
+    }
+}
+
+/// Places of outside cells near a cell that is neither outside nor a drop.
+fn wall_cells(cells: &[u32], width: usize) -> Vec<usize> {
+    let inside = |place: usize| matches!(cells.get(place), Some(1 | 2 | 4));
+    let near = |place: usize| {
+        let (row, column) = (place / width, place % width);
+        let rows = row.saturating_sub(OUTLINE)..=row + OUTLINE;
+        let mut neighbours = rows.flat_map(|row| {
+            let columns = column.saturating_sub(OUTLINE)..=(column + OUTLINE).min(width - 1);
+            columns.map(move |column| row * width + column)
+        });
+        neighbours.any(inside)
+    };
+    (0..cells.len())
+        .filter(|&place| cells.get(place) == Some(&0) && near(place))
+        .collect()
+}
+
 /// Four bytes a cell, row by row from the lowest y; none when the plan is too large to be shown.
 #[must_use]
 pub fn plan_pixels(plan: &SimulatedPlan, palette: PlanPalette) -> Option<Vec<u8>> {
@@ -114,7 +173,7 @@ fn placed(origin: &Pose, x: f64, y: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{PlanPalette, plan_bounds, plan_pixels};
+    use super::{PlanPalette, outlined, plan_bounds, plan_pixels};
     use rvac_api::{Pose, SimulatedPlan};
 
     const PALETTE: PlanPalette = PlanPalette {
@@ -161,6 +220,19 @@ mod tests {
             ..plan(vec![])
         };
         assert_eq!(plan_pixels(&huge, PALETTE), None);
+    }
+
+    #[test]
+    fn a_wall_goes_around_but_not_along_a_drop() {
+        let plan = outlined(&plan(vec![1, 12]));
+        assert_eq!((plan.width, plan.height), (8, 7));
+        assert_eq!((plan.origin.x, plan.origin.y), (9.0, 19.0));
+        let pixels = plan_pixels(&plan, PALETTE).unwrap();
+        let count = |kind: u8| pixels.chunks_exact(4).filter(|pixel| pixel[0] == kind).count();
+        assert_eq!((count(1), count(2), count(0)), (12, 56 - 12, 0));
+        let drop = outlined(&super::tests::plan(vec![3, 12]));
+        let pixels = plan_pixels(&drop, PALETTE).unwrap();
+        assert_eq!(pixels.chunks_exact(4).filter(|pixel| pixel[0] == 2).count(), 0);
     }
 
     #[test]

@@ -67,7 +67,7 @@ impl MapHandle {
         }
     }
 
-    pub(crate) fn set_plan(&self, plan: SimulatedPlan) {
+    pub(crate) fn set_plan(&self, plan: &SimulatedPlan) {
         self.change(|scene| scene.set_plan(plan));
     }
 

@@ -1,6 +1,6 @@
 //! What is to be seen on the map.
 
-use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, plan_bounds};
+use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, outlined, plan_bounds};
 use rvac_api::{BumpMark, MapDelta, MapSnapshot, Pose, SimulatedPlan};
 
 use crate::theme::Theme;
@@ -100,8 +100,8 @@ pub(crate) struct Places {
 }
 
 impl Scene {
-    pub(crate) fn set_plan(&mut self, plan: SimulatedPlan) {
-        self.plan = Some(plan);
+    pub(crate) fn set_plan(&mut self, plan: &SimulatedPlan) {
+        self.plan = Some(outlined(plan));
         self.plan_changed = true;
         self.refit();
     }
