@@ -1,7 +1,5 @@
 //! Log lines that wait for the link. Lines are made of fixed words, so that a ring of them costs little memory.
 
-use core::fmt::Write;
-
 use heapless::Deque;
 use rvac_protocol::message::{LogLevel, LogText};
 
@@ -45,7 +43,8 @@ impl Journal {
             write_cut(&mut text, line.which);
         }
         if self.lost > 0 {
-            write!(text, " ({} lost)", self.lost).ok();
+            write_cut(&mut text, ", lines before it lost: ");
+            write_count(&mut text, self.lost);
             self.lost = 0;
         }
         Some((line.level, text))
@@ -57,6 +56,20 @@ fn write_cut(text: &mut LogText, words: &str) {
         if text.push(letter).is_err() {
             return;
         }
+    }
+}
+
+/// Digits by hand: the formatting machinery of the language would cost kilobytes of flash.
+fn write_count(text: &mut LogText, count: u32) {
+    let mut scale = 1_000_000_000;
+    while scale > 1 && count < scale {
+        scale /= 10;
+    }
+    while scale > 0 {
+        let digit = char::from_digit(count / scale % 10, 10).unwrap_or('?');
+        // A full line loses its last digits, like every long line.
+        text.push(digit).ok();
+        scale /= 10;
     }
 }
 
@@ -72,8 +85,17 @@ mod tests {
             journal.note(LogLevel::Info, "inhibit", "bumper");
         }
         let (_, first) = journal.take().unwrap();
-        assert_eq!(first.as_str(), "inhibit bumper (1 lost)");
+        assert_eq!(first.as_str(), "inhibit bumper, lines before it lost: 1");
         assert_eq!(journal.take().unwrap().1.as_str(), "inhibit bumper");
+    }
+
+    #[test]
+    fn counts_are_spelt_in_full() {
+        for (count, digits) in [(0, "0"), (7, "7"), (10, "10"), (u32::MAX, "4294967295")] {
+            let mut text = super::LogText::new();
+            super::write_count(&mut text, count);
+            assert_eq!(text.as_str(), digits);
+        }
     }
 
     #[test]

@@ -2,17 +2,17 @@
 
 use rvac_units::Tick;
 
-use crate::timing::Held;
+use crate::timing::Debounced;
 
 /// A press must be stable this long, well below the 50 ms of the rule.
 const STABLE_MS: u32 = 10;
 
-/// Eight debounced buttons.
+/// Eight buttons, each debounced on its own: one that chatters must not hide a press of another.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ButtonRule {
+    buttons: [Debounced<STABLE_MS, STABLE_MS>; 8],
     down: u8,
     raw: u8,
-    stable: Held,
 }
 
 /// Buttons that changed.
@@ -27,24 +27,54 @@ pub(crate) struct ButtonChange {
 impl ButtonRule {
     /// Takes the raw buttons; returns what changed.
     pub(crate) fn update(&mut self, raw: u8, now: Tick) -> ButtonChange {
-        if raw != self.raw {
-            self.raw = raw;
-            self.stable.restart();
-        }
-        if !self.stable.for_at_least(raw != self.down, now, STABLE_MS) {
+        let settled = raw == self.down && self.raw == self.down;
+        self.raw = raw;
+        if settled {
             return ButtonChange::default();
         }
-        let change = ButtonChange {
-            pressed: raw & !self.down,
-            released: self.down & !raw,
-        };
-        self.down = raw;
-        self.stable.restart();
-        change
+        let before = self.down;
+        self.down = 0;
+        for (number, button) in self.buttons.iter_mut().enumerate() {
+            let bit = 1 << number;
+            if button.update(raw & bit != 0, now) {
+                self.down |= bit;
+            }
+        }
+        ButtonChange {
+            pressed: self.down & !before,
+            released: before & !self.down,
+        }
     }
 
     /// Buttons that are down, bit by number.
     pub(crate) const fn down(&self) -> u8 {
         self.down
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ButtonChange, ButtonRule, STABLE_MS};
+    use rvac_units::Tick;
+
+    #[test]
+    fn a_chattering_button_does_not_hide_another() {
+        let mut rule = ButtonRule::default();
+        let pressed: u8 = (0..=STABLE_MS)
+            .map(|ms| rule.update(0b100 | (ms & 1) as u8, Tick(ms)).pressed)
+            .fold(0, |all, pressed| all | pressed);
+        assert_eq!(pressed, 0b100);
+        assert_eq!(rule.down(), 0b100);
+    }
+
+    #[test]
+    fn short_contacts_are_no_press() {
+        let mut rule = ButtonRule::default();
+        for ms in 0..STABLE_MS {
+            assert_eq!(rule.update(1, Tick(ms)), ButtonChange::default());
+        }
+        assert_eq!(rule.update(0, Tick(STABLE_MS)), ButtonChange::default());
+        assert_eq!(rule.update(0, Tick(STABLE_MS + 1)), ButtonChange::default());
+        assert_eq!(rule.update(1, Tick(STABLE_MS + 2)), ButtonChange::default());
     }
 }
