@@ -13,21 +13,6 @@ use crate::task::{Mind, Situation};
 
 /// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
 const HALT_US: u64 = 500_000;
-/// Pause between two tries to arm.
-const ARM_AGAIN_US: u64 = 500_000;
-/// Tones of the announcement (S24): three beeps.
-const BEEP: Tone = Tone {
-    pitch_hz: 880,
-    duration_ms: 150,
-};
-const GAP: Tone = Tone {
-    pitch_hz: 0,
-    duration_ms: 150,
-};
-/// Length of the beeps and the two seconds after them (S24).
-const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
-/// The firmware must let itself be armed within this time.
-const ARM_PATIENCE_US: u64 = 3_000_000;
 
 /// What the state machine is in. [`BehaviorState`] is derived from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,11 +71,11 @@ pub(crate) struct Behavior {
     pub(super) centre_first: bool,
     pub(super) last_motion: Motion,
     figures: JobFigures,
+    pub(super) armed_us: Option<u64>,
+    pub(super) arm: Option<Arm>,
+    pub(super) tones: Vec<Tone>,
+    pub(super) job_start: JobStart,
     halt_until_us: u64,
-    armed_us: Option<u64>,
-    arm: Option<Arm>,
-    tones: Vec<Tone>,
-    job_start: JobStart,
 }
 
 impl Behavior {
@@ -222,44 +207,6 @@ impl Behavior {
         }
     }
 
-    /// Waits for the announcement to end, arms, and waits for the firmware to agree.
-    fn start(&mut self, since_us: u64, mind: &mut Mind) -> Motion {
-        let waited_us = self.facts.now_us.saturating_sub(since_us);
-        if waited_us < ANNOUNCEMENT_US {
-            return Motion::Rest;
-        }
-        let asked_yet = self.armed_us.is_some();
-        if asked_yet && !self.facts.disarmed.any() {
-            let reason = self.reason;
-            if self.facts.docked
-                && let Some(job) = &mut self.job
-            {
-                job.depart(&mut mind.random);
-            }
-            self.enter(Mode::Working, reason, mind);
-            return Motion::Halt;
-        }
-        if waited_us > ANNOUNCEMENT_US + ARM_PATIENCE_US {
-            self.enter(Mode::Paused, Reason::ArmRefused, mind);
-            return Motion::Rest;
-        }
-        self.ask_to_arm();
-        Motion::Rest
-    }
-
-    /// Arms, but not more often than answers can come back.
-    pub(super) fn ask_to_arm(&mut self) {
-        let due = self
-            .armed_us
-            .is_none_or(|armed_us| self.facts.now_us >= armed_us + ARM_AGAIN_US);
-        if due {
-            self.armed_us = Some(self.facts.now_us);
-            self.arm = Some(Arm {
-                undock: self.facts.docked || self.facts.disarmed.docked,
-            });
-        }
-    }
-
     /// Changes the mode. Every change of mode goes through here, so that none is without a decision and a reason.
     pub(super) fn enter(&mut self, mode: Mode, reason: Reason, mind: &mut Mind) {
         let moved = self.state().moves();
@@ -275,27 +222,6 @@ impl Behavior {
             }
         }
         mind.decide(state.decision(), reason, 0.0);
-    }
-
-    /// Announces and starts the present job (S24).
-    pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
-        self.enter(
-            Mode::Starting {
-                since_us: self.facts.now_us,
-            },
-            reason,
-            mind,
-        );
-        self.tones.extend([BEEP, GAP, BEEP, GAP, BEEP]);
-    }
-
-    /// Begins a new job; the old one is forgotten.
-    pub(super) fn begin(&mut self, kind: JobKind, mind: &mut Mind) {
-        self.job = Some(Job::new(kind, JobFigures::default()));
-        if kind != JobKind::Dock {
-            self.job_start = JobStart::FreshMap;
-        }
-        self.announce(Reason::Command, mind);
     }
 
     /// Ends the job and keeps its figures.
