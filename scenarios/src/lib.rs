@@ -7,7 +7,6 @@ use std::path::PathBuf;
 use brain::command::StrategyName;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{Household, Scene, SceneSettings};
-use vthal_core::Recording;
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
@@ -34,7 +33,6 @@ pub fn settings(seed: u64, duration_ms: u64) -> RunSettings {
         strategy: StrategyName::Bounce,
         seed,
         duration_ms,
-        recording: Recording::Off,
     }
 }
 

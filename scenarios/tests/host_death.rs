@@ -5,7 +5,6 @@ use brain::command::StrategyName;
 use home::Pcg;
 use rvac_sim::{Host, Household};
 use scenarios::{cleaning, scene};
-use vthal_core::Recording;
 
 /// S1: the lease of the last command and the reaction time.
 const OFF_MS: u64 = 300;
@@ -46,7 +45,7 @@ fn the_motors_are_off_within_300_ms_whenever_the_host_dies() {
     for death in 0..DEATHS {
         household.pass_ms(2_000 + u64::from(random.below(4_000)));
         driven_ms.push(kill(&mut household));
-        let config = Host::config(death as u64, StrategyName::Bounce, Recording::Off);
+        let config = Host::config(death as u64, StrategyName::Bounce);
         household.revive_host(Host::start(household.now_us(), config));
         household.pass_ms(1_000);
         household.ask(rvac_api::RequestBody::Start { strategy: None });

@@ -9,7 +9,6 @@ use clap::{Args, Parser, Subcommand};
 use rvac_sim::SceneSettings;
 use rvac_sim::run::RunSettings;
 use rvac_sim::serve::ServeSettings;
-use vthal_core::Recording;
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
@@ -117,7 +116,6 @@ impl RunArguments {
             strategy,
             seed: self.seed,
             duration_ms: (self.minutes * 60_000.0) as u64,
-            recording: Recording::Off,
         })
     }
 }
@@ -128,7 +126,7 @@ pub(crate) struct FaultArguments {
     #[arg(long, default_value = "0..1000", value_parser = seeds)]
     pub(crate) seeds: Range<u64>,
     /// Simulated minutes of each seed.
-    #[arg(long, default_value_t = 2.0, value_parser = minutes)]
+    #[arg(long, default_value_t = 10.0, value_parser = minutes)]
     pub(crate) minutes: f64,
     /// Print one JSON object.
     #[arg(long)]

@@ -2,7 +2,7 @@
 
 use brain::command::StrategyName;
 use rvac_api::{Pose, Request, RequestBody, Status};
-use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs, Record, Recording};
+use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
 /// A core and the shell's duties towards it.
 #[derive(Debug)]
@@ -12,7 +12,6 @@ pub struct Host {
     /// Bytes for the robot that its line has not taken yet.
     pending: Vec<u8>,
     checkpoint: Option<Checkpoint>,
-    records: Vec<Record>,
     born_us: u64,
 }
 
@@ -27,7 +26,6 @@ impl Host {
             outputs: Outputs::default(),
             pending: Vec::new(),
             checkpoint: None,
-            records: Vec::new(),
             born_us: now_us,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -35,13 +33,12 @@ impl Host {
         host
     }
 
-    /// A core for `strategy`.
+    /// A core for `strategy` that keeps no checkpoints.
     #[must_use]
-    pub fn config(seed: u64, strategy: StrategyName, recording: Recording) -> CoreConfig {
+    pub fn config(seed: u64, strategy: StrategyName) -> CoreConfig {
         CoreConfig {
             seed,
             strategy,
-            recording,
             ..CoreConfig::default()
         }
     }
@@ -75,7 +72,6 @@ impl Host {
     fn handle(&mut self, now_us: u64, input: Input<'_>) {
         self.core.handle(now_us - self.born_us, input, &mut self.outputs);
         self.pending.append(&mut self.outputs.link);
-        self.records.append(&mut self.outputs.records);
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.checkpoint = Some(checkpoint);
         }
@@ -85,11 +81,6 @@ impl Host {
     /// Bytes for the robot; what is not taken stays.
     pub fn pending(&mut self) -> &mut Vec<u8> {
         &mut self.pending
-    }
-
-    /// Records since this was called last.
-    pub fn take_records(&mut self) -> Vec<Record> {
-        core::mem::take(&mut self.records)
     }
 
     /// What a daemon that comes after this one finds on its disk.

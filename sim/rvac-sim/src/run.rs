@@ -3,7 +3,6 @@
 use brain::command::StrategyName;
 use robot::RobotSettings;
 use rvac_api::RequestBody;
-use vthal_core::Recording;
 
 use crate::{Host, Household, Report, Scene};
 
@@ -16,8 +15,6 @@ pub struct RunSettings {
     pub seed: u64,
     /// Simulated milliseconds, from power-on.
     pub duration_ms: u64,
-    /// Whether the host's records are kept for [`Host::take_records`].
-    pub recording: Recording,
 }
 
 /// Milliseconds that handshake and description may take.
@@ -33,7 +30,7 @@ pub fn household(scene: &Scene, settings: &RunSettings) -> Household {
             ..RobotSettings::default()
         },
     );
-    let config = Host::config(settings.seed, settings.strategy, settings.recording);
+    let config = Host::config(settings.seed, settings.strategy);
     Household::new(robot, Host::start(0, config))
 }
 

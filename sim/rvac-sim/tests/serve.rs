@@ -1,4 +1,5 @@
 //! The server as a process: terminal, socket, signals, bad input.
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};

@@ -59,6 +59,8 @@ impl Drives {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
     pub(crate) bumper_ms: u32,
+    /// Pressed off the dock, by which it may be pressed for ever.
+    pub(crate) bumper_stuck_ms: u32,
     /// Pressed while the wheels push backward.
     pub(crate) bumper_backing_ms: u32,
     pub(crate) cliff_ms: u32,
@@ -90,6 +92,7 @@ impl Default for Standing {
     fn default() -> Self {
         Self {
             bumper_ms: 0,
+            bumper_stuck_ms: 0,
             bumper_backing_ms: 0,
             cliff_ms: 0,
             wheel_drop_ms: 0,
@@ -108,8 +111,16 @@ impl Default for Standing {
 }
 
 impl Standing {
+    /// What a firmware that has just started cannot know: how long something had stood before.
+    pub(crate) fn reset(&mut self) {
+        self.bumper_stuck_ms = 0;
+        self.bumper_backing_ms = 0;
+        self.stalled_ms = [0; 2];
+    }
+
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
         stand(&mut self.bumper_ms, pins.bumper);
+        stand(&mut self.bumper_stuck_ms, pins.bumper && !pins.docked);
         stand(&mut self.bumper_backing_ms, pins.bumper && drives.backward());
         stand(&mut self.cliff_ms, pins.cliff);
         stand(&mut self.wheel_drop_ms, pins.wheel_drop);

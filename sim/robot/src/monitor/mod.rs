@@ -67,6 +67,7 @@ impl Monitor {
     /// The microcontroller was reset at `now_ms`.
     pub fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.permission.reset(now_ms, cause);
+        self.standing.reset();
     }
 
     /// Judges one millisecond: what the pins showed before the firmware's pass and what the motors got after it.

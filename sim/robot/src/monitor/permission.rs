@@ -19,7 +19,7 @@ const SILENCE_MS: u64 = 2_000;
 /// The longest lease in hand mode.
 const HAND_LEASE_MS: u64 = 500;
 /// A button counts as pressed when it is down for this long: shorter is noise.
-const BUTTON_HELD_MS: u32 = 10;
+const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
 const UNDOCKED_MS: u32 = 3_000;
 /// S4: three resets within this time latch.

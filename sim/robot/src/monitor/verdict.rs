@@ -170,7 +170,7 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
         (Rule::Bumper, forward && standing.bumper_ms > BUMPER_MS),
         (
             Rule::BumperStuck,
-            any && (standing.bumper_ms > BUMPER_STUCK_MS + BUMPER_MS
+            any && (standing.bumper_stuck_ms > BUMPER_STUCK_MS + BUMPER_MS
                 || standing.bumper_backing_ms > BUMPER_BACKING_MS + BUMPER_MS),
         ),
         (Rule::Cliff, forward && standing.cliff_ms > CLIFF_MS),

@@ -5,7 +5,7 @@ use home::{Noise, Pcg, RobotModel, SensorId};
 use robot::{Bridges, FaultRates, RobotSettings};
 use rvac_api::RequestBody;
 use rvac_protocol::message::{Inhibit, Inhibits};
-use vthal_core::{CoreConfig, Recording};
+use vthal_core::{Checkpoints, CoreConfig};
 
 use super::draw::{Fault, FaultDraw, FaultKind};
 use super::homes::Homes;
@@ -102,8 +102,9 @@ pub fn trial(homes: &Homes, model: &RobotModel, settings: TrialSettings) -> Outc
 
 fn config(seed: u64, before: Option<&Host>) -> CoreConfig {
     CoreConfig {
+        checkpoints: Checkpoints::On,
         resume: before.and_then(Host::checkpoint).cloned(),
-        ..Host::config(seed, StrategyName::default(), Recording::Off)
+        ..Host::config(seed, StrategyName::default())
     }
 }
 
