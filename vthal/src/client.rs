@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rvac_api::{Failure, Request, SEPARATOR, Update};
 use tokio::net::UnixStream;
 use tokio::sync::mpsc::Sender;
+use tokio::task::AbortHandle;
 use vthal_core::ClientId;
 
 use crate::event::Event;
@@ -26,6 +27,16 @@ pub(crate) struct Client {
     blocked: bool,
     /// The reason why it is disconnected as soon as its last word is out, or cannot get out.
     leaving: Option<&'static str>,
+    /// The tasks that hold its stream open.
+    tasks: Vec<AbortHandle>,
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        for task in &self.tasks {
+            task.abort();
+        }
+    }
 }
 
 /// What a client's bytes hold.
@@ -62,6 +73,7 @@ impl Client {
             outbox: Outbox::default(),
             blocked: false,
             leaving: None,
+            tasks: Vec::new(),
         }
     }
 
@@ -140,6 +152,12 @@ impl Client {
             }
             Err(_) => Flushed::Gone("hung-up"),
         }
+    }
+
+    /// Ends `task` together with the client.
+    pub(crate) fn own(&mut self, task: AbortHandle) {
+        self.tasks.retain(|task| !task.is_finished());
+        self.tasks.push(task);
     }
 
     /// The socket takes bytes again.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use rvac_api::{Failure, LogEntry, LogLevel, Update};
 use tokio::sync::mpsc::{Receiver, Sender};
+use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
 use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
 
@@ -149,12 +150,10 @@ impl Daemon {
         }
         self.clients_seen += 1;
         let id = ClientId(self.clients_seen);
-        tokio::task::spawn_local(client::read_for(
-            id,
-            Rc::clone(&stream),
-            self.wiring.event_sender.clone(),
-        ));
-        self.clients.insert(id, Client::new(stream));
+        let reads = client::read_for(id, Rc::clone(&stream), self.wiring.event_sender.clone());
+        let mut client = Client::new(stream);
+        client.own(spawn_local(reads).abort_handle());
+        self.clients.insert(id, client);
         self.handle(Input::ClientConnected(id));
     }
 
@@ -234,7 +233,7 @@ impl Daemon {
                         Rc::clone(client.stream()),
                         self.wiring.event_sender.clone(),
                     );
-                    tokio::task::spawn_local(watch);
+                    client.own(spawn_local(watch).abort_handle());
                 }
                 Flushed::Gone(reason) => gone.push((*id, reason)),
             }

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use rvac_api::Update;
 
-/// Messages that may wait.
-const MESSAGES_MAX: usize = 4096;
+/// Messages that may wait: twenty seconds of telemetry.
+const MESSAGES_MAX: usize = 1024;
 /// Bytes that may wait.
 const BYTES_MAX: usize = 4 << 20;
 /// Messages given to the system in one call.

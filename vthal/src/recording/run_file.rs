@@ -77,9 +77,13 @@ impl RunFile {
             path: path.to_owned(),
             error,
         };
+        // Without seeking a chunk stays in memory until it is whole, so that a kill never leaves half of one as the
+        // newest.
+        let library = concat!("vthal ", env!("CARGO_PKG_VERSION"));
         let options = WriteOptions::new()
             .compression(None)
-            .library(concat!("vthal ", env!("CARGO_PKG_VERSION")));
+            .disable_seeking(true)
+            .library(library);
         let mut writer = options.create(BufWriter::new(file)).map_err(failed)?;
         let mut channels = BTreeMap::new();
         for (topic, name, schema) in CHANNELS {

@@ -1,0 +1,210 @@
+//! Kills the daemon at random moments while a simulated robot drives, and looks whether it stands in time.
+//!
+//! What the robot does is taken from the simulator's own truth, over the simulator's socket: the daemon is dead then.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail};
+use clap::Parser;
+use rvac_api::{Pose, SimulatedTruth, Update};
+
+mod peer;
+
+use peer::{Client, Daemon, Scratch, built_beside};
+
+/// The robot must stand this long after the daemon's end (S1).
+const STAND_WITHIN_S: f64 = 0.3;
+/// Two poses within this way are the same place.
+const SAME_PLACE_M: f64 = 0.001;
+/// How long the robot is watched after a kill, in simulated seconds.
+const WATCHED_S: f64 = 0.8;
+/// Radius of the robot.
+const RADIUS_M: f64 = 0.175;
+/// Longest wait for the robot to drive (again), announcement and hand shake included.
+const DRIVES_WITHIN: Duration = Duration::from_secs(30);
+
+#[derive(Parser)]
+#[command(about = "Kills vthal with SIGKILL at random moments while a simulated robot drives")]
+struct Arguments {
+    /// Number of kills
+    #[arg(long, default_value_t = 10)]
+    kills: u32,
+    /// Seed of the moments
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Home for the simulator
+    #[arg(long)]
+    home: PathBuf,
+    /// Prints one JSON object instead of lines
+    #[arg(long)]
+    json: bool,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("bench-kill: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let missing = "is not built beside this program: cargo build -p vthal -p rvac-sim";
+    let vthal = built_beside("vthal")?.with_context(|| format!("vthal {missing}"))?;
+    let simulator = built_beside("rvac-sim")?.with_context(|| format!("rvac-sim {missing}"))?;
+    let scratch = Scratch::new()?;
+    let _simulator = start_simulator(&simulator, &scratch, arguments)?;
+    let mut truth = Truth {
+        client: Client::connect(&scratch.join("sim.sock"))?,
+    };
+    let mut random = arguments.seed;
+    let mut daemon = Daemon::start(&vthal, &scratch, &[])?;
+    start_cleaning(&scratch)?;
+    let mut worst_s: f64 = 0.0;
+    let mut late = 0;
+    for kill in 1..=arguments.kills {
+        truth
+            .wait_until_it_drives()
+            .with_context(|| format!("before kill {kill}"))?;
+        let before = truth.follow_for(Duration::from_micros(next_random(&mut random) % 1_500_000))?;
+        let heard = Instant::now();
+        std::thread::sleep(Duration::from_micros(next_random(&mut random) % 100_000));
+        daemon.kill()?;
+        let killed_s = before[1].sim_s + heard.elapsed().as_secs_f64();
+        let stood_s = truth.seconds_until_it_stands(before, killed_s)?;
+        worst_s = worst_s.max(stood_s);
+        late += u32::from(stood_s > STAND_WITHIN_S);
+        daemon = Daemon::start(&vthal, &scratch, &[])?;
+        if !arguments.json {
+            println!("kill {kill}: stood after at most {stood_s:.2} s");
+        }
+    }
+    truth.wait_until_it_drives().context("after the last kill")?;
+    let kills = arguments.kills;
+    if arguments.json {
+        println!(
+            "{}",
+            serde_json::json!({"kills": kills, "late": late, "stood_within_s": worst_s, "went_on": kills})
+        );
+    } else {
+        println!("{kills} kills, {late} late, stood within {worst_s:.2} s, went on each time");
+    }
+    Ok(if late == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
+}
+
+fn start_simulator(program: &Path, scratch: &Scratch, arguments: &Arguments) -> anyhow::Result<Daemon> {
+    let mut command = Command::new(program);
+    command.arg("serve").arg("--home").arg(&arguments.home);
+    command.arg("--seed").arg(arguments.seed.to_string());
+    command
+        .arg("--link")
+        .arg(scratch.join("tty"))
+        .arg("--socket")
+        .arg(scratch.join("sim.sock"));
+    Daemon::start_command(command).context("rvac-sim serve")
+}
+
+fn start_cleaning(scratch: &Scratch) -> anyhow::Result<()> {
+    let mut client = Client::watching(&scratch.join("vthal.sock"), r#"["status"]"#)?;
+    let deadline = Instant::now() + Duration::from_secs(10);
+    let ready = |update: &Update| matches!(update, Update::Status(status) if status.state == "idle" || status.state == "docked");
+    if client.wait_for(deadline, ready)?.is_none() {
+        bail!("the daemon found no robot within 10 s");
+    }
+    client.send(r#"{"c":"start","id":1}"#)?;
+    match client.wait_for(deadline, |update| {
+        matches!(update, Update::Done { id: 1 } | Update::Failed(_))
+    })? {
+        Some(Update::Done { .. }) => Ok(()),
+        other => bail!("the start was refused: {other:?}"),
+    }
+}
+
+/// The simulator's word on where the robot is, ten times a second.
+struct Truth {
+    client: Client,
+}
+
+impl Truth {
+    fn next(&mut self) -> anyhow::Result<SimulatedTruth> {
+        let deadline = Instant::now() + Duration::from_secs(5);
+        let update = self
+            .client
+            .wait_for(deadline, |update| matches!(update, Update::SimulatedTruth(_)))?;
+        match update {
+            Some(Update::SimulatedTruth(truth)) => Ok(truth),
+            _ => bail!("the simulator is silent"),
+        }
+    }
+
+    fn wait_until_it_drives(&mut self) -> anyhow::Result<()> {
+        let deadline = Instant::now() + DRIVES_WITHIN;
+        let mut before = self.next()?;
+        while Instant::now() < deadline {
+            let now = self.next()?;
+            if moved(before.pose, now.pose) {
+                return Ok(());
+            }
+            before = now;
+        }
+        bail!("the robot did not drive within {} s", DRIVES_WITHIN.as_secs())
+    }
+
+    /// Follows the robot for `pause`; gives its last two words.
+    fn follow_for(&mut self, pause: Duration) -> anyhow::Result<[SimulatedTruth; 2]> {
+        let end = Instant::now() + pause;
+        let mut last = [self.next()?, self.next()?];
+        while Instant::now() < end {
+            last = [last[1], self.next()?];
+        }
+        Ok(last)
+    }
+
+    /// Simulated seconds between `killed_s` and the moment from which the robot stays where it is. Between two words it is
+    /// taken to go on as fast as it went between the two before.
+    fn seconds_until_it_stands(&mut self, before: [SimulatedTruth; 2], killed_s: f64) -> anyhow::Result<f64> {
+        let mut words = before.to_vec();
+        while words.last().is_some_and(|word| word.sim_s < killed_s + WATCHED_S) {
+            words.push(self.next()?);
+        }
+        let Some(last) = words.last().copied() else {
+            bail!("the simulator is silent")
+        };
+        let Some(moving) = words.iter().rposition(|word| moved(word.pose, last.pose)) else {
+            return Ok(0.0);
+        };
+        let (from, to) = (words[moving], words[moving + 1]);
+        let earlier = words[moving.saturating_sub(1)];
+        let pace_per_s = distance(earlier.pose, from.pose) / (from.sim_s - earlier.sim_s).max(0.01);
+        let rest_s = distance(from.pose, to.pose) / pace_per_s.max(0.01);
+        Ok((from.sim_s + rest_s).min(to.sim_s) - killed_s)
+    }
+}
+
+/// Way of a point on the rim of the robot, so that turning on the spot counts too.
+fn distance(from: Pose, to: Pose) -> f64 {
+    let turn_rad = (to.heading - from.heading)
+        .sin()
+        .atan2((to.heading - from.heading).cos());
+    (to.x - from.x).hypot(to.y - from.y) + RADIUS_M * turn_rad.abs()
+}
+
+fn moved(from: Pose, to: Pose) -> bool {
+    distance(from, to) > SAME_PLACE_M
+}
+
+/// Marsaglia's xorshift: moments need no better randomness.
+fn next_random(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}

@@ -1,0 +1,397 @@
+//! The real binary between a pseudo terminal and real sockets. Waits are for events, with a deadline.
+
+use std::fs;
+use std::io::{ErrorKind, Read, Write};
+use std::os::unix::fs::{FileTypeExt, PermissionsExt};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use rvac_api::{LogEntry, Update};
+use rvac_protocol::message::{self, BinaryKinds};
+
+#[path = "../bench/peer/mod.rs"]
+mod peer;
+
+use peer::{Client, Daemon, Scratch, SyntheticRobot};
+
+/// Generous: the machine may be busy with other tests.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn vthal() -> &'static Path {
+    Path::new(env!("CARGO_BIN_EXE_vthal"))
+}
+
+fn soon() -> Instant {
+    Instant::now() + PATIENCE
+}
+
+fn start(scratch: &Scratch) -> Daemon {
+    Daemon::start(vthal(), scratch, &["--seed", "1"]).expect("gets ready")
+}
+
+/// Follows the log and the status, the latter for waiting.
+fn follow(scratch: &Scratch) -> Client {
+    Client::watching(&scratch.join("vthal.sock"), r#"["status","log"]"#).expect("connects")
+}
+
+fn robot(scratch: &Scratch, boot_count: u32) -> SyntheticRobot {
+    SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, boot_count).expect("opens a terminal")
+}
+
+/// Lets the robot live until the client has seen an update that fits.
+fn wait_until(robot: &mut SyntheticRobot, client: &mut Client, fits: impl Fn(&Update) -> bool) {
+    let deadline = soon();
+    let mut seen = Vec::new();
+    while Instant::now() < deadline {
+        robot
+            .live_until(Instant::now() + Duration::from_millis(40), |_| false)
+            .expect("lives");
+        let found = client.wait_for(Instant::now() + Duration::from_millis(5), |update| {
+            seen.push(format!("{update:?}"));
+            fits(update)
+        });
+        if found.expect("reads").is_some() {
+            return;
+        }
+    }
+    panic!("only this came: {seen:#?}");
+}
+
+fn wait_for_state(robot: &mut SyntheticRobot, client: &mut Client, state: &str) {
+    wait_until(
+        robot,
+        client,
+        |update| matches!(update, Update::Status(status) if status.state == state),
+    );
+}
+
+fn has_text(update: &Update, wanted: &str) -> bool {
+    matches!(update, Update::Log(LogEntry { text, .. }) if text.contains(wanted))
+}
+
+#[test]
+fn a_robot_may_come_late_go_and_come_back_as_another_one() {
+    let scratch = Scratch::new().expect("creates");
+    let _daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    client.send(r#"{"c":"start","id":1}"#).expect("sends");
+    let answer = client
+        .wait_for(soon(), |update| matches!(update, Update::Failed(_)))
+        .expect("reads");
+    let Some(Update::Failed(failure)) = answer else {
+        panic!("no answer")
+    };
+    assert_eq!((failure.id, failure.reason.as_str()), (Some(1), "no-robot"));
+    let mut first = robot(&scratch, 1);
+    wait_for_state(&mut first, &mut client, "idle");
+    drop(first);
+    let lost = client
+        .wait_for(soon(), |update| has_text(update, "serial device lost"))
+        .expect("reads");
+    assert!(lost.is_some(), "the loss is told");
+    let mut second = robot(&scratch, 2);
+    wait_until(&mut second, &mut client, |update| {
+        has_text(update, "synthetic was reset (power-on)")
+    });
+    client.send(r#"{"c":"start"}"#).expect("sends");
+    assert!(
+        second.live_until(soon(), SyntheticRobot::moves).expect("lives"),
+        "the new one drives"
+    );
+}
+
+#[test]
+fn sigterm_stops_the_wheels_before_it_ends() {
+    let scratch = Scratch::new().expect("creates");
+    let mut robot = robot(&scratch, 1);
+    let mut daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    wait_for_state(&mut robot, &mut client, "idle");
+    client.send(r#"{"c":"start"}"#).expect("sends");
+    assert!(
+        robot.live_until(soon(), SyntheticRobot::moves).expect("lives"),
+        "it drives"
+    );
+    daemon.terminate().expect("signals");
+    let mut code = None;
+    let ended = robot.live_until(soon(), |_| {
+        code = daemon.ended().expect("asks");
+        code.is_some()
+    });
+    assert!(ended.expect("lives") && code == Some(0), "it ends well: {code:?}");
+    let after_stop = robot
+        .commands
+        .iter()
+        .rev()
+        .take_while(|command| **command != message::Command::Stop);
+    let drives = after_stop
+        .filter(|command| matches!(command, message::Command::Drive(_)))
+        .count();
+    assert!(
+        robot.commands.contains(&message::Command::Stop),
+        "`stop` was sent"
+    );
+    assert_eq!(drives, 0, "nothing moves the wheels after `stop`");
+    assert!(!scratch.join("vthal.sock").exists(), "the socket is gone");
+}
+
+#[test]
+fn a_killed_daemon_goes_on_with_its_job() {
+    let scratch = Scratch::new().expect("creates");
+    let mut robot = robot(&scratch, 1);
+    let daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    wait_for_state(&mut robot, &mut client, "idle");
+    client.send(r#"{"c":"start"}"#).expect("sends");
+    wait_for_state(&mut robot, &mut client, "cleaning");
+    let checkpoint = scratch.join("state/checkpoint");
+    let written = |path: &Path| fs::read_to_string(path).is_ok_and(|text| text.contains(r#""running":true"#));
+    assert!(
+        robot.live_until(soon(), |_| written(&checkpoint)).expect("lives"),
+        "a checkpoint is written"
+    );
+    daemon.kill().expect("kills");
+    let stands = Instant::now() + Duration::from_millis(300);
+    assert!(
+        robot.live_until(stands, |robot| !robot.moves()).expect("lives"),
+        "the lease ends"
+    );
+    let _daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    wait_for_state(&mut robot, &mut client, "cleaning");
+    assert!(
+        robot.live_until(soon(), SyntheticRobot::moves).expect("lives"),
+        "it drives again"
+    );
+    let mut again = follow(&scratch);
+    let told = again
+        .wait_for(soon(), |update| has_text(update, "resumed-after-restart"))
+        .expect("reads");
+    assert!(told.is_some(), "it says so");
+}
+
+#[test]
+fn recordings_replay_identically_and_a_changed_one_does_not() {
+    let scratch = Scratch::new().expect("creates");
+    let mut robot = robot(&scratch, 1);
+    let daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    wait_for_state(&mut robot, &mut client, "idle");
+    client.send(r#"{"c":"start"}"#).expect("sends");
+    wait_for_state(&mut robot, &mut client, "cleaning");
+    robot
+        .live_until(Instant::now() + Duration::from_millis(2500), |_| false)
+        .expect("lives");
+    daemon.kill().expect("kills");
+    let runs = scratch.join("state/runs");
+    let file = fs::read_dir(&runs)
+        .expect("exists")
+        .next()
+        .expect("one run")
+        .expect("reads")
+        .path();
+    let replay = |path: &Path| {
+        Command::new(vthal())
+            .arg("replay")
+            .arg(path)
+            .output()
+            .expect("runs")
+    };
+    let output = replay(&file);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success() && text.starts_with("identical: "),
+        "{text}"
+    );
+    let mut bytes = fs::read(&file).expect("reads");
+    let wanted = br#""speed_share":1.0"#;
+    let places: Vec<usize> = (0..bytes.len() - wanted.len())
+        .filter(|start| bytes[*start..].starts_with(wanted))
+        .collect();
+    for place in places {
+        bytes[place..place + wanted.len()].copy_from_slice(br#""speed_share":0.5"#);
+    }
+    let changed = runs.join("changed.mcap");
+    fs::write(&changed, without_checksums(bytes)).expect("writes");
+    let output = replay(&changed);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(text.starts_with("first difference at step "), "{text}");
+}
+
+/// Sets the checksum of each chunk to 0, which means that there is none. A chunk is: opcode 6, length, first and last
+/// time, size, checksum.
+fn without_checksums(mut bytes: Vec<u8>) -> Vec<u8> {
+    let mut at = 8;
+    while let Some(head) = bytes.get(at..at + 9) {
+        let length = u64::from_le_bytes(head[1..9].try_into().expect("eight bytes")) as usize;
+        if length > bytes.len() - at - 9 {
+            break;
+        }
+        if head[0] == 6 {
+            bytes[at + 9 + 24..at + 9 + 28].fill(0);
+        }
+        at += 9 + length;
+    }
+    bytes
+}
+
+#[test]
+fn a_stalled_client_hurts_nobody_and_is_shown_the_door() {
+    let scratch = Scratch::new().expect("creates");
+    let mut robot = robot(&scratch, 1);
+    let _daemon = start(&scratch);
+    let socket = scratch.join("vthal.sock");
+    let mut watcher = follow(&scratch);
+    wait_for_state(&mut robot, &mut watcher, "idle");
+    let stalled = Client::watching(&socket, r#"["packets","log","status"]"#).expect("connects");
+    let mut crowd: Vec<UnixStream> = (0..99)
+        .map(|_| {
+            let client = Client::watching(&socket, r#"["packets"]"#).expect("connects");
+            client.stream.set_nonblocking(true).expect("sets");
+            client.stream
+        })
+        .collect();
+    let pump = std::thread::spawn(move || {
+        // Enough that what the kernel holds for the stalled client and its outbox overflow.
+        for _ in 0..6_000 {
+            robot.report().expect("writes");
+            robot.listen(Instant::now()).expect("lives");
+        }
+        robot
+    });
+    let mut counts = vec![0; crowd.len()];
+    let deadline = soon() + PATIENCE;
+    let mut gone = false;
+    let mut buffer = vec![0; 64 << 10];
+    while !gone && Instant::now() < deadline {
+        for (stream, count) in crowd.iter_mut().zip(&mut counts) {
+            while let Ok(bytes) = stream.read(&mut buffer) {
+                assert_ne!(bytes, 0, "a client that reads stays connected");
+                *count += bytes;
+            }
+        }
+        gone = has_hung_up(&stalled.stream);
+    }
+    assert!(gone, "the stalled client is disconnected");
+    let mut robot = pump.join().expect("ends");
+    assert!(counts.iter().all(|count| *count > 0), "everybody else was served");
+    let mut client = follow(&scratch);
+    wait_for_state(&mut robot, &mut client, "idle");
+}
+
+/// Whether the other end is closed, without reading anything.
+fn has_hung_up(stream: &UnixStream) -> bool {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    let mut polled = [PollFd::new(stream, PollFlags::empty())];
+    let now = Timespec::default();
+    poll(&mut polled, Some(&now)).expect("asks");
+    polled[0].revents().contains(PollFlags::HUP)
+}
+
+#[test]
+fn garbage_is_answered_and_endless_garbage_ends_the_connection() {
+    let scratch = Scratch::new().expect("creates");
+    let _daemon = start(&scratch);
+    let mut client = Client::connect(&scratch.join("vthal.sock")).expect("connects");
+    for (packet, reason) in [
+        ("\u{0}\u{1}garbage", "syntax"),
+        ("[1,2]", "syntax"),
+        (r#"{"c":"explode","id":4}"#, "unknown"),
+        (r#"{"c":"drive","v":1,"id":5}"#, "arguments"),
+        (r#"{"c":"start","strategy":"none","id":6}"#, "unknown-strategy"),
+        (r#"{"c":"raw","packet":"{}","id":7}"#, "expert-off"),
+    ] {
+        client.send(packet).expect("sends");
+        let answer = client
+            .wait_for(soon(), |update| matches!(update, Update::Failed(_)))
+            .expect("reads");
+        let Some(Update::Failed(failure)) = answer else {
+            panic!("no answer to {packet}")
+        };
+        assert_eq!(failure.reason, reason, "{packet}");
+        assert!(failure.text.ends_with('.'), "a sentence: {}", failure.text);
+    }
+    client.stream.write_all(&[b'x'; 20 << 10]).expect("sends");
+    let mut rest = Vec::new();
+    client.stream.set_read_timeout(Some(PATIENCE)).expect("sets");
+    // What the daemon did not read any more turns the end into a reset; the answer comes before either.
+    let end = client.stream.read_to_end(&mut rest);
+    assert!(
+        end.is_ok() || end.is_err_and(|error| error.kind() == ErrorKind::ConnectionReset),
+        "it ends"
+    );
+    assert!(String::from_utf8_lossy(&rest).contains("too-long"));
+    let mut other = Client::connect(&scratch.join("vthal.sock")).expect("connects");
+    other
+        .send(r#"{"c":"hello","name":"other","id":1}"#)
+        .expect("sends");
+    let done = other
+        .wait_for(soon(), |update| matches!(update, Update::Done { id: 1 }))
+        .expect("reads");
+    assert!(done.is_some(), "the daemon lives on");
+}
+
+#[test]
+fn a_second_daemon_is_refused_and_a_dead_ones_socket_is_replaced() {
+    let scratch = Scratch::new().expect("creates");
+    let socket = scratch.join("vthal.sock");
+    drop(UnixListener::bind(&socket).expect("binds"));
+    let _daemon = start(&scratch);
+    let found = fs::symlink_metadata(&socket).expect("exists");
+    assert!(found.file_type().is_socket());
+    assert_eq!(found.permissions().mode() & 0o777, 0o660);
+    let refused = |state: &str| {
+        let output = Command::new(vthal())
+            .args(["--serial", "/dev/null", "--socket"])
+            .arg(&socket)
+            .arg("--state")
+            .arg(scratch.join(state))
+            .output()
+            .expect("runs");
+        assert_eq!(output.status.code(), Some(1));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let same_folder = refused("state");
+    assert!(
+        same_folder.starts_with("vthal: another vthal (process "),
+        "{same_folder}"
+    );
+    let same_socket = refused("other");
+    assert!(
+        same_socket.starts_with("vthal: another vthal listens on "),
+        "{same_socket}"
+    );
+}
+
+#[test]
+fn a_broken_configuration_is_one_sentence_and_nothing_is_written() {
+    let scratch = Scratch::new().expect("creates");
+    let file = scratch.join("vthal.toml");
+    let state = scratch.join("state");
+    let text = format!(
+        "[state]\ndir = {:?}\n[link]\nserial = \"/dev/null\"\nbaud = 1\n",
+        state.display()
+    );
+    fs::write(&file, text).expect("writes");
+    let output = Command::new(vthal())
+        .arg("--config")
+        .arg(&file)
+        .output()
+        .expect("runs");
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let place = format!("vthal: {}:5: link.baud: ", file.display());
+    assert!(
+        message.starts_with(&place) && message.lines().count() == 1,
+        "{message}"
+    );
+    assert!(!state.exists(), "nothing was written");
+}
