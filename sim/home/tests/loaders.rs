@@ -424,3 +424,34 @@ fn robots_are_found_by_name_and_unknown_ones_named() {
     let cut = &text[..text.len() / 2];
     assert!(RobotModel::parse(cut, "test.toml").is_err());
 }
+
+#[test]
+fn robot_files_load_and_wrong_ones_are_named() {
+    let text = include_str!("../../../robots/vileda-relax/robot.toml");
+    let model = RobotModel::load(&file("relax.toml", text.as_bytes())).unwrap();
+    assert_eq!(model, RobotModel::by_name("relax").unwrap());
+    assert_eq!((model.gyro, model.cliffs.len(), model.wheel_drops), (None, 4, 1));
+
+    let error = RobotModel::load("no/such/robot.toml".as_ref())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("no/such/robot.toml"), "{error}");
+    let error = RobotModel::load(&file("long-robot.toml", &vec![b'#'; 300_000])).unwrap_err();
+    assert!(error.to_string().contains("300000"), "{error}");
+}
+
+#[test]
+fn mutated_robot_files_never_panic() {
+    let text = include_str!("../../../robots/samsung-sr8730/robot.toml");
+    let mut random = Pcg::new(4, 4);
+    let mut refused = 0;
+    for _ in 0..300 {
+        let mutant = mutate(text.as_bytes(), &mut random);
+        let mutant = String::from_utf8_lossy(&mutant);
+        if let Err(error) = RobotModel::parse(&mutant, "mutant.toml") {
+            refused += 1;
+            assert!(error.to_string().contains("mutant.toml"), "{error}");
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}

@@ -3,6 +3,7 @@
 mod catalog;
 mod figure;
 mod parse;
+mod raw;
 
 use std::path::PathBuf;
 

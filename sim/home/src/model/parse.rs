@@ -1,138 +1,14 @@
 //! From the text of a description to a checked [`RobotModel`].
 
-use serde::Deserialize;
-
 use super::figure::{Figure, FigureList};
+use super::raw::{
+    RawBattery, RawBody, RawBumper, RawCleaners, RawDrive, RawGyro, RawLidar, RawModel, RawPlaces,
+    RawProximity, RawReceivers, RawWheelMotor,
+};
 use super::{
     Battery, Body, Bumper, Cleaners, CliffMount, Drive, Gyro, Lidar, ModelError, Proximity, ReceiverMount,
     RobotModel, WheelMotor,
 };
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawModel {
-    name: String,
-    title: String,
-    body: RawBody,
-    drive: RawDrive,
-    wheel_motor: RawWheelMotor,
-    cleaners: RawCleaners,
-    bumper: RawBumper,
-    cliffs: RawPlaces,
-    wheel_drops: RawCount,
-    proximity: Option<RawProximity>,
-    gyro: Option<RawGyro>,
-    dock_receivers: Option<RawReceivers>,
-    battery: RawBattery,
-    buttons: RawCount,
-    lidar: Option<RawLidar>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawBody {
-    radius: Figure,
-    swath: Figure,
-    climb: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawDrive {
-    track: Figure,
-    count_way: Figure,
-    encoder_lines: Figure,
-    cruise: Figure,
-    speed_max: Figure,
-    turn_max: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawWheelMotor {
-    free_speed: Figure,
-    stall_force: Figure,
-    stall_current: Figure,
-    idle_current: Figure,
-    dead_band_brake: Figure,
-    dead_band_coast: Figure,
-    lag: Figure,
-    traction: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawCleaners {
-    main: Figure,
-    sides: Figure,
-    vacuum: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawBumper {
-    half_arc: Figure,
-    overlap: Figure,
-    travel: Figure,
-    switch: Figure,
-    force: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawPlaces {
-    x: FigureList,
-    y: FigureList,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawCount {
-    count: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawProximity {
-    headings: FigureList,
-    mount_radius: Figure,
-    range: Figure,
-    half_angle: Figure,
-    half_level: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawGyro {
-    resolution: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawReceivers {
-    headings: FigureList,
-    half_angle: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawBattery {
-    cells: Figure,
-    capacity: Figure,
-    resistance: Figure,
-    electronics: Figure,
-    charge: Figure,
-    trickle: Figure,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RawLidar {
-    range: Figure,
-    beams: Figure,
-    turns: Figure,
-    noise: Figure,
-}
 
 /// Names the file in every complaint.
 struct Reader<'a> {
