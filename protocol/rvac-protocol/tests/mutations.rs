@@ -12,9 +12,9 @@ fn seeds() -> Vec<Vec<u8>> {
     let mut seeds = Vec::new();
     for file in ["commands", "reports", "refused", "tolerated", "framing"] {
         let path = format!("{}/../vectors/{file}.json", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(&path).unwrap();
-        let file: Value = serde_json::from_str(&text).unwrap();
-        for vector in file["vectors"].as_array().unwrap() {
+        let text = std::fs::read_to_string(&path).expect("the vectors are beside the crate");
+        let file: Value = serde_json::from_str(&text).expect("vectors are JSON");
+        for vector in file["vectors"].as_array().expect("a file of vectors") {
             if let Some(line) = vector["line"].as_str() {
                 seeds.extend(
                     line.split('\x1f')
@@ -37,7 +37,7 @@ fn seeds() -> Vec<Vec<u8>> {
 fn from_hex(digits: &str) -> Vec<u8> {
     (0..digits.len())
         .step_by(2)
-        .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap())
+        .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).expect("hexadecimal digits"))
         .collect()
 }
 

@@ -34,13 +34,16 @@ fn text<'v>(vector: &'v Value, key: &str) -> &'v str {
 }
 
 fn session(vector: &Value) -> u16 {
-    u16::try_from(vector["session"].as_u64().unwrap()).unwrap()
+    vector["session"]
+        .as_u64()
+        .and_then(|session| u16::try_from(session).ok())
+        .expect("a session number")
 }
 
 fn from_hex(digits: &str) -> Vec<u8> {
     (0..digits.len())
         .step_by(2)
-        .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap())
+        .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).expect("hexadecimal digits"))
         .collect()
 }
 
@@ -173,7 +176,7 @@ fn check_binary_state(state: &State, vector: &Value) {
     let (kind, body) = binary_body(&on_line, Direction::RobotToHost, session(vector));
     assert_eq!((kind, binary::read_state(&body)), (binary::STATE, Ok(*state)));
     let mut buffer = PacketBuffer::new();
-    binary::write_sealed_state(state, session(vector), &mut buffer).unwrap();
+    binary::write_sealed_state(state, session(vector), &mut buffer).expect("a state fits");
     assert_eq!(buffer.as_bytes(), [on_line.as_slice(), b"\x1f"].concat());
 }
 

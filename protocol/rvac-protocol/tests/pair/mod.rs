@@ -164,11 +164,12 @@ impl Pair {
 
     fn note(&mut self, event: Option<RobotEvent>) {
         let Some(event) = event else { return };
-        if let RobotEvent::Command(command) = event {
-            if let (true, true, Some(sequence)) = (self.answering, command.must_arrive(), command.sequence())
-            {
-                self.robot.answer(sequence, None);
-            }
+        if let RobotEvent::Command(command) = event
+            && self.answering
+            && command.must_arrive()
+            && let Some(sequence) = command.sequence()
+        {
+            self.robot.answer(sequence, None);
         }
         self.robot_events.push(event);
     }

@@ -42,11 +42,12 @@ impl Core {
     }
 
     fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
-        if self.session != 0 && found == seal(Direction::RobotToHost, 0, text) {
-            if let Ok(ReportPacket::Report(Report::Hello(hello))) = read_report(text) {
-                self.good();
-                return self.take_hello(hello);
-            }
+        if self.session != 0
+            && found == seal(Direction::RobotToHost, 0, text)
+            && let Ok(ReportPacket::Report(Report::Hello(hello))) = read_report(text)
+        {
+            self.good();
+            return self.take_hello(hello);
         }
         count(&mut self.counters.bad_seal);
         self.bad()

@@ -85,10 +85,11 @@ impl Core {
         if is_stop(text) {
             return self.accept(Command::Stop, Trust::Open);
         }
-        if self.session != 0 && found == seal(Direction::HostToRobot, 0, text) {
-            if let Ok(command @ Command::Hello(_)) = read_command(text, self.form()) {
-                return self.accept(command, Trust::Sealed);
-            }
+        if self.session != 0
+            && found == seal(Direction::HostToRobot, 0, text)
+            && let Ok(command @ Command::Hello(_)) = read_command(text, self.form())
+        {
+            return self.accept(command, Trust::Sealed);
         }
         count(&mut self.counters.bad_seal);
         self.bad()
@@ -184,10 +185,11 @@ impl Core {
         if self.mode == Mode::Hand {
             return Ok(());
         }
-        if let Some((last, when)) = self.motion {
-            if self.now.since(when) < MEMORY_MS && !sequence.is_newer_than(last) {
-                return Err(Refusal::Old);
-            }
+        if let Some((last, when)) = self.motion
+            && self.now.since(when) < MEMORY_MS
+            && !sequence.is_newer_than(last)
+        {
+            return Err(Refusal::Old);
         }
         self.motion = Some((sequence, self.now));
         Ok(())
