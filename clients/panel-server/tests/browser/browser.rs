@@ -1,0 +1,216 @@
+//! Chromium, driven as a person drives it.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use fantoccini::actions::{InputSource, KeyAction, KeyActions};
+use fantoccini::key::Key;
+use fantoccini::{Client, ClientBuilder, Locator};
+use hyper_util::client::legacy::connect::HttpConnector;
+use serde_json::{Value, json};
+use tokio::time::sleep;
+
+use crate::stack::Stack;
+
+/// Whatever is awaited comes within this time or the test fails. A busy machine draws slowly.
+const PATIENCE: Duration = Duration::from_secs(40);
+
+/// Pause between two looks at the page.
+const LOOK_EVERY: Duration = Duration::from_millis(50);
+
+/// Size of the screen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Screen {
+    /// 1440 by 900.
+    Desktop,
+    /// 390 by 844, two device pixels a pixel, touch.
+    Phone,
+}
+
+/// A browser that shows the panel.
+#[derive(Debug)]
+pub(crate) struct Browser {
+    client: Client,
+    driver: Child,
+}
+
+impl Browser {
+    pub(crate) async fn open(stack: &Stack, screen: Screen) -> Self {
+        let (driver, address) = start_driver();
+        let capabilities = capabilities(screen).as_object().cloned().unwrap();
+        let client = ClientBuilder::new(HttpConnector::new())
+            .capabilities(capabilities)
+            .connect(&address)
+            .await
+            .unwrap();
+        client.goto(&stack.address).await.unwrap();
+        Self { client, driver }
+    }
+
+    pub(crate) async fn close(mut self) {
+        self.client.clone().close().await.unwrap();
+        self.driver.kill().ok(); // It may have ended by itself.
+        self.driver.wait().ok();
+    }
+
+    pub(crate) async fn reload(&self) {
+        self.client.refresh().await.unwrap();
+    }
+
+    pub(crate) async fn click(&self, selector: &str) {
+        self.client
+            .find(Locator::Css(selector))
+            .await
+            .unwrap()
+            .click()
+            .await
+            .unwrap();
+    }
+
+    /// The text that a script gives.
+    pub(crate) async fn text(&self, script: &str) -> String {
+        let value = self.client.execute(script, Vec::new()).await.unwrap();
+        value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    }
+
+    /// Waits until a script gives true.
+    pub(crate) async fn until(&self, script: &str) {
+        let deadline = Instant::now() + PATIENCE;
+        while !matches!(
+            self.client.execute(script, Vec::new()).await,
+            Ok(Value::Bool(true))
+        ) {
+            if Instant::now() > deadline {
+                self.shot("failed").await;
+                panic!(
+                    "not before the deadline: {script}; page: {}",
+                    self.text("return document.body.innerText").await
+                );
+            }
+            sleep(LOOK_EVERY).await;
+        }
+    }
+
+    /// Waits until the robot is in one of these states.
+    pub(crate) async fn until_state(&self, states: &[&str]) {
+        let states = json!(states);
+        self.until(&format!(
+            "return {states}.includes(document.getElementById('now')?.dataset.state)"
+        ))
+        .await;
+    }
+
+    /// The median of what the page measures over `span`.
+    pub(crate) async fn frames_per_second(&self, span: Duration) -> f64 {
+        let end = Instant::now() + span;
+        let mut rates = Vec::new();
+        while Instant::now() < end {
+            let rate = self
+                .text("return document.getElementById('map').dataset.framesPerSecond")
+                .await;
+            rates.push(rate.parse::<f64>().unwrap());
+            sleep(Duration::from_millis(250)).await;
+        }
+        rates.sort_by(f64::total_cmp);
+        rates[rates.len() / 2]
+    }
+
+    /// Holds a key down while an element has the focus.
+    pub(crate) async fn hold_key_in(&self, selector: &str, key: char) {
+        self.client
+            .execute(
+                &format!("document.querySelector('{selector}').focus()"),
+                Vec::new(),
+            )
+            .await
+            .unwrap();
+        let down = KeyActions::new("keyboard".to_owned()).then(KeyAction::Down { value: key });
+        self.client.perform_actions(down).await.unwrap();
+    }
+
+    /// Presses Tab until the element with this id has the focus, and looks that the focus can be seen.
+    pub(crate) async fn tab_to(&self, id: &str) {
+        for _ in 0..40 {
+            self.press(Key::Tab.into()).await;
+            if self.text("return document.activeElement.id").await == id {
+                let outline = self
+                    .text("return getComputedStyle(document.activeElement).outlineStyle")
+                    .await;
+                assert_ne!(outline, "none", "the focus on {id} cannot be seen");
+                return;
+            }
+        }
+        panic!("Tab does not lead to {id}");
+    }
+
+    pub(crate) async fn press_enter(&self) {
+        self.press(Key::Enter.into()).await;
+    }
+
+    async fn press(&self, key: char) {
+        let keys = KeyActions::new("keyboard".to_owned());
+        let keys = keys
+            .then(KeyAction::Down { value: key })
+            .then(KeyAction::Up { value: key });
+        self.client.perform_actions(keys).await.unwrap();
+    }
+
+    /// Opens another tab in front of the panel.
+    pub(crate) async fn hide_behind_a_new_tab(&self) {
+        let tab = self.client.new_window(true).await.unwrap();
+        self.client.switch_to_window(tab.handle).await.unwrap();
+    }
+
+    /// Saves what is seen, if screenshots are wanted.
+    pub(crate) async fn shot(&self, name: &str) {
+        let Some(folder) = std::env::var_os("RVAC_SCREENSHOTS") else {
+            return;
+        };
+        let folder = std::path::PathBuf::from(folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        let picture = self.client.screenshot().await.unwrap();
+        std::fs::write(folder.join(format!("{name}.png")), picture).unwrap();
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        self.driver.kill().ok(); // It may have ended by itself.
+        self.driver.wait().ok();
+    }
+}
+
+/// Starts the driver on a port that it chooses itself; gives its address.
+fn start_driver() -> (Child, String) {
+    let mut command = Command::new("chromedriver");
+    command
+        .arg("--port=0")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    let mut child = command.spawn().expect("chromedriver is installed");
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let port = lines
+        .by_ref()
+        .map_while(Result::ok)
+        .find_map(|line| {
+            line.rsplit_once("on port ")
+                .map(|(_, port)| port.trim_end_matches('.').to_owned())
+        })
+        .expect("chromedriver names its port");
+    (child, format!("http://127.0.0.1:{port}"))
+}
+
+fn capabilities(screen: Screen) -> Value {
+    let mut options = json!({
+        "args": [
+            "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+            "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1440,900",
+        ],
+    });
+    if matches!(screen, Screen::Phone) {
+        options["mobileEmulation"] =
+            json!({ "deviceMetrics": { "width": 390, "height": 844, "pixelRatio": 2.0 } });
+    }
+    json!({ "browserName": "chrome", "goog:chromeOptions": options })
+}

@@ -1,0 +1,225 @@
+//! The panel in a real browser, in front of the real daemon and the real simulator.
+//!
+//! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
+//! `RVAC_PANEL`, and the binaries `vthal` and `rvac-sim` beside that of the server. Screenshots go to the folder named by
+//! `RVAC_SCREENSHOTS`.
+#![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
+
+mod browser;
+mod robot;
+mod stack;
+
+use std::time::{Duration, Instant};
+
+use browser::{Browser, Screen};
+use robot::Witness;
+use stack::Stack;
+use tokio::sync::Mutex;
+
+/// One browser at a time: two would share the processor and measure each other.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::const_new(());
+
+/// Whether the browser tests are wanted; says so when they are not.
+fn wanted() -> bool {
+    let wanted = std::env::var_os("RVAC_BROWSER_TESTS").is_some();
+    if !wanted {
+        println!("skipped: RVAC_BROWSER_TESTS is not set");
+    }
+    wanted
+}
+
+#[tokio::test]
+async fn start_cleans_and_stop_stands() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Desktop).await;
+    browser
+        .until("return document.querySelector('#presence.up') !== null")
+        .await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.shot("desktop-ready").await;
+
+    browser.click("#start").await;
+    browser.until_state(&["cleaning"]).await;
+    let first = browser
+        .text("return document.getElementById('map').dataset.pose")
+        .await;
+    browser
+        .until(&format!(
+            "return document.getElementById('map').dataset.pose !== '{first}'"
+        ))
+        .await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
+        .await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.framesPerSecond) > 0")
+        .await;
+    browser.shot("desktop-cleaning").await;
+    let frames = browser.frames_per_second(Duration::from_secs(6)).await;
+    println!("frames per second while the robot moves: {frames:.1}");
+    assert!(frames > 20.0, "{frames}");
+
+    browser.click("#stop").await;
+    browser.until_state(&["idle"]).await;
+    let witness = Witness::watch(&stack.simulator_socket());
+    let stood = witness.stands_within(Duration::from_secs(3));
+    assert!(stood.is_some(), "the robot still moves three seconds after Stop");
+    browser.close().await;
+}
+
+#[tokio::test]
+async fn a_hidden_tab_stops_the_wheels() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Desktop).await;
+    browser.until_state(&["idle", "docked"]).await;
+    leave_the_dock(&browser).await;
+    let witness = Witness::watch(&stack.simulator_socket());
+    browser.hold_key_in("#pad", 's').await;
+    browser.until_state(&["manual"]).await;
+    witness.until_it_moves(Duration::from_secs(10));
+    browser.shot("desktop-driving").await;
+
+    browser.hide_behind_a_new_tab().await;
+    let hidden = Instant::now();
+    let stood = witness
+        .stands_within(Duration::from_secs(3))
+        .expect("the robot drives on behind a hidden tab");
+    let after = stood.saturating_duration_since(hidden);
+    println!(
+        "the wheels stood {} ms after the tab was hidden",
+        after.as_millis()
+    );
+    assert!(after < Duration::from_millis(1000), "{after:?}");
+    browser.close().await;
+}
+
+/// A robot on the dock does not let itself be driven off it by hand: a short job takes it away from there.
+async fn leave_the_dock(browser: &Browser) {
+    browser.click("#start").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 40")
+        .await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle"]).await;
+}
+
+#[tokio::test]
+async fn the_keyboard_is_enough() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Desktop).await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.tab_to("start").await;
+    browser.press_enter().await;
+    browser.until_state(&["cleaning"]).await;
+    browser.shot("desktop-keyboard-focus").await;
+    browser.tab_to("stop").await;
+    browser.press_enter().await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+async fn a_phone_shows_everything_without_sideways_scrolling() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Phone).await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.click("#start").await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 100")
+        .await;
+    for tab in ["drive", "device", "log"] {
+        browser.click(&format!("#tab-{tab}")).await;
+        browser
+            .until(&format!("return !document.getElementById('sheet-{tab}').hidden"))
+            .await;
+        let wide = browser
+            .text(
+                "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)",
+            )
+            .await;
+        assert_eq!(wide, "0", "the page is wider than the phone while {tab} is open");
+        browser.shot(&format!("phone-{tab}")).await;
+    }
+    let small = browser.text(SMALL_TARGETS).await;
+    assert_eq!(small, "", "controls that a thumb misses");
+    browser.click("#stop").await;
+    browser.until_state(&["idle"]).await;
+    browser.close().await;
+}
+
+/// Names of controls that are seen and smaller than 44 pixels in a direction.
+const SMALL_TARGETS: &str = "
+    const controls = [...document.querySelectorAll('button, select, input[type=search], label.check')];
+    return controls.filter((control) => control.checkVisibility())
+        .filter((control) => { const box = control.getBoundingClientRect(); return box.width < 44 || box.height < 44; })
+        .map((control) => control.id || control.textContent).join(', ')";
+
+#[tokio::test]
+async fn the_dark_look_is_kept() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Desktop).await;
+    browser.until_state(&["idle", "docked"]).await;
+    let background = "return getComputedStyle(document.body).backgroundColor";
+    let light = browser.text(background).await;
+    browser.click("#theme").await;
+    browser
+        .until("return document.documentElement.dataset.theme === 'dark'")
+        .await;
+    let dark = browser.text(background).await;
+    assert_ne!(light, dark);
+    browser.reload().await;
+    browser.until_state(&["idle", "docked"]).await;
+    assert_eq!(browser.text(background).await, dark);
+    browser.click("#start").await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 100")
+        .await;
+    browser.click("#tab-device").await;
+    browser
+        .until("return document.querySelectorAll('#device-table tr').length > 20")
+        .await;
+    browser.shot("desktop-dark").await;
+    browser.close().await;
+}
+
+#[tokio::test]
+async fn a_daemon_that_dies_is_told_and_found_again() {
+    if !wanted() {
+        return;
+    }
+    let _turn = ONE_AT_A_TIME.lock().await;
+    let mut stack = Stack::start();
+    let browser = Browser::open(&stack, Screen::Desktop).await;
+    browser.until_state(&["idle", "docked"]).await;
+    stack.kill_vthal();
+    browser.until_state(&["disconnected"]).await;
+    let reason = browser
+        .text("return document.getElementById('reason').textContent")
+        .await;
+    assert!(reason.contains("not running"), "{reason}");
+    browser.shot("desktop-disconnected").await;
+    stack.start_vthal();
+    browser.until_state(&["idle", "docked"]).await;
+    browser.close().await;
+}

@@ -1,0 +1,140 @@
+//! The simulator, the daemon and the server as processes on sockets and ports of their own.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+static STACKS: AtomicU32 = AtomicU32::new(0);
+
+/// Running processes and their folder; all of it is gone when this is dropped.
+#[derive(Debug)]
+pub(crate) struct Stack {
+    folder: PathBuf,
+    processes: Vec<Process>,
+    vthal: Option<Process>,
+    pub(crate) address: String,
+}
+
+#[derive(Debug)]
+struct Process {
+    child: Child,
+    _stdout: BufReader<ChildStdout>,
+}
+
+impl Process {
+    /// Starts `command` and waits for its line `ready`, which is given back.
+    fn start(command: &mut Command) -> (Self, String) {
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap_or_else(|error| {
+                panic!(
+                    "cannot start {:?}: {error}; build it first",
+                    command.get_program()
+                );
+            });
+        let mut stdout = BufReader::new(child.stdout.take().unwrap());
+        let mut line = String::new();
+        while !line.starts_with("ready") {
+            line.clear();
+            let read = stdout.read_line(&mut line).unwrap();
+            assert_ne!(read, 0, "{:?} ended before it was ready", command.get_program());
+        }
+        (
+            Self {
+                child,
+                _stdout: stdout,
+            },
+            line,
+        )
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.child.kill().ok(); // It may have ended by itself.
+        self.child.wait().ok();
+    }
+}
+
+/// A binary that cargo put beside that of the server.
+fn binary(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_panel-server")).with_file_name(name)
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+impl Stack {
+    pub(crate) fn start() -> Self {
+        let number = STACKS.fetch_add(1, Ordering::Relaxed);
+        let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
+        std::fs::create_dir_all(folder.join("state")).unwrap();
+        let mut stack = Self {
+            folder,
+            processes: Vec::new(),
+            vthal: None,
+            address: String::new(),
+        };
+        stack.start_simulator();
+        stack.start_vthal();
+        stack.start_server();
+        stack
+    }
+
+    pub(crate) fn simulator_socket(&self) -> PathBuf {
+        self.folder.join("simulator.sock")
+    }
+
+    /// Ends the daemon as a power failure would.
+    pub(crate) fn kill_vthal(&mut self) {
+        self.vthal = None;
+    }
+
+    pub(crate) fn start_vthal(&mut self) {
+        let mut command = Command::new(binary("vthal"));
+        command.arg("--serial").arg(self.folder.join("serial"));
+        command.arg("--socket").arg(self.folder.join("vthal.sock"));
+        command.arg("--state").arg(self.folder.join("state"));
+        self.vthal = Some(Process::start(&mut command).0);
+    }
+
+    fn start_simulator(&mut self) {
+        let mut command = Command::new(binary("rvac-sim"));
+        command.current_dir(root());
+        command.args([
+            "serve",
+            "--robot",
+            "sr8730",
+            "--seed",
+            "7",
+            "--home",
+            "homes/two-room-flat.toml",
+        ]);
+        command.arg("--link").arg(self.folder.join("serial"));
+        command.arg("--socket").arg(self.simulator_socket());
+        self.processes.push(Process::start(&mut command).0);
+    }
+
+    fn start_server(&mut self) {
+        let panel = std::env::var_os("RVAC_PANEL").expect("RVAC_PANEL names the folder of the packed panel");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
+        command.args(["--port", "0", "--assets"]).arg(panel);
+        command.arg("--vthal").arg(self.folder.join("vthal.sock"));
+        command.arg("--simulator").arg(self.simulator_socket());
+        let (process, line) = Process::start(&mut command);
+        self.processes.push(process);
+        self.address = line.trim().trim_start_matches("ready ").to_owned();
+    }
+}
+
+impl Drop for Stack {
+    fn drop(&mut self) {
+        self.vthal = None;
+        self.processes.clear();
+        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder hurts nobody.
+    }
+}
