@@ -1,5 +1,6 @@
 //! `cargo xtask codegen`: files that are made from data. With --check it writes nothing and names what is stale.
 
+mod header;
 pub(crate) mod robots;
 
 use crate::{process, workspace};
@@ -23,7 +24,7 @@ pub(crate) struct Generated {
 /// Makes all generated files.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let root = workspace::root();
-    let files = [robots::page(&root)?];
+    let files = [robots::page(&root)?, header::of_cordlib(&root)?];
     let mut stale = Vec::new();
     for file in files {
         let present = std::fs::read_to_string(&file.path).unwrap_or_default();

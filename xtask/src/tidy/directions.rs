@@ -68,7 +68,7 @@ const DIRECTIONS: [Direction; 18] = [
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
     Direction { of: "cordlib",       knows: WIRE,                                           never: STD },
-    Direction { of: "cordlib-c",     knows: &["cordlib", "rvac-protocol", "rvac-units"],    never: STD },
+    Direction { of: "cordlib-c",     knows: &["cordlib", "rvac-protocol", "rvac-units"],    never: &["tokio"] },
     Direction { of: "brain",         knows: &["rvac-units"],                                never: BRAIN },
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },

@@ -5,14 +5,21 @@ use super::files::Files;
 use super::rust_text::code;
 
 /// Crates that run on a microcontroller.
-const NO_STD: [&str; 3] = [
+const NO_STD: [&str; 4] = [
+    "firmware/size-probe",
     "protocol/rvac-units",
     "protocol/rvac-protocol",
     "firmware/cordlib",
 ];
 
 /// The only crates that may hold unsafe code, and why.
-const UNSAFE: [(&str, &str); 1] = [("firmware/cordlib-c", "a C interface takes pointers")];
+const UNSAFE: [(&str, &str); 2] = [
+    ("firmware/cordlib-c", "a C interface takes pointers"),
+    (
+        "firmware/size-probe",
+        "a program without an operating system names its own entry point",
+    ),
+];
 
 /// Looks at the head of each crate.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {

@@ -14,7 +14,7 @@ pub(super) struct Package {
     pub(super) licence: String,
     /// Whether its source lies in this repository.
     pub(super) ours: bool,
-    /// Identities of the packages it needs to run or to be built; not those its tests need.
+    /// Identities of the packages it is linked with; not those that its build script or its tests need.
     pub(super) needs: Vec<String>,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
     }
     for node in list(&metadata["resolve"]["nodes"]) {
         let needs = list(&node["deps"])
-            .filter(|dependency| list(&dependency["dep_kinds"]).any(|kind| kind["kind"] != "dev"));
+            .filter(|dependency| list(&dependency["dep_kinds"]).any(|kind| kind["kind"].is_null()));
         packages.entry(text(&node["id"])).or_default().needs =
             needs.map(|dependency| text(&dependency["pkg"])).collect();
     }
