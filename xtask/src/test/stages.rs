@@ -224,9 +224,27 @@ fn headless(_long: bool) -> Result {
     ]))
 }
 
+/// The tests take one turn after the other in one process: two browsers at once would measure each other.
 fn browser(_long: bool) -> Result {
     system::need("chromium", &["chromium"])?;
     system::need("chromedriver", &["chromium-driver"])?;
-    panel::build()?;
-    Ok(Count::ONE)
+    let assets = panel::build()?;
+    workspace::build(&["rvac-sim", "vthal", "panel-server"], Profile::Dev)?;
+    let screenshots = workspace::target().join("screenshots");
+    std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
+    let mut command = cargo(&[
+        "test",
+        "--locked",
+        "--package",
+        "panel-server",
+        "--test",
+        "browser",
+        "--",
+        "--nocapture",
+    ]);
+    command
+        .env("RVAC_BROWSER_TESTS", "1")
+        .env("RVAC_PANEL", assets)
+        .env("RVAC_SCREENSHOTS", screenshots);
+    tests(&mut command)
 }
