@@ -8,6 +8,7 @@ use rvac_protocol::message::{Motor, MotorCommand, Refusal};
 use rvac_units::{Current, Throttle, Tick};
 
 use crate::board::{Board, CleaningMotor, Parts};
+use crate::limit::within;
 use crate::motion::CONTROL_MS;
 use crate::permit::Standing;
 use crate::reflex::{Load, StallRule};
@@ -199,7 +200,8 @@ impl Wish {
         } else if opposite {
             SLEW_PER_PERIOD.min(goal.saturating_abs()) * goal.signum()
         } else {
-            goal.clamp(
+            within(
+                goal,
                 from.saturating_sub(SLEW_PER_PERIOD),
                 from.saturating_add(SLEW_PER_PERIOD),
             )

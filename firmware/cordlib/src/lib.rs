@@ -14,6 +14,7 @@ mod dispatch;
 mod floor;
 mod journal;
 mod lights;
+mod limit;
 mod motion;
 mod parameters;
 mod permit;

@@ -2,6 +2,7 @@
 
 use rvac_protocol::message::Drive;
 
+use crate::limit::within;
 use crate::parameters::Parameters;
 use crate::permit::CLIFF_SPEED_MAX_UM_PER_S;
 
@@ -65,7 +66,10 @@ impl BaseVelocity {
         };
         let fastest = left.saturating_abs().max(right.saturating_abs()).max(1);
         let share = i64::from(limit).min(fastest);
-        let scale = |speed: i64| i32::try_from(speed.saturating_mul(share) / fastest).unwrap_or(0);
+        let scale = |speed: i64| {
+            let scaled = speed.saturating_mul(share).checked_div(fastest);
+            scaled.and_then(|speed| i32::try_from(speed).ok()).unwrap_or(0)
+        };
         RimSpeeds {
             left: scale(left),
             right: scale(right),
@@ -74,7 +78,7 @@ impl BaseVelocity {
 }
 
 fn approach(from: i32, to: i32, step: i32) -> i32 {
-    to.clamp(from.saturating_sub(step), from.saturating_add(step))
+    within(to, from.saturating_sub(step), from.saturating_add(step))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 use rvac_protocol::message::{Gyro, Move};
 use rvac_units::{Angle, Tick};
 
+use crate::limit::within;
 use crate::parameters::Parameters;
 
 use super::wheel::WheelGoal;
@@ -95,7 +96,8 @@ impl Path {
             let by_turn = i64::from(turn).saturating_mul(end_um) / turn_urad.saturating_abs().max(1);
             by_speed.min(by_turn)
         };
-        let speed_max = per_rim(pace.speed_um_per_s, pace.turn_urad_per_s).clamp(
+        let speed_max = within(
+            per_rim(pace.speed_um_per_s, pace.turn_urad_per_s),
             CREEP_UM_PER_S,
             i64::from(parameters.wheel.speed_at_full.0).max(CREEP_UM_PER_S),
         );
@@ -211,7 +213,7 @@ impl Path {
         let encoder_urad = self.encoder_turn_nm.saturating_mul(1_000) / track_um;
         let gyro_urad = i64::from(gyro.heading.0.wrapping_sub(start.0));
         let trust = GYRO_TRUST_URAD.saturating_add(encoder_urad.saturating_abs() / 5);
-        let excess = encoder_urad.saturating_sub(gyro_urad).clamp(-trust, trust);
+        let excess = within(encoder_urad.saturating_sub(gyro_urad), -trust, trust);
         narrow(excess.saturating_mul(self.half_track_um) / 1_000)
     }
 }

@@ -4,6 +4,7 @@
 use rvac_units::Throttle;
 
 use crate::board::WheelDrive;
+use crate::limit::within;
 use crate::parameters::WheelParameters;
 
 /// Length of a control period.
@@ -108,7 +109,7 @@ impl WheelController {
 
     /// Forgets what the wheel is behind beyond the limit.
     pub(crate) fn limit_lag(&mut self) {
-        self.lag_nm = self.lag_nm.clamp(-LAG_MAX_NM, LAG_MAX_NM);
+        self.lag_nm = within(self.lag_nm, -LAG_MAX_NM, LAG_MAX_NM);
     }
 
     /// How far the wheel is behind.
@@ -195,7 +196,7 @@ impl WheelController {
         } else {
             dead_band.saturating_mul(wanted.signum())
         };
-        wanted.clamp(from.saturating_sub(SLEW), from.saturating_add(SLEW))
+        within(wanted, from.saturating_sub(SLEW), from.saturating_add(SLEW))
     }
 }
 

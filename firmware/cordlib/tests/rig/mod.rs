@@ -222,7 +222,7 @@ impl Rig {
         }
     }
 
-    fn host_now(&self) -> Tick {
+    pub fn host_now(&self) -> Tick {
         Tick(self.now_ms as u32)
     }
 

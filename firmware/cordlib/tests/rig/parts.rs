@@ -1,5 +1,6 @@
 //! Board parts that are plain memory: tests write inputs and read outputs.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 use cordlib::board::{
@@ -12,6 +13,29 @@ use rvac_protocol::message::{
     Battery, Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, ResetCause, WheelDrops,
 };
 use rvac_units::{Frequency, Ratio, Throttle, Tick};
+
+thread_local! {
+    /// Calls into the board until one panics.
+    static CALLS_LEFT: Cell<Option<u32>> = const { Cell::new(None) };
+}
+
+/// Makes the board panic at its `call`-th call from here on.
+pub fn panic_at_call(call: u32) {
+    CALLS_LEFT.set(Some(call));
+}
+
+/// Lets the board be.
+pub fn never_panic() {
+    CALLS_LEFT.set(None);
+}
+
+fn called() {
+    let Some(left) = CALLS_LEFT.get() else {
+        return;
+    };
+    assert!(left > 0, "injected");
+    CALLS_LEFT.set(Some(left - 1));
+}
 
 /// A board of plain memory.
 #[derive(Debug)]
@@ -47,10 +71,12 @@ pub struct Time(pub u32);
 
 impl Clock for Time {
     fn tick(&mut self) -> Tick {
+        called();
         Tick(self.0)
     }
 
     fn microseconds(&mut self) -> u16 {
+        called();
         250
     }
 }
@@ -65,10 +91,12 @@ pub struct Wire {
 
 impl Link for Wire {
     fn receive(&mut self) -> Option<Received> {
+        called();
         self.to_robot.pop_front()
     }
 
     fn transmit(&mut self, bytes: &[u8]) -> usize {
+        called();
         let taken = bytes.len().min(self.room);
         self.to_host.extend_from_slice(&bytes[..taken]);
         taken
@@ -83,6 +111,7 @@ pub struct Bridges {
 
 impl WheelMotors for Bridges {
     fn drive(&mut self, left: WheelDrive, right: WheelDrive) {
+        called();
         self.left = left;
         self.right = right;
     }
@@ -95,18 +124,22 @@ pub struct Record {
 
 impl ResetRecord for Record {
     fn cause(&mut self) -> ResetCause {
+        called();
         ResetCause::PowerOn
     }
 
     fn boot_count(&mut self) -> u32 {
+        called();
         7
     }
 
     fn recent(&mut self) -> u8 {
+        called();
         self.recent
     }
 
     fn forget_recent(&mut self) {
+        called();
         self.recent = 0;
     }
 }
@@ -116,6 +149,7 @@ pub struct Fed(pub u32);
 
 impl Watchdog for Fed {
     fn feed(&mut self) {
+        called();
         self.0 += 1;
     }
 }
@@ -127,6 +161,7 @@ impl Encoders for Counters {
     const PRESENT: bool = true;
 
     fn counts(&mut self) -> WheelCounts {
+        called();
         self.0
     }
 }
@@ -138,6 +173,7 @@ impl BumperSwitches for Switches {
     const ZONES: u8 = 2;
 
     fn pressed(&mut self) -> Bumpers {
+        called();
         self.0
     }
 }
@@ -158,10 +194,12 @@ impl CliffSensors for Floor {
     };
 
     fn set_emitters(&mut self, emitters: Emitters) {
+        called();
         self.emitters = emitters;
     }
 
     fn levels(&mut self) -> CliffLevels {
+        called();
         let level = |missing: bool| match (self.emitters, missing) {
             (Emitters::On, false) => 600,
             (Emitters::On, true) | (Emitters::Off, _) => 40,
@@ -181,6 +219,7 @@ impl WheelDropSwitches for Drops {
     const SWITCHES: u8 = 2;
 
     fn hanging(&mut self) -> WheelDrops {
+        called();
         self.0
     }
 }
@@ -192,6 +231,7 @@ impl ProximitySensors for Sight {
     const COUNT: u8 = 7;
 
     fn closeness(&mut self) -> [u8; PROXIMITY_SENSORS] {
+        called();
         [0, 1, 2, 3, 4, 5, 6, 0]
     }
 }
@@ -203,6 +243,7 @@ impl HeadingSensor for Needle {
     const PRESENT: bool = true;
 
     fn heading(&mut self) -> Option<Gyro> {
+        called();
         self.0
     }
 }
@@ -214,6 +255,7 @@ impl CurrentSense for Shunts {
     const PRESENT: bool = true;
 
     fn currents(&mut self) -> Option<Currents> {
+        called();
         Some(self.0)
     }
 }
@@ -228,10 +270,12 @@ impl CleaningMotor for Brush {
     const PRESENT: bool = true;
 
     fn set(&mut self, duty: Throttle) {
+        called();
         self.duty = duty;
     }
 
     fn pulses(&mut self) -> Option<u32> {
+        called();
         self.pulses
     }
 }
@@ -244,6 +288,7 @@ impl BatteryGauge for Pack {
     const CHARGES: bool = false;
 
     fn battery(&mut self) -> Option<Battery> {
+        called();
         self.0
     }
 }
@@ -253,6 +298,7 @@ pub struct Contacts(pub bool);
 
 impl DockContacts for Contacts {
     fn closed(&mut self) -> bool {
+        called();
         self.0
     }
 }
@@ -264,6 +310,7 @@ impl DockBeams for Beams {
     const COUNT: u8 = 4;
 
     fn symbols(&mut self) -> DockReceivers {
+        called();
         [0; 4]
     }
 }
@@ -273,6 +320,7 @@ pub struct DustBoxSwitch;
 
 impl DustBox for DustBoxSwitch {
     fn inserted(&mut self) -> Option<bool> {
+        called();
         Some(true)
     }
 }
@@ -287,11 +335,13 @@ impl Beeper for Speaker {
     const PRESENT: bool = true;
 
     fn sound(&mut self, pitch: Frequency, _: Ratio) {
+        called();
         self.tone = Some(pitch);
         self.played.push(pitch.0);
     }
 
     fn silence(&mut self) {
+        called();
         self.tone = None;
     }
 }
@@ -303,6 +353,7 @@ impl Lights for Lamps {
     const COUNT: u8 = 5;
 
     fn set(&mut self, light: u8, brightness: Ratio) {
+        called();
         self.0[usize::from(light)] = brightness;
     }
 }
@@ -314,6 +365,7 @@ impl Buttons for Keys {
     const COUNT: u8 = 3;
 
     fn down(&mut self) -> u8 {
+        called();
         self.0
     }
 }
