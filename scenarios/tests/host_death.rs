@@ -14,6 +14,8 @@ const WAY_M: f64 = 0.10;
 const REST_MS: u64 = 1_000;
 const STANDING_M_PER_S: f64 = 0.001;
 const DEATHS: usize = 200;
+/// S24: a warning and a pause come before the first motion.
+const START_MS: u64 = 4_000;
 
 /// Kills the host and gives the milliseconds until the motors were off.
 fn kill(household: &mut Household) -> u64 {
@@ -43,7 +45,7 @@ fn the_motors_are_off_within_300_ms_whenever_the_host_dies() {
     let mut household = cleaning(&scene, 1);
     let mut driven_ms = Vec::new();
     for death in 0..DEATHS {
-        household.pass_ms(2_000 + u64::from(random.below(4_000)));
+        household.pass_ms(START_MS + u64::from(random.below(4_000)));
         driven_ms.push(kill(&mut household));
         let config = Host::config(death as u64, StrategyName::Bounce);
         household.revive_host(Host::start(household.now_us(), config));
