@@ -127,12 +127,12 @@ fn step(register: u32, byte: u8) -> u32 {
 }
 
 #[inline]
-fn step_stride(register: u32, stride: [u8; STRIDE]) -> u32 {
+fn step_stride<const BYTES: usize>(register: u32, stride: [u8; BYTES]) -> u32 {
     let register_bytes = register.to_le_bytes();
-    let mut next = if STRIDE < 4 { register >> 8 } else { 0 };
+    let mut next = if BYTES < 4 { register >> (8 * BYTES) } else { 0 };
     for (index, byte) in stride.into_iter().enumerate() {
         let mixed = byte ^ register_bytes.get(index).copied().unwrap_or(0);
-        next ^= table(STRIDE - 1 - index, mixed);
+        next ^= table(BYTES - 1 - index, mixed);
     }
     next
 }
@@ -170,7 +170,7 @@ pub fn from_hex(digits: [u8; 8]) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Digest, Direction, from_hex, seal, step, to_hex};
+    use super::{Digest, Direction, STRIDE, from_hex, seal, step, step_stride, to_hex};
 
     #[test]
     fn check_value_of_the_catalogue() {
@@ -192,6 +192,21 @@ mod tests {
                 one_by_one.seal(),
                 seal(Direction::HostToRobot, 0x1234, &bytes[..length])
             );
+        }
+    }
+
+    #[test]
+    fn strides_of_any_width_agree() {
+        let bytes = [0x12, 0x34, 0x56, 0x78];
+        let expected = bytes
+            .iter()
+            .fold(0xDEAD_BEEF, |register, byte| step(register, *byte));
+        let ones = bytes
+            .iter()
+            .fold(0xDEAD_BEEF, |register, byte| step_stride(register, [*byte]));
+        assert_eq!(ones, expected);
+        if STRIDE >= 4 {
+            assert_eq!(step_stride(0xDEAD_BEEF, bytes), expected);
         }
     }
 

@@ -260,3 +260,39 @@ fn framing() {
         assert_eq!(Value::from(events), vector["events"], "{}", text(&vector, "name"));
     }
 }
+
+/// Every packet that the specification shows can be said, and the sealed one is a golden packet.
+#[test]
+fn examples_of_the_specification() {
+    let path = format!("{}/../SPEC.md", env!("CARGO_MANIFEST_DIR"));
+    let specification = std::fs::read_to_string(&path).unwrap();
+    let examples: Vec<_> = specification
+        .split('`')
+        .filter(|quoted| quoted.starts_with('{'))
+        .collect();
+    assert!(
+        examples.len() >= CommandName::ALL.len(),
+        "{} examples",
+        examples.len()
+    );
+    for example in examples {
+        let command = read_command(example.as_bytes(), Form::Sealed);
+        let report = read_report(example.as_bytes());
+        assert!(
+            command.is_ok() || report.is_ok(),
+            "{example}: {command:?}, {report:?}"
+        );
+    }
+    let sealed: Vec<_> = specification
+        .lines()
+        .filter_map(|line| line.strip_prefix("    {"))
+        .collect();
+    assert_eq!(sealed.len(), 1);
+    let golden = vectors("commands");
+    assert!(
+        golden
+            .iter()
+            .any(|vector| text(vector, "line").strip_prefix('{') == Some(sealed[0])),
+        "{sealed:?}"
+    );
+}
