@@ -5,9 +5,7 @@ pub(super) fn explain(reason: &str) -> &'static str {
     match reason {
         "no-robot" => "No robot is attached: check the serial cable and the robot's power.",
         "driver-busy" => "Somebody else drives the robot by hand: ask them to let go, or press Stop.",
-        "return-to-centre" => {
-            "The robot was stopped while you drove: let go of the stick once, then drive on."
-        }
+        "centre-first" => "The robot was stopped while you drove: let go of the stick once, then drive on.",
         "lease-range" => "The lease must be 1 to 400 ms.",
         "range" => "The speed is beyond what this robot can do; see its description.",
         "unknown-strategy" => "There is no such strategy; the answer to hello lists them.",

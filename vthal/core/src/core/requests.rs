@@ -272,7 +272,7 @@ impl Core {
 fn denied(denied: Denied) -> Refused {
     match denied {
         Denied::DriverBusy(_) => "driver-busy",
-        Denied::ReturnToCentre => "return-to-centre",
+        Denied::ReturnToCentre => "centre-first",
         Denied::LeaseRange => "lease-range",
     }
 }

@@ -1,0 +1,411 @@
+//! The core and the robot's end of the wire joined in memory, on a virtual clock.
+
+use rvac_api::{Request, RequestBody, Topic, Update};
+use rvac_protocol::PacketBuffer;
+use rvac_protocol::message::{
+    BinaryKinds, Capabilities, Command, Description, EdgeKind, Inhibit, Inhibits, Limits, Name, Report,
+    ResetCause, State, WheelDrops,
+};
+use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
+use rvac_units::{AngularSpeed, Length, Speed, Tick};
+use vthal_core::{ClientId, Core, CoreConfig, Input, Outputs, Record, Recording};
+
+const ANNA: ClientId = ClientId(1);
+const BERT: ClientId = ClientId(2);
+/// Telemetry of the SR8730, in ms.
+const PERIOD_MS: u64 = 20;
+
+/// A core, a robot without wheels, and what passed between them.
+struct Pair {
+    core: Core,
+    robot: RobotSession,
+    state: State,
+    now_ms: u64,
+    /// What the robot was told, with the time in ms.
+    commands: Vec<(u64, Command)>,
+    /// What clients were told, in order.
+    updates: Vec<Update>,
+    records: Vec<Record>,
+    to_robot: Vec<u8>,
+}
+
+impl Pair {
+    /// Connected, described and idle, with two clients.
+    fn new() -> Self {
+        let mut pair = Self {
+            core: Core::new(CoreConfig {
+                recording: Recording::On,
+                ..CoreConfig::default()
+            }),
+            robot: RobotSession::new(identity(), Tick(0)),
+            state: State::default(),
+            now_ms: 0,
+            commands: Vec::new(),
+            updates: Vec::new(),
+            records: Vec::new(),
+            to_robot: Vec::new(),
+        };
+        pair.handle(Input::ClientConnected(ANNA));
+        pair.handle(Input::ClientConnected(BERT));
+        pair.ask(
+            ANNA,
+            RequestBody::Watch {
+                topics: vec![Topic::Status, Topic::Log],
+            },
+        );
+        pair.handle(Input::LinkOpened);
+        pair.run_ms(1000);
+        assert_eq!(pair.core.status().state, "idle");
+        pair
+    }
+
+    fn handle(&mut self, input: Input<'_>) {
+        let mut outputs = Outputs::default();
+        self.core.handle(self.now_ms * 1000, input, &mut outputs);
+        self.to_robot.extend_from_slice(&outputs.link);
+        self.updates
+            .extend(outputs.deliveries.into_iter().map(|delivery| delivery.update));
+        self.records.extend(outputs.records);
+    }
+
+    /// Asks and gives the reason of a refusal.
+    fn ask(&mut self, client: ClientId, body: RequestBody) -> Option<String> {
+        let before = self.updates.len();
+        self.handle(Input::Client {
+            client,
+            request: Request { id: Some(1), body },
+        });
+        self.updates[before..].iter().find_map(|update| match update {
+            Update::Failed(failure) => Some(failure.reason.clone()),
+            _ => None,
+        })
+    }
+
+    fn drive(&mut self, client: ClientId, v: f64) -> Option<String> {
+        self.ask(
+            client,
+            RequestBody::Drive {
+                v,
+                w: 0.0,
+                ttl: 400,
+                clean: false,
+            },
+        )
+    }
+
+    fn run_ms(&mut self, duration_ms: u64) {
+        for _ in 0..duration_ms {
+            self.now_ms += 1;
+            self.robot_ms();
+            if self
+                .core
+                .next_wake_us()
+                .is_some_and(|wake_us| wake_us <= self.now_ms * 1000)
+            {
+                self.handle(Input::Wake);
+            }
+        }
+    }
+
+    fn robot_ms(&mut self) {
+        // Truncation is the wrap of the millisecond clock.
+        let now = Tick(self.now_ms as u32);
+        let mut events: Vec<RobotEvent> = std::mem::take(&mut self.to_robot)
+            .into_iter()
+            .filter_map(|byte| self.robot.receive(byte, now))
+            .collect();
+        events.extend(self.robot.poll(now));
+        for event in events {
+            let RobotEvent::Command(command) = event else {
+                continue;
+            };
+            if let Some(sequence) = command.sequence().filter(|_| command.must_arrive()) {
+                self.robot.answer(sequence, None);
+            }
+            self.commands.push((self.now_ms, command));
+        }
+        let mut buffer = PacketBuffer::new();
+        let mut bytes = Vec::new();
+        while self.robot.next_packet(&mut buffer) {
+            bytes.extend_from_slice(buffer.as_bytes());
+        }
+        if self.now_ms.is_multiple_of(PERIOD_MS) {
+            self.state.tick = now;
+            self.robot
+                .encode(&Report::State(self.state), &mut buffer)
+                .expect("fits");
+            bytes.extend_from_slice(buffer.as_bytes());
+        }
+        if !bytes.is_empty() {
+            self.handle(Input::LinkBytes(&bytes));
+        }
+    }
+
+    /// Speed of the newest drive command, and when it came.
+    fn last_drive(&self) -> (u64, f64) {
+        let found = self
+            .commands
+            .iter()
+            .rev()
+            .find_map(|(at_ms, command)| match command {
+                Command::Drive(drive) => Some((*at_ms, drive.speed.as_m_per_s())),
+                _ => None,
+            });
+        found.expect("a drive command")
+    }
+}
+
+fn identity() -> RobotIdentity {
+    RobotIdentity {
+        device: Name::try_from("paper").expect("short"),
+        firmware: Name::try_from("1").expect("short"),
+        boot_count: 1,
+        reset_cause: ResetCause::PowerOn,
+        session_seed: 99,
+        binary: BinaryKinds::ALL,
+        description: Description {
+            capabilities: Capabilities {
+                bumpers: 2,
+                wheel_drops: 2,
+                buttons: 1,
+                beeper: true,
+                ..Capabilities::default()
+            },
+            limits: Limits {
+                speed_max: Speed::from_m_per_s(0.35),
+                turn_max: AngularSpeed::from_rad_per_s(1.5),
+                track: Length::from_m(0.23),
+                count_nm: 1_000_000,
+                radius: Length::from_m(0.175),
+                swath: Length::from_m(0.3),
+            },
+        },
+    }
+}
+
+#[test]
+fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
+    let mut pair = Pair::new();
+    assert_eq!(pair.drive(ANNA, 0.2), None);
+    pair.run_ms(300);
+    assert_eq!(pair.last_drive().1, 0.2);
+    let silent_from_ms = pair.now_ms - 300;
+    pair.run_ms(400);
+    assert_eq!(pair.last_drive().1, 0.0, "the wheels were told to stand");
+    let moves = |command: &Command| matches!(command, Command::Drive(drive) if drive.speed.0 != 0);
+    let last_move = pair
+        .commands
+        .iter()
+        .rposition(|(_, command)| moves(command))
+        .expect("it drove");
+    let (stopped_ms, _) = pair.commands[last_move + 1];
+    assert!(
+        stopped_ms - silent_from_ms <= 402,
+        "after {} ms",
+        stopped_ms - silent_from_ms
+    );
+    assert_eq!(pair.drive(ANNA, 0.2).as_deref(), Some("centre-first"));
+    assert_eq!(pair.drive(ANNA, 0.0), None);
+    pair.run_ms(50);
+    assert_eq!(pair.drive(ANNA, 0.2), None);
+}
+
+#[test]
+fn nobody_takes_the_seat_over_and_whoever_leaves_stops() {
+    let mut pair = Pair::new();
+    assert_eq!(pair.drive(ANNA, 0.2), None);
+    pair.run_ms(100);
+    assert_eq!(pair.drive(BERT, 0.1).as_deref(), Some("driver-busy"));
+    assert_eq!(
+        pair.ask(BERT, RequestBody::Start { strategy: None }).as_deref(),
+        Some("driver-busy")
+    );
+    assert_eq!(pair.core.status().driver.as_deref(), Some("client-1"));
+    pair.handle(Input::ClientGone(ANNA));
+    pair.run_ms(5);
+    assert_eq!(pair.last_drive().1, 0.0);
+    assert_eq!(pair.core.status().driver, None);
+}
+
+#[test]
+fn anybody_may_stop_and_the_wheels_do_not_wait_for_the_brain() {
+    let mut pair = Pair::new();
+    pair.drive(ANNA, 0.2);
+    pair.run_ms(100);
+    assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
+    let stopped_ms = pair.now_ms;
+    pair.run_ms(2);
+    let stop = pair
+        .commands
+        .iter()
+        .find(|(_, command)| *command == Command::Stop)
+        .expect("stop");
+    assert!(stop.0 <= stopped_ms + 1);
+    pair.run_ms(500);
+    let after = pair
+        .commands
+        .iter()
+        .skip_while(|(_, command)| *command != Command::Stop);
+    let moves = after.filter(|(_, command)| matches!(command, Command::Drive(drive) if drive.speed.0 != 0));
+    assert_eq!(moves.count(), 0, "nothing moves after it");
+    assert_eq!(pair.drive(ANNA, 0.2).as_deref(), Some("centre-first"));
+}
+
+#[test]
+fn a_start_is_announced_before_anything_moves() {
+    let mut pair = Pair::new();
+    assert_eq!(
+        pair.ask(
+            ANNA,
+            RequestBody::Start {
+                strategy: Some("bounce".to_owned())
+            }
+        ),
+        None
+    );
+    let asked_ms = pair.now_ms;
+    pair.run_ms(6000);
+    let first_move_ms = pair
+        .commands
+        .iter()
+        .find_map(|(at_ms, command)| {
+            matches!(command, Command::Drive(drive) if drive.speed.0 != 0).then_some(*at_ms)
+        })
+        .expect("it drives");
+    let beeps = pair.commands.iter().filter(|(at_ms, command)| {
+        *at_ms < first_move_ms && matches!(command, Command::Beep(beep) if beep.pitch.0 > 0)
+    });
+    assert_eq!(beeps.count(), 3, "S24: three beeps");
+    assert!(first_move_ms >= asked_ms + 2000, "S24: two seconds");
+    assert_eq!(pair.core.status().state, "cleaning");
+}
+
+#[test]
+fn a_lifted_robot_is_not_started() {
+    let mut pair = Pair::new();
+    pair.state.wheel_drops = WheelDrops {
+        left: true,
+        right: false,
+    };
+    pair.state.inhibits.insert(Inhibit::WheelDrop);
+    pair.run_ms(100);
+    assert_eq!(
+        pair.ask(ANNA, RequestBody::Start { strategy: None }).as_deref(),
+        Some("wheel-drop")
+    );
+}
+
+#[test]
+fn the_robots_button_starts_and_stops() {
+    let mut pair = Pair::new();
+    let press = |pair: &mut Pair| {
+        pair.robot.queue_edge(
+            EdgeKind::Button {
+                button: 0,
+                pressed: true,
+            },
+            Tick(pair.now_ms as u32),
+        );
+        pair.robot.queue_edge(
+            EdgeKind::Button {
+                button: 0,
+                pressed: false,
+            },
+            Tick(pair.now_ms as u32),
+        );
+        pair.run_ms(100);
+    };
+    press(&mut pair);
+    assert_eq!(pair.core.status().state, "starting");
+    pair.run_ms(5000);
+    assert_eq!(pair.core.status().state, "cleaning");
+    press(&mut pair);
+    assert_eq!(pair.core.status().state, "paused");
+}
+
+#[test]
+fn silence_of_the_robot_is_noticed_and_named() {
+    let mut pair = Pair::new();
+    for _ in 0..50 {
+        pair.now_ms += 10;
+        pair.handle(Input::Wake);
+    }
+    let status = pair.core.status();
+    assert_eq!(
+        (status.state.as_str(), status.reason.as_str()),
+        ("disconnected", "link-lost")
+    );
+    assert_eq!(
+        pair.ask(ANNA, RequestBody::Start { strategy: None }).as_deref(),
+        Some("link-lost")
+    );
+}
+
+#[test]
+fn inhibits_reach_clients_by_name() {
+    let mut pair = Pair::new();
+    pair.state.inhibits = Inhibits::NONE;
+    pair.state.inhibits.insert(Inhibit::Docked);
+    pair.run_ms(100);
+    assert_eq!(pair.core.status().inhibits, ["docked"]);
+    let told = pair
+        .updates
+        .iter()
+        .any(|update| matches!(update, Update::Status(status) if status.inhibits == ["docked"]));
+    assert!(told, "followers hear it");
+}
+
+#[test]
+fn the_same_inputs_give_the_same_outputs() {
+    let run = || {
+        let mut pair = Pair::new();
+        pair.ask(ANNA, RequestBody::Start { strategy: None });
+        pair.run_ms(4000);
+        pair.state.bumpers.left = true;
+        pair.run_ms(300);
+        pair.state.bumpers.left = false;
+        pair.run_ms(3000);
+        (format!("{:?}", pair.commands), format!("{:?}", pair.records))
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn records_hold_all_that_the_brain_needs_to_decide_the_same_again() {
+    let mut pair = Pair::new();
+    pair.drive(ANNA, 0.1);
+    pair.run_ms(200);
+    pair.ask(ANNA, RequestBody::Release);
+    pair.run_ms(300);
+    pair.ask(ANNA, RequestBody::Start { strategy: None });
+    pair.run_ms(4000);
+    pair.state.bumpers.right = true;
+    pair.run_ms(2000);
+    let mut brain = None;
+    let mut commands = Vec::new();
+    let mut answer = None;
+    let mut runs = 0;
+    let mut compared = 0;
+    for record in &pair.records {
+        match record {
+            Record::RunStarted(start) => {
+                let mut fresh = brain::Brain::new(start.brain, start.seed);
+                fresh.restore(&start.checkpoint);
+                brain = Some(fresh);
+                runs += 1;
+            }
+            Record::Command { command, .. } => commands.push(command.clone()),
+            Record::Observation(observation) => {
+                answer = brain.as_mut().map(|brain| brain.step(observation, &commands));
+                commands.clear();
+            }
+            Record::Actions { actions, .. } => {
+                assert_eq!(answer.as_ref(), Some(actions));
+                compared += 1;
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(runs, 2, "one by hand, one job");
+    assert!(compared > 300, "{compared} steps");
+}
