@@ -1,0 +1,82 @@
+//! The batch commands as processes.
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn rvac_sim(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rvac-sim"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn report(seed: &str) -> Value {
+    let home = "homes/two-room-flat.toml";
+    let output = rvac_sim(&["run", "--home", home, "--seed", seed, "--minutes", "2", "--json"]);
+    assert!(output.status.success(), "{output:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn a_report_has_all_keys_and_repeats_itself() {
+    let mut first = report("7");
+    let mut second = report("7");
+    let keys: Vec<_> = first.as_object().unwrap().keys().cloned().collect();
+    let mut wanted = [
+        "home",
+        "free_area_m2",
+        "reachable_area_m2",
+        "covered",
+        "t0_s",
+        "path_m",
+        "bumps",
+        "stuck",
+        "monitor_violations",
+        "pose_rmse_m",
+        "sim_seconds",
+        "wall_seconds",
+    ];
+    wanted.sort_unstable();
+    assert_eq!(keys, wanted);
+    assert_eq!(first["sim_seconds"], 120.0);
+    assert!(first["path_m"].as_f64().unwrap() > 5.0, "it moves: {first}");
+    assert!(first["covered"].as_f64().unwrap() > 0.05, "it sweeps: {first}");
+    first["wall_seconds"] = Value::Null;
+    second["wall_seconds"] = Value::Null;
+    assert_eq!(first, second);
+    assert_ne!(first["path_m"], report("8")["path_m"]);
+}
+
+#[test]
+fn trials_are_counted() {
+    let output = rvac_sim(&["faults", "--seeds", "0..3", "--minutes", "1", "--json"]);
+    assert!(output.status.success(), "{output:?}");
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["trials"], 3);
+    assert_eq!(summary["violations"], 0);
+    assert!(summary["faults"].as_u64().unwrap() > 10);
+    assert_eq!(summary["sim_seconds"], 180.0);
+}
+
+#[test]
+fn bad_input_names_itself() {
+    let flat = "homes/two-room-flat.toml";
+    let cases: [(&[&str], &str); 6] = [
+        (&["run", "--home", "nowhere.toml"], "nowhere.toml"),
+        (&["run", "--home", "Cargo.toml"], "Cargo.toml"),
+        (&["run", "--home", flat, "--robot", "relax"], "relax"),
+        (&["run", "--home", flat, "--strategy", "magic"], "magic"),
+        (&["run", "--home", flat, "--minutes", "-3"], "-3"),
+        (&["faults", "--seeds", "9..3"], "9..3"),
+    ];
+    for (arguments, named) in cases {
+        let output = rvac_sim(arguments);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(named), "{text}");
+        assert_eq!(output.stdout, b"");
+    }
+}
