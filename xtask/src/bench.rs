@@ -10,6 +10,8 @@ enum Subject {
     Link,
     /// The daemon as a relay between a robot and 1, 10 and 100 clients.
     Relay,
+    /// The daemon killed at random moments while a robot drives.
+    Kill,
     /// The simulator against real time.
     Sim,
     /// Size of cordlib's state.
@@ -34,6 +36,9 @@ pub(crate) struct Arguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if matches!(arguments.subject, Subject::Relay | Subject::Kill) {
+        workspace::build(&["vthal", "rvac-sim"], workspace::Profile::Release)?;
+    }
     let mut command = workspace::cargo();
     command
         .args(["run", "--release", "--quiet", "--locked"])
@@ -44,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         command.arg("--json");
     }
     if arguments.long {
-        command.arg("--long");
+        command.args(longer(arguments.subject));
     }
     command.args(&arguments.rest);
     process::say(&process::name(&command));
@@ -59,6 +64,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Link => &["--package", "rvac-channel", "--bin", "bench-link"],
         Subject::Relay => &["--package", "vthal", "--bin", "bench-relay"],
+        Subject::Kill => &["--package", "vthal", "--bin", "bench-kill"],
         Subject::Sim => &["--package", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
     }
@@ -77,6 +83,15 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
             "--minutes",
             "60",
         ],
+        Subject::Kill => &["--home", "homes/two-room-flat.toml"],
         Subject::Link | Subject::Relay | Subject::Cordlib => &[],
+    }
+}
+
+fn longer(subject: Subject) -> &'static [&'static str] {
+    match subject {
+        Subject::Kill => &["--kills", "200"],
+        Subject::Link | Subject::Relay => &["--long"],
+        Subject::Sim | Subject::Cordlib => &[],
     }
 }

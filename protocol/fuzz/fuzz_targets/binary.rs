@@ -1,3 +1,4 @@
+//! Fuzz target: binary packets.
 #![no_main]
 
 #[path = "../bodies.rs"]

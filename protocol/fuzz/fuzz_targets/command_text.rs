@@ -1,3 +1,4 @@
+//! Fuzz target: commands as text.
 #![no_main]
 
 #[path = "../bodies.rs"]

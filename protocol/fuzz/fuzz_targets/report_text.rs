@@ -1,3 +1,4 @@
+//! Fuzz target: reports as text.
 #![no_main]
 
 #[path = "../bodies.rs"]

@@ -1,3 +1,4 @@
+//! Fuzz target: both sessions, fed with anything.
 #![no_main]
 
 #[path = "../bodies.rs"]

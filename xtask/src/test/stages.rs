@@ -17,7 +17,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 12] = [
+pub(super) const STAGES: [Stage; 13] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -72,6 +72,11 @@ pub(super) const STAGES: [Stage; 12] = [
         name: "headless",
         does: "the demo cleans without a browser",
         run: headless,
+    },
+    Stage {
+        name: "kill",
+        does: "a robot stands soon after its daemon was killed",
+        run: kill,
     },
     Stage {
         name: "browser",
@@ -222,6 +227,19 @@ fn headless(_long: bool) -> Result {
         "--seed",
         "1",
     ]))
+}
+
+fn kill(long: bool) -> Result {
+    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
+    let mut command = Command::new(program("bench-kill", Profile::Dev));
+    command.current_dir(workspace::root());
+    command.args([
+        "--home",
+        "homes/two-room-flat.toml",
+        "--kills",
+        if long { "200" } else { "20" },
+    ]);
+    check(&mut command)
 }
 
 /// The tests take one turn after the other in one process: two browsers at once would measure each other.

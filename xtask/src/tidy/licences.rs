@@ -5,7 +5,7 @@ use super::files::Files;
 use super::metadata::{Package, WORKSPACES, packages};
 
 /// Licences that may be joined with code under GPL-3.0-or-later and AGPL-3.0-or-later.
-const FITTING: [&str; 13] = [
+const FITTING: [&str; 14] = [
     "MIT",
     "MIT-0",
     "Apache-2.0",
@@ -19,6 +19,7 @@ const FITTING: [&str; 13] = [
     "Unicode-3.0",
     "BSL-1.0",
     "NCSA",
+    "MPL-2.0",
 ];
 
 /// Compares each package's licence with the list.
