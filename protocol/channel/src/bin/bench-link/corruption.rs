@@ -447,3 +447,27 @@ pub(crate) fn open_robot(now: Tick) -> RobotSession {
     assert_eq!(robot.mode(), Mode::Sealed);
     robot
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{KINDS, run};
+
+    #[test]
+    fn every_kind_of_fault_occurs_and_none_moves_the_robot_wrongly() {
+        let result = run(20_000, 3);
+        assert_eq!(result.corrupted_packets(), 20_000);
+        assert_eq!(result.wrong_actuations(), 0);
+        assert_eq!(result.valid_packets_lost, 0);
+        assert!(result.valid_packets > 1_000);
+        for kind in &KINDS {
+            assert!(result.kinds[kind.name].packets > 0, "{}", kind.name);
+        }
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_run() {
+        let table = |seed| format!("{:?}", run(2_000, seed).kinds);
+        assert_eq!(table(5), table(5));
+        assert_ne!(table(5), table(6));
+    }
+}

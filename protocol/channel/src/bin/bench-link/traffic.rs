@@ -105,3 +105,43 @@ fn draw_command(random: &mut Pcg32, sequence: Sequence, now: Tick) -> Command {
         _ => [BEEP, LED, Command::Info, Command::State][random.below(4) as usize],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rvac_channel::Pcg32;
+    use rvac_protocol::frame::{Framed, Framer};
+    use rvac_protocol::message::{Command, Sequence};
+    use rvac_protocol::seal::Direction;
+    use rvac_protocol::text::{Form, read_command};
+    use rvac_units::{Speed, Tick};
+
+    use super::Traffic;
+
+    #[test]
+    fn only_what_was_said_with_its_number_was_said() {
+        let mut traffic = Traffic::new(9);
+        let mut framer = Framer::new(Direction::HostToRobot);
+        framer.set_session(9);
+        let mut random = Pcg32::new(1);
+        let mut drives = 0;
+        for _ in 0..200 {
+            for byte in traffic.packet(&mut random, Tick(5)) {
+                let Some(Framed::Sealed(text)) = framer.push(byte) else {
+                    continue;
+                };
+                let command = read_command(text, Form::Sealed).expect("traffic is well-formed");
+                assert!(traffic.has_said(&command));
+                if let Command::Drive(drive) = command {
+                    drives += 1;
+                    let mut faster = drive;
+                    faster.speed = Speed(drive.speed.0 + 1);
+                    assert!(!traffic.has_said(&Command::Drive(faster)));
+                    let mut later = drive;
+                    later.sequence = Sequence(drive.sequence.0 + 1);
+                    assert!(!traffic.has_said(&Command::Drive(later)));
+                }
+            }
+        }
+        assert!(drives > 10);
+    }
+}
