@@ -11,7 +11,9 @@ const RELEASE_MS: u64 = 15;
 const CONTACT_PAUSE_MS: u64 = 100;
 /// Most corrections in one step: a corner needs two.
 const CORRECTIONS_MAX: usize = 3;
-/// Share of the normal displacement that friction takes from the sliding one.
+/// A depth beyond what is allowed that is left alone, metres.
+const TOUCH_M: f64 = 1e-7;
+/// Share of a turn that friction takes while the front leans on a wall.
 const WALL_FRICTION: f64 = 0.2;
 /// Steps after which cosine and sine are computed afresh.
 const REFRESH_STEPS: u32 = 64;
@@ -137,8 +139,17 @@ impl Body {
             self.contact = None;
             return;
         }
+        let mut depth_m = -self.free_m;
         for _ in 0..CORRECTIONS_MAX {
-            if !self.push_out(solid, now_ms) {
+            let (away, allowed_m) = self.touch(solid, depth_m, now_ms);
+            let excess_m = depth_m - allowed_m;
+            if excess_m <= TOUCH_M {
+                break;
+            }
+            self.x_m += away.0 * excess_m;
+            self.y_m += away.1 * excess_m;
+            depth_m = self.radius_m - solid.at(self.x_m, self.y_m);
+            if depth_m <= allowed_m + TOUCH_M {
                 break;
             }
         }
@@ -149,36 +160,26 @@ impl Body {
         self.last_contact_ms = Some(now_ms);
     }
 
-    /// One correction; false when none is needed any more.
-    fn push_out(&mut self, solid: &DistanceField, now_ms: u64) -> bool {
-        let depth_m = self.radius_m - solid.at(self.x_m, self.y_m);
-        if depth_m <= 0.0 {
-            return false;
-        }
+    /// Takes note of what is touched at this depth; gives the direction out of it and the depth that the bumper allows.
+    fn touch(&mut self, solid: &DistanceField, depth_m: f64, now_ms: u64) -> ((f64, f64), f64) {
         let (nx, ny) = solid.away(self.x_m, self.y_m);
         let forward = -(nx * self.cos + ny * self.sin);
         let left = -(ny * self.cos - nx * self.sin);
         let gives_way = forward >= self.arc_cos;
-        let allowed_m = if gives_way { self.travel_m } else { 0.0 };
-        let excess_m = depth_m - allowed_m;
+        let compression = if gives_way {
+            (depth_m / self.travel_m).min(1.0)
+        } else {
+            1.0
+        };
         self.contact = Some(Contact {
             forward,
             left,
-            compression: if gives_way {
-                (depth_m / self.travel_m).min(1.0)
-            } else {
-                1.0
-            },
+            compression,
         });
         if gives_way && depth_m >= self.switch_m {
             self.press(left, now_ms);
         }
-        if excess_m <= 0.0 {
-            return false;
-        }
-        self.x_m += nx * excess_m;
-        self.y_m += ny * excess_m;
-        true
+        ((nx, ny), if gives_way { self.travel_m } else { 0.0 })
     }
 
     /// A body that stands still keeps touching and pressing what it touches and presses.
@@ -234,7 +235,7 @@ impl Body {
         }
     }
 
-    /// Friction of a wall on a sliding body, as a share of the way.
+    /// Share of a turn that friction takes now.
     pub(crate) fn wall_friction(&self) -> f64 {
         match self.contact {
             Some(contact) if contact.compression >= RIGID => WALL_FRICTION * contact.forward.abs(),
