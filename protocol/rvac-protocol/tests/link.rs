@@ -464,6 +464,34 @@ fn a_robot_without_a_common_version_still_stops() {
 }
 
 #[test]
+fn a_command_that_is_longer_than_the_robot_takes_is_not_sent() {
+    let mut pair = Pair::new(BinaryKinds::NONE);
+    pair.to_host = Box::new(|bytes| {
+        if let Some(at) = bytes.windows(12).position(|window| window == br#""packet":256"#) {
+            let separator = bytes
+                .iter()
+                .rposition(|byte| *byte == b'*')
+                .expect("the hello is sealed");
+            bytes.truncate(separator);
+            bytes.splice(at..at + 12, *br#""packet":40"#);
+            let begin = bytes
+                .iter()
+                .position(|byte| *byte == b'{')
+                .expect("the hello is an object");
+            let seal =
+                rvac_protocol::seal::seal(rvac_protocol::seal::Direction::RobotToHost, 0, &bytes[begin..]);
+            bytes.push(b'*');
+            bytes.extend(rvac_protocol::seal::to_hex(seal));
+            bytes.push(0x1F);
+        }
+    });
+    pair.run_ms(50);
+    assert!(pair.host.is_open());
+    assert_eq!(pair.send(DRIVE), Err(SendError::Range));
+    assert_eq!(pair.send(Command::State), Ok(None));
+}
+
+#[test]
 fn without_telemetry_the_host_asks_for_the_clock_before_it_is_too_old() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     pair.state_ms = 0;

@@ -8,7 +8,7 @@ use super::{
     SILENCE_MS,
 };
 use crate::binary;
-use crate::frame::{Framed, Poison};
+use crate::frame::{Framed, PACKET_BYTES_MAX, Poison};
 use crate::message::{
     Acknowledgement, BinaryKinds, Edge, Info, ProtocolVersion, Report, RobotHello, Sequence, State,
 };
@@ -198,6 +198,7 @@ impl Core {
         self.close();
         self.phase = Phase::Open;
         self.session = hello.session;
+        self.packet_max = usize::from(hello.packet_max);
         self.binary = self.binary_wanted.common(hello.binary);
         self.robot_tick = Some((hello.tick, self.now));
         self.gathering = Gathering::begin();
@@ -215,6 +216,7 @@ impl Core {
             told_incompatible: false,
         };
         self.session = 0;
+        self.packet_max = PACKET_BYTES_MAX;
         self.binary = BinaryKinds::NONE;
         self.binary_left = false;
         self.bad_in_row = 0;

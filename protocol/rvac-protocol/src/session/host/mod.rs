@@ -13,7 +13,7 @@ use self::delivery::Delivery;
 use self::description::Gathering;
 use self::edges::EdgeOrder;
 use crate::buffer::{EncodeError, PacketBuffer};
-use crate::frame::{Framer, Poison};
+use crate::frame::{Framer, PACKET_BYTES_MAX, Poison};
 use crate::message::{
     Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
     RobotHello, Sequence,
@@ -65,7 +65,7 @@ pub enum SendError {
     NotOpen,
     /// Too many commands wait for their answer (at most 8).
     Busy,
-    /// A number is outside of what the wire allows.
+    /// A number is outside of what the wire allows, or the packet is longer than this robot takes.
     Range,
     /// `Hello`, `Hand`, `Describe`, `Ping` and `Seen` are the session's own.
     Reserved,
@@ -73,7 +73,6 @@ pub enum SendError {
 
 impl From<EncodeError> for SendError {
     fn from(_: EncodeError) -> Self {
-        // No command is too long: only numbers can be wrong.
         Self::Range
     }
 }
@@ -104,6 +103,8 @@ struct Core {
     binary_wanted: BinaryKinds,
     phase: Phase,
     session: u16,
+    /// Longest command the robot takes, in bytes without the separator.
+    packet_max: usize,
     now: Tick,
     counters: LinkCounters,
     heard: Tick,
@@ -152,6 +153,7 @@ impl HostSession {
                 told_incompatible: false,
             },
             session: 0,
+            packet_max: PACKET_BYTES_MAX,
             now,
             counters: LinkCounters::default(),
             heard: now,

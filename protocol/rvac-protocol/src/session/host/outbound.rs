@@ -152,13 +152,19 @@ impl Core {
         if silent {
             buffer.push(SEPARATOR)?;
         }
-        self.sent = Some(self.now);
+        let start = buffer.length();
         match command {
             Command::Drive(drive) if self.binary.drive && !self.binary_left => {
                 binary::write_sealed_drive(drive, self.session, buffer)
             }
             _ => write_sealed_command(command, self.session, buffer),
+        }?;
+        // Stuffing and separator do not count, so this refuses a little too early rather than too late.
+        if buffer.length() - start > self.packet_max + 1 {
+            return Err(EncodeError::TooLong);
         }
+        self.sent = Some(self.now);
+        Ok(())
     }
 }
 
