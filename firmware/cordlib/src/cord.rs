@@ -195,13 +195,14 @@ impl<P: Parts> Cord<P> {
 
     /// The way out to the motors: what no longer suits is forgotten, and only what the gate lets through is applied.
     fn apply(&mut self) {
-        let standing = self.standing();
+        let mut standing = self.standing();
         if !self.motion.suits(&standing, &self.parameters) {
             let ending = self.motion.brake();
             self.end(ending);
+            standing = self.standing();
         }
         let (left, right) = self.motion.asked();
-        let permitted = self.standing().permit(left, right);
+        let permitted = standing.permit(left, right);
         if permitted != self.applied {
             self.board.wheels.drive(permitted.0, permitted.1);
             self.applied = permitted;

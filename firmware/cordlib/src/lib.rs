@@ -1,7 +1,7 @@
 //! What the firmware of every robot shares: the main loop, the reflexes, motion control, telemetry.
 //!
 //! A board supplies its parts (see [`board`]), constructs a [`Cord`] and calls [`Cord::step`] for ever. Memory is fixed,
-//! there is no heap, no floating point, and no path that panics. `cargo run -p cordlib
+//! there is no heap, no floating point but in [`Cord::time_s`], and no path that panics. `cargo run -p cordlib
 //! --example size` prints what it costs.
 #![no_std]
 #![forbid(unsafe_code)]
