@@ -194,7 +194,7 @@ fn start_driver() -> (Child, String) {
         .by_ref()
         .map_while(Result::ok)
         .find_map(|line| {
-            line.rsplit_once("on port ")
+            line.rsplit_once("successfully on port ")
                 .map(|(_, port)| port.trim_end_matches('.').to_owned())
         })
         .expect("chromedriver names its port");

@@ -208,6 +208,11 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "Somebody else is driving.",
         "Wait until they let go, or press Stop.",
     ),
+    entry(
+        "centre-first",
+        "The robot was stopped while you drove.",
+        "Let go once, then drive on.",
+    ),
     entry("busy", "Too much was asked at once.", "Try again."),
     entry(
         "unknown-strategy",

@@ -167,15 +167,25 @@ impl Driver {
         if self.refused {
             return None;
         }
-        self.driving = true;
+        // A hold begins in the middle: the daemon wants to see that nobody holds on through a stop.
+        if !std::mem::replace(&mut self.driving, true) {
+            return Some(self.drive(0.0, 0.0));
+        }
         let intent = self.pad.unwrap_or_else(|| self.intent_of_keys());
         let share = if intent.forward < 0.0 { REVERSE_SHARE } else { 1.0 };
-        Some(RequestBody::Drive {
-            v: intent.forward * share * limits.speed_m_per_s,
-            w: intent.turn * limits.turn_rad_per_s,
+        Some(self.drive(
+            intent.forward * share * limits.speed_m_per_s,
+            intent.turn * limits.turn_rad_per_s,
+        ))
+    }
+
+    const fn drive(&self, v: f64, w: f64) -> RequestBody {
+        RequestBody::Drive {
+            v,
+            w,
             ttl: LEASE_MS,
             clean: self.cleaners,
-        })
+        }
     }
 
     fn intent_of_keys(&self) -> Intent {
@@ -206,8 +216,12 @@ mod tests {
         turn_rad_per_s: 1.0,
     };
 
+    /// The speeds of the second request of a hold, or of any later one.
     #[track_caller]
     fn speeds(driver: &mut Driver) -> (f64, f64) {
+        if !driver.driving {
+            driver.request(LIMITS);
+        }
         match driver.request(LIMITS) {
             Some(RequestBody::Drive {
                 v,
@@ -232,6 +246,27 @@ mod tests {
         driver.lift(Key::Left);
         assert_eq!(driver.request(LIMITS), Some(RequestBody::Release));
         assert_eq!(driver.request(LIMITS), None);
+    }
+
+    #[test]
+    fn every_hold_begins_in_the_middle() {
+        let mut driver = Driver::default();
+        for _ in 0..2 {
+            driver.press(Key::Forward);
+            let first = driver.request(LIMITS);
+            assert_eq!(
+                first,
+                Some(RequestBody::Drive {
+                    v: 0.0,
+                    w: 0.0,
+                    ttl: 250,
+                    clean: false
+                })
+            );
+            assert!(speeds(&mut driver).0 > 0.0);
+            driver.lift(Key::Forward);
+            assert_eq!(driver.request(LIMITS), Some(RequestBody::Release));
+        }
     }
 
     #[test]

@@ -1,0 +1,318 @@
+//! Every message as it stands on the socket.
+//!
+//! A red test here means that clients in the field would misread the daemon: take the change back, or raise `API_VERSION` and keep
+//! the old form readable. New messages and new optional keys get new lines.
+
+use rvac_api::{
+    BatteryReading, BumpMark, DeviceTable, Failure, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    Pose, Request, RequestBody, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Topic, Update,
+    Versions,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+
+#[track_caller]
+fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(message: &T, golden: &str) {
+    assert_eq!(serde_json::to_string(message).unwrap(), golden);
+    assert_eq!(&serde_json::from_str::<T>(golden).unwrap(), message);
+}
+
+#[track_caller]
+fn request(body: RequestBody, golden: &str) {
+    check(&Request { id: None, body }, golden);
+}
+
+#[test]
+fn requests() {
+    request(
+        RequestBody::Hello {
+            name: "panel".to_owned(),
+        },
+        r#"{"c":"hello","name":"panel"}"#,
+    );
+    let topics = vec![
+        Topic::Status,
+        Topic::Pose,
+        Topic::Device,
+        Topic::Map,
+        Topic::Log,
+        Topic::Packets,
+    ];
+    request(
+        RequestBody::Watch { topics },
+        r#"{"c":"watch","topics":["status","pose","device","map","log","packets"]}"#,
+    );
+    request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
+    request(
+        RequestBody::Start {
+            strategy: Some("bounce".to_owned()),
+        },
+        r#"{"c":"start","strategy":"bounce"}"#,
+    );
+    request(RequestBody::Spot, r#"{"c":"spot"}"#);
+    request(RequestBody::Pause, r#"{"c":"pause"}"#);
+    request(RequestBody::Resume, r#"{"c":"resume"}"#);
+    request(RequestBody::Stop, r#"{"c":"stop"}"#);
+    request(RequestBody::Dock, r#"{"c":"dock"}"#);
+    let drive = RequestBody::Drive {
+        v: 0.1,
+        w: -0.5,
+        ttl: 250,
+        clean: true,
+    };
+    request(drive, r#"{"c":"drive","v":0.1,"w":-0.5,"ttl":250,"clean":true}"#);
+    request(RequestBody::Release, r#"{"c":"release"}"#);
+    request(RequestBody::Locate, r#"{"c":"locate"}"#);
+    request(
+        RequestBody::Clear {
+            reason: "wheel-stall".to_owned(),
+        },
+        r#"{"c":"clear","reason":"wheel-stall"}"#,
+    );
+    request(
+        RequestBody::Raw {
+            packet: "{}".to_owned(),
+        },
+        r#"{"c":"raw","packet":"{}"}"#,
+    );
+    check(
+        &Request {
+            id: Some(7),
+            body: RequestBody::Stop,
+        },
+        r#"{"id":7,"c":"stop"}"#,
+    );
+}
+
+#[test]
+fn what_may_be_left_out_and_what_may_not() {
+    let read = |text: &str| serde_json::from_str::<Request>(text);
+    let drive = RequestBody::Drive {
+        v: 0.0,
+        w: 0.0,
+        ttl: 100,
+        clean: false,
+    };
+    assert_eq!(
+        read(r#"{"c":"drive","v":0,"w":0,"ttl":100}"#).unwrap().body,
+        drive
+    );
+    assert_eq!(
+        read(r#"{"c":"stop","since":"tomorrow"}"#).unwrap().body,
+        RequestBody::Stop
+    );
+    for text in [
+        "",
+        "{}",
+        "7",
+        r#"{"c":"fly"}"#,
+        r#"{"c":"drive","v":0,"w":0}"#,
+        r#"{"c":"drive","v":0,"w":0,"ttl":70000}"#,
+    ] {
+        assert!(read(text).is_err(), "{text}");
+    }
+}
+
+fn versions() -> Versions {
+    Versions {
+        vthal: "0.1.0".to_owned(),
+        brain: "0.2.0".to_owned(),
+        firmware: Some("0.3.0".to_owned()),
+        cordlib: Some("0.4.0".to_owned()),
+        protocol: Some(1),
+    }
+}
+
+const VERSIONS: &str =
+    r#"{"vthal":"0.1.0","brain":"0.2.0","firmware":"0.3.0","cordlib":"0.4.0","protocol":1}"#;
+
+#[test]
+fn introductions_and_answers() {
+    let robot = RobotDescription {
+        device: "sr8730".to_owned(),
+        radius_m: 0.175,
+        swath_m: 0.3,
+        speed_max_m_per_s: 0.35,
+        turn_max_rad_per_s: 1.5,
+        proximity: 7,
+        parts: vec!["gyro".to_owned(), "dock".to_owned()],
+    };
+    let hello = Update::Hello {
+        api: 1,
+        versions: versions(),
+        robot: Some(robot),
+        strategies: vec!["bounce".to_owned()],
+        expert: false,
+    };
+    let golden = format!(
+        r#"{{"e":"hello","api":1,"versions":{VERSIONS},"robot":{{"device":"sr8730","radius_m":0.175,"swath_m":0.3,"speed_max_m_per_s":0.35,"turn_max_rad_per_s":1.5,"proximity":7,"parts":["gyro","dock"]}},"strategies":["bounce"],"expert":false}}"#
+    );
+    check(&hello, &golden);
+    check(&Update::Done { id: 3 }, r#"{"e":"done","id":3}"#);
+    let failure = Failure {
+        id: Some(3),
+        reason: "no-robot".to_owned(),
+        text: "No robot.".to_owned(),
+    };
+    check(
+        &Update::Failed(failure.clone()),
+        r#"{"e":"failed","id":3,"reason":"no-robot","text":"No robot."}"#,
+    );
+    check(
+        &Update::Failed(Failure { id: None, ..failure }),
+        r#"{"e":"failed","reason":"no-robot","text":"No robot."}"#,
+    );
+    let packet = Update::Packet {
+        t: 1.5,
+        direction: '>',
+        text: "{}".to_owned(),
+    };
+    check(&packet, r#"{"e":"packet","t":1.5,"direction":">","text":"{}"}"#);
+}
+
+#[test]
+fn what_the_robot_does() {
+    let status = Status {
+        state: "cleaning".to_owned(),
+        reason: "command".to_owned(),
+        strategy: Some("bounce".to_owned()),
+        inhibits: vec!["bumper".to_owned()],
+        job_s: 12.5,
+        swept_m2: 3.25,
+        path_m: 4.5,
+        bumps: 2,
+        driver: None,
+    };
+    check(
+        &Update::Status(status),
+        r#"{"e":"status","state":"cleaning","reason":"command","strategy":"bounce","inhibits":["bumper"],"job_s":12.5,"swept_m2":3.25,"path_m":4.5,"bumps":2,"driver":null}"#,
+    );
+    let pose = Pose {
+        x: 0.5,
+        y: -1.25,
+        heading: 3.0,
+        t: 7.5,
+    };
+    check(
+        &Update::Pose(pose),
+        r#"{"e":"pose","x":0.5,"y":-1.25,"heading":3.0,"t":7.5}"#,
+    );
+    let entry = LogEntry {
+        number: 9,
+        t: 1.5,
+        level: LogLevel::Warn,
+        part: "link".to_owned(),
+        text: "<b>".to_owned(),
+    };
+    check(
+        &Update::Log(entry),
+        r#"{"e":"log","number":9,"t":1.5,"level":"warn","part":"link","text":"<b>"}"#,
+    );
+}
+
+#[test]
+fn the_map() {
+    let bumps = vec![BumpMark {
+        x: 1.5,
+        y: 2.0,
+        contact: true,
+    }];
+    let snapshot = MapSnapshot {
+        map: 2,
+        cell_m: 0.05,
+        swept: vec![0, -1],
+        path_mm: vec![10, 20],
+        bumps: bumps.clone(),
+    };
+    check(
+        &Update::Map(snapshot),
+        r#"{"e":"map","map":2,"cell_m":0.05,"swept":[0,-1],"path_mm":[10,20],"bumps":[{"x":1.5,"y":2.0,"contact":true}]}"#,
+    );
+    let delta = MapDelta {
+        map: 2,
+        swept: vec![1, 1],
+        path_mm: vec![],
+        bumps,
+    };
+    check(
+        &Update::MapDelta(delta),
+        r#"{"e":"map-delta","map":2,"swept":[1,1],"path_mm":[],"bumps":[{"x":1.5,"y":2.0,"contact":true}]}"#,
+    );
+}
+
+#[test]
+fn the_device_table() {
+    let battery = BatteryReading {
+        charge: 0.5,
+        voltage_v: 15.5,
+        current_a: -1.5,
+        temperature_c: 25.0,
+        state: "discharging".to_owned(),
+    };
+    let link = LinkReading {
+        up: true,
+        age_ms: 12,
+        bad_share: 0.25,
+        round_trip_ms: Some(2.5),
+        resets: 1,
+        reset_cause: Some("power-on".to_owned()),
+        reconnects: 0,
+        binary: true,
+    };
+    let table = DeviceTable {
+        versions: versions(),
+        battery: Some(battery),
+        main_loop_hz: Some(1000),
+        bytes_out_per_s: 100.0,
+        bytes_in_per_s: 200.0,
+        link,
+        wheel_left_m_per_s: 0.25,
+        wheel_right_m_per_s: 0.5,
+        bumpers: [true, false],
+        cliffs: [false, true, false],
+        wheel_drops: [false, false],
+        proximity: vec![0.5],
+        currents_a: Some([0.25, 0.5, 0.75]),
+        cleaners: [true, true, false],
+        dust_box: true,
+        docked: false,
+    };
+    let golden = format!(
+        r#"{{"e":"device","versions":{VERSIONS},"battery":{{"charge":0.5,"voltage_v":15.5,"current_a":-1.5,"temperature_c":25.0,"state":"discharging"}},"main_loop_hz":1000,"bytes_out_per_s":100.0,"bytes_in_per_s":200.0,"link":{{"up":true,"age_ms":12,"bad_share":0.25,"round_trip_ms":2.5,"resets":1,"reset_cause":"power-on","reconnects":0,"binary":true}},"wheel_left_m_per_s":0.25,"wheel_right_m_per_s":0.5,"bumpers":[true,false],"cliffs":[false,true,false],"wheel_drops":[false,false],"proximity":[0.5],"currents_a":[0.25,0.5,0.75],"cleaners":[true,true,false],"dust_box":true,"docked":false}}"#
+    );
+    check(&Update::Device(table), &golden);
+}
+
+#[test]
+fn the_simulator() {
+    let origin = Pose {
+        x: -1.0,
+        y: -2.0,
+        heading: 0.0,
+        t: 0.0,
+    };
+    let plan = SimulatedPlan {
+        name: "Flat".to_owned(),
+        cell_m: 0.05,
+        width: 2,
+        height: 1,
+        origin,
+        cells: vec![1, 2],
+        dock: Some(origin),
+    };
+    check(
+        &Update::SimulatedPlan(plan),
+        r#"{"e":"simulated-plan","name":"Flat","cell_m":0.05,"width":2,"height":1,"origin":{"x":-1.0,"y":-2.0,"heading":0.0,"t":0.0},"cells":[1,2],"dock":{"x":-1.0,"y":-2.0,"heading":0.0,"t":0.0}}"#,
+    );
+    let truth = SimulatedTruth {
+        pose: origin,
+        covered: 0.5,
+        violations: 0,
+        sim_s: 9.5,
+    };
+    check(
+        &Update::SimulatedTruth(truth),
+        r#"{"e":"simulated-truth","pose":{"x":-1.0,"y":-2.0,"heading":0.0,"t":0.0},"covered":0.5,"violations":0,"sim_s":9.5}"#,
+    );
+}
