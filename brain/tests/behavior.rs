@@ -229,3 +229,22 @@ fn a_bump_backs_off_and_turns_away() {
     assert_eq!(stage.brain.job().bumps, 1);
     assert_eq!(stage.brain.map().snapshot().marks.len(), 1);
 }
+
+#[test]
+fn a_robot_with_a_gyro_rests_for_it_now_and_then() {
+    let mut stage = check("up\n clean\n wait 4 => cleaning");
+    stage.observation.gyro_heading_rad = Some(0.0);
+    let mut rests = Vec::new();
+    for _ in 0..130 * 50 {
+        let actions = stage.step(&[]);
+        if actions
+            .decisions
+            .iter()
+            .any(|decision| (decision.what, decision.reason) == ("rest", "gyro-drift"))
+        {
+            rests.push(stage.observation.time_us);
+        }
+    }
+    assert_eq!(rests.len(), 1, "{rests:?}");
+    assert!(matches!(stage.motion, Motion::Drive { .. }), "and drives on");
+}

@@ -24,6 +24,8 @@ pub(super) struct Job {
     pub(super) slip: SlipWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
+    /// When to stand still next for the gyro's sake.
+    pub(super) gyro_rest_us: Option<u64>,
     /// Brushes may run: the bumper was free since the job last started (S29).
     pub(super) brushes: bool,
 }
@@ -59,6 +61,7 @@ impl Job {
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
             detour: None,
+            gyro_rest_us: None,
             brushes: false,
         }
     }

@@ -85,6 +85,8 @@ reasons! {
     NotMoving => "not-moving",
     /// Gyro and wheels disagree for long (S14).
     Slip => "slip",
+    /// The gyro's bias wanders and is measured at rest.
+    GyroDrift => "gyro-drift",
     /// The time of the job is used up (S26).
     TaskBudget => "task-budget",
     /// Little charge is left.

@@ -4,6 +4,7 @@
 //! odom_from_base`. Odometry makes the second factor. A better estimator (wall segments, a particle filter, the dock)
 //! works on the first one and hands it in through [`Localization::correct`].
 
+mod gyro_bias;
 mod odometry;
 
 pub use odometry::Advance;

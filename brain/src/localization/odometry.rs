@@ -1,5 +1,6 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
+use super::gyro_bias::GyroBias;
 use crate::geometry::Pose2;
 use crate::observation::Observation;
 
@@ -20,11 +21,18 @@ pub struct Advance {
 
 /// Totals of the last observation.
 #[derive(Clone, Copy, Debug)]
-struct Totals {
-    time_us: u64,
-    left_m: f64,
-    right_m: f64,
-    gyro_rad: Option<f64>,
+pub(super) struct Totals {
+    pub(super) time_us: u64,
+    pub(super) left_m: f64,
+    pub(super) right_m: f64,
+    pub(super) gyro_rad: Option<f64>,
+}
+
+impl Totals {
+    /// Whether no wheel has turned between the two.
+    pub(super) fn wheels_agree_with(self, other: Self) -> bool {
+        self.left_m == other.left_m && self.right_m == other.right_m
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -33,6 +41,7 @@ pub(super) struct Odometry {
     rim_max_m_per_s: f64,
     odom_from_base: Pose2,
     last: Option<Totals>,
+    gyro_bias: GyroBias,
 }
 
 /// A rim is believed to have turned up to this many times its highest speed; more is a jump of the totals.
@@ -47,6 +56,7 @@ impl Odometry {
             rim_max_m_per_s,
             odom_from_base: Pose2::IDENTITY,
             last: None,
+            gyro_bias: GyroBias::default(),
         }
     }
 
@@ -61,6 +71,9 @@ impl Odometry {
             right_m: observation.travel_right_m,
             gyro_rad: observation.gyro_heading_rad,
         };
+        if let Some(last) = self.last {
+            self.watch_rest(last, now);
+        }
         let advance = self
             .last
             .map_or_else(Advance::default, |last| self.advance(last, now));
@@ -71,6 +84,14 @@ impl Odometry {
                 .after_arc(advance.distance_m, advance.turn_rad);
         }
         advance
+    }
+
+    fn watch_rest(&mut self, last: Totals, now: Totals) {
+        if !last.wheels_agree_with(now) {
+            self.gyro_bias.end_rest(last);
+        }
+        let time_s = now.time_us.saturating_sub(last.time_us) as f64 * 1e-6;
+        self.gyro_bias.observe(now, time_s);
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {
@@ -97,7 +118,7 @@ impl Odometry {
     }
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
-        let turn_rad = now.gyro_rad? - last.gyro_rad?;
+        let turn_rad = now.gyro_rad? - last.gyro_rad? - self.gyro_bias.rad_per_s() * time_s;
         let rim_turn_max_rad =
             2.0 * (JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s) / self.track_m;
         (turn_rad.abs() <= rim_turn_max_rad).then_some(turn_rad)

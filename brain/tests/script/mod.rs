@@ -94,6 +94,10 @@ impl Stage {
             let (forward_m, turn_rad) = (speed_m_per_s * 0.02, turn_rad_per_s * 0.02);
             self.observation.travel_left_m += forward_m - 0.5 * TRACK_M * turn_rad;
             self.observation.travel_right_m += forward_m + 0.5 * TRACK_M * turn_rad;
+            self.observation.gyro_heading_rad = self
+                .observation
+                .gyro_heading_rad
+                .map(|heading| heading + turn_rad);
         }
         actions
     }
