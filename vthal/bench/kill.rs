@@ -185,7 +185,7 @@ impl Truth {
         let earlier = words[moving.saturating_sub(1)];
         let pace_per_s = distance(earlier.pose, from.pose) / (from.sim_s - earlier.sim_s).max(0.01);
         let rest_s = distance(from.pose, to.pose) / pace_per_s.max(0.01);
-        Ok((from.sim_s + rest_s).min(to.sim_s) - killed_s)
+        Ok(((from.sim_s + rest_s).min(to.sim_s) - killed_s).max(0.0))
     }
 }
 

@@ -93,8 +93,11 @@ fn a_robot_may_come_late_go_and_come_back_as_another_one() {
     assert!(lost.is_some(), "the loss is told");
     let mut second = robot(&scratch, 2);
     wait_until(&mut second, &mut client, |update| {
-        has_text(update, "synthetic was reset (power-on)")
+        has_text(update, "has described itself")
     });
+    second
+        .live_until(Instant::now() + Duration::from_millis(300), |_| false)
+        .expect("lives");
     client.send(r#"{"c":"start"}"#).expect("sends");
     assert!(
         second.live_until(soon(), SyntheticRobot::moves).expect("lives"),
@@ -138,29 +141,34 @@ fn sigterm_stops_the_wheels_before_it_ends() {
 }
 
 #[test]
-fn a_killed_daemon_goes_on_with_its_job() {
+fn a_killed_daemon_goes_on_with_its_job_ten_times() {
     let scratch = Scratch::new().expect("creates");
     let mut robot = robot(&scratch, 1);
-    let daemon = start(&scratch);
+    let mut daemon = start(&scratch);
     let mut client = follow(&scratch);
     wait_for_state(&mut robot, &mut client, "idle");
     client.send(r#"{"c":"start"}"#).expect("sends");
-    wait_for_state(&mut robot, &mut client, "cleaning");
     let checkpoint = scratch.join("state/checkpoint");
     let written = |path: &Path| fs::read_to_string(path).is_ok_and(|text| text.contains(r#""running":true"#));
-    assert!(
-        robot.live_until(soon(), |_| written(&checkpoint)).expect("lives"),
-        "a checkpoint is written"
-    );
-    daemon.kill().expect("kills");
-    let stands = Instant::now() + Duration::from_millis(300);
-    assert!(
-        robot.live_until(stands, |robot| !robot.moves()).expect("lives"),
-        "the lease ends"
-    );
-    let _daemon = start(&scratch);
-    let mut client = follow(&scratch);
-    wait_for_state(&mut robot, &mut client, "cleaning");
+    for kill in 0..10 {
+        assert!(
+            robot.live_until(soon(), SyntheticRobot::moves).expect("lives"),
+            "it drives before kill {kill}"
+        );
+        assert!(
+            robot.live_until(soon(), |_| written(&checkpoint)).expect("lives"),
+            "a checkpoint is written"
+        );
+        let phase = Instant::now() + Duration::from_millis(7 * kill);
+        robot.live_until(phase, |_| false).expect("lives");
+        daemon.kill().expect("kills");
+        let stands = Instant::now() + Duration::from_millis(300);
+        assert!(
+            robot.live_until(stands, |robot| !robot.moves()).expect("lives"),
+            "the lease ends"
+        );
+        daemon = start(&scratch);
+    }
     assert!(
         robot.live_until(soon(), SyntheticRobot::moves).expect("lives"),
         "it drives again"

@@ -63,9 +63,9 @@ impl Pty {
         }
     }
 
-    /// Writes everything; waits while the line is full, at most a second.
+    /// Writes everything; waits while the line is full, at most ten seconds.
     pub fn write_all(&mut self, mut bytes: &[u8]) -> io::Result<()> {
-        let timeout = Timespec::try_from(Duration::from_secs(1)).unwrap_or_default();
+        let timeout = Timespec::try_from(Duration::from_secs(10)).unwrap_or_default();
         while !bytes.is_empty() {
             match self.master.write(bytes) {
                 Ok(count) => bytes = bytes.get(count..).unwrap_or_default(),

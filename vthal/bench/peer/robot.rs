@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, EdgeKind, Limits, MotionPhase, Name, Report, ResetCause,
-    State,
+    BinaryKinds, Capabilities, Command, Description, EdgeKind, Inhibit, Limits, MotionPhase, Name, Report,
+    ResetCause, State,
 };
 use rvac_protocol::session::{Mode, RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -142,7 +142,11 @@ impl SyntheticRobot {
                 let lease = Duration::from_millis(u64::from(drive.lease_ms));
                 self.drive = Some((drive.speed.0, Instant::now() + lease));
             }
-            Command::Stop => self.drive = None,
+            Command::Stop => {
+                self.drive = None;
+                self.state.inhibits.insert(Inhibit::Stopped);
+            }
+            Command::Arm { .. } => self.state.inhibits.remove(Inhibit::Stopped),
             _ => {}
         }
         if command.must_arrive()

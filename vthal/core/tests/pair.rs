@@ -27,6 +27,8 @@ struct Pair {
     updates: Vec<Update>,
     records: Vec<Record>,
     to_robot: Vec<u8>,
+    /// Whether `stop` reaches the robot's inhibits.
+    hears_stop: bool,
 }
 
 impl Pair {
@@ -44,6 +46,7 @@ impl Pair {
             updates: Vec::new(),
             records: Vec::new(),
             to_robot: Vec::new(),
+            hears_stop: true,
         };
         pair.handle(Input::ClientConnected(ANNA));
         pair.handle(Input::ClientConnected(BERT));
@@ -121,6 +124,11 @@ impl Pair {
             };
             if let Some(sequence) = command.sequence().filter(|_| command.must_arrive()) {
                 self.robot.answer(sequence, None);
+            }
+            match command {
+                Command::Stop if self.hears_stop => self.state.inhibits.insert(Inhibit::Stopped),
+                Command::Arm { .. } => self.state.inhibits.remove(Inhibit::Stopped),
+                _ => {}
             }
             self.commands.push((self.now_ms, command));
         }
@@ -249,6 +257,38 @@ fn anybody_may_stop_and_the_wheels_do_not_wait_for_the_brain() {
     let moves = after.filter(|(_, command)| matches!(command, Command::Drive(drive) if drive.speed.0 != 0));
     assert_eq!(moves.count(), 0, "nothing moves after it");
     assert_eq!(pair.drive(ANNA, 0.2).as_deref(), Some("centre-first"));
+}
+
+#[test]
+fn a_stop_that_got_lost_is_repeated_until_the_robot_knows_of_it() {
+    let mut pair = Pair::new();
+    pair.drive(ANNA, 0.2);
+    pair.run_ms(100);
+    pair.hears_stop = false;
+    pair.ask(BERT, RequestBody::Stop);
+    pair.run_ms(500);
+    pair.hears_stop = true;
+    pair.run_ms(500);
+    let stops = |pair: &Pair| {
+        pair.commands
+            .iter()
+            .filter(|(_, command)| *command == Command::Stop)
+            .count()
+    };
+    let heard = stops(&pair);
+    assert!(
+        (3..=4).contains(&heard),
+        "{heard} in half a second and one that is heard"
+    );
+    pair.run_ms(1000);
+    assert_eq!(stops(&pair), heard, "then it is enough");
+    pair.drive(ANNA, 0.0);
+    pair.run_ms(50);
+    for _ in 0..10 {
+        assert_eq!(pair.drive(ANNA, 0.2), None);
+        pair.run_ms(100);
+    }
+    assert_eq!(pair.last_drive().1, 0.2, "driving arms the robot again");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What holds for every make of robot: commands are checked against the description, drive commands end with their time,
 //! and an emergency stop latches above all of them.
 
-use rvac_protocol::message::{Command, Led};
+use rvac_protocol::message::{Command, Inhibit, Led};
 use rvac_protocol::quality::LinkQuality;
 use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Tick};
 
@@ -12,6 +12,9 @@ use super::{CleanerDrive, CommandError, Description, DeviceCommand};
 /// Pause between repetitions of the command to brushes and suction: three fall into their lease on the wire.
 const CLEANER_REPEAT_US: u64 = 300_000;
 
+/// Telemetry has had the time to know of a `stop` after this long.
+const STOP_REPEAT_US: u64 = 200_000;
+
 /// A robot on the link.
 #[derive(Debug)]
 pub struct Device {
@@ -21,7 +24,8 @@ pub struct Device {
     cleaners: CleanerDrive,
     /// When brushes and suction were last told to run; `None` if the present wish was not told yet.
     cleaners_told_us: Option<u64>,
-    latched: bool,
+    /// When `stop` was last sent; `None` unless an emergency stop latches.
+    stop_sent_us: Option<u64>,
     now_us: u64,
 }
 
@@ -67,7 +71,7 @@ impl Device {
             dead_man: DeadMan::default(),
             cleaners: CleanerDrive::Off,
             cleaners_told_us: None,
-            latched: false,
+            stop_sent_us: None,
             now_us,
         }
     }
@@ -107,6 +111,7 @@ impl Device {
         self.now_us = io.now_us;
         self.firmware.receive(bytes, tick(io.now_us), &mut io.firmware());
         self.note(io.events);
+        self.repeat_lost_stop(io);
     }
 
     /// Lets time pass: the dead man acts, running commands are repeated.
@@ -185,7 +190,7 @@ impl Device {
             DeviceCommand::Cleaners(drive) => self.set_cleaners(drive, io),
             DeviceCommand::Arm { leave_dock } => {
                 self.firmware.arm(leave_dock, &mut io.wire())?;
-                self.latched = false;
+                self.stop_sent_us = None;
                 Ok(())
             }
             DeviceCommand::Clear(inhibit) => self.firmware.clear(inhibit, &mut io.wire()),
@@ -216,16 +221,30 @@ impl Device {
     }
 
     fn emergency_stop(&mut self, io: &mut DeviceIo<'_>) {
-        self.latched = true;
+        self.stop_sent_us = Some(io.now_us);
         self.dead_man.forget();
         self.cleaners = CleanerDrive::Off;
         self.cleaners_told_us = None;
         self.firmware.stop(&mut io.wire());
     }
 
+    /// `stop` is not acknowledged: telemetry that does not know of it means that it was lost on the wire.
+    fn repeat_lost_stop(&mut self, io: &mut DeviceIo<'_>) {
+        let lost = io.events.iter().any(|event| {
+            matches!(event, FirmwareEvent::State(state) if !state.inhibits.contains(Inhibit::Stopped))
+        });
+        let due = self
+            .stop_sent_us
+            .is_some_and(|sent_us| io.now_us >= sent_us + STOP_REPEAT_US);
+        if lost && due {
+            self.stop_sent_us = Some(io.now_us);
+            self.firmware.stop(&mut io.wire());
+        }
+    }
+
     fn drive(&mut self, setpoint: Setpoint, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         let limits = self.description.as_ref().ok_or(CommandError::NotAttached)?.drive;
-        if self.latched {
+        if self.stop_sent_us.is_some() {
             return Err(CommandError::Latched);
         }
         // Written so that NaN is refused too.
@@ -267,7 +286,7 @@ impl Device {
         if drive == self.cleaners {
             return Ok(());
         }
-        if drive == CleanerDrive::On && self.latched {
+        if drive == CleanerDrive::On && self.stop_sent_us.is_some() {
             return Err(CommandError::Latched);
         }
         self.cleaners = drive;

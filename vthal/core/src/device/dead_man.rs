@@ -37,8 +37,8 @@ pub(crate) enum WheelOrder {
     Stand,
 }
 
-/// Pause between repetitions of an unchanged command: three of them fall into a lease of 200 ms on the wire.
-const REPEAT_US: u64 = 60_000;
+/// Pause between repetitions of an unchanged command: three of them fall into a lease of 150 ms on the wire.
+const REPEAT_US: u64 = 40_000;
 
 /// Watches over the newest drive command.
 #[derive(Clone, Copy, Debug, Default)]
@@ -116,10 +116,10 @@ mod tests {
         let mut dead_man = DeadMan::default();
         dead_man.set(FORWARD);
         assert_eq!(dead_man.poll(0), WheelOrder::Send(FORWARD));
-        assert_eq!(dead_man.poll(59_999), WheelOrder::Keep);
-        assert_eq!(dead_man.next_wake_us(), Some(60_000));
-        assert_eq!(dead_man.poll(60_000), WheelOrder::Send(FORWARD));
-        assert_eq!(dead_man.poll(120_000), WheelOrder::Send(FORWARD));
+        assert_eq!(dead_man.poll(39_999), WheelOrder::Keep);
+        assert_eq!(dead_man.next_wake_us(), Some(40_000));
+        assert_eq!(dead_man.poll(40_000), WheelOrder::Send(FORWARD));
+        assert_eq!(dead_man.poll(80_000), WheelOrder::Send(FORWARD));
         assert_eq!(dead_man.poll(250_000), WheelOrder::Stand);
         assert_eq!(dead_man.poll(250_001), WheelOrder::Keep);
         assert_eq!(dead_man.next_wake_us(), None);

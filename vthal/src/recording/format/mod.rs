@@ -2,14 +2,14 @@
 //!
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
-use brain::action::Arm;
-use brain::geometry::{Point2, Pose2};
-use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
+mod answer;
+mod state;
+
+pub use answer::Answered;
+pub use state::BrainState;
+
 use brain::observation::{Cliffs, Contacts};
-use brain::{
-    Actions, Body, BrainConfig, Checkpoint, Command, JobCheckpoint, JobFigures, JobKind, Motion, Observation,
-    Speeds, StrategyName,
-};
+use brain::{Body, BrainConfig, Command, Observation, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -110,152 +110,6 @@ impl BrainSettings {
             dock_budget_s: self.dock_budget_s,
             battery_low: self.battery_low,
         }
-    }
-}
-
-/// [`Checkpoint`]
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct BrainState {
-    pose: [f64; 3],
-    random_state: u64,
-    job: Option<JobState>,
-    /// x, y and length of each run.
-    swept: Vec<(i32, i32, u32)>,
-    path_mm: Vec<(i32, i32)>,
-    /// x, y and whether it was a contact.
-    marks: Vec<(f64, f64, bool)>,
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct JobState {
-    kind: JobName,
-    time_s: f64,
-    swept_m2: f64,
-    path_m: f64,
-    bumps: u32,
-    running: bool,
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum JobName {
-    Clean(String),
-    Spot,
-    Dock,
-}
-
-impl From<&Checkpoint> for BrainState {
-    fn from(checkpoint: &Checkpoint) -> Self {
-        let Pose2 {
-            x_m,
-            y_m,
-            heading_rad,
-        } = checkpoint.pose;
-        Self {
-            pose: [x_m, y_m, heading_rad],
-            random_state: checkpoint.random_state,
-            job: checkpoint.job.as_ref().map(JobState::from),
-            swept: checkpoint
-                .swept
-                .iter()
-                .map(|run| (run.start.x, run.start.y, run.length))
-                .collect(),
-            path_mm: checkpoint
-                .path
-                .iter()
-                .map(|point| (point.x_mm, point.y_mm))
-                .collect(),
-            marks: checkpoint
-                .marks
-                .iter()
-                .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
-                .collect(),
-        }
-    }
-}
-
-impl BrainState {
-    /// Back to the brain's own type; `None` if it names something that this version does not know.
-    #[must_use]
-    pub fn to_brain(&self) -> Option<Checkpoint> {
-        let [x_m, y_m, heading_rad] = self.pose;
-        let job = match &self.job {
-            None => None,
-            Some(job) => Some(job.to_brain()?),
-        };
-        Some(Checkpoint {
-            pose: Pose2 {
-                x_m,
-                y_m,
-                heading_rad,
-            },
-            random_state: self.random_state,
-            job,
-            swept: self
-                .swept
-                .iter()
-                .map(|&(x, y, length)| SweptRun {
-                    start: Cell { x, y },
-                    length,
-                })
-                .collect(),
-            path: self
-                .path_mm
-                .iter()
-                .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
-                .collect(),
-            marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
-        })
-    }
-}
-
-fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
-    let kind = if contact {
-        MarkKind::Contact
-    } else {
-        MarkKind::Cliff
-    };
-    Mark {
-        at: Point2 { x_m, y_m },
-        kind,
-    }
-}
-
-impl From<&JobCheckpoint> for JobState {
-    fn from(job: &JobCheckpoint) -> Self {
-        Self {
-            kind: match job.kind {
-                JobKind::Clean(strategy) => JobName::Clean(strategy.name().to_owned()),
-                JobKind::Spot => JobName::Spot,
-                JobKind::Dock => JobName::Dock,
-            },
-            time_s: job.figures.time_s,
-            swept_m2: job.figures.swept_m2,
-            path_m: job.figures.path_m,
-            bumps: job.figures.bumps,
-            running: job.running,
-        }
-    }
-}
-
-impl JobState {
-    fn to_brain(&self) -> Option<JobCheckpoint> {
-        let kind = match &self.kind {
-            JobName::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
-            JobName::Spot => JobKind::Spot,
-            JobName::Dock => JobKind::Dock,
-        };
-        let figures = JobFigures {
-            time_s: self.time_s,
-            swept_m2: self.swept_m2,
-            path_m: self.path_m,
-            bumps: self.bumps,
-        };
-        Some(JobCheckpoint {
-            kind,
-            figures,
-            running: self.running,
-        })
     }
 }
 
@@ -429,73 +283,6 @@ impl GivenCommand {
             Self::ManualEnd => Command::ManualEnd,
             Self::ClearError => Command::ClearError,
         })
-    }
-}
-
-/// [`Actions`], one way only: a replay compares what is written.
-#[derive(Debug, Serialize)]
-pub struct Answered<'a> {
-    motion: AnsweredMotion,
-    cleaners: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    arm: Option<AnsweredArm>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    tones: Vec<(u32, u16)>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    decisions: Vec<AnsweredDecision<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum AnsweredMotion {
-    Rest,
-    Halt,
-    Drive { v: f64, w: f64 },
-}
-
-#[derive(Debug, Serialize)]
-struct AnsweredArm {
-    undock: bool,
-}
-
-#[derive(Debug, Serialize)]
-struct AnsweredDecision<'a> {
-    what: &'a str,
-    reason: &'a str,
-    value: f64,
-}
-
-impl<'a> From<&'a Actions> for Answered<'a> {
-    fn from(actions: &'a Actions) -> Self {
-        Self {
-            motion: match actions.motion {
-                Motion::Rest => AnsweredMotion::Rest,
-                Motion::Halt => AnsweredMotion::Halt,
-                Motion::Drive {
-                    speed_m_per_s,
-                    turn_rad_per_s,
-                } => AnsweredMotion::Drive {
-                    v: speed_m_per_s,
-                    w: turn_rad_per_s,
-                },
-            },
-            cleaners: actions.cleaners,
-            arm: actions.arm.map(|Arm { undock }| AnsweredArm { undock }),
-            tones: actions
-                .tones
-                .iter()
-                .map(|tone| (tone.pitch_hz, tone.duration_ms))
-                .collect(),
-            decisions: actions
-                .decisions
-                .iter()
-                .map(|decision| AnsweredDecision {
-                    what: decision.what,
-                    reason: decision.reason,
-                    value: decision.value,
-                })
-                .collect(),
-        }
     }
 }
 

@@ -1,0 +1,72 @@
+//! The recorded form of a brain's answers.
+
+use brain::action::Arm;
+use brain::{Actions, Motion};
+use serde::Serialize;
+
+/// [`Actions`], one way only: a replay compares what is written.
+#[derive(Debug, Serialize)]
+pub struct Answered<'a> {
+    motion: AnsweredMotion,
+    cleaners: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arm: Option<AnsweredArm>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tones: Vec<(u32, u16)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    decisions: Vec<AnsweredDecision<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum AnsweredMotion {
+    Rest,
+    Halt,
+    Drive { v: f64, w: f64 },
+}
+
+#[derive(Debug, Serialize)]
+struct AnsweredArm {
+    undock: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct AnsweredDecision<'a> {
+    what: &'a str,
+    reason: &'a str,
+    value: f64,
+}
+
+impl<'a> From<&'a Actions> for Answered<'a> {
+    fn from(actions: &'a Actions) -> Self {
+        Self {
+            motion: match actions.motion {
+                Motion::Rest => AnsweredMotion::Rest,
+                Motion::Halt => AnsweredMotion::Halt,
+                Motion::Drive {
+                    speed_m_per_s,
+                    turn_rad_per_s,
+                } => AnsweredMotion::Drive {
+                    v: speed_m_per_s,
+                    w: turn_rad_per_s,
+                },
+            },
+            cleaners: actions.cleaners,
+            arm: actions.arm.map(|Arm { undock }| AnsweredArm { undock }),
+            tones: actions
+                .tones
+                .iter()
+                .map(|tone| (tone.pitch_hz, tone.duration_ms))
+                .collect(),
+            decisions: actions
+                .decisions
+                .iter()
+                .map(|decision| AnsweredDecision {
+                    what: decision.what,
+                    reason: decision.reason,
+                    value: decision.value,
+                })
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The recorded form of a brain's state.
+
+use brain::geometry::{Point2, Pose2};
+use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
+use brain::{Checkpoint, JobCheckpoint, JobFigures, JobKind, StrategyName};
+use serde::{Deserialize, Serialize};
+
+/// [`Checkpoint`]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct BrainState {
+    pose: [f64; 3],
+    random_state: u64,
+    job: Option<JobState>,
+    /// x, y and length of each run.
+    swept: Vec<(i32, i32, u32)>,
+    path_mm: Vec<(i32, i32)>,
+    /// x, y and whether it was a contact.
+    marks: Vec<(f64, f64, bool)>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct JobState {
+    kind: JobName,
+    time_s: f64,
+    swept_m2: f64,
+    path_m: f64,
+    bumps: u32,
+    running: bool,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum JobName {
+    Clean(String),
+    Spot,
+    Dock,
+}
+
+impl From<&Checkpoint> for BrainState {
+    fn from(checkpoint: &Checkpoint) -> Self {
+        let Pose2 {
+            x_m,
+            y_m,
+            heading_rad,
+        } = checkpoint.pose;
+        Self {
+            pose: [x_m, y_m, heading_rad],
+            random_state: checkpoint.random_state,
+            job: checkpoint.job.as_ref().map(JobState::from),
+            swept: checkpoint
+                .swept
+                .iter()
+                .map(|run| (run.start.x, run.start.y, run.length))
+                .collect(),
+            path_mm: checkpoint
+                .path
+                .iter()
+                .map(|point| (point.x_mm, point.y_mm))
+                .collect(),
+            marks: checkpoint
+                .marks
+                .iter()
+                .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
+                .collect(),
+        }
+    }
+}
+
+impl BrainState {
+    /// Back to the brain's own type; `None` if it names something that this version does not know.
+    #[must_use]
+    pub fn to_brain(&self) -> Option<Checkpoint> {
+        let [x_m, y_m, heading_rad] = self.pose;
+        let job = match &self.job {
+            None => None,
+            Some(job) => Some(job.to_brain()?),
+        };
+        Some(Checkpoint {
+            pose: Pose2 {
+                x_m,
+                y_m,
+                heading_rad,
+            },
+            random_state: self.random_state,
+            job,
+            swept: self
+                .swept
+                .iter()
+                .map(|&(x, y, length)| SweptRun {
+                    start: Cell { x, y },
+                    length,
+                })
+                .collect(),
+            path: self
+                .path_mm
+                .iter()
+                .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
+                .collect(),
+            marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
+        })
+    }
+}
+
+fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
+    let kind = if contact {
+        MarkKind::Contact
+    } else {
+        MarkKind::Cliff
+    };
+    Mark {
+        at: Point2 { x_m, y_m },
+        kind,
+    }
+}
+
+impl From<&JobCheckpoint> for JobState {
+    fn from(job: &JobCheckpoint) -> Self {
+        Self {
+            kind: match job.kind {
+                JobKind::Clean(strategy) => JobName::Clean(strategy.name().to_owned()),
+                JobKind::Spot => JobName::Spot,
+                JobKind::Dock => JobName::Dock,
+            },
+            time_s: job.figures.time_s,
+            swept_m2: job.figures.swept_m2,
+            path_m: job.figures.path_m,
+            bumps: job.figures.bumps,
+            running: job.running,
+        }
+    }
+}
+
+impl JobState {
+    fn to_brain(&self) -> Option<JobCheckpoint> {
+        let kind = match &self.kind {
+            JobName::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
+            JobName::Spot => JobKind::Spot,
+            JobName::Dock => JobKind::Dock,
+        };
+        let figures = JobFigures {
+            time_s: self.time_s,
+            swept_m2: self.swept_m2,
+            path_m: self.path_m,
+            bumps: self.bumps,
+        };
+        Some(JobCheckpoint {
+            kind,
+            figures,
+            running: self.running,
+        })
+    }
+}
