@@ -220,7 +220,10 @@ impl<P: Parts> Cord<P> {
         if self.reflexes.dock.inhibits() {
             return Err(Refusal::Inhibited);
         }
-        self.arm_anew()
+        self.arm_anew()?;
+        // What an earlier undock command allowed ends here: back on the contacts is an arrival (S19).
+        self.reflexes.dock.stay();
+        Ok(())
     }
 
     fn undock(&mut self) -> Answer {
