@@ -3,6 +3,8 @@
 //! A red test here means that clients in the field would misread the daemon: take the change back, or raise `API_VERSION` and keep
 //! the old form readable. New messages and new optional keys get new lines.
 
+#![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
+
 use rvac_api::{
     BatteryReading, BumpMark, DeviceTable, Failure, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
     Pose, Request, RequestBody, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Topic, Update,
