@@ -20,6 +20,8 @@ const STAND_WITHIN_S: f64 = 0.3;
 const SAME_PLACE_M: f64 = 0.001;
 /// How long the robot is watched after a kill, in simulated seconds.
 const WATCHED_S: f64 = 0.8;
+/// Pause between two looks at the robot after a kill.
+const LOOKS_EVERY: Duration = Duration::from_millis(3);
 /// Radius of the robot.
 const RADIUS_M: f64 = 0.175;
 /// Longest wait for the robot to drive (again), announcement and hand shake included.
@@ -70,12 +72,10 @@ fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         truth
             .wait_until_it_drives()
             .with_context(|| format!("before kill {kill}"))?;
-        let before = truth.follow_for(Duration::from_micros(next_random(&mut random) % 1_500_000))?;
-        let heard = Instant::now();
-        std::thread::sleep(Duration::from_micros(next_random(&mut random) % 100_000));
+        truth.pass(Duration::from_micros(next_random(&mut random) % 1_500_000))?;
+        let killed_s = truth.now()?.sim_s;
         daemon.kill()?;
-        let killed_s = before[1].sim_s + heard.elapsed().as_secs_f64();
-        let stood_s = truth.seconds_until_it_stands(before, killed_s)?;
+        let stood_s = truth.seconds_until_it_stands(killed_s)?;
         worst_s = worst_s.max(stood_s);
         late += u32::from(stood_s > STAND_WITHIN_S);
         daemon = Daemon::start(&vthal, &scratch, &[])?;
@@ -128,28 +128,39 @@ fn start_cleaning(scratch: &Scratch) -> anyhow::Result<()> {
     }
 }
 
-/// The simulator's word on where the robot is, ten times a second.
+/// The simulator's word on where the robot is.
 struct Truth {
     client: Client,
 }
 
 impl Truth {
-    fn next(&mut self) -> anyhow::Result<SimulatedTruth> {
+    /// Where the robot is now, give or take a millisecond.
+    fn now(&mut self) -> anyhow::Result<SimulatedTruth> {
+        self.client.send(r#"{"c":"truth"}"#)?;
         let deadline = Instant::now() + Duration::from_secs(5);
-        let update = self
-            .client
-            .wait_for(deadline, |update| matches!(update, Update::SimulatedTruth(_)))?;
-        match update {
-            Some(Update::SimulatedTruth(truth)) => Ok(truth),
-            _ => bail!("the simulator is silent"),
+        let mut newest = None;
+        // The words which come unasked may stand before the answer.
+        while let Some(update) = self.client.wait_for(
+            if newest.is_none() {
+                deadline
+            } else {
+                Instant::now()
+            },
+            |update| matches!(update, Update::SimulatedTruth(_)),
+        )? {
+            if let Update::SimulatedTruth(truth) = update {
+                newest = Some(truth);
+            }
         }
+        newest.context("the simulator is silent")
     }
 
     fn wait_until_it_drives(&mut self) -> anyhow::Result<()> {
         let deadline = Instant::now() + DRIVES_WITHIN;
-        let mut before = self.next()?;
+        let mut before = self.now()?;
         while Instant::now() < deadline {
-            let now = self.next()?;
+            std::thread::sleep(Duration::from_millis(100));
+            let now = self.now()?;
             if moved(before.pose, now.pose) {
                 return Ok(());
             }
@@ -158,34 +169,26 @@ impl Truth {
         bail!("the robot did not drive within {} s", DRIVES_WITHIN.as_secs())
     }
 
-    /// Follows the robot for `pause`; gives its last two words.
-    fn follow_for(&mut self, pause: Duration) -> anyhow::Result<[SimulatedTruth; 2]> {
-        let end = Instant::now() + pause;
-        let mut last = [self.next()?, self.next()?];
-        while Instant::now() < end {
-            last = [last[1], self.next()?];
-        }
-        Ok(last)
+    /// Lets the robot drive for `pause`, and longer if it stands at its end.
+    fn pass(&mut self, pause: Duration) -> anyhow::Result<()> {
+        std::thread::sleep(pause);
+        self.wait_until_it_drives()
     }
 
-    /// Simulated seconds between `killed_s` and the moment from which the robot stays where it is. Between two words it is
-    /// taken to go on as fast as it went between the two before.
-    fn seconds_until_it_stands(&mut self, before: [SimulatedTruth; 2], killed_s: f64) -> anyhow::Result<f64> {
-        let mut words = before.to_vec();
-        while words.last().is_some_and(|word| word.sim_s < killed_s + WATCHED_S) {
-            words.push(self.next()?);
+    /// Simulated seconds between `killed_s` and the first look from which the robot stays where it is.
+    fn seconds_until_it_stands(&mut self, killed_s: f64) -> anyhow::Result<f64> {
+        let mut looks = vec![self.now()?];
+        let mut last = looks[0];
+        while last.sim_s < killed_s + WATCHED_S {
+            std::thread::sleep(LOOKS_EVERY);
+            last = self.now()?;
+            looks.push(last);
         }
-        let Some(last) = words.last().copied() else {
-            bail!("the simulator is silent")
-        };
-        let Some(moving) = words.iter().rposition(|word| moved(word.pose, last.pose)) else {
-            return Ok(0.0);
-        };
-        let (from, to) = (words[moving], words[moving + 1]);
-        let earlier = words[moving.saturating_sub(1)];
-        let pace_per_s = distance(earlier.pose, from.pose) / (from.sim_s - earlier.sim_s).max(0.01);
-        let rest_s = distance(from.pose, to.pose) / pace_per_s.max(0.01);
-        Ok(((from.sim_s + rest_s).min(to.sim_s) - killed_s).max(0.0))
+        let stood = looks
+            .iter()
+            .rposition(|look| moved(look.pose, last.pose))
+            .map_or(0, |moving| moving + 1);
+        Ok(looks.get(stood).map_or(WATCHED_S, |look| look.sim_s - killed_s))
     }
 }
 

@@ -64,21 +64,25 @@ impl Wheel {
     pub(crate) fn step(&mut self, bridge: Bridge, supply: f64, load_n: f64) -> f64 {
         let free = self.free_speed(bridge) * supply;
         let lost = load_n * self.motor.free_speed_m_per_s / self.motor.stall_force_n;
-        let target = if free > lost {
+        let driven = free != 0.0;
+        let target = if !driven {
+            // Friction goes on slowing the wheel until it stands; it does not turn it back (see below).
+            -(self.friction_m_per_s() + lost).copysign(self.rim_m_per_s)
+        } else if free > lost {
             free - lost
         } else if free < -lost {
             free + lost
         } else {
             0.0
         };
-        let driven = free != 0.0;
         let lag_s = if driven || bridge.brake {
             self.motor.lag_s
         } else {
             self.motor.lag_s * COAST_FACTOR
         };
+        let before_m_per_s = self.rim_m_per_s;
         self.rim_m_per_s += (target - self.rim_m_per_s) * (STEP_S / lag_s);
-        if !driven && self.rim_m_per_s.abs() < STANDING_M_PER_S {
+        if !driven && (self.rim_m_per_s.abs() < STANDING_M_PER_S || self.rim_m_per_s * before_m_per_s <= 0.0) {
             self.rim_m_per_s = 0.0;
         }
         self.current_a = if driven {
@@ -88,6 +92,12 @@ impl Wheel {
             0.0
         };
         self.roll()
+    }
+
+    /// Friction of motor and gear, as the speed it costs: what the dead band of a braking bridge stands for.
+    fn friction_m_per_s(&self) -> f64 {
+        let dead = self.motor.dead_band_brake;
+        dead / (1.0 - dead) * self.motor.free_speed_m_per_s
     }
 
     /// Rim speed that the bridge asks for at the nominal voltage without load.

@@ -213,6 +213,10 @@ impl Server {
                     };
                     self.clients.answer(client, &request::Answer::Report(report));
                 }
+                Ok(SimulatorRequest::Truth) => {
+                    let truth = plan::truth(&self.robot, self.map_from_plan);
+                    self.clients.answer(client, &Update::SimulatedTruth(truth));
+                }
                 Ok(SimulatorRequest::Lift) => self.robot.world_mut().lift(),
                 Ok(SimulatorRequest::PutDown) => self.robot.world_mut().put_down(),
                 Ok(SimulatorRequest::Press { button }) => {

@@ -5,12 +5,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::Report;
 
-/// A request: `{"c":"report"}`, `{"c":"lift"}`, `{"c":"put-down"}`, `{"c":"press","button":0}`.
+/// A request: `{"c":"report"}`, `{"c":"truth"}`, `{"c":"lift"}`, `{"c":"put-down"}`, `{"c":"press","button":0}`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(tag = "c", rename_all = "kebab-case")]
 pub(crate) enum SimulatorRequest {
     /// The figures so far.
     Report,
+    /// Where the robot is now, without waiting for the next of the ten words a second.
+    Truth,
     /// Lifts the robot.
     Lift,
     /// Puts it down where it was.
@@ -39,7 +41,7 @@ impl SimulatorRequest {
             id: None,
             reason: "unknown".to_owned(),
             text: format!(
-                "this is no request to the simulator ({error}); known are report, lift, put-down and press"
+                "this is no request to the simulator ({error}); known are report, truth, lift, put-down and press"
             ),
         })
     }
