@@ -82,7 +82,8 @@ impl Wheel {
         };
         let before_m_per_s = self.rim_m_per_s;
         self.rim_m_per_s += (target - self.rim_m_per_s) * (STEP_S / lag_s);
-        if !driven && (self.rim_m_per_s.abs() < STANDING_M_PER_S || self.rim_m_per_s * before_m_per_s <= 0.0) {
+        if !driven && (self.rim_m_per_s.abs() < STANDING_M_PER_S || self.rim_m_per_s * before_m_per_s <= 0.0)
+        {
             self.rim_m_per_s = 0.0;
         }
         self.current_a = if driven {
