@@ -2,10 +2,13 @@
 //!
 //! A *separator* (0x1F, or 0x1E from tools of 2016) ends a packet. A *poisoned* packet is one that cannot be whole any
 //! more: a forbidden control byte, a framing error, too many bytes; everything up to the next separator is dropped with
-//! it. Work per byte is constant: the digest follows some bytes behind the input, because the last bytes of a packet are
+//! it. Work per byte is bounded: the digest follows some bytes behind the input, because the last bytes of a packet are
 //! its seal, and nobody knows that they are the last until the separator comes.
+//!
+//! Most bytes are *plain*: inside of a packet, nothing to do but to keep them. They take the short way through
+//! [`Framer::push`]; every eighth takes the long way and brings the digest on.
 
-use crate::seal::{Digest, Direction, STRIDE, from_hex};
+use crate::seal::{Digest, Direction, from_hex};
 
 /// Most bytes of a packet, its seal included, its separator not. Binary packets are counted unstuffed.
 pub const PACKET_BYTES_MAX: usize = 256;
@@ -24,6 +27,10 @@ pub const BINARY_KIND_MIN: u8 = 0x80;
 pub(crate) const TEXT_SEAL_BYTES: usize = 9;
 /// The seal of a binary packet, little endian.
 const BINARY_SEAL_BYTES: usize = 4;
+/// Bytes that the digest takes at a time.
+const DIGEST_STEP: usize = 8;
+/// The first byte that is never special inside of a packet.
+const PLAIN_FROM: u8 = 0x20;
 
 /// What a separator ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,8 +86,11 @@ pub struct Framer {
     buffer: [u8; PACKET_BYTES_MAX],
     length: usize,
     digested: usize,
-    /// The length at which the digest takes its next stride.
-    digest_due: usize,
+    /// The length up to which plain bytes are only kept; 0 where every byte must be looked at.
+    plain_until: usize,
+    /// Bytes below this are plain, besides those from [`PLAIN_FROM`] on: none in a text, all but the three special ones in
+    /// a binary packet.
+    plain_below: u8,
     digest: Digest,
     start: Digest,
     direction: Direction,
@@ -96,7 +106,8 @@ impl Framer {
             buffer: [0; PACKET_BYTES_MAX],
             length: 0,
             digested: 0,
-            digest_due: TEXT_SEAL_BYTES + STRIDE,
+            plain_until: 0,
+            plain_below: 0,
             digest: start,
             start,
             direction,
@@ -115,21 +126,16 @@ impl Framer {
     /// Takes one byte. Separators give what they end; empty packets give nothing.
     #[inline]
     pub fn push(&mut self, byte: u8) -> Option<Framed<'_>> {
-        if self.absorb(byte) {
-            None
-        } else {
-            self.push_special(byte)
+        let plain = byte >= PLAIN_FROM || byte < self.plain_below;
+        if plain
+            && self.length < self.plain_until
+            && let Some(slot) = self.buffer.get_mut(self.length)
+        {
+            *slot = byte;
+            self.length += 1;
+            return None;
         }
-    }
-
-    /// Takes a byte in the inside of a packet, as nearly every byte is; `false` if it is anything else.
-    #[inline]
-    fn absorb(&mut self, byte: u8) -> bool {
-        let inside = byte >= 0x20 && self.length != 0 && matches!(self.form, Form::Text | Form::Binary);
-        if inside {
-            self.take(byte);
-        }
-        inside
+        self.push_special(byte)
     }
 
     fn push_special(&mut self, byte: u8) -> Option<Framed<'_>> {
@@ -139,11 +145,14 @@ impl Framer {
         match self.form {
             Form::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
                 self.form = Form::Binary;
-                self.digest_due = BINARY_SEAL_BYTES + STRIDE;
+                self.plain_below = STUFFING;
                 self.take(byte);
             }
-            Form::Text if byte < 0x20 => self.poison(Poison::ControlByte),
-            Form::Binary if byte == STUFFING => self.form = Form::BinaryStuffing,
+            Form::Text if byte < PLAIN_FROM => self.poison(Poison::ControlByte),
+            Form::Binary if byte == STUFFING => {
+                self.form = Form::BinaryStuffing;
+                self.plain_until = 0;
+            }
             Form::Text | Form::Binary => self.take(byte),
             Form::BinaryStuffing => self.unstuff(byte),
             Form::Poisoned(_) => {}
@@ -155,6 +164,7 @@ impl Framer {
     pub fn poison(&mut self, poison: Poison) {
         if !matches!(self.form, Form::Poisoned(_)) {
             self.form = Form::Poisoned(poison);
+            self.plain_until = 0;
         }
     }
 
@@ -174,7 +184,7 @@ impl Framer {
         }
     }
 
-    #[inline]
+    /// Keeps a byte and brings the digest on when the next step is surely not the seal.
     fn take(&mut self, byte: u8) {
         let Some(slot) = self.buffer.get_mut(self.length) else {
             self.poison(Poison::TooLong);
@@ -182,10 +192,16 @@ impl Framer {
         };
         *slot = byte;
         self.length += 1;
-        if self.length == self.digest_due {
-            self.digest_due += STRIDE;
-            self.catch_up(self.digested + STRIDE);
+        let seal_bytes = if self.form == Form::Binary {
+            BINARY_SEAL_BYTES
+        } else {
+            TEXT_SEAL_BYTES
+        };
+        let step_end = self.digested + DIGEST_STEP;
+        if self.length >= step_end + seal_bytes {
+            self.catch_up(step_end);
         }
+        self.plain_until = self.digested + DIGEST_STEP + seal_bytes - 1;
     }
 
     /// Takes the bytes up to `end` into the digest.
@@ -259,7 +275,8 @@ impl Framer {
     fn restart(&mut self) {
         self.length = 0;
         self.digested = 0;
-        self.digest_due = TEXT_SEAL_BYTES + STRIDE;
+        self.plain_until = 0;
+        self.plain_below = 0;
         self.digest = self.start;
         self.form = Form::Text;
     }

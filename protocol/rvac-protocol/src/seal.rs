@@ -10,7 +10,7 @@ const POLYNOMIAL: u32 = 0x82F6_3B78;
 
 /// Bytes that one step of [`Digest::extend`] takes. A 64-bit host spends 8 KiB on tables for speed; a microcontroller
 /// spends 1 KiB and goes byte by byte.
-pub(crate) const STRIDE: usize = if cfg!(target_pointer_width = "64") { 8 } else { 1 };
+const STRIDE: usize = if cfg!(target_pointer_width = "64") { 8 } else { 1 };
 
 /// Row k is the effect of a byte that k further bytes follow.
 static TABLES: [[u32; 256]; STRIDE] = tables();
