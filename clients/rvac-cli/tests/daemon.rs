@@ -1,9 +1,12 @@
 //! Requests to a daemon, and what `rvac` makes of its answers.
 
+mod program;
+
+use std::ffi::OsStr;
 use std::io::{Read as _, Write as _};
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 use std::thread::JoinHandle;
 
 use rvac_api::{
@@ -31,22 +34,9 @@ impl Daemon {
 
     /// Runs `rvac` with the arguments and gives its output and what the daemon was asked.
     fn rvac(self, arguments: &[&str], typed: &str) -> (Output, Vec<Request>) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rvac"))
-            .args(arguments)
-            .arg("--socket")
-            .arg(&self.socket)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("rvac starts");
-        child
-            .stdin
-            .take()
-            .expect("a pipe")
-            .write_all(typed.as_bytes())
-            .ok();
-        let output = child.wait_with_output().expect("rvac ends");
+        let socket = [OsStr::new("--socket"), self.socket.as_os_str()];
+        let arguments = arguments.iter().map(OsStr::new).chain(socket);
+        let output = program::rvac(arguments, typed.as_bytes());
         let asked = self.thread.join().expect("the daemon lives");
         std::fs::remove_file(&self.socket).ok();
         (output, asked)

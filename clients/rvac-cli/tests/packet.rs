@@ -1,20 +1,10 @@
 //! `rvac packet`, as a person calls it.
 
-use std::io::Write as _;
-use std::process::{Command, Output, Stdio};
+mod program;
 
-fn rvac(arguments: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rvac"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("rvac starts");
-    // A child that does not want the input closes it.
-    child.stdin.take().expect("a pipe").write_all(input).ok();
-    child.wait_with_output().expect("rvac ends")
-}
+use std::process::Output;
+
+use program::rvac;
 
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).expect("text")
@@ -48,7 +38,7 @@ fn seals_agree_with_the_specification() {
         ("4711", "from-robot", b'<'),
     ] {
         let output = rvac(
-            &[
+            [
                 "packet",
                 "seal",
                 DRIVE,
@@ -66,17 +56,17 @@ fn seals_agree_with_the_specification() {
 
 #[test]
 fn what_is_sealed_checks_in_its_own_session_only() {
-    let sealed = stdout(&rvac(&["packet", "seal", "--session", "7"], DRIVE.as_bytes()));
-    let good = rvac(&["packet", "check", "--session", "7"], sealed.as_bytes());
+    let sealed = stdout(&rvac(["packet", "seal", "--session", "7"], DRIVE.as_bytes()));
+    let good = rvac(["packet", "check", "--session", "7"], sealed.as_bytes());
     assert_eq!(
         (stdout(&good).as_str(), good.status.code()),
         ("sealed\n", Some(0))
     );
-    let other = rvac(&["packet", "check", "--session", "8"], sealed.as_bytes());
+    let other = rvac(["packet", "check", "--session", "8"], sealed.as_bytes());
     assert!(stdout(&other).starts_with("wrong seal: "), "{}", stdout(&other));
     assert_eq!(other.status.code(), Some(1));
     let echo = rvac(
-        &["packet", "check", "--session", "7", "--direction", "from-robot"],
+        ["packet", "check", "--session", "7", "--direction", "from-robot"],
         sealed.as_bytes(),
     );
     assert_eq!(echo.status.code(), Some(1));
@@ -84,7 +74,7 @@ fn what_is_sealed_checks_in_its_own_session_only() {
 
 #[test]
 fn meaning_and_refusals_are_told_by_name() {
-    let decode = |packet: &str| stdout(&rvac(&["packet", "decode", packet], b""));
+    let decode = |packet: &str| stdout(&rvac(["packet", "decode", packet], b""));
     assert!(decode(r#"{"c":"drive","v":0.2,"w":0}"#).contains("meaning: Drive("));
     assert!(decode(r#"{"c":"drive","v":99,"w":0}"#).contains("refused: range"));
     assert!(decode(r#"{"c":"drive","v":0.1,"v":0.1,"w":0}"#).contains("refused: duplicate"));
@@ -97,7 +87,7 @@ fn meaning_and_refusals_are_told_by_name() {
 #[test]
 fn reports_and_binary_packets_are_read() {
     let report = r#"{"c":"log","level":"warn","str":"brush"}"#;
-    let output = rvac(&["packet", "decode", report, "--direction", "from-robot"], b"");
+    let output = rvac(["packet", "decode", report, "--direction", "from-robot"], b"");
     assert!(stdout(&output).contains("meaning: Log"), "{}", stdout(&output));
     // A binary drive: 0.1 m/s, no turn, 250 ms, number 1, tick 100000; its seal little endian.
     let mut packet = vec![0x81];
@@ -112,7 +102,7 @@ fn reports_and_binary_packets_are_read() {
         other => vec![*other],
     });
     let hex: String = stuffed.map(|byte| format!("{byte:02x}")).collect();
-    let output = rvac(&["packet", "decode", "--hex", "--session", "5", &hex], b"");
+    let output = rvac(["packet", "decode", "--hex", "--session", "5", &hex], b"");
     assert!(
         stdout(&output).contains(r#"twin:    {"c":"drive","v":0.1"#),
         "{}",
@@ -124,37 +114,37 @@ fn reports_and_binary_packets_are_read() {
 #[test]
 fn several_packets_come_from_the_input_and_bad_input_is_named() {
     let output = rvac(
-        &["packet", "decode"],
+        ["packet", "decode"],
         b"{\"c\":\"info\"}\r\n\n{\"c\":\"state\"}\x1f{\"c\":\"nothing\"}\n",
     );
     assert_eq!(stdout(&output).matches("meaning: ").count(), 2);
     assert_eq!(stdout(&output).matches("refused: unknown").count(), 1);
     assert_eq!(output.status.code(), Some(1));
-    let output = rvac(&["packet", "decode", "--hex", "8xyz"], b"");
+    let output = rvac(["packet", "decode", "--hex", "8xyz"], b"");
     assert!(
         String::from_utf8_lossy(&output.stderr).contains("hexadecimal"),
         "{output:?}"
     );
-    let long = rvac(&["packet", "seal", &"x".repeat(300)], b"");
+    let long = rvac(["packet", "seal", &"x".repeat(300)], b"");
     assert!(String::from_utf8_lossy(&long.stderr).contains("256"), "{long:?}");
     assert_eq!(long.status.code(), Some(1));
 }
 
 #[test]
 fn errors_name_the_place_and_the_remedy() {
-    let output = rvac(&["status", "--socket", "/nowhere/vthal.sock"], b"");
+    let output = rvac(["status", "--socket", "/nowhere/vthal.sock"], b"");
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
         text.contains("/nowhere/vthal.sock") && text.contains("--socket"),
         "{text}"
     );
     assert_eq!(output.status.code(), Some(1));
-    let output = rvac(&["term", "--port", "/nowhere/tty"], b"");
+    let output = rvac(["term", "--port", "/nowhere/tty"], b"");
     assert!(
         String::from_utf8_lossy(&output.stderr).contains("/nowhere/tty"),
         "{output:?}"
     );
-    let output = rvac(&["replay", "/nowhere/run.mcap"], b"");
+    let output = rvac(["replay", "/nowhere/run.mcap"], b"");
     assert!(
         String::from_utf8_lossy(&output.stderr).contains("/nowhere/run.mcap"),
         "{output:?}"

@@ -1,9 +1,11 @@
 //! `rvac term` against a robot's end of the link on a pseudo-terminal.
 
-use std::io::Write as _;
+mod program;
+
+use std::ffi::OsStr;
 use std::os::fd::AsRawFd as _;
 use std::path::PathBuf;
-use std::process::{Command as Process, Output, Stdio};
+use std::process::Output;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -121,22 +123,9 @@ fn live(line: &SerialPort, commands: &Sender<Command>, over: &AtomicBool) {
 }
 
 fn term(robot: &Robot, more: &[&str], typed: &str) -> Output {
-    let mut child = Process::new(env!("CARGO_BIN_EXE_rvac"))
-        .args(["term", "--linger", "400", "--port"])
-        .arg(&robot.path)
-        .args(more)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("rvac starts");
-    child
-        .stdin
-        .take()
-        .expect("a pipe")
-        .write_all(typed.as_bytes())
-        .expect("it reads");
-    child.wait_with_output().expect("rvac ends")
+    let fixed = ["term", "--linger", "400", "--port"].map(OsStr::new);
+    let arguments = fixed.into_iter().chain([robot.path.as_os_str()]);
+    program::rvac(arguments.chain(more.iter().map(OsStr::new)), typed.as_bytes())
 }
 
 fn lines(output: &Output) -> Vec<String> {
