@@ -43,7 +43,7 @@ pub(crate) fn DrivePad(store: Store) -> impl IntoView {
     };
     view! {
         <div class="drive">
-            <Pad store knob ready=move || offer.get() == Offer::Ready />
+            <Pad store knob ready=Signal::derive(move || offer.get() == Offer::Ready) />
             <p class="hint" id="drive-hint">{why}</p>
             <Show when=cleans>
                 <label class="check">
@@ -55,57 +55,85 @@ pub(crate) fn DrivePad(store: Store) -> impl IntoView {
     }
 }
 
-#[component]
-fn Pad(
+/// What hands and keys do to the pad.
+#[derive(Clone, Copy)]
+struct Grip {
     store: Store,
     knob: RwSignal<(f64, f64)>,
-    ready: impl Fn() -> bool + Copy + Send + Sync + 'static,
-) -> impl IntoView {
-    let pad = NodeRef::<html::Div>::new();
-    let place = move |event: &PointerEvent| {
-        let Some(pad) = pad.get_untracked() else { return };
+    pad: NodeRef<html::Div>,
+    ready: Signal<bool>,
+}
+
+impl Grip {
+    /// The pointer took hold of the pad.
+    fn press(self, event: &PointerEvent) {
+        if !self.ready.get_untracked() || event.button() != 0 {
+            return;
+        }
+        if let Some(pad) = self.pad.get_untracked() {
+            pad.set_pointer_capture(event.pointer_id()).ok(); // A pointer that is gone already ends the hold by itself.
+        }
+        self.place(event);
+        self.store.drive();
+    }
+
+    /// The pointer moved; it counts only while it holds the pad.
+    fn drag(self, event: &PointerEvent) {
+        if self
+            .pad
+            .get_untracked()
+            .is_some_and(|pad| pad.has_pointer_capture(event.pointer_id()))
+        {
+            self.place(event);
+        }
+    }
+
+    /// The pointer let go, or was taken away.
+    fn free(self) {
+        self.knob.set((0.0, 0.0));
+        self.store.driver.update_value(Driver::free_pad);
+        self.store.drive();
+    }
+
+    /// A key went down or up; one that does not drive is left to the page.
+    fn key(self, event: &KeyboardEvent, apply: fn(&mut Driver, Key)) {
+        let plain = !event.ctrl_key() && !event.alt_key() && !event.meta_key();
+        let free = plain && self.ready.get_untracked();
+        let Some(key) = Key::from_code(&event.code()).filter(|_| free) else {
+            return;
+        };
+        event.prevent_default();
+        if !event.repeat() {
+            self.store.driver.update_value(|driver| apply(driver, key));
+            self.store.drive();
+        }
+    }
+
+    /// Puts the knob under the pointer, as far as it can travel.
+    fn place(self, event: &PointerEvent) {
+        let Some(pad) = self.pad.get_untracked() else {
+            return;
+        };
         let frame = pad.get_bounding_client_rect();
         let reach = frame.width() / 2.0 * TRAVEL;
         let right = (f64::from(event.client_x()) - frame.left() - frame.width() / 2.0) / reach;
         let down = (f64::from(event.client_y()) - frame.top() - frame.height() / 2.0) / reach;
         let length = right.hypot(down).max(1.0);
-        knob.set((right / length, down / length));
-        store
+        self.knob.set((right / length, down / length));
+        self.store
             .driver
             .update_value(|driver| driver.hold_pad(Intent::of_pad(right, down)));
-    };
-    let press = move |event: PointerEvent| {
-        if !ready() || event.button() != 0 {
-            return;
-        }
-        if let Some(pad) = pad.get_untracked() {
-            pad.set_pointer_capture(event.pointer_id()).ok(); // A pointer that is gone already ends the hold by itself.
-        }
-        place(&event);
-        store.drive();
-    };
-    let drag = move |event: PointerEvent| {
-        if pad
-            .get_untracked()
-            .is_some_and(|pad| pad.has_pointer_capture(event.pointer_id()))
-        {
-            place(&event);
-        }
-    };
-    let free = move |_| {
-        knob.set((0.0, 0.0));
-        store.driver.update_value(Driver::free_pad);
-        store.drive();
-    };
-    let on_key = move |event: KeyboardEvent, apply: fn(&mut Driver, Key)| {
-        let plain = !event.ctrl_key() && !event.alt_key() && !event.meta_key();
-        if let Some(key) = Key::from_code(&event.code()).filter(|_| plain && ready()) {
-            event.prevent_default();
-            if !event.repeat() {
-                store.driver.update_value(|driver| apply(driver, key));
-                store.drive();
-            }
-        }
+    }
+}
+
+#[component]
+fn Pad(store: Store, knob: RwSignal<(f64, f64)>, ready: Signal<bool>) -> impl IntoView {
+    let pad = NodeRef::<html::Div>::new();
+    let grip = Grip {
+        store,
+        knob,
+        pad,
+        ready,
     };
     let place_knob = move || {
         let (right, down) = knob.get();
@@ -120,14 +148,14 @@ fn Pad(
             role="application"
             aria-label="Drive pad"
             aria-describedby="drive-hint"
-            aria-disabled=move || if ready() { "false" } else { "true" }
-            on:pointerdown=press
-            on:pointermove=drag
-            on:pointerup=free
-            on:pointercancel=free
-            on:lostpointercapture=free
-            on:keydown=move |event| on_key(event, Driver::press)
-            on:keyup=move |event| on_key(event, Driver::lift)
+            aria-disabled=move || if ready.get() { "false" } else { "true" }
+            on:pointerdown=move |event| grip.press(&event)
+            on:pointermove=move |event| grip.drag(&event)
+            on:pointerup=move |_| grip.free()
+            on:pointercancel=move |_| grip.free()
+            on:lostpointercapture=move |_| grip.free()
+            on:keydown=move |event| grip.key(&event, Driver::press)
+            on:keyup=move |event| grip.key(&event, Driver::lift)
             on:blur=move |_| store.let_go()
         >
             <svg class="pad-arrows" viewBox="0 0 200 200" aria-hidden="true">
