@@ -181,11 +181,72 @@ fn s7_a_bumper_pressed_while_backing_for_three_seconds_is_stuck() {
     let mut rig = Rig::driving(0);
     press(&mut rig, BOTH);
     rig.run(20);
-    rig.repeated = vec![drive(-0.1, 0.0)];
+    rig.repeated = vec![drive(-0.04, 0.0)];
+    let start_m = rig.ways[0];
     let took_ms = rig.run_until(3_200, |rig| rig.has(Inhibit::BumperStuck));
     assert!(took_ms > 2_900, "{took_ms} ms");
     rig.run(2);
     assert!(rig.wheels_off());
+    let way_m = start_m - rig.ways[0];
+    assert!((0.05..0.14).contains(&way_m), "{way_m} m: not by its way");
+}
+
+#[test]
+fn s7_a_bumper_pressed_over_15_cm_of_backing_is_stuck() {
+    let mut rig = Rig::driving(0);
+    press(&mut rig, BOTH);
+    rig.run(200);
+    rig.repeated = vec![drive(-0.3, 0.0)];
+    let start_m = rig.ways[0];
+    let took_ms = rig.run_until(2_000, |rig| rig.has(Inhibit::BumperStuck));
+    assert!(took_ms < 1_500, "{took_ms} ms");
+    rig.run(500);
+    assert!(rig.wheels_off());
+    let way_m = start_m - rig.ways[0];
+    assert!((0.14..0.18).contains(&way_m), "{way_m} m");
+    assert_eq!(rig.ask(clear(Inhibit::BumperStuck)), Err(Refusal::CauseRemains));
+    press(&mut rig, Bumpers::default());
+    rig.run(100);
+    assert_eq!(rig.ask(clear(Inhibit::BumperStuck)), Ok(()));
+    press(&mut rig, BOTH);
+    rig.run(100);
+    assert!(
+        !rig.has(Inhibit::BumperStuck),
+        "the way counts anew after a person"
+    );
+}
+
+#[test]
+fn s7_a_contact_that_comes_and_goes_begins_no_new_way() {
+    let backed_off_m = |between: rvac_protocol::message::Command| {
+        let mut rig = Rig::driving(0);
+        let start_m = rig.ways[0];
+        for _ in 0..6 {
+            press(&mut rig, BOTH);
+            rig.run(30);
+            rig.repeated = vec![drive(-0.1, 0.0)];
+            rig.run(900);
+            press(&mut rig, Bumpers::default());
+            rig.repeated = vec![between.clone()];
+            rig.run(1_500);
+        }
+        (rig.has(Inhibit::BumperStuck), start_m - rig.ways[0])
+    };
+    let (stuck, way_m) = backed_off_m(drive(0.0, 0.0));
+    assert!(stuck && (0.13..0.18).contains(&way_m), "{way_m} m");
+    let (stuck, way_m) = backed_off_m(drive(0.2, 0.0));
+    assert!(!stuck, "{way_m} m in sum, driven forward in between");
+}
+
+#[test]
+fn s7_a_robot_pushed_back_by_its_bumper_is_not_backing_off() {
+    let mut rig = Rig::connected(0);
+    press(&mut rig, BOTH);
+    for _ in 0..4_000 {
+        rig.ways = rig.ways.map(|way| way - 0.000_1);
+        rig.run(1);
+    }
+    assert!(!rig.has(Inhibit::BumperStuck), "{:?}", rig.names());
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! S6: a press brakes at once, and only motion away from the pressed side is allowed until it is released.
-//! S7: a bumper that stays pressed for 3 s while the robot backs off, or for 10 s off the dock, is stuck; that is latched.
+//! S7: a bumper that stays pressed for 3 s or 0.15 m while the robot backs off, or for 10 s off the dock, is stuck; that
+//! is latched. Nothing looks backwards, so a contact that lets go and comes back begins no new way: only driving forward
+//! makes it good.
 
 use rvac_protocol::message::Bumpers;
 use rvac_units::Tick;
@@ -10,6 +12,8 @@ use crate::timing::{Debounced, Held};
 const RELEASE_MS: u32 = 30;
 const STUCK_BACKING_MS: u32 = 3_000;
 const STUCK_MS: u32 = 10_000;
+/// As for a cliff (S8).
+const STUCK_BACKING_NM: i64 = 150_000_000;
 
 /// The bumper as the rules see it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,6 +22,8 @@ pub(crate) struct BumperRule {
     right: Debounced<0, RELEASE_MS>,
     pressed: Held,
     backing: Held,
+    /// Way backed off while pressed that no way forward has made good.
+    backed_nm: i64,
 }
 
 /// What the robot does while the bumper is looked at.
@@ -25,6 +31,8 @@ pub(crate) struct BumperRule {
 pub(crate) struct BumperContext {
     /// The wheels together drive the robot backwards.
     pub(crate) backing: bool,
+    /// Way of the robot's centre since the last pass, forward positive.
+    pub(crate) travelled_nm: i32,
     /// The robot stands on the dock, which may press on the bumper for ever.
     pub(crate) docked: bool,
 }
@@ -41,7 +49,22 @@ impl BumperRule {
         let stuck_backing = self
             .backing
             .for_at_least(pressed && context.backing, now, STUCK_BACKING_MS);
-        stuck_anyhow || stuck_backing
+        self.measure(pressed, context);
+        let stuck_far = pressed && self.backed_nm > STUCK_BACKING_NM;
+        stuck_anyhow || stuck_backing || stuck_far
+    }
+
+    /// A robot that is pushed back by its bumper with the wheels at rest is not backing off.
+    const fn measure(&mut self, pressed: bool, context: BumperContext) {
+        if context.travelled_nm > 0 || (pressed && context.backing) {
+            let backed_nm = self.backed_nm.saturating_sub(context.travelled_nm as i64);
+            self.backed_nm = if backed_nm < 0 { 0 } else { backed_nm };
+        }
+    }
+
+    /// A person has seen to it: the way backed off counts from here.
+    pub(crate) const fn restart_way(&mut self) {
+        self.backed_nm = 0;
     }
 
     /// Zones that count as pressed.

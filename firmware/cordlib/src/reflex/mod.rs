@@ -100,7 +100,11 @@ impl Reflexes {
         let dock = self.dock.update(senses.docked, now);
         let backing = motion.left.duty.saturating_add(motion.right.duty) < 0;
         let docked = self.dock.is_docked();
-        let context = BumperContext { backing, docked };
+        let context = BumperContext {
+            backing,
+            travelled_nm: motion.travelled_nm,
+            docked,
+        };
         if self.bumper.update(senses.bumpers, context, now) {
             self.latched.insert(Inhibit::BumperStuck);
         }
@@ -214,6 +218,9 @@ impl Reflexes {
         };
         if !cause_remains {
             self.latched.remove(inhibit);
+            if inhibit == Inhibit::BumperStuck {
+                self.bumper.restart_way();
+            }
         }
         !cause_remains
     }
