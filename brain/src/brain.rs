@@ -54,7 +54,7 @@ impl Brain {
         let advance = self.localization.update(observation);
         let pose = self.localization.pose();
         self.note_encounters(observation, pose);
-        let situation = Situation::new(observation, advance, pose, &self.config);
+        let situation = Situation::new(observation, advance, &self.localization, &self.config);
         let intent = self.behavior.step(&situation, commands, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
@@ -125,6 +125,7 @@ impl Brain {
         Checkpoint {
             pose: self.pose(),
             random_state: self.mind.random.state(),
+            backed_m: self.localization.backed_m(),
             job: self.behavior.checkpoint(),
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
@@ -136,6 +137,7 @@ impl Brain {
     /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.localization.place_at(checkpoint.pose);
+        self.localization.resume_backed(checkpoint.backed_m);
         self.mind.random = Random::from_state(checkpoint.random_state);
         self.map
             .restore(&checkpoint.swept, &checkpoint.path, &checkpoint.marks);

@@ -11,6 +11,8 @@ pub struct Checkpoint {
     pub pose: Pose2,
     /// State of the random generator.
     pub random_state: u64,
+    /// Way back in metres that no way forward has made good.
+    pub backed_m: f64,
     /// The job that ran or waited, if there was one.
     pub job: Option<JobCheckpoint>,
     /// Swept cells in rows.

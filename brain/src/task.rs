@@ -6,7 +6,7 @@ use crate::action::{Decision, Motion};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
 use crate::geometry::Pose2;
-use crate::localization::Advance;
+use crate::localization::{Advance, Localization};
 use crate::observation::Observation;
 use crate::random::Random;
 
@@ -18,6 +18,8 @@ pub(crate) struct Situation<'step> {
     pub(crate) advance: Advance,
     /// Pose in the map.
     pub(crate) pose: Pose2,
+    /// Way for which backing may still be commanded, in metres.
+    pub(crate) way_back_m: f64,
     pub(crate) config: &'step BrainConfig,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
     pub(crate) touching: bool,
@@ -29,17 +31,23 @@ impl<'step> Situation<'step> {
     pub(crate) fn new(
         observation: &'step Observation,
         advance: Advance,
-        pose: Pose2,
+        localization: &Localization,
         config: &'step BrainConfig,
     ) -> Self {
         Self {
             observation,
             advance,
-            pose,
+            pose: localization.pose(),
+            way_back_m: localization.way_back_m(),
             config,
             touching: observation.is_touching(),
             at_cliff: observation.is_at_cliff(),
         }
+    }
+
+    /// Nothing is touched and no cliff seen.
+    pub(crate) fn is_free(&self) -> bool {
+        !self.touching && !self.at_cliff
     }
 }
 

@@ -2,7 +2,8 @@
 
 mod script;
 
-use brain::{BrainConfig, Command, Motion};
+use brain::observation::Contacts;
+use brain::{BehaviorState, BrainConfig, Command, Motion};
 use script::{check, check_with, config};
 
 #[test]
@@ -228,6 +229,52 @@ fn a_bump_backs_off_and_turns_away() {
     assert!(turned, "right, away from the left");
     assert_eq!(stage.brain.job().bumps, 1);
     assert_eq!(stage.brain.map().snapshot().marks.len(), 1);
+}
+
+#[test]
+fn a_contact_that_never_lets_go_is_not_backed_from_for_ever() {
+    let stage = check("up\n clean\n wait 4 => cleaning\n press both\n wait 20 => stuck contact-held");
+    assert!(
+        (0.1..=0.15).contains(&stage.backed_m),
+        "{} m back",
+        stage.backed_m
+    );
+    let mut stage = check(
+        "up\n clean\n wait 4\n press both\n wait 20 => stuck\n resume => starting\n wait 20 => stuck contact-held",
+    );
+    assert!(stage.backed_m <= 0.15, "{} m back in two jobs", stage.backed_m);
+    stage.observation.contacts = Contacts::default();
+    stage.step(&[Command::Resume]);
+    for _ in 0..50 * 10 {
+        stage.step(&[]);
+    }
+    assert_eq!(stage.brain.status().state, BehaviorState::Cleaning);
+    assert_eq!(stage.backed_m, 0.0, "driving forward makes it good");
+}
+
+#[test]
+fn contacts_that_close_without_a_dock_are_left_by_a_hand_s_breadth_at_a_time() {
+    let stage = check(
+        "up\n clean\n wait 4 => cleaning\n docked => cleaning\n wait 1 => cleaning\n docked\n wait 1\n docked\n wait 1 => cleaning",
+    );
+    assert!(
+        (0.1..=0.15).contains(&stage.backed_m),
+        "{} m back",
+        stage.backed_m
+    );
+}
+
+#[test]
+fn a_person_may_drive_back_and_the_brain_goes_no_further() {
+    let back = "drive -0.3 0 => manual\n wait 0.35 => manual\n".repeat(4);
+    let stage = check(&format!("up\n {back}"));
+    let way_m = -stage.brain.pose().x_m;
+    assert!(way_m > 0.3, "{way_m} m");
+    let stage = check(&format!(
+        "up\n {back} release\n press both\n clean\n wait 20 => stuck contact-held"
+    ));
+    let further_m = -stage.brain.pose().x_m - way_m;
+    assert!(further_m < 0.01, "{further_m} m");
 }
 
 #[test]

@@ -241,7 +241,17 @@ fn a_restored_brain_goes_on() {
     for _ in 0..500 {
         stage.step(&[]);
     }
+    stage.observation.contacts.left = true;
+    for _ in 0..25 {
+        stage.step(&[]);
+    }
+    stage.observation.contacts.left = false;
     let checkpoint = stage.brain.checkpoint();
+    assert!(
+        (0.02..0.15).contains(&checkpoint.backed_m),
+        "{}",
+        checkpoint.backed_m
+    );
     assert!(
         checkpoint
             .job
@@ -253,6 +263,7 @@ fn a_restored_brain_goes_on() {
     second.brain = Brain::new(config(), 99);
     second.brain.restore(&checkpoint);
     assert_eq!(second.brain.map().swept_m2(), stage.brain.map().swept_m2());
+    assert_eq!(second.brain.checkpoint().backed_m, checkpoint.backed_m);
     second.observation.link_up = true;
     second.step(&[]);
     assert_eq!(second.brain.status().state, BehaviorState::Starting);

@@ -148,6 +148,7 @@ mod tests {
             device: "sr8730".to_owned(),
             brain: brain::Checkpoint {
                 pose,
+                backed_m: 0.07,
                 ..brain::Checkpoint::default()
             },
         }

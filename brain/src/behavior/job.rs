@@ -10,8 +10,9 @@ use crate::recovery::{Ladder, ProgressWatch, SlipWatch};
 use crate::spot::Spot;
 use crate::task::Task;
 
-/// Way back from the dock before turning round.
-const DEPART_M: f64 = 0.4;
+/// Way back from the dock before turning away. No more, because contacts may close without a dock: the ground behind is
+/// unknown then.
+const DEPART_M: f64 = 0.15;
 
 /// A running or waiting job.
 #[derive(Debug)]
@@ -91,7 +92,7 @@ impl Job {
         };
         let turn_rad = side.sign() * random.between(2.2, 3.1);
         let parts = vec![
-            Part::Back(BackOff::from_contact(DEPART_M)),
+            Part::Back(BackOff::from_dock(DEPART_M)),
             Part::Turn(Turn::by(turn_rad)),
         ];
         self.detour = Some(Detour {

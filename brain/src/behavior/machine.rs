@@ -178,7 +178,7 @@ impl Behavior {
         }
         self.react(mind);
         let wish = self.act(situation, mind);
-        let motion = self.permitted(wish, situation.observation.speed_share);
+        let motion = self.permitted(wish, situation);
         self.last_motion = motion;
         Intent {
             motion,
@@ -268,8 +268,9 @@ impl Behavior {
         }
     }
 
-    /// The last gate: what the firmware would have to refuse is not asked, and link quality slows the rest.
-    fn permitted(&self, wish: Motion, speed_share: f64) -> Motion {
+    /// The last gate: what the firmware would have to refuse is not asked, nothing backs further than the robot knows the
+    /// ground, and link quality slows the rest.
+    fn permitted(&self, wish: Motion, situation: &Situation<'_>) -> Motion {
         let Motion::Drive {
             speed_m_per_s,
             turn_rad_per_s,
@@ -286,7 +287,12 @@ impl Behavior {
         {
             return Motion::Rest;
         }
-        let share = speed_share.clamp(0.0, 1.0);
+        let share = situation.observation.speed_share.clamp(0.0, 1.0);
+        let speed_m_per_s = if self.may_back(situation) {
+            speed_m_per_s
+        } else {
+            speed_m_per_s.max(0.0)
+        };
         let at_cliff = facts.at_cliff || facts.cliff_sensor;
         let held = facts.touching || at_cliff;
         if share.is_nan() || share <= 0.0 || (held && speed_m_per_s >= 0.0) {
@@ -301,5 +307,10 @@ impl Behavior {
             speed_m_per_s: (share * speed_m_per_s).max(slowest_m_per_s),
             turn_rad_per_s: if held { 0.0 } else { share * turn_rad_per_s },
         }
+    }
+
+    /// A person who drives looks behind the robot; the brain cannot.
+    fn may_back(&self, situation: &Situation<'_>) -> bool {
+        matches!(self.mode, Mode::Manual(_)) || situation.way_back_m > 0.0
     }
 }

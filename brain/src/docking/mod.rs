@@ -24,7 +24,7 @@ const BEARING_RAD_PER_S: f64 = 0.5;
 /// Turn towards the line between the lobes.
 const LOBE_RAD_PER_S: f64 = 0.25;
 /// Way back after the dock was hit beside its contacts.
-const RETRY_BACK_M: f64 = 0.3;
+const RETRY_BACK_M: f64 = 0.15;
 /// Approaches until beams are left alone for a while.
 const RETRIES_MAX: u32 = 5;
 /// How long beams are left alone after that: elsewhere the approach may be better.

@@ -6,9 +6,11 @@
 
 mod gyro_bias;
 mod odometry;
+mod retreat;
 
 pub use odometry::Advance;
 use odometry::Odometry;
+use retreat::Retreat;
 
 use crate::geometry::Pose2;
 use crate::observation::Observation;
@@ -18,6 +20,7 @@ use crate::observation::Observation;
 pub struct Localization {
     odometry: Odometry,
     map_from_odom: Pose2,
+    retreat: Retreat,
 }
 
 impl Localization {
@@ -27,12 +30,32 @@ impl Localization {
         Self {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
             map_from_odom: Pose2::IDENTITY,
+            retreat: Retreat::default(),
         }
     }
 
     /// Takes in an observation and says how far the robot moved since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
-        self.odometry.update(observation)
+        let advance = self.odometry.update(observation);
+        self.retreat.follow(advance);
+        advance
+    }
+
+    /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
+    #[must_use]
+    pub fn backed_m(&self) -> f64 {
+        self.retreat.backed_m()
+    }
+
+    /// Way in metres for which backing may still be commanded before the robot has driven forward again.
+    #[must_use]
+    pub fn way_back_m(&self) -> f64 {
+        self.retreat.left_m()
+    }
+
+    /// Takes up what [`Self::backed_m`] said before a restart.
+    pub fn resume_backed(&mut self, backed_m: f64) {
+        self.retreat = Retreat::resumed(backed_m);
     }
 
     /// Pose in the map.

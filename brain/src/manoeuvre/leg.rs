@@ -7,6 +7,8 @@ use crate::task::Situation;
 const BACK_M_PER_S: f64 = 0.15;
 /// Reverse speed at a cliff; the firmware allows 0.1 m/s (S8).
 pub(crate) const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
+/// A robot that is free keeps this much of its way back: what it meets while it turns, it must come free from again.
+pub(super) const RESERVE_M: f64 = 0.06;
 /// Slowest turn that is still a turn for a motor with a dead band.
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
 /// Turn rate asked for each radian that is left: the robot brakes over the last part.
@@ -27,7 +29,7 @@ pub(crate) enum Leg {
     Going(Motion),
     /// There.
     Arrived,
-    /// Time is over.
+    /// Time is over, or the known ground behind the robot.
     Late,
 }
 
@@ -38,6 +40,8 @@ pub(crate) struct BackOff {
     speed_m_per_s: f64,
     left_s: f64,
     blocked_s: f64,
+    /// Way back that is left alone while nothing is met.
+    reserve_m: f64,
 }
 
 impl BackOff {
@@ -51,12 +55,21 @@ impl BackOff {
         Self::at_speed(length_m, BACK_AT_CLIFF_M_PER_S)
     }
 
+    /// Off the dock, as far as the known ground reaches.
+    pub(crate) fn from_dock(length_m: f64) -> Self {
+        Self {
+            reserve_m: 0.0,
+            ..Self::from_contact(length_m)
+        }
+    }
+
     fn at_speed(length_m: f64, speed_m_per_s: f64) -> Self {
         Self {
             left_m: length_m,
             speed_m_per_s,
             left_s: 2.0 * length_m / speed_m_per_s + GRACE_S,
             blocked_s: 0.0,
+            reserve_m: RESERVE_M,
         }
     }
 
@@ -70,22 +83,33 @@ impl BackOff {
         let advance = situation.advance;
         self.left_m += advance.distance_m.min(0.0);
         self.left_s -= advance.time_s;
-        let makes_way = -advance.distance_m > BLOCKED_SHARE * self.speed_m_per_s * advance.time_s;
+        let speed_m_per_s = self.speed_m_per_s.min(slow_m_per_s(situation));
+        let makes_way = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
         self.blocked_s = if makes_way {
             0.0
         } else {
             self.blocked_s + advance.time_s
         };
-        if self.left_m <= 0.0 {
+        let spares = situation.is_free() && situation.way_back_m < self.reserve_m;
+        if self.left_m <= 0.0 || spares {
             Leg::Arrived
-        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S {
+        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.way_back_m <= 0.0 {
             Leg::Late
         } else {
             Leg::Going(Motion::Drive {
-                speed_m_per_s: -self.speed_m_per_s,
+                speed_m_per_s: -speed_m_per_s,
                 turn_rad_per_s: 0.0,
             })
         }
+    }
+}
+
+/// Fastest that pays: near the end of the known ground a robot creeps, so that little of it goes into stopping.
+fn slow_m_per_s(situation: &Situation<'_>) -> f64 {
+    if situation.way_back_m < RESERVE_M {
+        BACK_AT_CLIFF_M_PER_S
+    } else {
+        BACK_M_PER_S
     }
 }
 

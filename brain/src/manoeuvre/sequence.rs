@@ -1,5 +1,6 @@
 //! A few legs one after the other, for escapes and for leaving the dock.
 
+use super::leg::RESERVE_M;
 use super::{BackOff, Leg, Turn};
 use crate::action::Motion;
 use crate::task::Situation;
@@ -61,10 +62,18 @@ fn swing(sign: f64, left_s: &mut f64, situation: &Situation<'_>) -> Leg {
     if *left_s <= 0.0 {
         return Leg::Arrived;
     }
-    let straight = situation.touching || situation.at_cliff;
-    let turn_rad_per_s = if straight { 0.0 } else { sign * SWING_RAD_PER_S };
+    if situation.is_free() {
+        let spares = situation.way_back_m < RESERVE_M;
+        return Leg::Going(Motion::Drive {
+            speed_m_per_s: if spares { 0.0 } else { SWING_M_PER_S },
+            turn_rad_per_s: sign * SWING_RAD_PER_S,
+        });
+    }
+    if situation.way_back_m <= 0.0 {
+        return Leg::Arrived;
+    }
     Leg::Going(Motion::Drive {
         speed_m_per_s: SWING_M_PER_S,
-        turn_rad_per_s,
+        turn_rad_per_s: 0.0,
     })
 }

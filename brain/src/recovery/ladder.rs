@@ -12,7 +12,7 @@ pub(crate) enum Rung {
     BackOut,
     /// Shake the wheels and turn.
     Wiggle,
-    /// Far back and turn round.
+    /// Back as far as the ground is known and turn round.
     Reverse,
 }
 

@@ -27,6 +27,6 @@ pub(crate) fn escape(rung: Rung, random: &mut Random) -> Sequence {
             Part::Swing { sign, left_s: 0.8 },
             turn(1.5, 2.8),
         ],
-        Rung::Reverse => vec![Part::Back(BackOff::from_contact(0.30)), turn(2.2, 3.1)],
+        Rung::Reverse => vec![Part::Back(BackOff::from_contact(0.15)), turn(2.2, 3.1)],
     })
 }

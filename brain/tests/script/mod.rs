@@ -14,7 +14,9 @@
 
 use brain::action::Tone;
 use brain::observation::{Cliffs, Contacts};
-use brain::{Actions, Body, Brain, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
+use brain::{
+    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Motion, Observation, Speeds, StrategyName,
+};
 
 const STEP_US: u64 = 20_000;
 const TRACK_M: f64 = 0.23;
@@ -43,6 +45,12 @@ pub(crate) struct Stage {
     pub(crate) arms: u32,
     pub(crate) motion: Motion,
     pub(crate) cleaners: bool,
+    /// Way back without a way forward that made it good, in metres.
+    pub(crate) backed_m: f64,
+    /// Mean travel of the wheels at the last observation.
+    travel_m: f64,
+    /// A person drove at the last observation.
+    driven_by_hand: bool,
     blocked: bool,
     deaf: bool,
 }
@@ -60,6 +68,9 @@ impl Stage {
             arms: 0,
             motion: Motion::Rest,
             cleaners: false,
+            backed_m: 0.0,
+            travel_m: 0.0,
+            driven_by_hand: false,
             blocked: false,
             deaf: false,
         }
@@ -70,6 +81,7 @@ impl Stage {
         self.observation.time_us += STEP_US;
         let actions = self.brain.step(&self.observation, commands);
         self.assert_lawful(&actions);
+        self.assert_seen_behind();
         self.motion = actions.motion;
         self.cleaners = actions.cleaners;
         self.tones.extend(&actions.tones);
@@ -133,6 +145,24 @@ impl Stage {
         assert!(
             speed_m_per_s.abs() <= 0.35 && turn_rad_per_s.abs() <= 1.5,
             "{actions:?}"
+        );
+    }
+
+    /// Nobody but a person backs over more than 0.15 m of unknown ground.
+    fn assert_seen_behind(&mut self) {
+        let travel_m = 0.5 * (self.observation.travel_left_m + self.observation.travel_right_m);
+        let advance_m = travel_m - self.travel_m;
+        self.travel_m = travel_m;
+        self.backed_m = (self.backed_m - advance_m).max(0.0);
+        if self.driven_by_hand {
+            self.backed_m = self.backed_m.min(0.15);
+        }
+        self.driven_by_hand = self.brain.status().state == BehaviorState::Manual;
+        assert!(
+            self.backed_m <= 0.15,
+            "{} m back: {:?}",
+            self.backed_m,
+            self.brain.status()
         );
     }
 

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct BrainState {
     pose: [f64; 3],
     random_state: u64,
+    /// Absent in states of earlier versions.
+    #[serde(default)]
+    backed_m: f64,
     job: Option<JobState>,
     /// x, y and length of each run.
     swept: Vec<(i32, i32, u32)>,
@@ -46,6 +49,7 @@ impl From<&Checkpoint> for BrainState {
         Self {
             pose: [x_m, y_m, heading_rad],
             random_state: checkpoint.random_state,
+            backed_m: checkpoint.backed_m,
             job: checkpoint.job.as_ref().map(JobState::from),
             swept: checkpoint
                 .swept
@@ -82,6 +86,7 @@ impl BrainState {
                 heading_rad,
             },
             random_state: self.random_state,
+            backed_m: self.backed_m,
             job,
             swept: self
                 .swept
