@@ -227,7 +227,7 @@ fn s7_a_contact_that_comes_and_goes_begins_no_new_way() {
             rig.repeated = vec![drive(-0.1, 0.0)];
             rig.run(900);
             press(&mut rig, Bumpers::default());
-            rig.repeated = vec![between.clone()];
+            rig.repeated = vec![between];
             rig.run(1_500);
         }
         (rig.has(Inhibit::BumperStuck), start_m - rig.ways[0])
