@@ -37,8 +37,8 @@ pub(crate) enum WheelOrder {
     Stand,
 }
 
-/// Pause between repetitions of an unchanged command: three of them fall into a lease of 150 ms on the wire.
-const REPEAT_US: u64 = 40_000;
+/// Pause between repetitions of an unchanged command: three of them fall into a lease of 120 ms on the wire.
+const REPEAT_US: u64 = 30_000;
 
 /// Watches over the newest drive command.
 #[derive(Clone, Copy, Debug, Default)]

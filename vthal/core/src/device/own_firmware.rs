@@ -16,7 +16,7 @@ use super::{
 
 /// Lease of motion commands on the wire. Shorter than the firmware's default of 250 ms, so that braking too is over 300 ms
 /// after the host's death (S1).
-const LEASE_MS: u16 = 150;
+const LEASE_MS: u16 = 120;
 /// Lease of brushes and suction on the wire: the longest allowed, because they stand still only 2 s later anyway.
 const CLEANER_LEASE_MS: u16 = 1000;
 
