@@ -129,6 +129,11 @@ impl Browser {
         self.client.perform_actions(down).await.unwrap();
     }
 
+    pub(crate) async fn release_key(&self, key: char) {
+        let up = KeyActions::new("keyboard".to_owned()).then(KeyAction::Up { value: key });
+        self.client.perform_actions(up).await.unwrap();
+    }
+
     /// Presses Tab until the element with this id has the focus, and looks that the focus can be seen.
     pub(crate) async fn tab_to(&self, id: &str) {
         for _ in 0..40 {
