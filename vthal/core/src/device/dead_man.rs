@@ -116,10 +116,10 @@ mod tests {
         let mut dead_man = DeadMan::default();
         dead_man.set(FORWARD);
         assert_eq!(dead_man.poll(0), WheelOrder::Send(FORWARD));
-        assert_eq!(dead_man.poll(39_999), WheelOrder::Keep);
-        assert_eq!(dead_man.next_wake_us(), Some(40_000));
-        assert_eq!(dead_man.poll(40_000), WheelOrder::Send(FORWARD));
-        assert_eq!(dead_man.poll(80_000), WheelOrder::Send(FORWARD));
+        assert_eq!(dead_man.poll(29_999), WheelOrder::Keep);
+        assert_eq!(dead_man.next_wake_us(), Some(30_000));
+        assert_eq!(dead_man.poll(30_000), WheelOrder::Send(FORWARD));
+        assert_eq!(dead_man.poll(60_000), WheelOrder::Send(FORWARD));
         assert_eq!(dead_man.poll(250_000), WheelOrder::Stand);
         assert_eq!(dead_man.poll(250_001), WheelOrder::Keep);
         assert_eq!(dead_man.next_wake_us(), None);
