@@ -256,11 +256,10 @@ impl Framer {
         self.catch_up(body_end);
         let right = self.digest.seal();
         self.restart();
-        let Some([kind, body_and_seal @ ..]) = self.buffer.get(..length) else {
-            return Framed::BinaryMissealed;
-        };
-        match body_and_seal.split_last_chunk::<BINARY_SEAL_BYTES>() {
-            Some((body, seal)) if *seal == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
+        let packet = self.buffer.get(..body_end).unwrap_or_default();
+        let seal = self.buffer.get(body_end..length).unwrap_or_default();
+        match packet {
+            [kind, body @ ..] if seal == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
             _ => Framed::BinaryMissealed,
         }
     }

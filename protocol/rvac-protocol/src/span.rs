@@ -26,7 +26,8 @@ impl Span {
     /// The nearest allowed value. For measurements only; commands are refused instead.
     #[must_use]
     pub fn saturate(self, value: i64) -> i64 {
-        value.clamp(self.min, self.max)
+        // Not `clamp`, which would bring a panic into the firmware for a span upside down.
+        value.max(self.min).min(self.max)
     }
 }
 

@@ -87,14 +87,29 @@ fn current() -> impl Strategy<Value = Current> {
     (-32_767..=32_767).prop_map(Current)
 }
 
-fn state() -> impl Strategy<Value = State> {
-    let totals = (any::<u32>(), any::<i32>(), any::<i32>(), any::<u32>());
-    let gyro = prop::option::of((any::<i32>(), any::<i32>()));
-    let flags = any::<[bool; 9]>();
-    let bytes = (any::<[u8; 8]>(), any::<[u8; 4]>(), any::<u8>(), 0..8_u8);
-    let power = (current(), current(), current(), current(), 0..=65_535);
-    let phases = (0..4_usize, 0..5_usize);
-    (totals, gyro, flags, bytes, power, phases).prop_map(|(totals, gyro, flags, bytes, power, phases)| {
+const CHARGES: [ChargeState; 4] = [
+    ChargeState::Discharging,
+    ChargeState::Charging,
+    ChargeState::Full,
+    ChargeState::Fault,
+];
+const MOTIONS: [MotionPhase; 5] = [
+    MotionPhase::Idle,
+    MotionPhase::Drive,
+    MotionPhase::Move,
+    MotionPhase::Motor,
+    MotionPhase::Reflex,
+];
+
+fn gyro() -> impl Strategy<Value = Gyro> {
+    (any::<i32>(), any::<i32>()).prop_map(|(heading, rate)| Gyro {
+        heading: Angle(heading),
+        rate: AngularSpeed(rate),
+    })
+}
+
+fn touch() -> impl Strategy<Value = (Bumpers, Cliffs, WheelDrops)> {
+    any::<[bool; 7]>().prop_map(|flags| {
         let [
             bump_left,
             bump_right,
@@ -103,61 +118,66 @@ fn state() -> impl Strategy<Value = State> {
             cliff_right,
             drop_left,
             drop_right,
-            dust_box,
-            docked,
         ] = flags;
-        let charges = [
-            ChargeState::Discharging,
-            ChargeState::Charging,
-            ChargeState::Full,
-            ChargeState::Fault,
-        ];
-        let motions = [
-            MotionPhase::Idle,
-            MotionPhase::Drive,
-            MotionPhase::Move,
-            MotionPhase::Motor,
-            MotionPhase::Reflex,
-        ];
-        State {
-            tick: Tick(totals.0),
-            count_left: totals.1,
-            count_right: totals.2,
-            gyro: gyro.map(|(heading, rate)| Gyro {
-                heading: Angle(heading),
-                rate: AngularSpeed(rate),
-            }),
-            bumpers: Bumpers {
-                left: bump_left,
-                right: bump_right,
-            },
-            cliffs: Cliffs {
-                left: cliff_left,
-                middle: cliff_middle,
-                right: cliff_right,
-            },
-            wheel_drops: WheelDrops {
-                left: drop_left,
-                right: drop_right,
-            },
-            proximity: bytes.0,
-            dock: bytes.1,
-            buttons: bytes.2,
-            dust_box,
-            currents: Currents {
-                wheel_left: power.0,
-                wheel_right: power.1,
-                brush_main: power.2,
-            },
-            battery_voltage: Voltage(power.4),
-            battery_current: power.3,
-            charge: charges[phases.0],
-            docked,
-            inhibits: Inhibits::from_bits(totals.3),
-            motion: motions[phases.1],
-            cleaners: bytes.3,
-        }
+        let bumpers = Bumpers {
+            left: bump_left,
+            right: bump_right,
+        };
+        let cliffs = Cliffs {
+            left: cliff_left,
+            middle: cliff_middle,
+            right: cliff_right,
+        };
+        let wheel_drops = WheelDrops {
+            left: drop_left,
+            right: drop_right,
+        };
+        (bumpers, cliffs, wheel_drops)
     })
+}
+
+fn currents() -> impl Strategy<Value = Currents> {
+    (current(), current(), current()).prop_map(|(wheel_left, wheel_right, brush_main)| Currents {
+        wheel_left,
+        wheel_right,
+        brush_main,
+    })
+}
+
+fn state() -> impl Strategy<Value = State> {
+    let totals = (any::<u32>(), any::<i32>(), any::<i32>(), any::<u32>());
+    let bytes = (any::<[u8; 8]>(), any::<[u8; 4]>(), any::<u8>(), 0..8_u8);
+    let power = (currents(), current(), 0..=65_535);
+    let rest = (0..4_usize, 0..5_usize, any::<bool>(), any::<bool>());
+    (totals, prop::option::of(gyro()), touch(), bytes, power, rest).prop_map(
+        |(totals, gyro, (bumpers, cliffs, wheel_drops), bytes, power, rest)| {
+            let (tick, count_left, count_right, inhibits) = totals;
+            let (proximity, dock, buttons, cleaners) = bytes;
+            let (currents, battery_current, voltage) = power;
+            let (charge, motion, dust_box, docked) = rest;
+            State {
+                tick: Tick(tick),
+                count_left,
+                count_right,
+                gyro,
+                bumpers,
+                cliffs,
+                wheel_drops,
+                proximity,
+                dock,
+                buttons,
+                dust_box,
+                currents,
+                battery_voltage: Voltage(voltage),
+                battery_current,
+                charge: CHARGES[charge],
+                docked,
+                inhibits: Inhibits::from_bits(inhibits),
+                motion: MOTIONS[motion],
+                cleaners,
+            }
+        },
+    )
 }
 
 fn report_of(text: &[u8]) -> Report {

@@ -149,38 +149,59 @@ impl Reader<'_> {
     }
 }
 
-/// Most characters of a number: sign, ten digits, a point, and a zero before it.
-pub(crate) const SPELLING_MAX: usize = 24;
+/// Most characters of a number: a sign, twenty digits, a point, and a zero before it.
+const SPELLING_MAX: usize = 24;
+
+/// A number as it stands in a packet. It grows from its last character to its first, as division gives the digits.
+pub(crate) struct Spelling {
+    bytes: [u8; SPELLING_MAX],
+    begin: usize,
+}
+
+impl Spelling {
+    pub(crate) fn as_bytes(&self) -> &[u8] {
+        self.bytes.get(self.begin..).unwrap_or_default()
+    }
+
+    /// Puts `byte` before what is there. There is room for every number.
+    fn prepend(&mut self, byte: u8) {
+        let slot = self.bytes.get_mut(..self.begin).and_then(<[u8]>::last_mut);
+        if let Some(slot) = slot {
+            *slot = byte;
+            self.begin -= 1;
+        }
+    }
+}
 
 /// Spells `value` counts with `decimals` places, as short as it is exact.
-pub(crate) fn spell(value: i64, decimals: u8) -> heapless::Vec<u8, SPELLING_MAX> {
-    let mut reversed = heapless::Vec::<u8, SPELLING_MAX>::new();
+pub(crate) fn spell(value: i64, decimals: u8) -> Spelling {
+    let mut spelling = Spelling {
+        bytes: [0; SPELLING_MAX],
+        begin: SPELLING_MAX,
+    };
     let mut rest = value.unsigned_abs();
     let mut places = decimals;
     while places > 0 && rest.is_multiple_of(10) {
         rest /= 10;
         places -= 1;
     }
-    // Twenty digits, a point and a sign are the most, so no push fails.
-    let mut push = |byte| reversed.push(byte).ok();
     for _ in 0..places {
-        push(b'0' + (rest % 10) as u8);
+        spelling.prepend(b'0' + (rest % 10) as u8);
         rest /= 10;
     }
     if places > 0 {
-        push(b'.');
+        spelling.prepend(b'.');
     }
-    push(b'0' + (rest % 10) as u8);
+    spelling.prepend(b'0' + (rest % 10) as u8);
     rest /= 10;
     while rest > 0 {
-        push(b'0' + (rest % 10) as u8);
+        spelling.prepend(b'0' + (rest % 10) as u8);
         rest /= 10;
     }
     if value < 0 {
-        push(b'-');
+        spelling.prepend(b'-');
     }
-    reversed.reverse();
-    reversed
+    spelling
 }
 
 #[cfg(test)]
@@ -244,7 +265,7 @@ mod tests {
             (-120, 0, "-120"),
             (i64::MIN, 9, "-9223372036.854775808"),
         ] {
-            assert_eq!(spell(value, decimals), spelling.as_bytes());
+            assert_eq!(spell(value, decimals).as_bytes(), spelling.as_bytes());
         }
     }
 }

@@ -52,11 +52,14 @@ fn flags(state: &State) -> heapless::String<12> {
         ('s', cleaner(1)),
         ('v', cleaner(2)),
     ];
-    // Twelve letters fit twelve places.
-    letters
-        .into_iter()
-        .filter_map(|(letter, set)| set.then_some(letter))
-        .collect()
+    let mut flags = heapless::String::new();
+    for (letter, set) in letters {
+        if set {
+            // Twelve letters fit twelve places.
+            flags.push(letter).ok();
+        }
+    }
+    flags
 }
 
 pub(super) fn write(state: &State, object: &mut ObjectWriter<'_>) -> Result<(), EncodeError> {

@@ -29,7 +29,7 @@ impl<'b> ObjectWriter<'b> {
             self.outcome = Err(EncodeError::Range);
         }
         self.key(key);
-        self.raw(&spell(value, span.decimals))
+        self.raw(spell(value, span.decimals).as_bytes())
     }
 
     /// Notes that a number is not allowed.

@@ -52,16 +52,17 @@ impl Answers {
                 Answer::Given(refusal) => Known::Answered(refusal),
             };
         }
-        if self.remembered.is_full() && !self.make_room_for(sequence) {
-            return Known::Forgotten;
-        }
         let entry = Remembered {
             sequence,
             since: now,
             answer: Answer::Pending,
         };
-        // There is room: either there was, or it was made.
-        self.remembered.push(entry).ok();
+        if let Err(entry) = self.remembered.push(entry) {
+            match self.lowest_below(sequence) {
+                Some(forgotten) => *forgotten = entry,
+                None => return Known::Forgotten,
+            }
+        }
         Known::New
     }
 
@@ -80,20 +81,17 @@ impl Answers {
         self.remembered.clear();
     }
 
-    /// Forgets the lowest number, unless `sequence` is lower still.
-    fn make_room_for(&mut self, sequence: Sequence) -> bool {
-        let mut lowest = (0, sequence);
-        let mut found = false;
-        for (index, entry) in self.remembered.iter().enumerate() {
-            if lowest.1.is_newer_than(entry.sequence) {
-                lowest = (index, entry.sequence);
-                found = true;
+    /// The entry with the lowest number, unless `sequence` is lower still.
+    fn lowest_below(&mut self, sequence: Sequence) -> Option<&mut Remembered> {
+        let mut bound = sequence;
+        let mut lowest = None;
+        for entry in &mut self.remembered {
+            if bound.is_newer_than(entry.sequence) {
+                bound = entry.sequence;
+                lowest = Some(entry);
             }
         }
-        if found {
-            self.remembered.swap_remove(lowest.0);
-        }
-        found
+        lowest
     }
 }
 
