@@ -129,17 +129,13 @@ impl<'a> Members<'a> {
     fn string(&mut self) -> Result<&'a [u8], Refusal> {
         let begin = self.at;
         loop {
-            let rest = self.bytes.get(self.at..).unwrap_or_default();
-            let plain = rest
-                .iter()
-                .position(|byte| matches!(byte, b'"' | b'\\' | 0..0x20))
-                .ok_or(Refusal::Syntax)?;
-            let end = self.at + plain;
-            self.at = end + 1;
-            match rest.get(plain) {
-                Some(b'"') => return Ok(self.bytes.get(begin..end).unwrap_or_default()),
-                Some(b'\\') => self.escape()?,
-                _ => return Err(Refusal::Syntax),
+            let byte = self.peek().ok_or(Refusal::Syntax)?;
+            self.at += 1;
+            match byte {
+                b'"' => return Ok(self.bytes.get(begin..self.at - 1).unwrap_or_default()),
+                b'\\' => self.escape()?,
+                0..0x20 => return Err(Refusal::Syntax),
+                _ => {}
             }
         }
     }
