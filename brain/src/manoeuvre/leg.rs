@@ -8,7 +8,7 @@ const BACK_M_PER_S: f64 = 0.15;
 /// Reverse speed at a cliff; the firmware allows 0.1 m/s (S8).
 pub(crate) const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
 /// A robot that is free keeps this much of its way back: what it meets while it turns, it must come free from again.
-pub(super) const RESERVE_M: f64 = 0.06;
+pub(super) const RESERVE_M: f64 = 0.04;
 /// Slowest turn that is still a turn for a motor with a dead band.
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
 /// Turn rate asked for each radian that is left: the robot brakes over the last part.
@@ -50,9 +50,12 @@ impl BackOff {
         Self::at_speed(length_m, BACK_M_PER_S)
     }
 
-    /// At a cliff.
+    /// At a cliff: a turn too near to the edge would see it again, so nothing is spared.
     pub(crate) fn from_cliff(length_m: f64) -> Self {
-        Self::at_speed(length_m, BACK_AT_CLIFF_M_PER_S)
+        Self {
+            reserve_m: 0.0,
+            ..Self::at_speed(length_m, BACK_AT_CLIFF_M_PER_S)
+        }
     }
 
     /// Off the dock, as far as the known ground reaches.
