@@ -212,7 +212,7 @@ fn faults(long: bool) -> Result {
         "--seeds",
         if long { "0..100000" } else { "0..1000" },
         "--minutes",
-        "1",
+        "10",
     ]);
     check(&mut command)
 }
