@@ -12,12 +12,12 @@ pub enum HomeError {
         path: PathBuf,
     },
     /// The file cannot be read.
-    #[error("cannot read the home file {}: {source}; give a file that you may read", path.display())]
+    #[error("cannot read the home file {}: {cause}; give a file that you may read", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The file is too long.
     #[error("the file {} has {bytes} bytes, the limit is {limit}; crop the map or use a coarser resolution", path.display())]
@@ -66,14 +66,14 @@ pub enum HomeError {
         problem: String,
     },
     /// The image that a ROS map names does not exist.
-    #[error("the map {} names the image {}, which cannot be read: {source}; put the image there or correct `image:`", yaml.display(), image.display())]
+    #[error("the map {} names the image {}, which cannot be read: {cause}; put the image there or correct `image:`", yaml.display(), image.display())]
     ImageMissing {
         /// The map.
         yaml: PathBuf,
         /// The image.
         image: PathBuf,
         /// Why.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// No floor at all.
     #[error("the plan in {} has no floor at all; check the thresholds of the map or draw a room", path.display())]

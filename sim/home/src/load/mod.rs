@@ -54,12 +54,12 @@ pub(crate) fn read_draft(path: &Path, climb_m: f64) -> Result<Draft, HomeError> 
             bytes,
             limit: TEXT_BYTES_MAX,
         },
-        ReadError::Io(source) if source.kind() == std::io::ErrorKind::NotFound => HomeError::Missing {
+        ReadError::Io(cause) if cause.kind() == std::io::ErrorKind::NotFound => HomeError::Missing {
             path: path.to_owned(),
         },
-        ReadError::Io(source) => HomeError::Unreadable {
+        ReadError::Io(cause) => HomeError::Unreadable {
             path: path.to_owned(),
-            source,
+            cause,
         },
     })?;
     let text = text_of(path, &bytes)?;

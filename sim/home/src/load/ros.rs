@@ -151,10 +151,10 @@ fn load_image(path: &Path, name: &str) -> Result<Image, HomeError> {
             bytes,
             limit: IMAGE_BYTES_MAX,
         },
-        ReadError::Io(source) => HomeError::ImageMissing {
+        ReadError::Io(cause) => HomeError::ImageMissing {
             yaml: path.to_owned(),
             image: file.clone(),
-            source,
+            cause,
         },
     })?;
     image::decode(&bytes).map_err(|error| match error {

@@ -45,9 +45,9 @@ impl RobotModel {
     /// # Errors
     /// When the file cannot be read, is not such a description, or holds an impossible value.
     pub fn load(path: &Path) -> Result<Self, ModelError> {
-        let unreadable = |source| ModelError::Unreadable {
+        let unreadable = |cause| ModelError::Unreadable {
             path: path.to_owned(),
-            source,
+            cause,
         };
         let size = std::fs::metadata(path).map_err(unreadable)?.len();
         if size > FILE_BYTES_MAX {

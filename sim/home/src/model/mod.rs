@@ -203,12 +203,12 @@ pub enum ModelError {
         known: String,
     },
     /// The file cannot be read.
-    #[error("cannot read the robot description {}: {source}; check the path", path.display())]
+    #[error("cannot read the robot description {}: {cause}; check the path", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The text is not a robot description.
     #[error("the robot description {origin} is not valid: {message}; robots/README.md tells the format")]
