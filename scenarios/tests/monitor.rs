@@ -1,6 +1,7 @@
 //! The safety monitor finds a machine that does not obey its firmware.
 
-use robot::{Bridges, Rule};
+use monitor::Rule;
+use robot::Bridges;
 use rvac_sim::faults::{Homes, TrialSettings, trial};
 
 #[test]

@@ -2,19 +2,17 @@
 //!
 //! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`Line`]) and cordlib. One
 //! [`SimulatedRobot::tick`] is one millisecond. It knows no clock, no thread and no device: the same calls give the same
-//! bits, at any speed. The [`Monitor`] judges every millisecond whether motors ran that must not.
+//! bits, at any speed. The [`monitor::Monitor`] judges every millisecond whether motors ran that must not.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod board;
 mod digest;
 mod line;
-mod monitor;
 mod parameters;
 mod robot;
 
 pub use line::Line;
-pub use monitor::{Drives, Monitor, Pins, Rule, Violation};
 pub use parameters::parameters_for;
 pub use robot::{Bridges, RobotSettings, SimulatedRobot};
 pub use rvac_channel::FaultRates;

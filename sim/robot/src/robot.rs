@@ -3,6 +3,7 @@
 use cordlib::Cord;
 use cordlib::board::{CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
 use home::{Actuation, Bridge, RobotModel, Sensors, World};
+use monitor::{Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{
     Battery, Bumpers, ChargeState, Currents, Gyro, Inhibits, ResetCause, WheelDrops,
@@ -12,7 +13,6 @@ use rvac_units::{Ratio, Throttle, Tick};
 use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
 use crate::digest::Digest;
 use crate::line::Line;
-use crate::monitor::{Drives, Monitor, Pins};
 use crate::parameters::parameters_for;
 
 /// How a simulated robot is made.
@@ -210,6 +210,7 @@ impl SimulatedRobot {
 
     fn pins(&mut self) -> Pins {
         self.look_for_cliffs();
+        let counts = self.cord.board().encoders.counts;
         let sensors = self.world.sensors();
         Pins {
             bumper: sensors.bumper_left || sensors.bumper_right,
@@ -217,7 +218,7 @@ impl SimulatedRobot {
             wheel_drop: sensors.wheel_drop_left || sensors.wheel_drop_right,
             docked: sensors.dock_contacts,
             button: sensors.buttons != 0,
-            counts: self.cord.board().encoders.counts,
+            counts: [counts.left, counts.right],
             fallen: self.world.truth().fallen,
         }
     }

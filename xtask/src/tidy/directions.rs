@@ -51,6 +51,7 @@ const WIRE: &[&str] = &["rvac-protocol", "rvac-units"];
 const SIMULATED: &[&str] = &[
     "rvac-sim",
     "robot",
+    "monitor",
     "home",
     "cordlib",
     "vthal-core",
@@ -63,7 +64,7 @@ const SIMULATED: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 18] = [
+const DIRECTIONS: [Direction; 19] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -78,7 +79,8 @@ const DIRECTIONS: [Direction; 18] = [
     Direction { of: "panel",         knows: &["panel-logic", "rvac-api"],                   never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["rvac-api"],                                  never: &["tokio", "leptos", "web-sys"] },
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
-    Direction { of: "robot",         knows: &["cordlib", "home", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
+    Direction { of: "monitor",       knows: &["rvac-protocol"],                             never: OUTSIDE },
+    Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "scenarios",     knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },

@@ -1,7 +1,5 @@
 //! What stands against motion, and for how long.
 
-use cordlib::board::WheelCounts;
-
 /// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pins {
@@ -15,8 +13,8 @@ pub struct Pins {
     pub docked: bool,
     /// A button is down.
     pub button: bool,
-    /// Encoder totals.
-    pub counts: WheelCounts,
+    /// Encoder totals of left and right wheel.
+    pub counts: [i32; 2],
     /// The body fell down the stairs (ground truth).
     pub fallen: bool,
 }
@@ -78,7 +76,7 @@ pub(crate) struct Standing {
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
-    counts: WheelCounts,
+    counts: [i32; 2],
 }
 
 /// Drive above which a wheel must turn (S11).
@@ -105,7 +103,7 @@ impl Default for Standing {
             fallen: false,
             cleaners_start: false,
             cleaners_were_on: false,
-            counts: WheelCounts::default(),
+            counts: [0; 2],
         }
     }
 }
@@ -133,10 +131,7 @@ impl Standing {
         stand(&mut self.docked_ms, pins.docked);
         stand(&mut self.undocked_ms, !pins.docked);
         stand(&mut self.button_ms, pins.button);
-        let still = [
-            pins.counts.left == self.counts.left,
-            pins.counts.right == self.counts.right,
-        ];
+        let still = [pins.counts[0] == self.counts[0], pins.counts[1] == self.counts[1]];
         for ((stalled, drive), still) in self.stalled_ms.iter_mut().zip(drives.wheels).zip(still) {
             stand(stalled, still && drive.abs() > HARD_DRIVE);
         }

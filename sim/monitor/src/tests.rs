@@ -76,8 +76,8 @@ impl Scene {
     fn pass(&mut self, ms: u32, drives: Drives) -> Vec<Rule> {
         for _ in 0..ms {
             self.now_ms += 1;
-            self.pins.counts.left += drives.wheels[0].signum();
-            self.pins.counts.right += drives.wheels[1].signum();
+            self.pins.counts[0] += drives.wheels[0].signum();
+            self.pins.counts[1] += drives.wheels[1].signum();
             self.monitor.judge(self.now_ms, &self.pins, &drives);
         }
         self.monitor

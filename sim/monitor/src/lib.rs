@@ -7,6 +7,11 @@
 //!
 //! *Standing* is how long a cause has been there without a gap. A *rule* is one line of SAFETY.md with its reaction time;
 //! a *violation* is one beginning of a breach of it, however long it lasts.
+//!
+//! It judges the firmware on simulated pins (`sim/robot`) and the emulated microcontroller (`sim/pic32`) alike, so it knows
+//! neither.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 mod causes;
 mod permission;
