@@ -47,11 +47,23 @@ const BRAIN: &[&str] = &[
     "tracing",
 ];
 
+/// The emulator judges a firmware, so it may not share its code.
+const EMULATOR: &[&str] = &[
+    "cordlib",
+    "tokio",
+    "mio",
+    "rand",
+    "getrandom",
+    "tracing-subscriber",
+    "rustix",
+];
+
 const WIRE: &[&str] = &["rvac-protocol", "rvac-units"];
 const SIMULATED: &[&str] = &[
     "rvac-sim",
     "robot",
     "monitor",
+    "pic32",
     "home",
     "cordlib",
     "vthal-core",
@@ -64,7 +76,7 @@ const SIMULATED: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 19] = [
+const DIRECTIONS: [Direction; 20] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -80,6 +92,7 @@ const DIRECTIONS: [Direction; 19] = [
     Direction { of: "panel-logic",   knows: &["rvac-api"],                                  never: &["tokio", "leptos", "web-sys"] },
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "monitor",       knows: &["rvac-protocol"],                             never: OUTSIDE },
+    Direction { of: "pic32",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "scenarios",     knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
