@@ -1,6 +1,7 @@
 //! A robot description as it stands in the file; `robots/README.md` is its reference.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::figure::{Figure, FigureList};
 
@@ -22,6 +23,9 @@ pub(super) struct RawModel {
     pub(super) battery: RawBattery,
     pub(super) buttons: RawCount,
     pub(super) lidar: Option<RawLidar>,
+    /// What the firmware must know and nobody measured; the world does not need it.
+    #[serde(rename = "calibration")]
+    pub(super) _calibration: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
