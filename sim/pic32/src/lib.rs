@@ -13,3 +13,4 @@ pub mod board;
 pub mod cpu;
 pub mod image;
 pub mod memory;
+pub mod pins;

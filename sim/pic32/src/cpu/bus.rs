@@ -1,5 +1,7 @@
 //! What the core sees of the peripherals.
 
+use super::Taken;
+
 /// How many bytes an access moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
@@ -31,6 +33,8 @@ pub struct Access {
     pub width: Width,
     /// SYSCLK cycles since power-on at which the instruction began.
     pub cycle: u64,
+    /// Virtual address of the instruction.
+    pub pc: u32,
 }
 
 /// Nothing answers at this address: the core takes a bus error exception.
@@ -59,4 +63,14 @@ pub trait Bus {
     /// The cycle at which the peripherals want to be served next; `u64::MAX` for never. Asked at the begin of a run and
     /// after each access.
     fn horizon(&self) -> u64;
+
+    /// The core enters an interrupt handler; several may be entered and left within one run.
+    fn interrupt_taken(&mut self, taken: Taken) {
+        let _ = taken;
+    }
+
+    /// The core executes ERET, which begins at this cycle.
+    fn exception_returned(&mut self, cycle: u64) {
+        let _ = cycle;
+    }
 }
