@@ -12,5 +12,7 @@
 pub mod board;
 pub mod cpu;
 pub mod image;
+pub mod machine;
 pub mod memory;
+pub mod peripheral;
 pub mod pins;

@@ -1,0 +1,105 @@
+//! What the program did that the chip does not forgive or that this emulator does not know, by name.
+
+use crate::pins::Pin;
+
+/// How many different records of a kind are kept; those after it are only counted.
+const KEPT: usize = 64;
+
+/// Which way an access went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// The program read.
+    Read,
+    /// The program wrote.
+    Write,
+}
+
+/// Accesses to a register that the reference does not name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownAccess {
+    /// Physical address.
+    pub address: u32,
+    /// Which way.
+    pub direction: Direction,
+    /// Virtual address of the first instruction that did it.
+    pub pc: u32,
+    /// Cycle of the first.
+    pub cycle: u64,
+    /// How often.
+    pub count: u64,
+}
+
+/// Something that works by luck, or not at all, on the chip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Misuse {
+    /// The chip drives a pin against what drives it from outside.
+    PinConflict(Pin),
+}
+
+/// A misuse and where it happened first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MisuseRecord {
+    /// What.
+    pub misuse: Misuse,
+    /// Virtual address of the instruction that did it first, or that was next when it came from outside.
+    pub pc: u32,
+    /// Cycle of the first.
+    pub cycle: u64,
+    /// How often.
+    pub count: u64,
+}
+
+/// Where in the program and when.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) pc: u32,
+    pub(crate) cycle: u64,
+}
+
+/// All of them, each kind once.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Record {
+    /// Where the program is, set before each access.
+    pub(crate) place: Place,
+    pub(crate) unknown: Vec<UnknownAccess>,
+    pub(crate) misuses: Vec<MisuseRecord>,
+}
+
+impl Record {
+    pub(crate) fn misuse(&mut self, misuse: Misuse) {
+        let full = self.misuses.len() >= KEPT;
+        match self.misuses.iter_mut().find(|known| known.misuse == misuse) {
+            Some(known) => known.count += 1,
+            None if !full => {
+                let Place { pc, cycle } = self.place;
+                self.misuses.push(MisuseRecord {
+                    misuse,
+                    pc,
+                    cycle,
+                    count: 1,
+                });
+            }
+            None => {}
+        }
+    }
+
+    pub(crate) fn unknown(&mut self, address: u32, direction: Direction) {
+        let same = |known: &&mut UnknownAccess| known.address == address && known.direction == direction;
+        let full = self.unknown.len() >= KEPT;
+        match self.unknown.iter_mut().find(same) {
+            Some(known) => known.count += 1,
+            None if !full => {
+                let Place { pc, cycle } = self.place;
+                self.unknown.push(UnknownAccess {
+                    address,
+                    direction,
+                    pc,
+                    cycle,
+                    count: 1,
+                });
+            }
+            None => {}
+        }
+    }
+}
