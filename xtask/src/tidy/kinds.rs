@@ -5,16 +5,22 @@ use super::files::Files;
 use super::rust_text::code;
 
 /// Crates that run on a microcontroller.
-const NO_STD: [&str; 4] = [
+const NO_STD: [&str; 6] = [
+    "firmware/pic32mx3-hal",
     "firmware/size-probe",
+    "firmware/soft-uart",
     "protocol/rvac-units",
     "protocol/rvac-protocol",
     "firmware/cordlib",
 ];
 
 /// The only crates that may hold unsafe code, and why.
-const UNSAFE: [(&str, &str); 2] = [
+const UNSAFE: [(&str, &str); 3] = [
     ("firmware/cordlib-c", "a C interface takes pointers"),
+    (
+        "firmware/pic32mx3-hal",
+        "registers are addresses, start-up and interrupts are assembly",
+    ),
     (
         "firmware/size-probe",
         "a program without an operating system names its own entry point",
