@@ -97,6 +97,25 @@ impl Channel {
         }
     }
 
+    /// What the line carries instead of this byte (`None` = it rests): frames of ten levels, bit 0 first, for receivers
+    /// that look at levels themselves. A delay is a rest before the byte. Overruns are of receivers and do not happen.
+    pub fn carry(&mut self, byte: Option<u8>, frames: &mut Vec<u16>) {
+        self.draw_runs();
+        for _ in 0..core::mem::take(&mut self.delay_left) {
+            frames.push(u16::MAX ^ self.draw_flips());
+        }
+        let lost = self.random.happens(self.rates.lost_byte);
+        let levels = match byte {
+            Some(byte) if !lost && self.cut_out_left == 0 => line_bits(byte),
+            _ => u16::MAX,
+        };
+        self.cut_out_left = self.cut_out_left.saturating_sub(1);
+        frames.push(levels ^ self.draw_flips());
+        if byte.is_some() && self.random.happens(self.rates.doubled_byte) {
+            frames.push(levels ^ self.draw_flips());
+        }
+    }
+
     /// Lets the line rest for the time of one byte.
     pub fn idle(&mut self, received: &mut Vec<ReceivedByte>) {
         self.send(u16::MAX, received);
@@ -242,6 +261,32 @@ mod tests {
             .filter(|byte| *byte == ReceivedByte::FramingError)
             .count();
         assert!(errors > 10, "{errors} framing errors");
+    }
+
+    #[test]
+    fn levels_are_damaged_like_bytes() {
+        let carried = |rates| {
+            let mut channel = Channel::new(8, rates);
+            let mut frames = Vec::new();
+            for byte in text() {
+                channel.carry(Some(byte), &mut frames);
+            }
+            frames
+        };
+        let whole = carried(FaultRates::NONE);
+        assert!(whole.iter().copied().eq(text().into_iter().map(super::line_bits)));
+        let flips = carried(FaultRates {
+            bit_error: 1e-3,
+            ..FaultRates::NONE
+        });
+        let flipped: u32 = flips.iter().zip(&whole).map(|(a, b)| (a ^ b).count_ones()).sum();
+        assert!((150..250).contains(&flipped), "{flipped} of 200,000 bits");
+        let delays = carried(FaultRates {
+            delay: 0.01,
+            ..FaultRates::NONE
+        });
+        assert!(delays.len() > whole.len());
+        assert!(delays.into_iter().filter(|frame| *frame != u16::MAX).eq(whole));
     }
 
     #[test]
