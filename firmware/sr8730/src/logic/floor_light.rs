@@ -1,0 +1,98 @@
+//! Cliff sensors whose emitters cannot be switched.
+//!
+//! No source names a line that switches the three emitters. If the calibration finds that LED_UNKNOWNS (RG0) does, cordlib's
+//! self-test darkens them (S9). If they are always lit, a receiver that is stuck at a level cannot be told from one over an
+//! even floor at once. What can be told: a level at the end of the converter's range (broken wire, sunlight), and one that
+//! has not moved by a single count while the robot drove more than a metre.
+
+/// Readings at or above this are saturated: no floor can be told in them.
+const SATURATED: u16 = 1_020;
+/// Readings below this mean a wire that is broken or shorted to ground; a drop still reflects a little.
+const GROUNDED: u16 = 2;
+/// Way that a sensor may show the very same reading, in encoder counts of both wheels together, when the way of a count
+/// is not known.
+const STILL_COUNTS_DEFAULT: u32 = 8_000;
+/// Way of the robot that a sensor may show the very same reading.
+const STILL_WAY_NM: u64 = 2_000_000_000;
+
+/// Looks for readings that no living sensor gives.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StillnessWatch {
+    last: u16,
+    counts: u32,
+}
+
+/// Encoder counts of both wheels together that make the longest way without a change, for a way per count in nanometres.
+#[must_use]
+pub fn still_counts(count_way_nm: Option<i32>) -> u32 {
+    let way_nm = count_way_nm
+        .and_then(|way| u64::try_from(way).ok())
+        .filter(|way| *way > 0);
+    match way_nm.and_then(|way| (2 * STILL_WAY_NM).checked_div(way)) {
+        Some(counts) => u32::try_from(counts).unwrap_or(u32::MAX),
+        None => STILL_COUNTS_DEFAULT,
+    }
+}
+
+impl StillnessWatch {
+    /// Takes a reading and the counts that both wheels made since the last one; returns whether the reading can be believed.
+    pub const fn is_plausible(&mut self, reading: u16, counts: u32, still_counts: u32) -> bool {
+        if reading == self.last {
+            self.counts = self.counts.saturating_add(counts);
+        } else {
+            self.counts = 0;
+            self.last = reading;
+        }
+        reading >= GROUNDED && reading < SATURATED && self.counts < still_counts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{StillnessWatch, still_counts};
+
+    #[test]
+    fn a_reading_that_never_moves_while_the_robot_drives_is_not_believed() {
+        let mut watch = StillnessWatch::default();
+        let limit = still_counts(Some(500_000));
+        assert_eq!(limit, 8_000);
+        assert!(watch.is_plausible(700, 0, limit));
+        for _ in 0..3_999 {
+            assert!(watch.is_plausible(700, 2, limit));
+        }
+        assert!(!watch.is_plausible(700, 2, limit));
+        assert!(!watch.is_plausible(700, 0, limit));
+        assert!(watch.is_plausible(701, 2, limit));
+    }
+
+    #[test]
+    fn a_robot_at_rest_may_see_the_same_for_ever() {
+        let mut watch = StillnessWatch::default();
+        for _ in 0..100_000 {
+            assert!(watch.is_plausible(700, 0, 8_000));
+        }
+    }
+
+    #[test]
+    fn the_ends_of_the_range_are_not_believed() {
+        let mut watch = StillnessWatch::default();
+        for (reading, plausible) in [
+            (0, false),
+            (1, false),
+            (2, true),
+            (1_019, true),
+            (1_020, false),
+            (1_023, false),
+        ] {
+            assert_eq!(watch.is_plausible(reading, 0, 8_000), plausible, "{reading}");
+        }
+    }
+
+    #[test]
+    fn strange_ways_do_not_divide_by_zero() {
+        assert_eq!(still_counts(None), 8_000);
+        assert_eq!(still_counts(Some(0)), 8_000);
+        assert_eq!(still_counts(Some(-5)), 8_000);
+        assert_eq!(still_counts(Some(1)), 4_000_000_000);
+    }
+}
