@@ -1,0 +1,280 @@
+//! `pinout.toml`: every signal of the board with its pin.
+
+use serde::Deserialize;
+
+use super::BoardError;
+use crate::pins::{Level, Pin};
+
+/// What a pin is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Digital input.
+    Input,
+    /// Digital output.
+    Output,
+    /// Analog input.
+    Analog,
+    /// Output of an output compare module.
+    Pwm,
+    /// Input of an input capture module.
+    Capture,
+    /// Unused, kept an input.
+    Spare,
+}
+
+/// Level at which a signal means what its name says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Active {
+    /// The supply.
+    High,
+    /// Ground.
+    Low,
+    /// Nobody knows.
+    Unknown,
+}
+
+/// What holds a line while nobody drives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pull {
+    /// A resistor on the board, to the supply.
+    BoardUp,
+    /// The chip's weak pull-up of the change notice.
+    ChipUp,
+    /// Nothing.
+    None,
+    /// Nobody knows.
+    Unknown,
+}
+
+/// Level of an output from the first instruction on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Safe {
+    /// The supply.
+    High,
+    /// Ground.
+    Low,
+}
+
+impl From<Safe> for Level {
+    fn from(safe: Safe) -> Self {
+        Self::of(safe == Safe::High)
+    }
+}
+
+/// How far a row can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Confidence {
+    /// Documented or measured.
+    Known,
+    /// Derived from something known.
+    Estimated,
+    /// Chosen so that there is something to work with.
+    Placeholder,
+    /// Nobody knows.
+    Unknown,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPinout {
+    chip: String,
+    signal: Vec<RawSignal>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSignal {
+    name: String,
+    #[serde(rename = "original")]
+    _original: Option<String>,
+    port: String,
+    #[serde(rename = "pin")]
+    package_pin: u8,
+    kind: Kind,
+    active: Active,
+    pull: Pull,
+    function: Option<String>,
+    safe: Option<Safe>,
+    confidence: Confidence,
+    #[serde(rename = "source")]
+    _source: String,
+    #[serde(rename = "note")]
+    _note: Option<String>,
+}
+
+/// One signal of the board.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signal {
+    /// What our software calls it.
+    pub name: String,
+    /// Where it is.
+    pub pin: Pin,
+    /// Pin of the 100-pin package.
+    pub package_pin: u8,
+    /// What it is for.
+    pub kind: Kind,
+    /// Level that means what the name says.
+    pub active: Active,
+    /// What holds it.
+    pub pull: Pull,
+    /// Function of the pin that is used, in the words of the chip's pin list.
+    pub function: Option<String>,
+    /// Level from the first instruction on, for outputs.
+    pub safe: Option<Level>,
+    /// How sure all this is.
+    pub confidence: Confidence,
+}
+
+/// All signals of the board, in the order of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pinout {
+    signals: Vec<Signal>,
+}
+
+const FILE: &str = "pinout.toml";
+const CHIP: &str = "pic32mx360f256l";
+
+impl Pinout {
+    /// Reads the text of a `pinout.toml`.
+    ///
+    /// # Errors
+    /// [`BoardError::Format`], [`BoardError::Port`] or [`BoardError::Twice`].
+    pub fn parse(text: &str) -> Result<Self, BoardError> {
+        let raw: RawPinout = toml::from_str(text).map_err(|error| BoardError::Format {
+            origin: FILE,
+            message: error.to_string().trim().replace('\n', " "),
+        })?;
+        if raw.chip != CHIP {
+            return Err(BoardError::Format {
+                origin: FILE,
+                message: format!("it is for a {}, and only the {CHIP} is emulated", raw.chip),
+            });
+        }
+        let mut pinout = Self { signals: Vec::new() };
+        for row in raw.signal {
+            pinout.add(signal(row)?)?;
+        }
+        Ok(pinout)
+    }
+
+    /// The pinout of the SR8730 that comes with the project.
+    ///
+    /// # Errors
+    /// As [`Self::parse`], when the project's own file is wrong.
+    pub fn sr8730() -> Result<Self, BoardError> {
+        Self::parse(include_str!("../../../../robots/samsung-sr8730/pinout.toml"))
+    }
+
+    fn add(&mut self, signal: Signal) -> Result<(), BoardError> {
+        let clash = |other: &&Signal| other.name == signal.name || other.pin == signal.pin;
+        if let Some(first) = self.signals.iter().find(clash) {
+            return Err(BoardError::Twice {
+                first: first.name.clone(),
+                second: signal.name,
+            });
+        }
+        self.signals.push(signal);
+        Ok(())
+    }
+
+    /// The signal of this name.
+    ///
+    /// # Errors
+    /// [`BoardError::NoSignal`].
+    pub fn signal(&self, name: &'static str) -> Result<&Signal, BoardError> {
+        self.signals
+            .iter()
+            .find(|signal| signal.name == name)
+            .ok_or(BoardError::NoSignal(name))
+    }
+
+    /// All of them.
+    pub fn signals(&self) -> impl Iterator<Item = &Signal> {
+        self.signals.iter()
+    }
+}
+
+fn signal(row: RawSignal) -> Result<Signal, BoardError> {
+    let pin = row.port.parse().map_err(|cause| BoardError::Port {
+        signal: row.name.clone(),
+        cause,
+    })?;
+    Ok(Signal {
+        name: row.name,
+        pin,
+        package_pin: row.package_pin,
+        kind: row.kind,
+        active: row.active,
+        pull: row.pull,
+        function: row.function,
+        safe: row.safe.map(Level::from),
+        confidence: row.confidence,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Active, Kind, Pinout};
+    use crate::board::BoardError;
+    use crate::pins::Level;
+
+    const ROW: &str = "name = 'a'\nport = 'RG9'\npin = 14\nkind = 'output'\nactive = 'high'\npull = 'none'\nsafe = 'low'\nconfidence = 'known'\nsource = 's'\n";
+
+    fn file(rows: &[&str]) -> String {
+        let mut text = "chip = 'pic32mx360f256l'\n".to_owned();
+        for row in rows {
+            text += &format!("[[signal]]\n{row}");
+        }
+        text
+    }
+
+    #[test]
+    fn a_row_becomes_a_signal() {
+        let pinout = Pinout::parse(&file(&[ROW])).unwrap();
+        let signal = pinout.signal("a").unwrap();
+        assert_eq!(
+            (signal.pin.to_string(), signal.package_pin),
+            ("RG9".to_owned(), 14)
+        );
+        assert_eq!(
+            (signal.kind, signal.active, signal.safe),
+            (Kind::Output, Active::High, Some(Level::Low))
+        );
+        assert_eq!(pinout.signal("b"), Err(BoardError::NoSignal("b")));
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        let cases = [
+            (
+                file(&[ROW]).replace("pic32mx360f256l", "pic32mx795"),
+                "pic32mx795",
+            ),
+            (file(&[&ROW.replace("RG9", "RH9")]), "RH9"),
+            (file(&[&ROW.replace("RG9", "RG4")]), "RG4"),
+            (file(&[&ROW.replace("'high'", "'sometimes'")]), "sometimes"),
+            (file(&[ROW, ROW]), "`a` and `a`"),
+            (file(&[ROW, &ROW.replace("'a'", "'b'")]), "`b` and `a`"),
+            (file(&[&ROW.replace("pull = 'none'\n", "")]), "pull"),
+            (file(&[&ROW.replace("safe", "save")]), "save"),
+        ];
+        for (text, named) in cases {
+            let message = Pinout::parse(&text).unwrap_err().to_string();
+            assert!(message.contains(named), "{message} does not name {named}");
+        }
+    }
+
+    #[test]
+    fn the_project_s_own_pinout_is_sound() {
+        let pinout = Pinout::sr8730().unwrap();
+        for signal in pinout.signals() {
+            let drives = matches!(signal.kind, Kind::Output | Kind::Pwm);
+            assert_eq!(signal.safe.is_some(), drives, "{}", signal.name);
+        }
+    }
+}

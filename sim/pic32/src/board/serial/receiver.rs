@@ -1,0 +1,143 @@
+//! A UART's receiver that looks at a pin.
+
+use rvac_channel::ReceivedByte;
+
+use super::FRAME_BITS;
+use crate::pins::Level;
+
+/// A receiver for 8N1 that starts with a falling edge and samples each bit in its middle. After a wrong stop bit it waits
+/// for a high line.
+#[derive(Clone, Debug)]
+pub struct Receiver {
+    bit_cycles: f64,
+    line: Level,
+    state: State,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    Idle,
+    /// The start bit began at `start`; `taken` bits were sampled into `bits`, the first in the lowest place.
+    Frame {
+        start: f64,
+        taken: u32,
+        bits: u16,
+    },
+    WaitForHigh,
+}
+
+/// What was received, and the cycle in which the receiver knew it.
+pub(super) type Arrival = (u64, ReceivedByte);
+
+impl Receiver {
+    /// A receiver on an idle line.
+    #[must_use]
+    pub const fn new(bit_cycles: f64) -> Self {
+        Self {
+            bit_cycles,
+            line: Level::High,
+            state: State::Idle,
+        }
+    }
+
+    /// The line changes to `level` at `cycle`, which is not before earlier ones.
+    pub fn edge(&mut self, cycle: u64, level: Level, arrivals: &mut Vec<Arrival>) {
+        self.advance(cycle, arrivals);
+        let falls = self.line.is_high() && !level.is_high();
+        self.line = level;
+        match self.state {
+            State::Idle if falls => {
+                self.state = State::Frame {
+                    start: cycle as f64,
+                    taken: 0,
+                    bits: 0,
+                };
+            }
+            State::WaitForHigh if level.is_high() => self.state = State::Idle,
+            State::Idle | State::Frame { .. } | State::WaitForHigh => {}
+        }
+    }
+
+    /// Time passes up to `cycle`, which it does not include.
+    pub fn advance(&mut self, cycle: u64, arrivals: &mut Vec<Arrival>) {
+        while let State::Frame { start, taken, bits } = self.state {
+            let sampled = start + (f64::from(taken) + 0.5) * self.bit_cycles;
+            if sampled >= cycle as f64 {
+                return;
+            }
+            let bits = bits | u16::from(self.line.is_high()) << taken;
+            self.state = if taken == 0 && self.line.is_high() {
+                // The start bit was shorter than half a bit: noise.
+                State::Idle
+            } else if taken + 1 < FRAME_BITS {
+                State::Frame {
+                    start,
+                    taken: taken + 1,
+                    bits,
+                }
+            } else if self.line.is_high() {
+                arrivals.push((sampled as u64, ReceivedByte::Byte((bits >> 1) as u8)));
+                State::Idle
+            } else {
+                arrivals.push((sampled as u64, ReceivedByte::FramingError));
+                State::WaitForHigh
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arrival, Level, ReceivedByte, Receiver};
+
+    const BIT: f64 = 347.2;
+
+    /// Sends bytes with bits of `bit` cycles and one stop bit to a receiver for bits of [`BIT`].
+    fn receive(bytes: &[u8], bit: f64) -> Vec<ReceivedByte> {
+        let mut receiver = Receiver::new(BIT);
+        let mut arrivals: Vec<Arrival> = Vec::new();
+        let mut at = 1000.0;
+        for byte in bytes {
+            let levels = u16::from(*byte) << 1 | 1 << 9;
+            for place in 0..10 {
+                let level = Level::of(levels >> place & 1 == 1);
+                receiver.edge((at + f64::from(place) * bit) as u64, level, &mut arrivals);
+            }
+            at += 10.0 * bit;
+        }
+        receiver.advance(at as u64, &mut arrivals);
+        arrivals.into_iter().map(|(_, received)| received).collect()
+    }
+
+    #[test]
+    fn every_byte_arrives_back_to_back_at_rates_within_four_percent() {
+        let bytes: Vec<u8> = (0..=255).collect();
+        let wanted: Vec<_> = bytes.iter().copied().map(ReceivedByte::Byte).collect();
+        for factor in [0.96, 0.98, 1.0, 1.02, 1.04] {
+            assert_eq!(receive(&bytes, BIT * factor), wanted, "at {factor} of the rate");
+        }
+        assert_ne!(receive(&bytes, BIT * 0.9), wanted);
+    }
+
+    #[test]
+    fn a_low_line_is_one_framing_error() {
+        let mut receiver = Receiver::new(BIT);
+        let mut arrivals = Vec::new();
+        receiver.edge(1000, Level::Low, &mut arrivals);
+        receiver.advance(1_000_000, &mut arrivals);
+        receiver.edge(1_000_000, Level::High, &mut arrivals);
+        receiver.advance(2_000_000, &mut arrivals);
+        assert_eq!(arrivals.len(), 1);
+        assert_eq!(arrivals[0].1, ReceivedByte::FramingError);
+    }
+
+    #[test]
+    fn a_spike_is_no_start_bit() {
+        let mut receiver = Receiver::new(BIT);
+        let mut arrivals = Vec::new();
+        receiver.edge(1000, Level::Low, &mut arrivals);
+        receiver.edge(1100, Level::High, &mut arrivals);
+        receiver.advance(10_000, &mut arrivals);
+        assert_eq!(arrivals, []);
+    }
+}
