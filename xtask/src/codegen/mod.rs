@@ -1,5 +1,6 @@
 //! `cargo xtask codegen`: files that are made from data. With --check it writes nothing and names what is stale.
 
+pub(crate) mod board;
 mod header;
 pub(crate) mod robots;
 
@@ -24,7 +25,8 @@ pub(crate) struct Generated {
 /// Makes all generated files.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let root = workspace::root();
-    let files = [robots::page(&root)?, header::of_cordlib(&root)?];
+    let mut files = board::files(&root)?;
+    files.extend([robots::page(&root)?, header::of_cordlib(&root)?]);
     let mut stale = Vec::new();
     for file in files {
         let present = std::fs::read_to_string(&file.path).unwrap_or_default();
@@ -38,6 +40,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             .display()
             .to_string();
         if !arguments.check {
+            if let Some(folder) = file.path.parent() {
+                std::fs::create_dir_all(folder)
+                    .with_context(|| format!("cannot make {}", folder.display()))?;
+            }
             std::fs::write(&file.path, &file.text).with_context(|| format!("cannot write {shown}"))?;
             process::say(&format!("wrote {shown}"));
         }

@@ -1,0 +1,297 @@
+//! Calibration values and their places in the record. Made by cargo xtask codegen from robots/samsung-sr8730/robot.toml. Do not edit.
+
+/// Number of values in a record.
+pub const COUNT: usize = 29;
+
+/// A value that a person measures on the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Calibrated {
+    /// Wheel count way (nm). Needed for drive and move.
+    WheelCountWay,
+    /// Wheel track (um). Needed for drive and move.
+    WheelTrack,
+    /// Wheel left order (1). Needed for drive and move.
+    WheelLeftOrder,
+    /// Wheel right order (1). Needed for drive and move.
+    WheelRightOrder,
+    /// Wheel dead band (permille). Needed for drive and move.
+    WheelDeadBand,
+    /// Wheel free speed (mm/s). Needed for drive and move.
+    WheelFreeSpeed,
+    /// Wheel left current zero (count). Needed for wheel currents.
+    WheelLeftCurrentZero,
+    /// Wheel right current zero (count). Needed for wheel currents.
+    WheelRightCurrentZero,
+    /// Wheel current scale (uA/count). Needed for wheel currents.
+    WheelCurrentScale,
+    /// Brush main pulse rate (pulse/s). Needed for stall detection of the main brush.
+    BrushMainPulseRate,
+    /// Brush main dead band (permille). Needed for stall detection of the main brush.
+    BrushMainDeadBand,
+    /// Button ladder 1 (count). Needed for telling the buttons apart.
+    ButtonLadder1,
+    /// Button ladder 2 (count). Needed for telling the buttons apart.
+    ButtonLadder2,
+    /// Button ladder 3 (count). Needed for telling the buttons apart.
+    ButtonLadder3,
+    /// Cliff emitter line (1). Needed for cliff sensors.
+    CliffEmitterLine,
+    /// Cliff floor level (count). Needed for cliff sensors.
+    CliffFloorLevel,
+    /// Proximity none (count). Needed for proximity sensors.
+    ProximityNone,
+    /// Proximity touching (count). Needed for proximity sensors.
+    ProximityTouching,
+    /// Battery scale (uV/count). Needed for charging; without it voltages are reported with the assumed divider.
+    BatteryScale,
+    /// Battery capacity (mAh). Needed for charging and the state of charge.
+    BatteryCapacity,
+    /// Charge stage checked (1). Needed for charging.
+    ChargeStageChecked,
+    /// Dock code ones (1). Needed for nothing; a wrong number only leaves the dock at its trickle current.
+    DockCodeOnes,
+    /// Dock beam left (1). Needed for finding the dock by its beams.
+    DockBeamLeft,
+    /// Dock beam right (1). Needed for finding the dock by its beams.
+    DockBeamRight,
+    /// Dock beam near (1). Needed for finding the dock by its beams.
+    DockBeamNear,
+    /// Dock beam short (us). Needed for finding the dock by its beams.
+    DockBeamShort,
+    /// Gyro uart (1). Needed for gyro.
+    GyroUart,
+    /// Gyro rate (baud). Needed for gyro.
+    GyroRate,
+    /// Gyro frame (1). Needed for gyro.
+    GyroFrame,
+}
+
+impl Calibrated {
+    /// Its place in the record.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// What is known of a value before anybody has measured it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Which one.
+    pub value: Calibrated,
+    /// Its name in `robot.toml`.
+    pub name: &'static str,
+    /// Least value that can be true.
+    pub low: i32,
+    /// Greatest value that can be true.
+    pub high: i32,
+    /// What to take while nobody has measured it; `None` = it is unknown then.
+    pub assumed: Option<i32>,
+}
+
+/// All values, in the order of the record.
+pub const ENTRIES: [Entry; COUNT] = [
+    Entry {
+        value: Calibrated::WheelCountWay,
+        name: "wheel-count-way",
+        low: 1_000,
+        high: 50_000_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelTrack,
+        name: "wheel-track",
+        low: 100_000,
+        high: 500_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelLeftOrder,
+        name: "wheel-left-order",
+        low: 0,
+        high: 1,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelRightOrder,
+        name: "wheel-right-order",
+        low: 0,
+        high: 1,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelDeadBand,
+        name: "wheel-dead-band",
+        low: 0,
+        high: 900,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelFreeSpeed,
+        name: "wheel-free-speed",
+        low: 100,
+        high: 2_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelLeftCurrentZero,
+        name: "wheel-left-current-zero",
+        low: 0,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelRightCurrentZero,
+        name: "wheel-right-current-zero",
+        low: 0,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelCurrentScale,
+        name: "wheel-current-scale",
+        low: -50_000,
+        high: 50_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::BrushMainPulseRate,
+        name: "brush-main-pulse-rate",
+        low: 1,
+        high: 5_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::BrushMainDeadBand,
+        name: "brush-main-dead-band",
+        low: 0,
+        high: 900,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ButtonLadder1,
+        name: "button-ladder-1",
+        low: 0,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ButtonLadder2,
+        name: "button-ladder-2",
+        low: 0,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ButtonLadder3,
+        name: "button-ladder-3",
+        low: 0,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::CliffEmitterLine,
+        name: "cliff-emitter-line",
+        low: 0,
+        high: 1,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::CliffFloorLevel,
+        name: "cliff-floor-level",
+        low: 1,
+        high: 1_022,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ProximityNone,
+        name: "proximity-none",
+        low: 0,
+        high: 1_022,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ProximityTouching,
+        name: "proximity-touching",
+        low: 1,
+        high: 1_023,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::BatteryScale,
+        name: "battery-scale",
+        low: 25_000,
+        high: 45_000,
+        assumed: Some(32_549),
+    },
+    Entry {
+        value: Calibrated::BatteryCapacity,
+        name: "battery-capacity",
+        low: 500,
+        high: 5_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ChargeStageChecked,
+        name: "charge-stage-checked",
+        low: 0,
+        high: 1,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::DockCodeOnes,
+        name: "dock-code-ones",
+        low: 5,
+        high: 6,
+        assumed: Some(6),
+    },
+    Entry {
+        value: Calibrated::DockBeamLeft,
+        name: "dock-beam-left",
+        low: 1,
+        high: 255,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::DockBeamRight,
+        name: "dock-beam-right",
+        low: 1,
+        high: 255,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::DockBeamNear,
+        name: "dock-beam-near",
+        low: 1,
+        high: 255,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::DockBeamShort,
+        name: "dock-beam-short",
+        low: 100,
+        high: 3_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::GyroUart,
+        name: "gyro-uart",
+        low: 1,
+        high: 2,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::GyroRate,
+        name: "gyro-rate",
+        low: 1_200,
+        high: 1_000_000,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::GyroFrame,
+        name: "gyro-frame",
+        low: 1,
+        high: 1,
+        assumed: None,
+    },
+];

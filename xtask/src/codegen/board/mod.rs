@@ -1,0 +1,75 @@
+//! Boards: pins and calibration values as data, made into firmware sources and tables for people.
+
+pub(crate) mod calibration;
+mod chip;
+mod machine;
+mod pinout;
+mod pins;
+mod rust_name;
+mod table;
+
+use super::Generated;
+use crate::{process, workspace};
+use anyhow::{Context, bail};
+use calibration::Calibration;
+use pinout::Pinout;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A robot with firmware of ours: its folder in robots/, and the folder of the firmware's generated sources.
+const BOARDS: [(&str, &str); 1] = [("samsung-sr8730", "firmware/sr8730/src/generated")];
+
+const MODULES: &str = "//! Facts about the board as constants. Made by cargo xtask codegen. Do not edit.\n\n\
+                       pub mod calibration;\npub mod machine;\npub mod pins;\n";
+
+/// All files of all boards.
+pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
+    let mut files = Vec::new();
+    for (robot, sources) in BOARDS {
+        let folder = root.join("robots").join(robot);
+        let pinout = Pinout::load(&root.join("robots"), &folder)?;
+        let calibration = Calibration::load(&folder)?;
+        let from = |file: &str| format!("robots/{robot}/{file}");
+        let made = [
+            ("mod.rs", MODULES.to_owned()),
+            ("pins.rs", pins::source(&pinout, &from("pinout.toml"))?),
+            ("calibration.rs", calibration.source(&from("robot.toml"))?),
+            ("machine.rs", machine::source(&folder, &from("robot.toml"))?),
+        ];
+        for (name, text) in made {
+            files.push(Generated {
+                path: root.join(sources).join(name),
+                text: formatted(&text).with_context(|| format!("{sources}/{name}"))?,
+            });
+        }
+        let readme = folder.join("README.md");
+        let text =
+            std::fs::read_to_string(&readme).with_context(|| format!("cannot read {}", readme.display()))?;
+        files.push(Generated {
+            text: table::renewed(&text, &pinout, &calibration)?,
+            path: readme,
+        });
+    }
+    Ok(files)
+}
+
+/// The source as rustfmt writes it, so that the generated files are formatted like all others.
+fn formatted(text: &str) -> anyhow::Result<String> {
+    let mut rustfmt = Command::new("rustfmt");
+    rustfmt
+        .args(["--edition", "2024", "--config-path"])
+        .arg(workspace::root());
+    rustfmt.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = rustfmt
+        .spawn()
+        .with_context(|| format!("cannot start {}", process::name(&rustfmt)))?;
+    if let Some(mut stdin) = child.stdin.take() {
+        stdin.write_all(text.as_bytes())?;
+    }
+    let output = child.wait_with_output()?;
+    if !output.status.success() {
+        bail!("rustfmt does not understand what was made");
+    }
+    Ok(String::from_utf8(output.stdout)?)
+}
