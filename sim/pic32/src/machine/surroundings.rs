@@ -43,6 +43,12 @@ impl<'a> Outputs<'a> {
         self.output(pin).is_high()
     }
 
+    /// The cycle at which the chip last began or ceased to drive this pin high (PWM left out): filters and receivers take
+    /// their time to follow.
+    pub fn changed(&self, pin: Pin) -> u64 {
+        self.chip.changed(pin)
+    }
+
     /// For how many cycles since power-on the chip has driven this pin high; differences of it are mean duties.
     pub fn high_cycles(&self, pin: Pin) -> u64 {
         self.chip.high_cycles(pin, self.cycle)

@@ -79,6 +79,10 @@ impl Chip {
         Level::of(self.ports.levels(pin.port()) & pin.mask() != 0)
     }
 
+    pub(crate) fn changed(&self, pin: Pin) -> u64 {
+        self.ports.changed(pin)
+    }
+
     pub(crate) fn high_cycles(&self, pin: Pin, cycle: u64) -> u64 {
         self.ports.high_cycles(pin, cycle)
     }

@@ -83,6 +83,7 @@ pub(crate) struct Ports {
     states: [State; 7],
     high_cycles: [u64; PIN_PLACES],
     high_since: [u64; PIN_PLACES],
+    changed: [u64; PIN_PLACES],
     watched: [u16; 7],
     edges: BTreeMap<Pin, Vec<(u64, Level)>>,
 }
@@ -93,6 +94,7 @@ impl Ports {
             states: [State::RESET; 7],
             high_cycles: [0; PIN_PLACES],
             high_since: [0; PIN_PLACES],
+            changed: [0; PIN_PLACES],
             watched: [0; 7],
             edges: BTreeMap::new(),
         }
@@ -173,6 +175,7 @@ impl Ports {
         let high = self.states[port.index()].driven_high;
         for bit in bits(changed) {
             let place = port.index() * 16 + usize::from(bit);
+            self.changed[place] = cycle;
             if high & (1 << bit) != 0 {
                 self.high_since[place] = cycle;
             } else {
@@ -222,6 +225,11 @@ impl Ports {
         } else {
             Level::of(state.driven_high & pin.mask() != 0).into()
         }
+    }
+
+    /// The cycle at which the chip last began or ceased to drive the pin high, PWM left out.
+    pub(crate) fn changed(&self, pin: Pin) -> u64 {
+        self.changed[pin.index()]
     }
 
     /// For how many cycles the chip has driven the pin high up to `cycle`.
