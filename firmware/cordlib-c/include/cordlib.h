@@ -125,8 +125,8 @@ void cord_event_gyro(double heading, double rate);
 /* Motor currents in amperes. A NaN in any means that there are no readings. */
 void cord_event_currents(double wheel_left, double wheel_right, double brush_main);
 
-/* Battery: charge 0..1, volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. */
-void cord_event_battery(double charge, double voltage, double current, double temperature);
+/* Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. */
+void cord_event_battery(double voltage, double current, double temperature);
 
 /* Left wheel. */
 #define CORD_MOTOR_WHEEL_LEFT 0

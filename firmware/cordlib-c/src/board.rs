@@ -1,11 +1,12 @@
 //! The board that callbacks and pushed inputs make up.
 
 use cord::board::{
-    Absent, BatteryGauge, Beeper, BumperSwitches, Buttons, CleaningMotor, CliffLevels, CliffSensors, Clock,
-    CurrentSense, DockContacts, Emitters, Encoders, HeadingSensor, Lights, Link, Parts, Received,
-    ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Absent, Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
+    CliffLevels, CliffSensors, Clock, CurrentSense, DockContacts, DockRequest, Emitters, Encoders,
+    HeadingSensor, Lights, Link, Parts, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive,
+    WheelDropSwitches, WheelMotors,
 };
-use rvac_protocol::message::{Battery, Bumpers, Cliffs, Currents, Gyro, ResetCause, WheelDrops};
+use rvac_protocol::message::{Bumpers, Cliffs, Currents, Gyro, ResetCause, WheelDrops};
 use rvac_units::{Frequency, Ratio, Throttle, Tick};
 
 use crate::callbacks::callbacks;
@@ -44,13 +45,14 @@ impl Parts for Foreign {
     type BrushMain = ForeignMotor;
     type BrushSides = ForeignMotor;
     type Vacuum = ForeignMotor;
-    type Battery = Foreign;
+    type Charger = Foreign;
     type DockContacts = Foreign;
     type DockBeams = Absent;
     type DustBox = Absent;
     type Beeper = Foreign;
     type Lights = Foreign;
     type Buttons = Foreign;
+    type Probe = Absent;
 }
 
 fn set_motor(motor: i32, throttle: Throttle) {
@@ -191,13 +193,18 @@ impl CurrentSense for Foreign {
     }
 }
 
-impl BatteryGauge for Foreign {
+/// A battery that is only measured: charging is not offered to firmware in C.
+impl Charger for Foreign {
     const PRESENT: bool = true;
     const CHARGES: bool = false;
 
-    fn battery(&mut self) -> Option<Battery> {
+    fn readings(&mut self) -> Option<ChargerReadings> {
         inputs().battery
     }
+
+    fn drive(&mut self, _: ChargeDrive) {}
+
+    fn ask_dock(&mut self, _: DockRequest) {}
 }
 
 /// A cleaning motor by its number.

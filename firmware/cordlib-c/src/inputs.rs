@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use cord::board::{CliffLevels, Received, WheelCounts};
-use rvac_protocol::message::{Battery, Bumpers, ChargeState, Currents, Gyro, WheelDrops};
-use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Voltage};
+use cord::board::{ChargerReadings, CliffLevels, Received, WheelCounts};
+use rvac_protocol::message::{Bumpers, Currents, Gyro, WheelDrops};
+use rvac_units::{Angle, AngularSpeed, Current, Temperature, Voltage};
 
 /// Bytes that fit each queue of the connection.
 pub(crate) const QUEUE_BYTES: usize = 1024;
@@ -23,7 +23,7 @@ pub(crate) struct Inputs {
     pub(crate) docked: bool,
     pub(crate) gyro: Option<Gyro>,
     pub(crate) currents: Option<Currents>,
-    pub(crate) battery: Option<Battery>,
+    pub(crate) battery: Option<ChargerReadings>,
 }
 
 static INPUTS: Mutex<Inputs> = Mutex::new(Inputs {
@@ -147,18 +147,20 @@ pub extern "C" fn cord_event_currents(wheel_left: f64, wheel_right: f64, brush_m
     });
 }
 
-/// Battery: charge 0..1, volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings.
+/// Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings.
 #[unsafe(no_mangle)]
-pub extern "C" fn cord_event_battery(charge: f64, voltage: f64, current: f64, temperature: f64) {
-    let known = [charge, voltage, current, temperature]
+pub extern "C" fn cord_event_battery(voltage: f64, current: f64, temperature: f64) {
+    let known = [voltage, current, temperature]
         .iter()
         .all(|value| !value.is_nan());
-    let millionths = (charge.clamp(0.0, 1.0) * 1e6) as i32;
-    inputs().battery = known.then(|| Battery {
-        charge: Ratio::from_millionths(millionths).unwrap_or_default(),
-        voltage: Voltage::from_v(voltage),
-        current: Current::from_a(current),
-        temperature: Temperature::from_celsius(temperature),
-        state: ChargeState::default(),
+    let mut inputs = inputs();
+    let adapter = inputs.docked;
+    inputs.battery = known.then(|| ChargerReadings {
+        pack_mv: Voltage::from_v(voltage).0,
+        input_mv: Voltage::from_v(voltage).0,
+        current_ma: Current::from_a(current).0,
+        temperature: Ok(Temperature::from_celsius(temperature)),
+        age_ms: 0,
+        adapter,
     });
 }

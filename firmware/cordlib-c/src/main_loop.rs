@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use cord::Cord;
-use cord::board::{Absent, Board, Emitters};
+use cord::board::{Absent, Board, Emitters, HardwareFault};
 
 use crate::board::{
     CORD_MOTOR_BRUSH_MAIN, CORD_MOTOR_BRUSH_SIDES, CORD_MOTOR_VACUUM, CliffView, Foreign, ForeignMotor,
@@ -48,13 +48,14 @@ fn board() -> Board<Foreign> {
         brush_main: ForeignMotor(CORD_MOTOR_BRUSH_MAIN),
         brush_sides: ForeignMotor(CORD_MOTOR_BRUSH_SIDES),
         vacuum: ForeignMotor(CORD_MOTOR_VACUUM),
-        battery: Foreign,
+        charger: Foreign,
         dock_contacts: Foreign,
         dock_beams: Absent,
         dust_box: Absent,
         beeper: Foreign,
         lights: Foreign,
         buttons: Foreign,
+        probe: Absent,
     }
 }
 
@@ -112,7 +113,7 @@ pub extern "C" fn cord_event_exit() {
 /// callback it switches the motors off without the latch.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_hardware_fault() {
-    if with_cord(Cord::hardware_fault).is_none() {
+    if with_cord(|cord| cord.hardware_fault(HardwareFault::Internal)).is_none() {
         board().all_off();
     }
 }

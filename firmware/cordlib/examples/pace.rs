@@ -49,13 +49,14 @@ fn main() {
         brush_main: parts::Brush::default(),
         brush_sides: parts::Brush::default(),
         vacuum: parts::Brush::default(),
-        battery: parts::Pack::default(),
+        charger: parts::Pack::default(),
         dock_contacts: parts::Contacts::default(),
         dock_beams: parts::Beams,
         dust_box: parts::DustBoxSwitch,
         beeper: parts::Speaker::default(),
         lights: parts::Lamps::default(),
         buttons: parts::Keys::default(),
+        probe: cordlib::board::Absent,
     };
     let mut cord = Cord::new(board, Parameters::for_machine("pace", "0", limits));
     let start = Instant::now();

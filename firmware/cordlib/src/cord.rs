@@ -1,13 +1,14 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+    BinaryKinds, Capabilities, Cliffs, Description, Inhibit, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{
-    Board, Clock, Encoders, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelMotors,
+    Board, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive,
+    WheelMotors,
 };
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::floor::FloorWatch;
@@ -234,11 +235,13 @@ impl<P: Parts> Cord<P> {
         self.end(ending);
     }
 
-    /// A hardware fault was found (clock monitor, memory check, a trap that returned): everything off, latched as
-    /// `internal`.
-    pub fn hardware_fault(&mut self) {
-        self.reflexes
-            .latch(rvac_protocol::message::Inhibit::InternalFault);
+    /// The board's own checks found a fault: everything off, latched under its name.
+    pub fn hardware_fault(&mut self, fault: HardwareFault) {
+        self.reflexes.latch(match fault {
+            HardwareFault::Clock => Inhibit::Clock,
+            HardwareFault::Memory => Inhibit::Memory,
+            HardwareFault::Internal => Inhibit::InternalFault,
+        });
         self.stop_all(MoveEnd::Inhibited);
     }
 

@@ -87,6 +87,7 @@ impl<P: Parts> Cord<P> {
             Command::Arm { undock: false, .. } => return self.arm(),
             Command::Clear { inhibit, .. } => return self.clear(*inhibit),
             Command::Set { parameter, value, .. } => return self.set(*parameter, *value, now),
+            Command::Charge { .. } | Command::Probe(_) => return Err(Refusal::Absent),
             Command::Hello(_)
             | Command::Hand
             | Command::Describe { .. }

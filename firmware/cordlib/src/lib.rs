@@ -8,6 +8,7 @@
 #![deny(missing_docs)]
 
 pub mod board;
+mod charge;
 mod cleaning;
 mod cord;
 mod dispatch;
@@ -29,5 +30,5 @@ mod transmitter;
 mod watch;
 
 pub use cord::Cord;
-pub use parameters::{GuardParameters, MotionParameters, Parameters, WheelParameters};
+pub use parameters::{GuardParameters, MotionParameters, PackParameters, Parameters, WheelParameters};
 pub use permit::Standing;

@@ -21,6 +21,8 @@ pub struct Parameters {
     pub motion: MotionParameters,
     /// Electrical limits and sensor thresholds.
     pub guard: GuardParameters,
+    /// The battery.
+    pub pack: PackParameters,
 }
 
 /// Speed control of one wheel.
@@ -60,6 +62,15 @@ pub struct GuardParameters {
     pub floor_level_min: u16,
 }
 
+/// The battery pack: NiMH cells in series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PackParameters {
+    /// Cells in series, 1..=20.
+    pub cells: u8,
+    /// What a new pack holds, in mAh.
+    pub capacity_mah: u16,
+}
+
 impl Parameters {
     /// Usual values for a machine with these names and this geometry. Gains suit a wheel that reaches 1.3 times the
     /// highest speed at full duty.
@@ -87,6 +98,10 @@ impl Parameters {
                 wheel_current_max: Current(1_500),
                 brush_current_max: Current(2_000),
                 floor_level_min: 100,
+            },
+            pack: PackParameters {
+                cells: 12,
+                capacity_mah: 2_000,
             },
         }
     }

@@ -1,12 +1,13 @@
 //! Telemetry: `state` and `info` at their periods, edges when something changes, log lines when there are any.
 
 use rvac_protocol::message::{
-    Bumpers, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
+    Battery, Bumpers, ChargeState, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
 };
 use rvac_protocol::session::Mode;
-use rvac_units::Tick;
+use rvac_units::{Current, Tick, Voltage};
 
-use crate::board::{BatteryGauge, DockBeams, DustBox, Parts, ProximitySensors};
+use crate::board::{Charger, DockBeams, DustBox, Parts, ProximitySensors};
+use crate::charge::charge_of;
 use crate::cord::{Cord, name};
 use crate::rate::Rate;
 use crate::reflex::Reflexes;
@@ -189,15 +190,27 @@ impl<P: Parts> Cord<P> {
             firmware_version: name(self.parameters.firmware),
             cordlib_version: name(VERSION),
             main_steps_hz: self.reporter.steps.per_second(),
-            battery: self.board.battery.battery(),
+            battery: self.battery(),
             bandwidth_in: self.reporter.bytes_in.per_second(),
             bandwidth_out: self.reporter.bytes_out.per_second(),
             link: self.session.counters(),
         }
     }
 
+    fn battery(&mut self) -> Option<Battery> {
+        let readings = self.board.charger.readings()?;
+        Some(Battery {
+            charge: charge_of(readings.pack_mv, self.parameters.pack.cells),
+            voltage: Voltage(readings.pack_mv),
+            current: Current(readings.current_ma),
+            temperature: readings.temperature.unwrap_or_default(),
+            state: ChargeState::Discharging,
+            charger: None,
+        })
+    }
+
     fn state(&mut self, now: Tick) -> State {
-        let battery = self.board.battery.battery();
+        let battery = self.battery();
         State {
             tick: now,
             count_left: self.senses.counts.left,

@@ -81,13 +81,14 @@ impl Parts for Minimal {
     type BrushMain = Absent;
     type BrushSides = Absent;
     type Vacuum = Absent;
-    type Battery = Absent;
+    type Charger = Absent;
     type DockContacts = Absent;
     type DockBeams = Absent;
     type DustBox = Absent;
     type Beeper = Absent;
     type Lights = Absent;
     type Buttons = Absent;
+    type Probe = Absent;
 }
 
 const LIMITS: Limits = Limits {
@@ -116,13 +117,14 @@ fn minimal() -> Board<Minimal> {
         brush_main: Absent,
         brush_sides: Absent,
         vacuum: Absent,
-        battery: Absent,
+        charger: Absent,
         dock_contacts: Absent,
         dock_beams: Absent,
         dust_box: Absent,
         beeper: Absent,
         lights: Absent,
         buttons: Absent,
+        probe: Absent,
     }
 }
 

@@ -617,7 +617,7 @@ fn stop_is_obeyed_and_needs_arming() {
 #[test]
 fn a_hardware_fault_stops_everything_and_is_latched() {
     let mut rig = cleaning(0);
-    rig.cord.hardware_fault();
+    rig.cord.hardware_fault(cordlib::board::HardwareFault::Internal);
     assert!(rig.wheels_off() && rig.cleaners_off());
     rig.run(500);
     assert!(rig.wheels_off() && rig.has(Inhibit::InternalFault));

@@ -7,18 +7,18 @@ use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use cordlib::board::{
-    Absent, BatteryGauge, Beeper, Board, BumperSwitches, Buttons, CleaningMotor, CliffLevels, CliffSensors,
-    Clock, CurrentSense, DockBeams, DockContacts, DustBox, Emitters, Encoders, HeadingSensor, Lights, Link,
+    Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels, CliffSensors,
+    Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders, HeadingSensor, Lights, Link, Probe,
     Parts, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
     WheelMotors,
 };
 use cordlib::{Cord, Parameters};
 use rvac_protocol::message::{
-    Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Gyro, Limits, PROXIMITY_SENSORS,
+    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS, PROBE_PORTS, PROXIMITY_SENSORS, Refusal,
     ResetCause, WheelDrops,
 };
 use rvac_units::{
-    Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Temperature, Throttle, Tick, Voltage,
+    Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Temperature, Throttle, Tick,
 };
 
 static CELL: AtomicU32 = AtomicU32::new(0);
@@ -55,13 +55,14 @@ impl Parts for Cell {
     type BrushMain = Cell;
     type BrushSides = Cell;
     type Vacuum = Cell;
-    type Battery = Cell;
+    type Charger = Cell;
     type DockContacts = Cell;
     type DockBeams = Cell;
     type DustBox = Absent;
     type Beeper = Cell;
     type Lights = Cell;
     type Buttons = Cell;
+    type Probe = Cell;
 }
 
 impl Clock for Cell {
@@ -204,18 +205,76 @@ impl CleaningMotor for Cell {
     }
 }
 
-impl BatteryGauge for Cell {
+impl Charger for Cell {
     const PRESENT: bool = true;
-    const CHARGES: bool = false;
+    const CHARGES: bool = true;
 
-    fn battery(&mut self) -> Option<Battery> {
-        Some(Battery {
-            charge: Ratio::ONE,
-            voltage: Voltage(read() as i32),
-            current: Current(read() as i32),
-            temperature: Temperature(read() as i16),
-            state: ChargeState::Discharging,
+    fn readings(&mut self) -> Option<ChargerReadings> {
+        Some(ChargerReadings {
+            pack_mv: read() as i32,
+            input_mv: read() as i32,
+            current_ma: read() as i32,
+            temperature: Ok(Temperature(read() as i16)),
+            age_ms: read(),
+            adapter: bit(7),
         })
+    }
+
+    fn drive(&mut self, drive: ChargeDrive) {
+        write(match drive {
+            ChargeDrive::Off => 0,
+            ChargeDrive::Duty(duty) => duty.millionths() as u32,
+        });
+    }
+
+    fn ask_dock(&mut self, request: DockRequest) {
+        write(request as u32);
+    }
+}
+
+impl Probe for Cell {
+    const PRESENT: bool = true;
+
+    fn analog(&mut self) -> [u16; PROBE_CHANNELS] {
+        core::array::from_fn(|_| read() as u16)
+    }
+
+    fn encoders(&mut self) -> EncoderProbe {
+        EncoderProbe {
+            left: read() as i32,
+            right: read() as i32,
+            left_illegal: read(),
+            right_illegal: read(),
+        }
+    }
+
+    fn lines(&mut self) -> [u16; PROBE_PORTS] {
+        core::array::from_fn(|_| read() as u16)
+    }
+
+    fn buttons(&mut self) -> ButtonProbe {
+        ButtonProbe {
+            level: read() as u16,
+            pressed: bit(8),
+        }
+    }
+
+    fn open_serial(&mut self, port: u8, baud: u32) -> Result<(), Refusal> {
+        write(u32::from(port) ^ baud);
+        if bit(9) { Ok(()) } else { Err(Refusal::Absent) }
+    }
+
+    fn read_serial(&mut self, bytes: &mut [u8]) -> usize {
+        bytes.fill(read() as u8);
+        bytes.len()
+    }
+
+    fn serial_lost(&mut self) -> u32 {
+        read()
+    }
+
+    fn close_serial(&mut self) {
+        write(0);
     }
 }
 
@@ -284,13 +343,14 @@ fn board() -> Board<Cell> {
         brush_main: Cell,
         brush_sides: Cell,
         vacuum: Cell,
-        battery: Cell,
+        charger: Cell,
         dock_contacts: Cell,
         dock_beams: Cell,
         dust_box: Absent,
         beeper: Cell,
         lights: Cell,
         buttons: Cell,
+        probe: Cell,
     }
 }
 

@@ -121,6 +121,15 @@ pub fn seal(direction: Direction, session: u16, packet: &[u8]) -> u32 {
     digest.seal()
 }
 
+/// CRC-32C of bytes that are no packet (an image in flash, a record), piece by piece: starts with `u32::MAX`, goes on with
+/// what the last piece gave, and its complement is the check value.
+#[must_use]
+pub fn crc32c(register: u32, bytes: &[u8]) -> u32 {
+    bytes
+        .iter()
+        .fold(register, |register, byte| step(register, *byte))
+}
+
 #[inline]
 fn step(register: u32, byte: u8) -> u32 {
     (register >> 8) ^ table(0, (register as u8) ^ byte)

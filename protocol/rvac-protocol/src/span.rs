@@ -37,6 +37,10 @@ pub const SPEED: Span = Span::new(6, -2_000_000, 2_000_000);
 pub const TURN: Span = Span::new(6, -8_000_000, 8_000_000);
 /// Life of a motion command, ms.
 pub const LEASE: Span = Span::new(0, 1, 1_000);
+/// Life of a probe, ms; 0 = one answer.
+pub const PROBE_LEASE: Span = Span::new(0, 0, 1_000);
+/// Rate of a serial port, bits a second.
+pub const BAUD: Span = Span::new(0, 300, 1_000_000);
 /// Throttle of a motor.
 pub const THROTTLE: Span = Span::new(6, -1_000_000, 1_000_000);
 /// Length of a `move`, m (rad on the spot).

@@ -1,14 +1,12 @@
 //! A robot whose firmware runs in a simulated home.
 
 use cordlib::Cord;
-use cordlib::board::{CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
+use cordlib::board::{ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
 use home::{Actuation, Bridge, RobotModel, Sensors, World};
 use monitor::{Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
-use rvac_protocol::message::{
-    Battery, Bumpers, ChargeState, Currents, Gyro, Inhibits, ResetCause, WheelDrops,
-};
-use rvac_units::{Ratio, Throttle, Tick};
+use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
+use rvac_units::{Throttle, Tick};
 
 use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
 use crate::digest::Digest;
@@ -132,7 +130,6 @@ impl SimulatedRobot {
 
     fn read_pins(&mut self) {
         let sensors = self.world.sensors();
-        let charge = self.world.truth().battery_charge;
         let board = self.cord.board_mut();
         board.clock.tick = Tick((self.now_ms - self.reset_ms) as u32);
         board.encoders.counts = WheelCounts {
@@ -158,7 +155,7 @@ impl SimulatedRobot {
             wheel_right: sensors.wheel_right_current,
             brush_main: sensors.brush_main_current,
         });
-        board.battery.battery = Some(battery(sensors, charge));
+        board.charger.readings = Some(charger_readings(sensors));
         board.dock_contacts.closed = sensors.dock_contacts;
         board.dock_beams.symbols = sensors.dock_receivers;
         board.dust_box.inserted = sensors.dust_box;
@@ -359,16 +356,13 @@ fn cliff_levels(sensors: &Sensors) -> CliffLevels {
     CliffLevels { left, middle, right }
 }
 
-fn battery(sensors: &Sensors, charge: f64) -> Battery {
-    Battery {
-        charge: Ratio::from_millionths((charge * 1e6) as i32).unwrap_or(Ratio::ZERO),
-        voltage: sensors.battery_voltage,
-        current: sensors.battery_current,
-        temperature: sensors.battery_temperature,
-        state: match sensors.dock_contacts {
-            false => ChargeState::Discharging,
-            true if sensors.battery_current.0 > 0 => ChargeState::Charging,
-            true => ChargeState::Full,
-        },
+fn charger_readings(sensors: &Sensors) -> ChargerReadings {
+    ChargerReadings {
+        pack_mv: sensors.battery_voltage.0,
+        input_mv: sensors.battery_voltage.0,
+        current_ma: sensors.battery_current.0,
+        temperature: Ok(sensors.battery_temperature),
+        age_ms: 0,
+        adapter: sensors.dock_contacts,
     }
 }

@@ -1,14 +1,15 @@
 //! The part that is not there.
 
 use rvac_protocol::message::{
-    Battery, Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, WheelDrops,
+    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, PROBE_CHANNELS, PROBE_PORTS,
+    PROXIMITY_SENSORS, Refusal, WheelDrops,
 };
 use rvac_units::{Frequency, Ratio, Throttle};
 
 use super::{
-    BatteryGauge, Beeper, BumperSwitches, Buttons, CleaningMotor, CliffLevels, CliffSensors, CurrentSense,
-    DockBeams, DockContacts, DustBox, Emitters, Encoders, HeadingSensor, Lights, ProximitySensors,
-    WheelCounts, WheelDropSwitches,
+    Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
+    CliffSensors, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
+    HeadingSensor, Lights, Probe, ProximitySensors, WheelCounts, WheelDropSwitches,
 };
 
 /// Stands for a part the machine lacks. Commands to it are refused as `absent`, and the description says so.
@@ -83,13 +84,51 @@ impl CurrentSense for Absent {
     }
 }
 
-impl BatteryGauge for Absent {
+impl Charger for Absent {
     const PRESENT: bool = false;
     const CHARGES: bool = false;
 
-    fn battery(&mut self) -> Option<Battery> {
+    fn readings(&mut self) -> Option<ChargerReadings> {
         None
     }
+
+    fn drive(&mut self, _: ChargeDrive) {}
+
+    fn ask_dock(&mut self, _: DockRequest) {}
+}
+
+impl Probe for Absent {
+    const PRESENT: bool = false;
+
+    fn analog(&mut self) -> [u16; PROBE_CHANNELS] {
+        [0; PROBE_CHANNELS]
+    }
+
+    fn encoders(&mut self) -> EncoderProbe {
+        EncoderProbe::default()
+    }
+
+    fn lines(&mut self) -> [u16; PROBE_PORTS] {
+        [0; PROBE_PORTS]
+    }
+
+    fn buttons(&mut self) -> ButtonProbe {
+        ButtonProbe::default()
+    }
+
+    fn open_serial(&mut self, _: u8, _: u32) -> Result<(), Refusal> {
+        Err(Refusal::Absent)
+    }
+
+    fn read_serial(&mut self, _: &mut [u8]) -> usize {
+        0
+    }
+
+    fn serial_lost(&mut self) -> u32 {
+        0
+    }
+
+    fn close_serial(&mut self) {}
 }
 
 impl CleaningMotor for Absent {

@@ -21,6 +21,7 @@ mod ground;
 mod link;
 mod panel;
 mod power;
+mod probe;
 mod ranging;
 mod supervision;
 mod wheels;
@@ -33,9 +34,10 @@ pub use dock::{DockBeams, DockContacts};
 pub use ground::{CliffLevels, CliffSensors, Emitters};
 pub use link::{Link, Received};
 pub use panel::{Beeper, Buttons, Lights};
-pub use power::{BatteryGauge, CurrentSense};
+pub use power::{ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, ThermistorFault};
+pub use probe::Probe;
 pub use ranging::{HeadingSensor, ProximitySensors};
-pub use supervision::{ResetRecord, Watchdog};
+pub use supervision::{HardwareFault, ResetRecord, Watchdog};
 pub use wheels::{Encoders, WheelCounts, WheelDrive, WheelMotors};
 
 use rvac_protocol::message::Capabilities;
@@ -74,8 +76,8 @@ pub trait Parts {
     type BrushSides: CleaningMotor;
     /// Suction.
     type Vacuum: CleaningMotor;
-    /// Battery measurement.
-    type Battery: BatteryGauge;
+    /// Battery measurement and charger.
+    type Charger: Charger;
     /// Dock contacts.
     type DockContacts: DockContacts;
     /// Dock beam receivers.
@@ -88,6 +90,8 @@ pub trait Parts {
     type Lights: Lights;
     /// Buttons.
     type Buttons: Buttons;
+    /// Raw readings.
+    type Probe: Probe;
 }
 
 /// The parts of one machine.
@@ -111,13 +115,14 @@ pub struct Board<P: Parts> {
     pub brush_main: P::BrushMain,
     pub brush_sides: P::BrushSides,
     pub vacuum: P::Vacuum,
-    pub battery: P::Battery,
+    pub charger: P::Charger,
     pub dock_contacts: P::DockContacts,
     pub dock_beams: P::DockBeams,
     pub dust_box: P::DustBox,
     pub beeper: P::Beeper,
     pub lights: P::Lights,
     pub buttons: P::Buttons,
+    pub probe: P::Probe,
 }
 
 impl<P: Parts> core::fmt::Debug for Board<P> {
@@ -127,13 +132,14 @@ impl<P: Parts> core::fmt::Debug for Board<P> {
 }
 
 impl<P: Parts> Board<P> {
-    /// Brakes the wheels and switches off every motor and the sound. The one place where motion ends, whoever asks:
+    /// Brakes the wheels and switches off every motor, the charger and the sound. The one place where motion ends, whoever asks:
     /// reflexes, `stop`, hardware faults. A panic handler that has no `Cord` at hand rebuilds the parts and calls this.
     pub fn all_off(&mut self) {
         self.wheels.drive(WheelDrive::Brake, WheelDrive::Brake);
         self.brush_main.set(Throttle::ZERO);
         self.brush_sides.set(Throttle::ZERO);
         self.vacuum.set(Throttle::ZERO);
+        self.charger.drive(ChargeDrive::Off);
         self.beeper.silence();
     }
 
@@ -156,8 +162,9 @@ impl<P: Parts> Board<P> {
             brush_sides: P::BrushSides::PRESENT,
             vacuum: P::Vacuum::PRESENT,
             currents: P::Currents::PRESENT,
-            battery: P::Battery::PRESENT,
-            charger: P::Battery::CHARGES,
+            battery: P::Charger::PRESENT,
+            charger: P::Charger::CHARGES,
+            probe: P::Probe::PRESENT,
         }
     }
 }

@@ -30,4 +30,10 @@ pub trait Buttons {
 
     /// Buttons that are down now, bit by number, not debounced.
     fn down(&mut self) -> u8;
+
+    /// Whether any button is down. A board that can tell this without knowing which (S28 before the buttons are
+    /// calibrated) says so here.
+    fn any_down(&mut self) -> bool {
+        self.down() != 0
+    }
 }

@@ -1,6 +1,7 @@
-//! Currents and the battery.
+//! Currents, the battery and the charger.
 
-use rvac_protocol::message::{Battery, Currents};
+use rvac_protocol::message::Currents;
+use rvac_units::{Ratio, Temperature};
 
 /// Measurement of motor currents.
 pub trait CurrentSense {
@@ -11,13 +12,74 @@ pub trait CurrentSense {
     fn currents(&mut self) -> Option<Currents>;
 }
 
-/// Measurement of the battery, and what the charger does.
-pub trait BatteryGauge {
+/// One look at the pack and at what feeds it. Raw conversions, not averaged: the charger wants the dither.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChargerReadings {
+    /// At the pack's terminals, in mV.
+    pub pack_mv: i32,
+    /// At the charger's side of the shunt, in mV: the supply's voltage while current flows, the pack's else.
+    pub input_mv: i32,
+    /// Through the shunt into the pack, in mA; what the board knows of the zero is taken off.
+    pub current_ma: i32,
+    /// Of the pack.
+    pub temperature: Result<Temperature, ThermistorFault>,
+    /// How long ago the converter took these, in ms.
+    pub age_ms: u32,
+    /// The supply is on the contacts now (not as old as the rest).
+    pub adapter: bool,
+}
+
+/// What is wrong with the measurement of the pack's temperature. A board reports the first two, from the raw count; the
+/// rest is found here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ThermistorFault {
+    /// Not connected.
+    Open,
+    /// The line is shorted.
+    Shorted,
+    /// Outside of what a pack can have.
+    Range,
+    /// Changed faster than a pack can.
+    Jump,
+    /// Does not change though the pack is charged.
+    Frozen,
+}
+
+/// What the charger's switch does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ChargeDrive {
+    /// No current.
+    #[default]
+    Off,
+    /// Conducts for this share of the board's envelope. Never above 95 %, so that the board always finds quiet time for
+    /// its converter, and never 0.
+    Duty(Ratio),
+}
+
+/// What the dock is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DockRequest {
+    /// Nothing: no code is sent.
+    #[default]
+    Silent,
+    /// Full current: the board sends its code while this holds.
+    Current,
+}
+
+/// The battery's measurement, and the switch that charges it. Regulation, limits and all decisions are this crate's
+/// (`charge`); the board only measures and gates.
+pub trait Charger {
     /// Whether the battery is measured.
     const PRESENT: bool;
     /// Whether this firmware controls the charger.
     const CHARGES: bool;
 
-    /// The newest readings, or `None` when there are none.
-    fn battery(&mut self) -> Option<Battery>;
+    /// The newest readings, or `None` when there never were any. Called once a pass.
+    fn readings(&mut self) -> Option<ChargerReadings>;
+
+    /// Sets the switch. Called when it changes. [`ChargeDrive::Off`] takes effect before this returns.
+    fn drive(&mut self, drive: ChargeDrive);
+
+    /// Asks the dock for current, or stops asking. Called when it changes. A board whose dock needs no asking does nothing.
+    fn ask_dock(&mut self, request: DockRequest);
 }

@@ -23,3 +23,14 @@ pub trait Watchdog {
     /// Feeds it. Called from the main loop only, and only when every supervisor has checked in.
     fn feed(&mut self);
 }
+
+/// What a board's own checks found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HardwareFault {
+    /// The oscillator failed, or two clocks disagree (S20).
+    Clock,
+    /// Flash, memory or stack failed a check (S21).
+    Memory,
+    /// A trap that returned, or anything else that cannot be.
+    Internal,
+}

@@ -100,13 +100,14 @@ fn board() -> Board<Memory> {
         brush_main: parts::Brush::default(),
         brush_sides: parts::Brush::default(),
         vacuum: parts::Brush::default(),
-        battery: parts::Pack::default(),
+        charger: parts::Pack::default(),
         dock_contacts: parts::Contacts::default(),
         dock_beams: parts::Beams,
         dust_box: parts::DustBoxSwitch,
         beeper: parts::Speaker::default(),
         lights: parts::Lamps::default(),
         buttons: parts::Keys::default(),
+        probe: cordlib::board::Absent,
     }
 }
 

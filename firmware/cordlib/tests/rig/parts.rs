@@ -4,13 +4,13 @@ use std::cell::Cell;
 use std::collections::VecDeque;
 
 use cordlib::board::{
-    BatteryGauge, Beeper, BumperSwitches, Buttons, CleaningMotor, CliffLevels, CliffSensors, Clock,
-    CurrentSense, DockBeams, DockContacts, DustBox, Emitters, Encoders, HeadingSensor, Lights, Link, Parts,
-    ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
-    WheelMotors,
+    Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
+    CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
+    HeadingSensor, Lights, Link, Parts, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts,
+    WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{
-    Battery, Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, ResetCause, WheelDrops,
+    Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, ResetCause, WheelDrops,
 };
 use rvac_units::{Frequency, Ratio, Throttle, Tick};
 
@@ -57,13 +57,14 @@ impl Parts for Memory {
     type BrushMain = Brush;
     type BrushSides = Brush;
     type Vacuum = Brush;
-    type Battery = Pack;
+    type Charger = Pack;
     type DockContacts = Contacts;
     type DockBeams = Beams;
     type DustBox = DustBoxSwitch;
     type Beeper = Speaker;
     type Lights = Lamps;
     type Buttons = Keys;
+    type Probe = cordlib::board::Absent;
 }
 
 #[derive(Debug, Default)]
@@ -281,15 +282,29 @@ impl CleaningMotor for Brush {
 }
 
 #[derive(Debug, Default)]
-pub struct Pack(pub Option<Battery>);
+pub struct Pack {
+    pub readings: Option<ChargerReadings>,
+    pub drive: ChargeDrive,
+    pub request: DockRequest,
+}
 
-impl BatteryGauge for Pack {
+impl Charger for Pack {
     const PRESENT: bool = true;
-    const CHARGES: bool = false;
+    const CHARGES: bool = true;
 
-    fn battery(&mut self) -> Option<Battery> {
+    fn readings(&mut self) -> Option<ChargerReadings> {
         called();
-        self.0
+        self.readings
+    }
+
+    fn drive(&mut self, drive: ChargeDrive) {
+        called();
+        self.drive = drive;
+    }
+
+    fn ask_dock(&mut self, request: DockRequest) {
+        called();
+        self.request = request;
     }
 }
 

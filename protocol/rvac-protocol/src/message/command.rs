@@ -2,7 +2,7 @@
 
 use rvac_units::{AngularSpeed, Frequency, Length, Ratio, Speed, Throttle, Tick};
 
-use super::{BinaryKinds, CommandName, Inhibit, ProtocolVersion};
+use super::{BinaryKinds, CommandName, Inhibit, Probe, ProtocolVersion};
 
 /// Rising number of a command, modulo 65,536.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -85,6 +85,15 @@ pub enum Command {
         /// Number of the newest edge of an unbroken row.
         edge: u16,
     },
+    /// Asks for a full charge now, or forbids charging until it is asked for again. Acknowledged.
+    Charge {
+        /// Number for the acknowledgement.
+        sequence: Sequence,
+        /// Charge now, else not at all.
+        wanted: bool,
+    },
+    /// Asks for raw readings. Acknowledged.
+    Probe(Probe),
 }
 
 impl Command {
@@ -108,6 +117,8 @@ impl Command {
             Self::Set { .. } => CommandName::Set,
             Self::Ping { .. } => CommandName::Ping,
             Self::Seen { .. } => CommandName::Seen,
+            Self::Charge { .. } => CommandName::Charge,
+            Self::Probe(_) => CommandName::Probe,
         }
     }
 
@@ -121,7 +132,9 @@ impl Command {
             Self::Arm { sequence, .. }
             | Self::Clear { sequence, .. }
             | Self::Set { sequence, .. }
-            | Self::Ping { sequence } => Some(*sequence),
+            | Self::Ping { sequence }
+            | Self::Charge { sequence, .. } => Some(*sequence),
+            Self::Probe(probe) => Some(probe.sequence),
             Self::Hello(_)
             | Self::Hand
             | Self::Describe { .. }
@@ -139,7 +152,13 @@ impl Command {
     pub const fn must_arrive(&self) -> bool {
         matches!(
             self,
-            Self::Move(_) | Self::Arm { .. } | Self::Clear { .. } | Self::Set { .. } | Self::Ping { .. }
+            Self::Move(_)
+                | Self::Arm { .. }
+                | Self::Clear { .. }
+                | Self::Set { .. }
+                | Self::Ping { .. }
+                | Self::Charge { .. }
+                | Self::Probe(_)
         )
     }
 }

@@ -38,11 +38,15 @@ pub enum CommandName {
     Ping = 14,
     /// `seen`
     Seen = 15,
+    /// `charge`
+    Charge = 16,
+    /// `probe`
+    Probe = 17,
 }
 
 impl CommandName {
     /// All of them, in the order of their bits.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Hello,
         Self::Hand,
         Self::Describe,
@@ -59,6 +63,8 @@ impl CommandName {
         Self::Set,
         Self::Ping,
         Self::Seen,
+        Self::Charge,
+        Self::Probe,
     ];
 
     /// The word on the wire.
@@ -81,6 +87,8 @@ impl CommandName {
             Self::Set => "set",
             Self::Ping => "ping",
             Self::Seen => "seen",
+            Self::Charge => "charge",
+            Self::Probe => "probe",
         }
     }
 
@@ -104,6 +112,8 @@ impl CommandName {
             b"set" => Self::Set,
             b"ping" => Self::Ping,
             b"seen" => Self::Seen,
+            b"charge" => Self::Charge,
+            b"probe" => Self::Probe,
             _ => return None,
         })
     }

@@ -159,6 +159,8 @@ pub struct Capabilities {
     pub battery: bool,
     /// The firmware charges.
     pub charger: bool,
+    /// Raw readings can be asked for.
+    pub probe: bool,
 }
 
 /// Geometry and limits.

@@ -40,11 +40,31 @@ pub enum Inhibit {
     Stopped = 16,
     /// A self-check of the firmware failed (S21, S22). Latched.
     InternalFault = 17,
+    /// The pack is below 1.1 V a cell (S16): go to the dock. Forbids nothing yet.
+    BatteryLow = 18,
+    /// The pack is below 1.0 V a cell (S16): brushes and suction are off.
+    BatteryWeak = 19,
+    /// The pack is below 0.9 V a cell (S16): everything is off.
+    BatteryEmpty = 20,
+    /// The pack is hotter than 55 degrees (S17): motors are off until it has cooled.
+    BatteryHot = 21,
+    /// The pack was hotter than 60 degrees (S17). Latched.
+    BatteryOverheated = 22,
+    /// The pack's temperature cannot be measured (S17). Latched.
+    Thermistor = 23,
+    /// The charger has found a fault (S18), which `info` names: no charging. Forbids no motion. Latched.
+    ChargerFault = 24,
+    /// Current flows into the pack though the charger is off (S18): stay off the dock. Forbids no motion. Latched.
+    ChargerShorted = 25,
+    /// The clock failed, or two clocks disagree (S20). Latched.
+    Clock = 26,
+    /// Memory failed its check (S21). Latched.
+    Memory = 27,
 }
 
 impl Inhibit {
     /// All of them, in the order of their bits.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 28] = [
         Self::NotArmed,
         Self::ResetLoop,
         Self::LinkLost,
@@ -63,6 +83,16 @@ impl Inhibit {
         Self::ButtonStop,
         Self::Stopped,
         Self::InternalFault,
+        Self::BatteryLow,
+        Self::BatteryWeak,
+        Self::BatteryEmpty,
+        Self::BatteryHot,
+        Self::BatteryOverheated,
+        Self::Thermistor,
+        Self::ChargerFault,
+        Self::ChargerShorted,
+        Self::Clock,
+        Self::Memory,
     ];
 
     /// The name on the wire, in logs and in every client.
@@ -87,6 +117,16 @@ impl Inhibit {
             Self::ButtonStop => "button-stop",
             Self::Stopped => "stopped",
             Self::InternalFault => "internal",
+            Self::BatteryLow => "battery-low",
+            Self::BatteryWeak => "battery-weak",
+            Self::BatteryEmpty => "battery-empty",
+            Self::BatteryHot => "battery-hot",
+            Self::BatteryOverheated => "battery-overheated",
+            Self::Thermistor => "thermistor",
+            Self::ChargerFault => "charger-fault",
+            Self::ChargerShorted => "charger-shorted",
+            Self::Clock => "clock",
+            Self::Memory => "memory",
         }
     }
 
@@ -111,6 +151,12 @@ impl Inhibit {
                 | Self::Runaway
                 | Self::EncoderFault
                 | Self::InternalFault
+                | Self::BatteryOverheated
+                | Self::Thermistor
+                | Self::ChargerFault
+                | Self::ChargerShorted
+                | Self::Clock
+                | Self::Memory
         )
     }
 }
@@ -133,6 +179,12 @@ impl Inhibits {
     #[must_use]
     pub const fn bits(self) -> u32 {
         self.0
+    }
+
+    /// The members of this set that are not in `other`.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
     }
 
     /// Whether nothing inhibits.

@@ -1,11 +1,14 @@
 //! What the two sides can say, as closed types. Text and binary forms are two spellings of these.
 
+mod charge;
 mod command;
 mod describe;
 mod identity;
 mod inhibit;
+mod probe;
 mod report;
 
+pub use charge::{ChargeEnd, ChargeFault, ChargePhase, ChargerStatus};
 pub use command::{
     Beep, Command, Drive, HostHello, Led, LedPattern, Motor, MotorCommand, Move, Parameter, Sequence,
 };
@@ -14,6 +17,10 @@ pub use identity::{
     BinaryKinds, Capabilities, Description, Limits, Name, ProtocolVersion, ResetCause, RobotHello,
 };
 pub use inhibit::{Inhibit, Inhibits};
+pub use probe::{
+    ButtonProbe, EncoderProbe, PROBE_BYTES, PROBE_CHANNELS, PROBE_LEASE_MS_MAX, PROBE_PORTS, Probe,
+    ProbeTarget, Probed, ProbedContent, SerialProbe,
+};
 pub use report::{
     Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Edge, EdgeKind, Gyro,
     Info, LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, PROXIMITY_SENSORS, Refusal, Report, State,

@@ -3,7 +3,7 @@
 use heapless::String;
 use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Tick, Voltage};
 
-use super::{Inhibits, Motor, Name, RobotHello, Sequence};
+use super::{ChargerStatus, Inhibits, Motor, Name, Probed, RobotHello, Sequence};
 
 /// Most proximity sensors a report can carry.
 pub const PROXIMITY_SENSORS: usize = 8;
@@ -26,6 +26,8 @@ pub enum Report {
     Edge(Edge),
     /// Answer to a numbered command.
     Acknowledgement(Acknowledgement),
+    /// A raw reading that was asked for.
+    Probed(Probed),
     /// A line of text for people.
     Log {
         /// How grave.
@@ -86,6 +88,8 @@ pub struct Battery {
     pub temperature: Temperature,
     /// What the charger does.
     pub state: ChargeState,
+    /// More about the charger, where the firmware controls it.
+    pub charger: Option<ChargerStatus>,
 }
 
 /// What the charger does.

@@ -6,7 +6,7 @@ use super::fields::{Fields, UnknownKeys, lists};
 use super::scan::{Members, Value};
 use crate::message::{
     Beep, BinaryKinds, Command, CommandName, Drive, HostHello, Inhibit, Led, LedPattern, Motor, MotorCommand,
-    Move, Parameter, ProtocolVersion, Refusal, Sequence,
+    Move, PROBE_LEASE_MS_MAX, Parameter, Probe, ProbeTarget, ProtocolVersion, Refusal, Sequence,
 };
 use crate::span;
 
@@ -72,6 +72,8 @@ fn read(text: &[u8], form: Form) -> Read {
         CommandName::Set => read_set(text, form),
         CommandName::Ping => read_ping(text, form),
         CommandName::Seen => read_seen(text),
+        CommandName::Charge => read_charge(text, form),
+        CommandName::Probe => read_probe(text, form),
     }
 }
 
@@ -280,4 +282,42 @@ fn read_seen(text: &[u8]) -> Read {
     Ok(Command::Seen {
         edge: fields.word(1, span::WORD)?,
     })
+}
+
+fn read_charge(text: &[u8], form: Form) -> Read {
+    let fields = Fields::read(text, ["c", "on", "n"], UnknownKeys::Ignore)?;
+    Ok(Command::Charge {
+        wanted: fields.flag(1)?,
+        sequence: read_sequence(&fields, 2, form)?,
+    })
+}
+
+fn read_probe(text: &[u8], form: Form) -> Read {
+    let fields = Fields::read(text, ["c", "of", "port", "baud", "ttl", "n"], UnknownKeys::Ignore)?;
+    let target = match fields.text(1)? {
+        b"analog" => ProbeTarget::Analog,
+        b"encoders" => ProbeTarget::Encoders,
+        b"lines" => ProbeTarget::Lines,
+        b"buttons" => ProbeTarget::Buttons,
+        b"serial" => ProbeTarget::Serial {
+            port: fields.byte(2)?,
+            baud: u32::try_from(fields.number(3, span::BAUD)?).map_err(|_| Refusal::Range)?,
+        },
+        _ => return Err(Refusal::Unknown),
+    };
+    let is_serial = matches!(target, ProbeTarget::Serial { .. });
+    let lease_ms = match (fields.has(4), is_serial) {
+        (true, _) => fields.word(4, span::PROBE_LEASE)?,
+        (false, true) => PROBE_LEASE_MS_MAX,
+        (false, false) => 0,
+    };
+    // Bytes come in the course of time: a serial port has no single answer.
+    if is_serial && lease_ms == 0 {
+        return Err(Refusal::Range);
+    }
+    Ok(Command::Probe(Probe {
+        target,
+        lease_ms,
+        sequence: read_sequence(&fields, 5, form)?,
+    }))
 }

@@ -2,7 +2,7 @@
 
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
-use crate::message::{BinaryKinds, Command, Parameter, Sequence};
+use crate::message::{BinaryKinds, Command, Parameter, Probe, ProbeTarget, Sequence};
 use crate::seal::Direction;
 use crate::span;
 
@@ -80,11 +80,35 @@ fn write_members(command: &Command, object: &mut ObjectWriter<'_>) {
         }
         Command::Ping { sequence } => write_sequence(object, *sequence),
         Command::Seen { edge } => object.number("n", *edge, span::WORD),
+        Command::Charge { sequence, wanted } => write_sequence(object.flag("on", *wanted), *sequence),
+        Command::Probe(probe) => write_probe(object, probe),
     };
 }
 
 fn write_sequence<'o, 'b>(object: &'o mut ObjectWriter<'b>, sequence: Sequence) -> &'o mut ObjectWriter<'b> {
     object.number("n", sequence.0, span::WORD)
+}
+
+fn write_probe<'o, 'b>(object: &'o mut ObjectWriter<'b>, probe: &Probe) -> &'o mut ObjectWriter<'b> {
+    object.name("of", target_name(probe.target));
+    if let ProbeTarget::Serial { port, baud } = probe.target {
+        object
+            .number("port", port, span::BYTE)
+            .number("baud", baud, span::BAUD);
+    }
+    object.number("ttl", probe.lease_ms, span::PROBE_LEASE);
+    write_sequence(object, probe.sequence)
+}
+
+/// The name of a target on the wire.
+const fn target_name(target: ProbeTarget) -> &'static str {
+    match target {
+        ProbeTarget::Analog => "analog",
+        ProbeTarget::Encoders => "encoders",
+        ProbeTarget::Lines => "lines",
+        ProbeTarget::Buttons => "buttons",
+        ProbeTarget::Serial { .. } => "serial",
+    }
 }
 
 fn write_pitch<'o, 'b>(object: &'o mut ObjectWriter<'b>, pitch_hz: i32) -> &'o mut ObjectWriter<'b> {

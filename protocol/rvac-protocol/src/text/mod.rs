@@ -10,6 +10,7 @@ mod decimal;
 mod fields;
 mod report_edge;
 mod report_info;
+mod report_probe;
 mod report_read;
 mod report_robot;
 mod report_state;

@@ -6,7 +6,10 @@ use super::fields::{Fields, UnknownKeys};
 use super::report_robot::read_name;
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
-use crate::message::{Battery, ChargeState, Info, LinkCounters, Name, Refusal};
+use crate::message::{
+    Battery, ChargeEnd, ChargeFault, ChargePhase, ChargeState, ChargerStatus, Info, LinkCounters, Name,
+    Refusal,
+};
 use crate::span;
 
 /// What one `info` packet told. Packets come in the order battery, link, firmware; older firmware tells all in one.
@@ -51,13 +54,16 @@ const FIRMWARE_KEYS: [&str; 6] = [
     "bandwidth-out",
 ];
 
-const BATTERY_KEYS: [&str; 6] = [
+const BATTERY_KEYS: [&str; 9] = [
     "c",
     "battery-status",
     "battery-voltage",
     "battery-current",
     "battery-temperature",
     "battery-state",
+    "charge-phase",
+    "charge-end",
+    "charge-fault",
 ];
 
 const LINK_KEYS: [&str; 8] = [
@@ -89,14 +95,24 @@ pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Res
         ChargeState::Full => "full",
         ChargeState::Fault => "fault",
     };
-    ObjectWriter::new(buffer)
+    let mut object = ObjectWriter::new(buffer);
+    object
         .name("c", "info")
         .number("battery-status", battery.charge.millionths(), span::RATIO)
         .measured("battery-voltage", battery.voltage.0, span::VOLTAGE)
         .measured("battery-current", battery.current.0, span::CURRENT)
         .measured("battery-temperature", battery.temperature.0, span::TEMPERATURE)
-        .name("battery-state", state)
-        .finish()
+        .name("battery-state", state);
+    if let Some(charger) = battery.charger {
+        object.name("charge-phase", charger.phase.name());
+        if let Some(end) = charger.end {
+            object.name("charge-end", end.name());
+        }
+        if let Some(fault) = charger.fault {
+            object.name("charge-fault", fault.name());
+        }
+    }
+    object.finish()
 }
 
 pub(super) fn write_link(link: &LinkCounters, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
@@ -138,7 +154,7 @@ fn read_firmware(fields: &Fields<'_, 6>) -> Result<Firmware, Refusal> {
     })
 }
 
-fn read_battery(fields: &Fields<'_, 6>) -> Result<Battery, Refusal> {
+fn read_battery(fields: &Fields<'_, 9>) -> Result<Battery, Refusal> {
     let state = fields.text_or_empty(5)?;
     let charge = fields.int(1, span::RATIO)?;
     Ok(Battery {
@@ -153,7 +169,16 @@ fn read_battery(fields: &Fields<'_, 6>) -> Result<Battery, Refusal> {
             .into_iter()
             .find(|(_, name)| name.as_bytes() == state)
             .map_or(ChargeState::Discharging, |(state, _)| state),
+        charger: read_charger(fields)?,
     })
+}
+
+/// Names of a newer robot are left out: its battery's figures are worth reading all the same.
+fn read_charger(fields: &Fields<'_, 9>) -> Result<Option<ChargerStatus>, Refusal> {
+    let phase = ChargePhase::from_name(fields.text_or_empty(6)?);
+    let end = ChargeEnd::from_name(fields.text_or_empty(7)?);
+    let fault = ChargeFault::from_name(fields.text_or_empty(8)?);
+    Ok(phase.map(|phase| ChargerStatus { phase, end, fault }))
 }
 
 fn read_link(fields: &Fields<'_, 8>) -> Result<LinkCounters, Refusal> {

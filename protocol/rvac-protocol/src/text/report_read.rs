@@ -4,7 +4,7 @@ use super::fields::{Fields, UnknownKeys};
 use super::report_info::InfoPart;
 use super::report_write::level_name;
 use super::scan::{Members, Value};
-use super::{report_edge, report_info, report_robot, report_state};
+use super::{report_edge, report_info, report_probe, report_robot, report_state};
 use crate::message::{Acknowledgement, LogLevel, LogText, Refusal, Report, Sequence};
 use crate::span;
 
@@ -45,6 +45,7 @@ fn read_named(text: &[u8], word: &[u8]) -> Result<ReportPacket, Refusal> {
         b"info" => return report_info::read(text).map(ReportPacket::Info),
         b"hello" => Report::Hello(report_robot::read_hello(text)?),
         b"describe" => Report::Describe(report_robot::read_row(text)?),
+        b"probed" => Report::Probed(report_probe::read(text)?),
         b"log" => read_log(text)?,
         _ => return Err(Refusal::Unknown),
     }))

@@ -107,7 +107,7 @@ fn write_parts<'o, 'b>(parts: &Capabilities, object: &'o mut ObjectWriter<'b>) -
         .names("has", present)
 }
 
-fn part_flags(parts: &Capabilities) -> [(&'static str, bool); 9] {
+fn part_flags(parts: &Capabilities) -> [(&'static str, bool); 10] {
     [
         ("encoders", parts.encoders),
         ("gyro", parts.gyro),
@@ -118,6 +118,7 @@ fn part_flags(parts: &Capabilities) -> [(&'static str, bool); 9] {
         ("currents", parts.currents),
         ("battery", parts.battery),
         ("charger", parts.charger),
+        ("probe", parts.probe),
     ]
 }
 
@@ -180,6 +181,7 @@ fn read_parts(text: &[u8]) -> Result<Capabilities, Refusal> {
         currents: lists(words, "currents"),
         battery: lists(words, "battery"),
         charger: lists(words, "charger"),
+        probe: lists(words, "probe"),
     })
 }
 

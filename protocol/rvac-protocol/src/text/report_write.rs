@@ -1,7 +1,7 @@
 //! Reports to text.
 
 use super::write::ObjectWriter;
-use super::{report_edge, report_info, report_robot, report_state};
+use super::{report_edge, report_info, report_probe, report_robot, report_state};
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::message::{Acknowledgement, Info, LogLevel, Report};
 use crate::seal::Direction;
@@ -44,6 +44,7 @@ pub fn write_report(report: &Report, buffer: &mut PacketBuffer) -> Result<(), En
         Report::State(state) => report_state::write(state, &mut ObjectWriter::new(buffer)),
         Report::Edge(edge) => report_edge::write(edge, buffer),
         Report::Acknowledgement(answer) => write_answer(answer, buffer),
+        Report::Probed(probed) => report_probe::write(probed, buffer),
         Report::Log { level, text } => ObjectWriter::new(buffer)
             .name("c", "log")
             .name("level", level_name(*level))

@@ -121,11 +121,38 @@ impl<'b> ObjectWriter<'b> {
 
     /// Text of hexadecimal bytes.
     pub(crate) fn hex(&mut self, key: &str, bytes: &[u8]) -> &mut Self {
-        const DIGITS: &[u8; 16] = b"0123456789abcdef";
         self.key(key);
         self.raw(b"\"");
         for byte in bytes {
-            self.raw(&[DIGITS[usize::from(byte >> 4)], DIGITS[usize::from(byte & 0xF)]]);
+            self.raw(&hex_digits(*byte));
+        }
+        self.raw(b"\"")
+    }
+
+    /// Text of numbers with spaces between them.
+    pub(crate) fn numbers(&mut self, key: &str, numbers: &[u16]) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        for (index, number) in numbers.iter().enumerate() {
+            if index > 0 {
+                self.raw(b" ");
+            }
+            self.raw(spell(i64::from(*number), 0).as_bytes());
+        }
+        self.raw(b"\"")
+    }
+
+    /// Text of words of four hexadecimal digits with spaces between them.
+    pub(crate) fn hex_words(&mut self, key: &str, words: &[u16]) -> &mut Self {
+        self.key(key);
+        self.raw(b"\"");
+        for (index, word) in words.iter().enumerate() {
+            if index > 0 {
+                self.raw(b" ");
+            }
+            for byte in word.to_be_bytes() {
+                self.raw(&hex_digits(byte));
+            }
         }
         self.raw(b"\"")
     }
@@ -161,6 +188,11 @@ impl<'b> ObjectWriter<'b> {
         }
         self
     }
+}
+
+const fn hex_digits(byte: u8) -> [u8; 2] {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    [DIGITS[(byte >> 4) as usize], DIGITS[(byte & 0xF) as usize]]
 }
 
 /// One character as it stands in a JSON string.

@@ -2,8 +2,9 @@
 //! does not compile until it has a meaning here, and then a test wants a vector of it.
 
 use rvac_protocol::message::{
-    Acknowledgement, Battery, Capabilities, ChargeState, Command, DescribeRow, EdgeKind, Info, LinkCounters,
-    LogLevel, MotionPhase, MoveEnd, Report, RowContent, State,
+    Acknowledgement, Battery, Capabilities, ChargeEnd, ChargeFault, ChargeState, Command, DescribeRow,
+    EdgeKind, Info, LinkCounters, LogLevel, MotionPhase, MoveEnd, ProbeTarget, ProbedContent, Report,
+    RowContent, State,
 };
 use serde_json::{Value, json};
 
@@ -51,6 +52,26 @@ pub(crate) fn command(command: &Command) -> Value {
         } => json!({"command": "set", "number": sequence.0, "parameter": parameter.name(), "value": value}),
         Command::Ping { sequence } => json!({"command": "ping", "number": sequence.0}),
         Command::Seen { edge } => json!({"command": "seen", "edge": edge}),
+        Command::Charge { sequence, wanted } => {
+            json!({"command": "charge", "number": sequence.0, "wanted": wanted})
+        }
+        Command::Probe(probe) => {
+            let mut meaning = target(probe.target);
+            meaning["command"] = json!("probe");
+            meaning["number"] = json!(probe.sequence.0);
+            meaning["lease_ms"] = json!(probe.lease_ms);
+            meaning
+        }
+    }
+}
+
+fn target(target: ProbeTarget) -> Value {
+    match target {
+        ProbeTarget::Analog => json!({"of": "analog"}),
+        ProbeTarget::Encoders => json!({"of": "encoders"}),
+        ProbeTarget::Lines => json!({"of": "lines"}),
+        ProbeTarget::Buttons => json!({"of": "buttons"}),
+        ProbeTarget::Serial { port, baud } => json!({"of": "serial", "port": port, "baud": baud}),
     }
 }
 
@@ -71,8 +92,26 @@ pub(crate) fn report(report: &Report) -> Value {
         Report::Acknowledgement(Acknowledgement { sequence, refusal }) => json!({
             "report": "answer", "number": sequence.map(|sequence| sequence.0), "refusal": refusal.map(|refusal| refusal.name()),
         }),
+        Report::Probed(probed) => {
+            json!({"report": "probed", "tick_ms": probed.tick.0, "content": probed_content(&probed.content)})
+        }
         Report::Log { level, text } => {
             json!({"report": "log", "level": log_level(*level), "text": text.as_str()})
+        }
+    }
+}
+
+fn probed_content(content: &ProbedContent) -> Value {
+    match content {
+        ProbedContent::Analog(counts) => json!({"analog": counts}),
+        ProbedContent::Encoders(encoders) => json!({
+            "left": encoders.left, "right": encoders.right, "left_illegal": encoders.left_illegal,
+            "right_illegal": encoders.right_illegal,
+        }),
+        ProbedContent::Lines(ports) => json!({"ports": ports}),
+        ProbedContent::Buttons(buttons) => json!({"level": buttons.level, "pressed": buttons.pressed}),
+        ProbedContent::Serial(serial) => {
+            json!({"at": serial.at, "lost": serial.lost, "bytes": serial.bytes.as_slice()})
         }
     }
 }
@@ -101,14 +140,19 @@ fn describe(row: &DescribeRow) -> Value {
     json!({"report": "describe", "row": row.row, "rows": row.rows, "content": content})
 }
 
+/// What was added later stands in the meaning only where it is there, so that older vectors keep theirs.
 fn capabilities(parts: &Capabilities) -> Value {
-    json!({
+    let mut meaning = json!({
         "of": "parts", "bumpers": parts.bumpers, "cliffs": parts.cliffs, "wheel_drops": parts.wheel_drops,
         "proximity": parts.proximity, "dock_receivers": parts.dock_receivers, "buttons": parts.buttons,
         "leds": parts.leds, "encoders": parts.encoders, "gyro": parts.gyro, "beeper": parts.beeper,
         "brush_main": parts.brush_main, "brush_sides": parts.brush_sides, "vacuum": parts.vacuum,
         "currents": parts.currents, "battery": parts.battery, "charger": parts.charger,
-    })
+    });
+    if parts.probe {
+        meaning["probe"] = json!(true);
+    }
+    meaning
 }
 
 pub(crate) fn firmware(info: &Info) -> Value {
@@ -121,11 +165,18 @@ pub(crate) fn firmware(info: &Info) -> Value {
 }
 
 pub(crate) fn battery(battery: &Battery) -> Value {
-    json!({
+    let mut meaning = json!({
         "charge_millionths": battery.charge.millionths(), "voltage_mv": battery.voltage.0,
         "current_ma": battery.current.0, "temperature_tenths": battery.temperature.0,
         "state": charge_state(battery.state),
-    })
+    });
+    if let Some(charger) = battery.charger {
+        meaning["charger"] = json!({
+            "phase": charger.phase.name(), "end": charger.end.map(ChargeEnd::name),
+            "fault": charger.fault.map(ChargeFault::name),
+        });
+    }
+    meaning
 }
 
 pub(crate) fn link(link: &LinkCounters) -> Value {

@@ -12,7 +12,7 @@ pub use actuators::{Cleaner, Sounder, Supervisor, WheelBridges};
 pub use persistent::Persistent;
 pub use sensors::{
     BumperPins, ButtonPins, CliffReceivers, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
-    GyroReading, PackReading, ProximityReadings, WheelDropPins,
+    GyroReading, PackPins, ProximityReadings, WheelDropPins,
 };
 pub use serial::SerialPort;
 
@@ -41,13 +41,14 @@ impl Parts for SimulatedParts {
     type BrushMain = Cleaner;
     type BrushSides = Cleaner;
     type Vacuum = Cleaner;
-    type Battery = PackReading;
+    type Charger = PackPins;
     type DockContacts = DockInputs;
     type DockBeams = DockInputs;
     type DustBox = DustBoxPin;
     type Beeper = Sounder;
     type Lights = cordlib::board::Absent;
     type Buttons = ButtonPins;
+    type Probe = cordlib::board::Absent;
 }
 
 /// The millisecond counter; starts at 0 with each reset.
@@ -80,12 +81,13 @@ pub(crate) fn fresh(persistent: Persistent) -> Board<SimulatedParts> {
         brush_main: Cleaner::default(),
         brush_sides: Cleaner::default(),
         vacuum: Cleaner::default(),
-        battery: PackReading::default(),
+        charger: PackPins::default(),
         dock_contacts: DockInputs::default(),
         dock_beams: DockInputs::default(),
         dust_box: DustBoxPin::default(),
         beeper: Sounder::default(),
         lights: cordlib::board::Absent,
         buttons: ButtonPins::default(),
+        probe: cordlib::board::Absent,
     }
 }

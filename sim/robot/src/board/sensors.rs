@@ -1,12 +1,11 @@
 //! Sensor inputs: values that the robot fills in before each pass of the firmware.
 
 use cordlib::board::{
-    BatteryGauge, BumperSwitches, Buttons, CliffLevels, CliffSensors, CurrentSense, DockBeams, DockContacts,
-    DustBox, Emitters, Encoders, HeadingSensor, ProximitySensors, WheelCounts, WheelDropSwitches,
+    BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CliffLevels, CliffSensors, CurrentSense,
+    DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders, HeadingSensor, ProximitySensors,
+    WheelCounts, WheelDropSwitches,
 };
-use rvac_protocol::message::{
-    Battery, Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, WheelDrops,
-};
+use rvac_protocol::message::{Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, WheelDrops};
 
 /// Bumper switches, two zones.
 #[derive(Clone, Copy, Debug, Default)]
@@ -124,18 +123,28 @@ impl CurrentSense for CurrentReadings {
     }
 }
 
-/// Battery.
+/// Battery and charger.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct PackReading {
-    pub(crate) battery: Option<Battery>,
+pub struct PackPins {
+    pub(crate) readings: Option<ChargerReadings>,
+    pub(crate) drive: ChargeDrive,
+    pub(crate) request: DockRequest,
 }
 
-impl BatteryGauge for PackReading {
+impl Charger for PackPins {
     const PRESENT: bool = true;
-    const CHARGES: bool = false;
+    const CHARGES: bool = true;
 
-    fn battery(&mut self) -> Option<Battery> {
-        self.battery
+    fn readings(&mut self) -> Option<ChargerReadings> {
+        self.readings
+    }
+
+    fn drive(&mut self, drive: ChargeDrive) {
+        self.drive = drive;
+    }
+
+    fn ask_dock(&mut self, request: DockRequest) {
+        self.request = request;
     }
 }
 

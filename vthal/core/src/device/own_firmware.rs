@@ -292,6 +292,8 @@ impl OwnFirmware {
             HostEvent::Report(Report::Log { level, text }) => FirmwareEvent::Log { level, text },
             // The session keeps these to itself.
             HostEvent::Report(Report::Hello(_) | Report::Describe(_) | Report::Acknowledgement(_)) => return,
+            // Raw readings are for tools that speak to a robot directly.
+            HostEvent::Report(Report::Probed(_)) => return,
             HostEvent::Answered { refusal: None, .. } => return,
             HostEvent::Answered {
                 sequence,

@@ -83,7 +83,7 @@ impl Core {
             }
             Report::Edge(edge) => self.take_edge(edge),
             Report::Acknowledgement(answer) => self.take_answer(answer),
-            Report::Info(_) | Report::Log { .. } => Some(HostEvent::Report(report)),
+            Report::Info(_) | Report::Probed(_) | Report::Log { .. } => Some(HostEvent::Report(report)),
         }
     }
 

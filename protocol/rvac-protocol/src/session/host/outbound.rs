@@ -72,6 +72,14 @@ impl Core {
                 value,
             },
             Command::Ping { .. } => Command::Ping { sequence: next },
+            Command::Charge { wanted, .. } => Command::Charge {
+                sequence: next,
+                wanted,
+            },
+            Command::Probe(mut probe) => {
+                probe.sequence = next;
+                Command::Probe(probe)
+            }
             Command::Hello(_)
             | Command::Hand
             | Command::Describe { .. }

@@ -128,9 +128,12 @@ impl Core {
                 let outcome = self.fresh(motor.sequence, motor.seen_tick);
                 self.act(command, outcome)
             }
-            Command::Move(_) | Command::Arm { .. } | Command::Clear { .. } | Command::Set { .. } => {
-                self.accept_once(command)
-            }
+            Command::Move(_)
+            | Command::Arm { .. }
+            | Command::Clear { .. }
+            | Command::Set { .. }
+            | Command::Charge { .. }
+            | Command::Probe(_) => self.accept_once(command),
             Command::Info | Command::State | Command::Stop | Command::Beep(_) | Command::Led(_) => {
                 self.act(command, Ok(()))
             }

@@ -1,0 +1,5 @@
+//! The battery and its charger.
+
+mod gauge;
+
+pub(crate) use gauge::charge_of;
