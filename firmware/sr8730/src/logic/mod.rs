@@ -2,14 +2,21 @@
 
 pub mod beam;
 pub mod bridge;
+pub mod calibration_record;
 pub mod dock_code;
 pub mod envelope;
 pub mod floor_light;
+pub mod guarded;
 pub mod gyro_frame;
+pub mod image_check;
 pub mod ladder;
 pub mod lamps;
+pub mod life;
+pub mod pace;
 pub mod pack;
 pub mod proximity;
 pub mod quadrature;
+pub mod reset_log;
+pub mod storm;
 pub mod thermistor;
 pub mod tone;

@@ -1,0 +1,124 @@
+//! Whether the clocks agree (S20).
+//!
+//! The core timer makes the milliseconds, Timer5 runs from the peripheral bus, and the tick is what an interrupt has counted.
+//! All three hang on one crystal, so their agreement shows that no divider was changed by a flipped bit, that no interrupt
+//! was lost, and that the core timer runs. A crystal that fails is what the clock monitor is for, and a clock
+//! that drifts by more than 5 % makes the link deaf: the receiver takes only rates within 5 % of a known one.
+
+/// Milliseconds between two comparisons. Timer5 wraps after 209 ms.
+const WINDOW_MS: u32 = 100;
+/// Counts of the core timer in a millisecond.
+const CORE_PER_MS: u32 = 40_000;
+/// Counts of the core timer for one of Timer5, whose prescaler is 256.
+const CORE_PER_BUS: u32 = 128;
+/// Allowed deviation: one in 20, 5 %.
+const TOLERANCE: u32 = 20;
+
+/// One look at all clocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Look {
+    /// Milliseconds, counted by the interrupt.
+    pub tick: u32,
+    /// The core timer.
+    pub core: u32,
+    /// Timer5.
+    pub bus: u16,
+}
+
+/// Compares them.
+#[derive(Clone, Copy, Debug)]
+pub struct PaceCheck {
+    last: Look,
+}
+
+/// What a comparison says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// They agree, or it is too early to say.
+    Even,
+    /// They do not.
+    Uneven,
+}
+
+impl PaceCheck {
+    /// Starts now.
+    #[must_use]
+    pub const fn new(now: Look) -> Self {
+        Self { last: now }
+    }
+
+    /// To be called once in a millisecond. Later than 200 ms after the last call it says nothing, because Timer5 has
+    /// wrapped, and the watchdog has more to say.
+    pub const fn update(&mut self, now: Look) -> Pace {
+        let ticks = now.tick.wrapping_sub(self.last.tick);
+        let core = now.core.wrapping_sub(self.last.core);
+        if ticks < WINDOW_MS && core < 2 * WINDOW_MS * CORE_PER_MS {
+            return Pace::Even;
+        }
+        let bus = now.bus.wrapping_sub(self.last.bus) as u32 * CORE_PER_BUS;
+        self.last = now;
+        if ticks > 2 * WINDOW_MS {
+            return Pace::Even;
+        }
+        if agree(core, ticks * CORE_PER_MS) && agree(core, bus) {
+            Pace::Even
+        } else {
+            Pace::Uneven
+        }
+    }
+}
+
+const fn agree(left: u32, right: u32) -> bool {
+    left.abs_diff(right) <= right / TOLERANCE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Look, Pace, PaceCheck};
+
+    /// Runs for a second with the given counts in each millisecond.
+    fn run(core_per_ms: u32, bus_per_16_ms: u32, ticks_per_16_ms: u32) -> Pace {
+        let start = Look {
+            tick: u32::MAX - 50,
+            core: u32::MAX - 1_000_000,
+            bus: 65_000,
+        };
+        let mut check = PaceCheck::new(start);
+        let verdicts = (1..=1_000).map(|ms| {
+            check.update(Look {
+                tick: start.tick.wrapping_add(ms * ticks_per_16_ms / 16),
+                core: start.core.wrapping_add(ms * core_per_ms),
+                bus: start.bus.wrapping_add((ms * bus_per_16_ms / 16) as u16),
+            })
+        });
+        verdicts.fold(
+            Pace::Even,
+            |worst, verdict| if verdict == Pace::Even { worst } else { verdict },
+        )
+    }
+
+    #[test]
+    fn clocks_of_one_crystal_agree_across_all_wraps() {
+        assert_eq!(run(40_000, 5_000, 16), Pace::Even);
+    }
+
+    #[test]
+    fn each_clock_that_goes_astray_is_noticed() {
+        assert_eq!(run(43_000, 5_000, 16), Pace::Uneven);
+        assert_eq!(run(40_000, 4_600, 16), Pace::Uneven);
+        assert_eq!(run(40_000, 5_000, 15), Pace::Uneven);
+        assert_eq!(run(40_000, 0, 16), Pace::Uneven);
+        assert_eq!(run(40_000, 5_000, 0), Pace::Uneven);
+    }
+
+    #[test]
+    fn a_late_look_is_no_verdict() {
+        let mut check = PaceCheck::new(Look::default());
+        let late = Look {
+            tick: 500,
+            core: 500 * 40_000,
+            bus: 0,
+        };
+        assert_eq!(check.update(late), Pace::Even);
+    }
+}

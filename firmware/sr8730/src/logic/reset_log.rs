@@ -1,0 +1,203 @@
+//! What survives a reset in memory that the start-up code does not clear.
+//!
+//! Each word is kept with its complement, because after power-on the memory holds anything.
+
+use rvac_protocol::message::ResetCause;
+
+/// Words in memory.
+pub const WORDS: usize = 6;
+
+/// What a dying firmware could still note.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Trouble {
+    /// Nothing noted.
+    #[default]
+    None,
+    /// A panic.
+    Panic,
+    /// An exception of the processor (bad address, bad instruction).
+    Exception,
+    /// An interrupt without handler.
+    StrayInterrupt,
+    /// A memory cell that does not hold its value.
+    Memory,
+    /// The image in flash differs from its check value.
+    Flash,
+    /// The stack grew into the words that guard its end.
+    Stack,
+    /// A critical variable and its complement disagree.
+    Variable,
+    /// The crystal failed; the chip ran on its own oscillator.
+    Clock,
+}
+
+impl Trouble {
+    const ALL: [Self; 9] = [
+        Self::None,
+        Self::Panic,
+        Self::Exception,
+        Self::StrayInterrupt,
+        Self::Memory,
+        Self::Flash,
+        Self::Stack,
+        Self::Variable,
+        Self::Clock,
+    ];
+
+    /// The number in memory.
+    #[must_use]
+    pub const fn number(self) -> u32 {
+        self as u32
+    }
+
+    fn from_number(number: u32) -> Self {
+        Self::ALL
+            .into_iter()
+            .find(|trouble| trouble.number() == number)
+            .unwrap_or_default()
+    }
+
+    /// For the log that goes to the host; empty for none.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Panic => "last run ended by a panic",
+            Self::Exception => "last run ended by an exception",
+            Self::StrayInterrupt => "last run ended by a stray interrupt",
+            Self::Memory => "last run ended by a memory fault",
+            Self::Flash => "last run ended by a damaged image",
+            Self::Stack => "last run ended by a stack overflow",
+            Self::Variable => "last run ended by a damaged variable",
+            Self::Clock => "last run ended by a clock failure",
+        }
+    }
+}
+
+/// The record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResetLog {
+    /// Starts since the memory last lost power.
+    pub boots: u32,
+    /// Resets in a row other than power-on, since [`Self::recent`] was set to 0.
+    pub recent: u32,
+    /// What the run before noted at its end.
+    pub trouble: Trouble,
+}
+
+impl ResetLog {
+    /// Reads the record; `None` if it is not one.
+    #[must_use]
+    pub fn read(words: &[u32; WORDS]) -> Option<Self> {
+        let [boots, not_boots, recent, not_recent, trouble, not_trouble] = *words;
+        let whole = boots == !not_boots && recent == !not_recent && trouble == !not_trouble;
+        whole.then(|| Self {
+            boots,
+            recent,
+            trouble: Trouble::from_number(trouble),
+        })
+    }
+
+    /// The record as it is kept.
+    #[must_use]
+    pub const fn write(self) -> [u32; WORDS] {
+        let trouble = self.trouble.number();
+        [
+            self.boots,
+            !self.boots,
+            self.recent,
+            !self.recent,
+            trouble,
+            !trouble,
+        ]
+    }
+
+    /// The record after a start with this cause. `before` is what memory held.
+    #[must_use]
+    pub fn after_start(before: Option<Self>, cause: ResetCause) -> Self {
+        let before = before.unwrap_or(Self {
+            boots: 0,
+            recent: 0,
+            trouble: Trouble::None,
+        });
+        let is_power_on = cause == ResetCause::PowerOn;
+        Self {
+            boots: before.boots.saturating_add(1),
+            recent: if is_power_on {
+                0
+            } else {
+                before.recent.saturating_add(1)
+            },
+            trouble: if is_power_on {
+                Trouble::None
+            } else {
+                before.trouble
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ResetLog, Trouble};
+    use rvac_protocol::message::ResetCause;
+
+    #[test]
+    fn resets_in_a_row_are_counted_and_power_on_begins_anew() {
+        let mut log = None;
+        for (cause, boots, recent) in [
+            (ResetCause::PowerOn, 1, 0),
+            (ResetCause::Watchdog, 2, 1),
+            (ResetCause::Software, 3, 2),
+            (ResetCause::External, 4, 3),
+            (ResetCause::PowerOn, 5, 0),
+        ] {
+            let started = ResetLog::after_start(log, cause);
+            assert_eq!((started.boots, started.recent), (boots, recent));
+            log = ResetLog::read(&started.write());
+        }
+    }
+
+    #[test]
+    fn memory_after_power_on_is_no_record() {
+        for words in [[0; 6], [u32::MAX; 6], [1, 2, 3, 4, 5, 6]] {
+            assert_eq!(ResetLog::read(&words), None);
+        }
+        let started = ResetLog::after_start(None, ResetCause::BrownOut);
+        assert_eq!((started.boots, started.recent), (1, 1));
+    }
+
+    #[test]
+    fn every_flipped_bit_is_noticed() {
+        let whole = ResetLog {
+            boots: 7,
+            recent: 2,
+            trouble: Trouble::Panic,
+        }
+        .write();
+        for bit in 0..6 * 32 {
+            let mut damaged = whole;
+            damaged[bit / 32] ^= 1 << (bit % 32);
+            assert_eq!(ResetLog::read(&damaged), None, "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn trouble_is_told_after_the_reset_and_forgotten_with_the_power() {
+        let died = ResetLog {
+            boots: 1,
+            recent: 0,
+            trouble: Trouble::Stack,
+        };
+        let log = ResetLog::read(&died.write());
+        assert_eq!(log, Some(died));
+        assert_eq!(
+            ResetLog::after_start(log, ResetCause::Software).trouble,
+            Trouble::Stack
+        );
+        assert_eq!(
+            ResetLog::after_start(log, ResetCause::PowerOn).trouble,
+            Trouble::None
+        );
+    }
+}
