@@ -1,16 +1,18 @@
 //! Whatever can be said comes back as it was said, in text and in binary, and a damaged packet hurts only itself.
 
-use proptest::prelude::{Strategy, any, prop, prop_assert_eq, prop_oneof, proptest};
+use proptest::prelude::{Just, Strategy, any, prop, prop_assert_eq, prop_oneof, proptest};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary::{read_drive, read_state, write_drive, write_state};
 use rvac_protocol::frame::{Framed, Framer};
 use rvac_protocol::message::{
-    Beep, Bumpers, ChargeState, Cliffs, Command, Currents, Drive, Gyro, Inhibits, LogLevel, LogText,
-    MotionPhase, Motor, MotorCommand, Move, Report, Sequence, State, WheelDrops,
+    Beep, Bumpers, ButtonProbe, ChargeState, Cliffs, Command, Currents, Drive, EncoderProbe, Gyro, Inhibits,
+    LogLevel, LogText, MotionPhase, Motor, MotorCommand, Move, PROBE_BYTES, PROBE_CHANNELS, PROBE_PORTS,
+    Probe, ProbeTarget, Probed, ProbedContent, Report, Sequence, SerialProbe, State, WheelDrops,
 };
 use rvac_protocol::seal::Direction;
 use rvac_protocol::text::{
     Form, ReportPacket, read_command, read_report, write_command, write_report, write_sealed_command,
+    write_sealed_report,
 };
 use rvac_units::{Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Throttle, Tick, Voltage};
 
@@ -70,6 +72,54 @@ fn beep() -> impl Strategy<Value = Beep> {
     )
 }
 
+fn probe() -> impl Strategy<Value = Probe> {
+    let serial =
+        (any::<u8>(), 300..=1_000_000_u32).prop_map(|(port, baud)| ProbeTarget::Serial { port, baud });
+    let others = prop_oneof![
+        Just(ProbeTarget::Analog),
+        Just(ProbeTarget::Encoders),
+        Just(ProbeTarget::Lines),
+        Just(ProbeTarget::Buttons),
+    ];
+    let leased = prop_oneof![(serial, 1..=1_000_u16), (others, 0..=1_000_u16),];
+    (leased, any::<u16>()).prop_map(|((target, lease_ms), sequence)| Probe {
+        target,
+        lease_ms,
+        sequence: Sequence(sequence),
+    })
+}
+
+fn probed() -> impl Strategy<Value = Probed> {
+    let encoders = (any::<i32>(), any::<i32>(), any::<u32>(), any::<u32>()).prop_map(
+        |(left, right, left_illegal, right_illegal)| {
+            ProbedContent::Encoders(EncoderProbe {
+                left,
+                right,
+                left_illegal,
+                right_illegal,
+            })
+        },
+    );
+    let buttons = (any::<u16>(), any::<bool>())
+        .prop_map(|(level, pressed)| ProbedContent::Buttons(ButtonProbe { level, pressed }));
+    let bytes = prop::collection::vec(any::<u8>(), 0..=PROBE_BYTES);
+    let serial = (any::<u32>(), any::<u32>(), bytes).prop_map(|(at, lost, bytes)| {
+        let bytes = bytes.as_slice().try_into().expect("drawn to fit");
+        ProbedContent::Serial(SerialProbe { at, lost, bytes })
+    });
+    let content = prop_oneof![
+        any::<[u16; PROBE_CHANNELS]>().prop_map(ProbedContent::Analog),
+        encoders,
+        any::<[u16; PROBE_PORTS]>().prop_map(ProbedContent::Lines),
+        buttons,
+        serial,
+    ];
+    (any::<u32>(), content).prop_map(|(tick, content)| Probed {
+        tick: Tick(tick),
+        content,
+    })
+}
+
 fn command() -> impl Strategy<Value = Command> {
     prop_oneof![
         drive().prop_map(Command::Drive),
@@ -80,6 +130,11 @@ fn command() -> impl Strategy<Value = Command> {
             sequence: Sequence(sequence),
             undock
         }),
+        (any::<u16>(), any::<bool>()).prop_map(|(sequence, wanted)| Command::Charge {
+            sequence: Sequence(sequence),
+            wanted
+        }),
+        probe().prop_map(Command::Probe),
     ]
 }
 
@@ -201,6 +256,15 @@ proptest! {
         prop_assert_eq!(write_report(&Report::State(state), &mut buffer), Ok(()));
         prop_assert_eq!(report_of(buffer.as_bytes()), Report::State(state));
         prop_assert_eq!(read_state(&write_state(&state)[1..]), Ok(state));
+    }
+
+    #[test]
+    fn raw_readings_come_back_and_fit_a_packet(probed in probed()) {
+        let mut buffer = PacketBuffer::new();
+        prop_assert_eq!(write_sealed_report(&Report::Probed(probed.clone()), 1, &mut buffer), Ok(()));
+        buffer.clear();
+        prop_assert_eq!(write_report(&Report::Probed(probed.clone()), &mut buffer), Ok(()));
+        prop_assert_eq!(report_of(buffer.as_bytes()), Report::Probed(probed));
     }
 
     #[test]
