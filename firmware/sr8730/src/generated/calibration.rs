@@ -1,7 +1,7 @@
 //! Calibration values and their places in the record. Made by cargo xtask codegen from robots/samsung-sr8730/robot.toml. Do not edit.
 
 /// Number of values in a record.
-pub const COUNT: usize = 29;
+pub const COUNT: usize = 31;
 
 /// A value that a person measures on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +38,16 @@ pub enum Calibrated {
     CliffEmitterLine,
     /// Cliff floor level (count). Needed for cliff sensors.
     CliffFloorLevel,
+    /// Cliff drop level (count). Needed for cliff sensors, if cliff-emitter-line is 0.
+    CliffDropLevel,
     /// Proximity none (count). Needed for proximity sensors.
     ProximityNone,
     /// Proximity touching (count). Needed for proximity sensors.
     ProximityTouching,
     /// Battery scale (uV/count). Needed for charging; without it voltages are reported with the assumed divider.
     BatteryScale,
+    /// Charge current zero (count/100). Needed for charging after a start on the dock; off the dock the robot learns it by itself.
+    ChargeCurrentZero,
     /// Battery capacity (mAh). Needed for charging and the state of charge.
     BatteryCapacity,
     /// Charge stage checked (1). Needed for charging.
@@ -204,6 +208,13 @@ pub const ENTRIES: [Entry; COUNT] = [
         assumed: None,
     },
     Entry {
+        value: Calibrated::CliffDropLevel,
+        name: "cliff-drop-level",
+        low: 0,
+        high: 1_022,
+        assumed: None,
+    },
+    Entry {
         value: Calibrated::ProximityNone,
         name: "proximity-none",
         low: 0,
@@ -223,6 +234,13 @@ pub const ENTRIES: [Entry; COUNT] = [
         low: 25_000,
         high: 45_000,
         assumed: Some(32_549),
+    },
+    Entry {
+        value: Calibrated::ChargeCurrentZero,
+        name: "charge-current-zero",
+        low: -2_000,
+        high: 2_000,
+        assumed: Some(0),
     },
     Entry {
         value: Calibrated::BatteryCapacity,
