@@ -1,6 +1,7 @@
 //! The board of the Samsung Navibot SR8730.
 //!
-//! [`logic`] holds what can be decided without a chip. The program around it (`main.rs`) joins it to the pins.
+//! [`logic`] holds what can be decided without a chip, [`calibration`] what is known of this very robot. The program around
+//! them (`main.rs`) joins both to the pins.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -8,4 +9,6 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod calibration;
+pub mod generated;
 pub mod logic;

@@ -1,0 +1,326 @@
+//! What is known of this very robot: the values that its owner measured, and assumptions where one is better than nothing.
+//!
+//! Values come in groups: a part is offered when all that it needs is known, and absent else.
+
+use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
+use crate::logic::beam::BeamCodes;
+use crate::logic::calibration_record::{RecordFault, read};
+use crate::logic::dock_code::LeadingOnes;
+use crate::logic::gyro_frame::FrameKind;
+use crate::logic::ladder::Ladder;
+use crate::logic::proximity::ProximityScale;
+use crate::logic::quadrature::Order;
+
+/// All values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Calibration {
+    values: [Option<i32>; COUNT],
+    fault: Option<RecordFault>,
+}
+
+/// What speed control of the wheels needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WheelCalibration {
+    /// Way of one count, in nanometres.
+    pub count_way_nm: u32,
+    /// Distance between the wheels, in micrometres.
+    pub track_um: i32,
+    /// Lines of the left wheel.
+    pub left: Order,
+    /// Lines of the right wheel.
+    pub right: Order,
+    /// Duty below which no wheel turns, in thousandths.
+    pub dead_band_permille: i32,
+    /// Speed of the rims at full duty, in mm/s.
+    pub free_speed_mm_per_s: i32,
+}
+
+/// Scale of the wheel currents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CurrentCalibration {
+    /// Count of the left line without current.
+    pub left_zero: i32,
+    /// Count of the right line without current.
+    pub right_zero: i32,
+    /// Microamperes for one count, negative if the line falls with more current.
+    pub scale_ua: i32,
+}
+
+/// How the floor is told from a drop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CliffCalibration {
+    /// Rise of a level from a drop to the darkest floor, halved.
+    pub floor_level: u16,
+    /// What the levels are compared with.
+    pub emitters: CliffEmitters,
+}
+
+/// What is known of the emitters of the cliff sensors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CliffEmitters {
+    /// LED_UNKNOWNS (RG0) switches them: a level is compared with the dark one before it.
+    Switched,
+    /// Nothing switches them: a level is compared with this one, measured over a drop.
+    AlwaysLit(u16),
+}
+
+/// Where the gyro module is and how it speaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GyroCalibration {
+    /// UART 1 or 2.
+    pub uart: u8,
+    /// Its rate.
+    pub baud: u32,
+    /// Its frames.
+    pub frame: FrameKind,
+}
+
+impl Calibration {
+    /// From the record in flash. A record that cannot be used leaves everything unknown that has no assumed value.
+    #[must_use]
+    pub fn from_record(record: &[u8]) -> Self {
+        let ranges = ENTRIES.map(|entry| (entry.low, entry.high));
+        match read(record, &ranges) {
+            Ok(values) => Self { values, fault: None },
+            Err(fault) => Self {
+                values: [None; COUNT],
+                fault: Some(fault),
+            },
+        }
+    }
+
+    /// Why no record is used, if so.
+    #[must_use]
+    pub const fn fault(&self) -> Option<RecordFault> {
+        self.fault
+    }
+
+    /// A value that was measured.
+    #[must_use]
+    pub fn measured(&self, which: Calibrated) -> Option<i32> {
+        self.values.get(which.index()).copied().flatten()
+    }
+
+    /// A value that was measured, or assumed.
+    #[must_use]
+    pub fn known(&self, which: Calibrated) -> Option<i32> {
+        let assumed = ENTRIES.get(which.index()).and_then(|entry| entry.assumed);
+        self.measured(which).or(assumed)
+    }
+
+    /// Speed control of the wheels.
+    #[must_use]
+    pub fn wheels(&self) -> Option<WheelCalibration> {
+        let order = |which| {
+            self.measured(which)
+                .map(|value| Order::from_calibration(Some(value)))
+        };
+        Some(WheelCalibration {
+            count_way_nm: u32::try_from(self.measured(Calibrated::WheelCountWay)?).ok()?,
+            track_um: self.measured(Calibrated::WheelTrack)?,
+            left: order(Calibrated::WheelLeftOrder)?,
+            right: order(Calibrated::WheelRightOrder)?,
+            dead_band_permille: self.measured(Calibrated::WheelDeadBand)?,
+            free_speed_mm_per_s: self.measured(Calibrated::WheelFreeSpeed)?,
+        })
+    }
+
+    /// Currents of the wheels.
+    #[must_use]
+    pub fn currents(&self) -> Option<CurrentCalibration> {
+        Some(CurrentCalibration {
+            left_zero: self.measured(Calibrated::WheelLeftCurrentZero)?,
+            right_zero: self.measured(Calibrated::WheelRightCurrentZero)?,
+            scale_ua: self
+                .measured(Calibrated::WheelCurrentScale)
+                .filter(|scale| *scale != 0)?,
+        })
+    }
+
+    /// Whether the main brush gives pulses when it turns, often enough to see a standstill in the 300 ms of S11.
+    #[must_use]
+    pub fn brush_gives_pulses(&self) -> bool {
+        const PULSES_PER_S_MIN: i32 = 20;
+        let rate = self.measured(Calibrated::BrushMainPulseRate);
+        rate.is_some_and(|rate| rate >= PULSES_PER_S_MIN)
+            && self.measured(Calibrated::BrushMainDeadBand).is_some()
+    }
+
+    /// Which button is which.
+    #[must_use]
+    pub fn ladder(&self) -> Option<Ladder> {
+        let levels = [
+            Calibrated::ButtonLadder1,
+            Calibrated::ButtonLadder2,
+            Calibrated::ButtonLadder3,
+        ];
+        Ladder::new(levels.map(|which| self.measured(which)))
+    }
+
+    /// Floor or drop.
+    #[must_use]
+    pub fn cliffs(&self) -> Option<CliffCalibration> {
+        let level = |which| self.measured(which).and_then(|level| u16::try_from(level).ok());
+        let emitters = match self.measured(Calibrated::CliffEmitterLine)? {
+            1 => CliffEmitters::Switched,
+            _ => CliffEmitters::AlwaysLit(level(Calibrated::CliffDropLevel)?),
+        };
+        Some(CliffCalibration {
+            floor_level: level(Calibrated::CliffFloorLevel)?,
+            emitters,
+        })
+    }
+
+    /// Proximity sensors.
+    #[must_use]
+    pub fn proximity(&self) -> Option<ProximityScale> {
+        let none = self.measured(Calibrated::ProximityNone)?;
+        ProximityScale::new(none, self.measured(Calibrated::ProximityTouching)?)
+    }
+
+    /// Whether the charger may be used: its power stage was tried on a bench, and pack and divider are known.
+    #[must_use]
+    pub fn allows_charging(&self) -> bool {
+        self.measured(Calibrated::ChargeStageChecked) == Some(1)
+            && self.measured(Calibrated::BatteryScale).is_some()
+            && self.measured(Calibrated::BatteryCapacity).is_some()
+    }
+
+    /// The code for the dock.
+    #[must_use]
+    pub fn dock_code(&self) -> LeadingOnes {
+        LeadingOnes::from_calibration(self.known(Calibrated::DockCodeOnes))
+    }
+
+    /// The beams of the dock.
+    #[must_use]
+    pub fn beams(&self) -> Option<BeamCodes> {
+        let codes = [
+            Calibrated::DockBeamLeft,
+            Calibrated::DockBeamRight,
+            Calibrated::DockBeamNear,
+        ];
+        BeamCodes::new(
+            codes.map(|which| self.measured(which)),
+            self.measured(Calibrated::DockBeamShort),
+        )
+    }
+
+    /// The gyro module.
+    #[must_use]
+    pub fn gyro(&self) -> Option<GyroCalibration> {
+        Some(GyroCalibration {
+            uart: u8::try_from(self.measured(Calibrated::GyroUart)?).ok()?,
+            baud: u32::try_from(self.measured(Calibrated::GyroRate)?).ok()?,
+            frame: FrameKind::from_calibration(self.measured(Calibrated::GyroFrame))?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Calibration, CliffEmitters};
+    use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
+    use crate::logic::calibration_record::{MAGIC, RecordFault, UNKNOWN, VERSION};
+    use rvac_protocol::seal::crc32c;
+    use std::vec::Vec;
+
+    fn record(values: &[i32; COUNT]) -> Vec<u8> {
+        let count = u16::try_from(COUNT).unwrap();
+        let header = [
+            &MAGIC.to_le_bytes()[..],
+            &VERSION.to_le_bytes(),
+            &count.to_le_bytes(),
+        ]
+        .concat();
+        let body = values.iter().flat_map(|value| value.to_le_bytes());
+        let mut bytes: Vec<u8> = header.into_iter().chain(body).collect();
+        bytes.extend((!crc32c(u32::MAX, &bytes)).to_le_bytes());
+        bytes
+    }
+
+    fn highest_but(changes: &[(Calibrated, i32)]) -> Calibration {
+        let mut values = ENTRIES.map(|entry| entry.high);
+        for (which, value) in changes {
+            values[which.index()] = *value;
+        }
+        Calibration::from_record(&record(&values))
+    }
+
+    #[test]
+    fn an_erased_record_leaves_all_parts_absent() {
+        let calibration = Calibration::from_record(&[0xFF; 4_096]);
+        assert_eq!(calibration.fault(), Some(RecordFault::Absent));
+        assert_eq!(calibration.wheels(), None);
+        assert_eq!(calibration.currents(), None);
+        assert_eq!(calibration.ladder(), None);
+        assert_eq!(calibration.cliffs(), None);
+        assert_eq!(calibration.proximity(), None);
+        assert_eq!(calibration.beams(), None);
+        assert_eq!(calibration.gyro(), None);
+        assert!(!calibration.allows_charging() && !calibration.brush_gives_pulses());
+        assert_eq!(calibration.known(Calibrated::BatteryScale), Some(32_549));
+    }
+
+    #[test]
+    fn each_missing_value_takes_its_part_away() {
+        let missing = |which| highest_but(&[(which, UNKNOWN)]);
+        for which in [
+            Calibrated::WheelCountWay,
+            Calibrated::WheelTrack,
+            Calibrated::WheelLeftOrder,
+            Calibrated::WheelRightOrder,
+            Calibrated::WheelDeadBand,
+            Calibrated::WheelFreeSpeed,
+        ] {
+            assert!(highest_but(&[]).wheels().is_some());
+            assert_eq!(missing(which).wheels(), None, "{which:?}");
+        }
+        for which in [
+            Calibrated::BatteryScale,
+            Calibrated::BatteryCapacity,
+            Calibrated::ChargeStageChecked,
+        ] {
+            assert!(highest_but(&[]).allows_charging());
+            assert!(
+                !missing(which).allows_charging(),
+                "{which:?}: an assumed value is not enough to charge"
+            );
+        }
+        assert_eq!(missing(Calibrated::GyroRate).gyro(), None);
+        assert_eq!(missing(Calibrated::DockBeamShort).beams(), None);
+    }
+
+    #[test]
+    fn a_stage_that_failed_on_the_bench_never_charges() {
+        assert!(!highest_but(&[(Calibrated::ChargeStageChecked, 0)]).allows_charging());
+    }
+
+    #[test]
+    fn emitters_that_nothing_switches_need_the_level_of_a_drop() {
+        let lit = [
+            (Calibrated::CliffEmitterLine, 0),
+            (Calibrated::CliffDropLevel, 40),
+        ];
+        let found = highest_but(&lit).cliffs().unwrap();
+        assert_eq!(found.emitters, CliffEmitters::AlwaysLit(40));
+        let unknown = [
+            (Calibrated::CliffEmitterLine, 0),
+            (Calibrated::CliffDropLevel, UNKNOWN),
+        ];
+        assert_eq!(highest_but(&unknown).cliffs(), None);
+        let switched = [(Calibrated::CliffDropLevel, UNKNOWN)];
+        assert_eq!(
+            highest_but(&switched).cliffs().unwrap().emitters,
+            CliffEmitters::Switched
+        );
+    }
+
+    #[test]
+    fn names_and_places_of_the_record_agree() {
+        for (place, entry) in ENTRIES.iter().enumerate() {
+            assert_eq!(entry.value.index(), place, "{}", entry.name);
+            assert!(entry.low <= entry.high);
+        }
+    }
+}
