@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod digest;
 mod home;
 mod load;
 mod model;
@@ -18,6 +19,7 @@ mod plan;
 mod pose;
 mod world;
 
+pub use digest::Digest;
 pub use home::Home;
 pub use load::HomeError;
 pub use model::{

@@ -73,6 +73,7 @@ fn each_fault_changes_its_sensor_only() {
     let (mut honest, lying) = with_fault(SensorId::Cliff(1), SensorFault::StuckAt(7));
     assert_eq!(lying.cliff_levels[1], 7);
     honest.cliff_levels[1] = 7;
+    honest.cliff_dark[1] = 7;
     assert_eq!(honest, lying);
 
     let (honest, lying) = with_fault(SensorId::WheelDropRight, SensorFault::Inverted);

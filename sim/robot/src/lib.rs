@@ -7,7 +7,6 @@
 #![deny(missing_docs)]
 
 pub mod board;
-mod digest;
 mod line;
 mod parameters;
 mod robot;

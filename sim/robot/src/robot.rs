@@ -2,14 +2,13 @@
 
 use cordlib::Cord;
 use cordlib::board::{ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
-use home::{Actuation, Bridge, RobotModel, Sensors, World};
+use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
 use monitor::{Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
-use crate::digest::Digest;
 use crate::line::Line;
 use crate::parameters::parameters_for;
 

@@ -168,6 +168,10 @@ fn distort(shown: &mut Sensors, sensor: SensorId, fault: SensorFault, random: &m
         SensorId::DockContacts => switch(&mut shown.dock_contacts, fault, random),
         SensorId::Cliff(number) => {
             level(levels_of_cliffs.get_mut(usize::from(number)), fault, random);
+            // Noise is drawn once for both, so that it does not depend on who looks at the dark.
+            if !matches!(fault, SensorFault::Noisy(_)) {
+                level(shown.cliff_dark.get_mut(usize::from(number)), fault, random);
+            }
         }
         SensorId::Proximity(number) => level(levels.get_mut(usize::from(number)), fault, random),
         SensorId::DockReceiver(number) => {

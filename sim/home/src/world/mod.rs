@@ -137,6 +137,13 @@ impl World {
         &self.truth
     }
 
+    /// Where the left and right wheel stand, in encoder counts and fractions of them: what the encoders would show if they
+    /// were perfect.
+    #[must_use]
+    pub fn encoder_positions(&self) -> [f64; 2] {
+        [self.left.exact_count(), self.right.exact_count()]
+    }
+
     /// The home as it is now, doors included.
     #[must_use]
     pub const fn home(&self) -> &Arc<Home> {

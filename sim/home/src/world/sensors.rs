@@ -19,6 +19,8 @@ pub struct Sensors {
     /// Light that each cliff sensor gets, 0..=255, in the order of the model. About 180 on a floor with the emitter on,
     /// about 10 over a drop, about 10 (the room's light) with the emitter off.
     pub cliff_levels: [u8; 4],
+    /// The same with the emitters off, whatever they do now: for circuits that look at moments within a millisecond.
+    pub cliff_dark: [u8; 4],
     /// Left wheel hangs.
     pub wheel_drop_left: bool,
     /// Right wheel hangs.

@@ -258,6 +258,7 @@ impl World {
         self.sensors.gyro = self.gyro.as_ref().map(super::Gyro::reading);
         (self.sensors.bumper_left, self.sensors.bumper_right) = self.body.pressed(now_ms);
         self.sensors.cliff_levels = self.underneath.levels(actuation.cliff_emitter);
+        self.sensors.cliff_dark = self.underneath.levels(false);
         self.sensors.wheel_drop_left = in_air || self.underneath.left_over_cliff;
         self.sensors.wheel_drop_right = in_air || self.underneath.right_over_cliff;
         if self.model.wheel_drops < 2 {

@@ -132,8 +132,13 @@ impl Wheel {
         way_m * self.errors.way_factor
     }
 
+    /// The way of the motor side in counts.
+    pub(crate) fn exact_count(&self) -> f64 {
+        self.travel_m * self.counts_per_m
+    }
+
     fn take_counts(&mut self) {
-        let exact = self.travel_m * self.counts_per_m;
+        let exact = self.exact_count();
         let whole = exact as i64;
         let floor = if exact < whole as f64 { whole - 1 } else { whole } as i32;
         let change = floor.wrapping_sub(self.count_signed);

@@ -2,7 +2,7 @@
 
 /// FNV-1a over bytes, 64 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Digest(u64);
+pub struct Digest(u64);
 
 impl Default for Digest {
     fn default() -> Self {
@@ -11,17 +11,21 @@ impl Default for Digest {
 }
 
 impl Digest {
-    pub(crate) const fn byte(&mut self, byte: u8) {
+    /// Takes a byte.
+    pub const fn byte(&mut self, byte: u8) {
         self.0 = (self.0 ^ byte as u64).wrapping_mul(0x0100_0000_01b3);
     }
 
-    pub(crate) fn word(&mut self, word: u64) {
+    /// Takes a word.
+    pub fn word(&mut self, word: u64) {
         for byte in word.to_le_bytes() {
             self.byte(byte);
         }
     }
 
-    pub(crate) const fn value(self) -> u64 {
+    /// What stands for everything that was taken.
+    #[must_use]
+    pub const fn value(self) -> u64 {
         self.0
     }
 }
