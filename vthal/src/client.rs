@@ -4,11 +4,11 @@ use std::io;
 use std::rc::Rc;
 
 use rvac_api::{Failure, Request, SEPARATOR, Update};
-use tokio::net::UnixStream;
 use tokio::sync::mpsc::Sender;
 use tokio::task::AbortHandle;
 use vthal_core::ClientId;
 
+use crate::client_stream::ClientStream;
 use crate::event::Event;
 use crate::outbox::{Class, Outbox, Overflow};
 
@@ -20,7 +20,7 @@ const READ_SIZE: usize = 4096;
 /// A connected client.
 #[derive(Debug)]
 pub(crate) struct Client {
-    stream: Rc<UnixStream>,
+    stream: Rc<ClientStream>,
     incoming: Vec<u8>,
     outbox: Outbox,
     /// Something waits until the socket takes bytes again.
@@ -66,7 +66,7 @@ pub(crate) enum Flushed {
 impl Client {
     /// A client that has just connected.
     #[must_use]
-    pub(crate) fn new(stream: Rc<UnixStream>) -> Self {
+    pub(crate) fn new(stream: Rc<ClientStream>) -> Self {
         Self {
             stream,
             incoming: Vec::new(),
@@ -79,7 +79,7 @@ impl Client {
 
     /// Its stream.
     #[must_use]
-    pub(crate) fn stream(&self) -> &Rc<UnixStream> {
+    pub(crate) fn stream(&self) -> &Rc<ClientStream> {
         &self.stream
     }
 
@@ -144,7 +144,7 @@ impl Client {
             return self.leaving.map_or(Flushed::Waits, Flushed::Gone);
         }
         let stream = &self.stream;
-        match self.outbox.flush(|slices| stream.try_write_vectored(slices)) {
+        match self.outbox.flush(|slices| stream.try_write(slices)) {
             Ok(()) => self.leaving.map_or(Flushed::Done, Flushed::Gone),
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
                 self.blocked = true;
@@ -212,12 +212,14 @@ fn parse(packet: &[u8]) -> Incoming {
 }
 
 /// Reads for a client until it hangs up.
-pub(crate) async fn read_for(client: ClientId, stream: Rc<UnixStream>, events: Sender<Event>) {
+pub(crate) async fn read_for(client: ClientId, stream: Rc<ClientStream>, events: Sender<Event>) {
     let mut buffer = [0; READ_SIZE];
     loop {
-        let event = match read_some(&stream, &mut buffer).await {
-            Some(bytes) => Event::ClientBytes(client, bytes),
-            None => Event::ClientClosed(client),
+        let event = match stream.read(&mut buffer).await {
+            Ok(0) | Err(_) => Event::ClientClosed(client),
+            Ok(count) => {
+                Event::ClientBytes(client, buffer.get(..count).unwrap_or_default().to_vec())
+            }
         };
         let ends = matches!(event, Event::ClientClosed(_));
         if events.send(event).await.is_err() || ends {
@@ -226,20 +228,8 @@ pub(crate) async fn read_for(client: ClientId, stream: Rc<UnixStream>, events: S
     }
 }
 
-async fn read_some(stream: &UnixStream, buffer: &mut [u8]) -> Option<Vec<u8>> {
-    loop {
-        stream.readable().await.ok()?;
-        match stream.try_read(buffer) {
-            Ok(0) => return None,
-            Ok(count) => return Some(buffer.get(..count).unwrap_or_default().to_vec()),
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => {}
-            Err(_) => return None,
-        }
-    }
-}
-
 /// Tells once when the client's socket takes bytes again.
-pub(crate) async fn watch_writable(client: ClientId, stream: Rc<UnixStream>, events: Sender<Event>) {
+pub(crate) async fn watch_writable(client: ClientId, stream: Rc<ClientStream>, events: Sender<Event>) {
     let event = match stream.writable().await {
         Ok(()) => Event::ClientWritable(client),
         Err(_) => Event::ClientClosed(client),

@@ -6,6 +6,8 @@ use brain::StrategyName;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::imu::{Axis, ImuSettings, Roots};
+
 /// A valid configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
@@ -27,6 +29,8 @@ pub struct Config {
     pub task_budget_min: u32,
     /// Seed of the brain; from the clock when absent.
     pub seed: Option<u64>,
+    /// Gyro on the Linux board, if there is one.
+    pub imu: Option<ImuSettings>,
     /// Log.
     pub log: LogConfig,
     /// Recordings.
@@ -112,6 +116,7 @@ struct File {
     link: Link,
     socket: Socket,
     robot: Robot,
+    imu: Imu,
     state: State,
     log: Log,
     recording: Recording,
@@ -138,6 +143,13 @@ struct Robot {
     strategy: Option<Spanned<String>>,
     task_budget_min: Option<Spanned<u32>>,
     seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Imu {
+    device: Option<Spanned<String>>,
+    up: Option<Spanned<String>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -264,6 +276,7 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
         strategy: strategy(file.robot.strategy, source)?,
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
         seed: flags.seed.or(file.robot.seed),
+        imu: imu(file.imu, source)?,
         log: LogConfig {
             level: level(file.log.level, source)?,
             size_mib: source.in_range(file.log.size_mib, 4, 1..=1_024)?,
@@ -275,6 +288,24 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
             total_mib: source.in_range(file.recording.total_mib, 512, 1..=1_000_000)?,
         },
     })
+}
+
+fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError> {
+    let axis = match imu.up {
+        None => Axis::from_name("z"),
+        Some(name) => Some(Axis::from_name(name.get_ref()).ok_or_else(|| {
+            let what = format!(
+                "{:?} is no axis: write x, y or z, with a minus sign if it points down",
+                name.get_ref()
+            );
+            source.invalid(name.span().start, what)
+        })?),
+    };
+    Ok(imu.device.zip(axis).map(|(device, axis)| ImuSettings {
+        device: device.into_inner(),
+        axis,
+        roots: Roots::default(),
+    }))
 }
 
 fn strategy(name: Option<Spanned<String>>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
@@ -349,6 +380,7 @@ mod tests {
         let config = parse(&written_out).expect("valid");
         let mut defaults = parse("").expect("valid");
         defaults.seed = Some(1);
+        defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");
         let fields = [
@@ -361,6 +393,8 @@ mod tests {
             "strategy",
             "task_budget_min",
             "seed",
+            "device",
+            "up",
             "level",
             "size_mib",
             "files",
@@ -385,6 +419,10 @@ mod tests {
             (
                 "\n[log]\n\nlevel = \"loud\"",
                 "vthal.toml:4: log.level: no level has the name \"loud\": write error, warn, info or debug",
+            ),
+            (
+                "[imu]\nup = \"w\"",
+                "vthal.toml:2: imu.up: \"w\" is no axis: write x, y or z, with a minus sign if it points down",
             ),
             (
                 "[robot]\nstrategy = \"b\"",

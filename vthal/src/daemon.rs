@@ -6,6 +6,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use rvac_api::{Failure, LogEntry, LogLevel, Update};
+use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
@@ -13,8 +14,10 @@ use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
 
 use crate::checkpoint_thread::CheckpointHandle;
 use crate::client::{self, Client, Flushed, Incoming};
+use crate::client_stream::ClientStream;
 use crate::clock::Clock;
 use crate::event::{Event, SerialEvent};
+use crate::imu::ImuEvent;
 use crate::outbox::Class;
 use crate::recording::RecorderHandle;
 use crate::socket;
@@ -117,7 +120,8 @@ impl Daemon {
             Event::Serial(SerialEvent::Bytes(bytes)) => self.handle(Input::LinkBytes(&bytes)),
             Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
             Event::Serial(SerialEvent::Absent(error)) => tracing::warn!(part = "link", "{error}"),
-            Event::Connected(stream) => self.connect(Rc::new(stream)),
+            Event::Imu(event) => self.take_imu(event),
+            Event::Connected(stream) => self.connect(stream),
             Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
             Event::ClientWritable(client) => {
                 if let Some(client) = self.clients.get_mut(&client) {
@@ -129,6 +133,19 @@ impl Daemon {
         }
     }
 
+    fn take_imu(&mut self, event: ImuEvent) {
+        match event {
+            ImuEvent::Turned(heading_urad) => self.handle(Input::BoardHeading { heading_urad }),
+            ImuEvent::Opened(manner) => tracing::info!(part = "imu", "heading sensor is read {manner}"),
+            ImuEvent::Absent(text) => {
+                tracing::warn!(
+                    part = "imu",
+                    "no heading from the board's gyro: {text}; looking again every 2 s"
+                );
+            }
+        }
+    }
+
     fn terminate(&mut self, signal: &'static str) {
         if self.ends_at.is_none() {
             tracing::info!(part = "vthal", "{signal}: stops the wheels and ends");
@@ -137,7 +154,7 @@ impl Daemon {
         }
     }
 
-    fn connect(&mut self, stream: Rc<tokio::net::UnixStream>) {
+    fn connect(&mut self, stream: UnixStream) {
         if self.clients.len() >= self.wiring.clients_max {
             let text = "As many clients are connected as may be: close one, or raise socket.clients_max.";
             let failure = Failure {
@@ -148,6 +165,13 @@ impl Daemon {
             socket::turn_away(&stream, &client::spell(&Update::Failed(failure)));
             return;
         }
+        let stream = match ClientStream::new(stream) {
+            Ok(stream) => Rc::new(stream),
+            Err(error) => {
+                tracing::warn!(part = "client", "a client could not be watched: {error}");
+                return;
+            }
+        };
         self.clients_seen += 1;
         let id = ClientId(self.clients_seen);
         let reads = client::read_for(id, Rc::clone(&stream), self.wiring.event_sender.clone());

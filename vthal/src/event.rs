@@ -3,6 +3,7 @@
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
+use crate::imu::ImuEvent;
 use crate::serial::OpenError;
 
 /// The closed set of causes.
@@ -18,6 +19,8 @@ pub(crate) enum Event {
     ClientWritable(ClientId),
     /// A client is gone.
     ClientClosed(ClientId),
+    /// From the gyro of the Linux board.
+    Imu(ImuEvent),
     /// The core asked to be called now.
     Wake,
     /// The daemon is told to end, by the named signal.

@@ -17,7 +17,7 @@ use crate::instance::{self, InstanceError};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
-use crate::{checkpoint_thread, logging};
+use crate::{checkpoint_thread, imu, logging};
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
@@ -98,6 +98,9 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         path: config.serial.clone(),
         baud: config.baud,
     };
+    if let Some(imu) = &config.imu {
+        imu::start(imu.clone(), event_sender.clone())?;
+    }
     spawn_local(serial::serve(serial, event_sender, robot_queue));
     tracing::info!(
         part = "vthal",

@@ -70,6 +70,11 @@ impl Core {
             Input::LinkOpened => self.link_opened(now_us, outputs),
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
             Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
+            Input::BoardHeading { heading_urad } => {
+                if let Some(mind) = &mut self.mind {
+                    mind.observer.take_board_heading(now_us, heading_urad);
+                }
+            }
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),

@@ -18,6 +18,11 @@ pub enum Input<'a> {
         /// Why, for the log.
         reason: LinkLoss,
     },
+    /// The gyro on the Linux board has turned this far since it was opened.
+    BoardHeading {
+        /// Microradians counter-clockwise, wrapping.
+        heading_urad: i32,
+    },
     /// A client connected.
     ClientConnected(ClientId),
     /// A client asks for something.

@@ -47,7 +47,7 @@ impl Journal {
         self.written += 1;
         let entry = LogEntry {
             number: self.written,
-            t: now_us as f64 * 1e-6,
+            t: now_us as f64 / 1e6,
             level,
             part: part.name().to_owned(),
             text,

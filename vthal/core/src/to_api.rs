@@ -18,7 +18,7 @@ pub(crate) fn pose(pose: Pose2, time_us: u64) -> Pose {
 
 /// Microseconds to the interface's seconds.
 pub(crate) fn seconds(time_us: u64) -> f64 {
-    time_us as f64 * 1e-6
+    time_us as f64 / 1e6
 }
 
 /// A robot's description.

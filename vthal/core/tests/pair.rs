@@ -3,11 +3,11 @@
 use rvac_api::{Request, RequestBody, Topic, Update};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, EdgeKind, Inhibit, Inhibits, Limits, Name, Report,
+    BinaryKinds, Capabilities, Command, Description, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Name, Report,
     ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
-use rvac_units::{AngularSpeed, Length, Speed, Tick};
+use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
 use vthal_core::{ClientId, Core, CoreConfig, Input, Outputs, Record, Recording};
 
 const ANNA: ClientId = ClientId(1);
@@ -94,6 +94,15 @@ impl Pair {
                 clean: false,
             },
         )
+    }
+
+    /// The headings that the brain perceived, in order.
+    fn headings(&self) -> Vec<Option<f64>> {
+        let heading = |record: &Record| match record {
+            Record::Observation(seen) => Some(seen.gyro_heading_rad),
+            _ => None,
+        };
+        self.records.iter().filter_map(heading).collect()
     }
 
     fn run_ms(&mut self, duration_ms: u64) {
@@ -448,4 +457,29 @@ fn records_hold_all_that_the_brain_needs_to_decide_the_same_again() {
     }
     assert_eq!(runs, 2, "one by hand, one job");
     assert!(compared > 300, "{compared} steps");
+}
+
+#[test]
+fn a_gyro_on_the_board_gives_the_heading_and_is_missed_when_it_falls_silent() {
+    let mut pair = Pair::new();
+    // The robot's own gyro says something else, and does not count any more.
+    pair.state.gyro = Some(Gyro {
+        heading: Angle(777_777),
+        rate: AngularSpeed(0),
+    });
+    pair.drive(ANNA, 0.0);
+    for step in 0..10 {
+        pair.handle(Input::BoardHeading {
+            heading_urad: i32::MAX.wrapping_add(step * 1000),
+        });
+        pair.run_ms(PERIOD_MS);
+    }
+    let heard = pair.headings();
+    let known: Vec<f64> = heard.iter().flatten().copied().collect();
+    assert_eq!(known.first(), Some(&0.0), "the first word is the origin");
+    let last_rad = heard.last().copied().flatten().expect("still there");
+    assert!((last_rad - 0.009).abs() < 1e-9, "across the wrap: {last_rad}");
+    pair.records.clear();
+    pair.run_ms(400);
+    assert_eq!(pair.headings().last(), Some(&None), "silent for 0.2 s and more");
 }

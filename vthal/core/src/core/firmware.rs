@@ -124,7 +124,7 @@ impl Core {
         self.facts.take_state(now_us, state);
         let description = self.device.as_ref().and_then(|device| device.description());
         if let (Some(mind), Some(description)) = (&mut self.mind, description) {
-            mind.observer.take_state(state, description);
+            mind.observer.take_state(now_us, state, description);
             self.think(now_us, outputs);
         }
     }

@@ -12,10 +12,21 @@ use crate::device::{Description, Part};
 /// Name under which inhibits of newer firmware reach the brain.
 pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
 
+/// A heading of the Linux board's gyro older than this says nothing about the robot's present.
+const BOARD_HEADING_FRESH_US: u64 = 200_000;
+
+/// What the gyro on the Linux board said last.
+#[derive(Clone, Copy, Debug)]
+struct BoardHeading {
+    at_us: u64,
+    heading_urad: i32,
+}
+
 /// Keeps the present observation and fills it in place, so that a report costs no allocation.
 #[derive(Debug)]
 pub struct Observer {
     odometer: Odometer,
+    board_heading: Option<BoardHeading>,
     observation: Observation,
 }
 
@@ -29,6 +40,7 @@ impl Observer {
         };
         Self {
             odometer: Odometer::default(),
+            board_heading: None,
             observation,
         }
     }
@@ -39,14 +51,30 @@ impl Observer {
         &self.observation
     }
 
-    /// Takes a telemetry report of a robot that is described by `description`.
-    pub fn take_state(&mut self, state: &State, description: &Description) {
+    /// Takes the total of the gyro on the Linux board. From its first word on the heading is its own, and is missing while
+    /// it is silent: two gyros with different drift are never mixed.
+    pub fn take_board_heading(&mut self, now_us: u64, heading_urad: i32) {
+        if self.board_heading.is_none() {
+            self.odometer.rebase_heading();
+        }
+        self.board_heading = Some(BoardHeading {
+            at_us: now_us,
+            heading_urad,
+        });
+    }
+
+    fn heading_urad(&self, now_us: u64, state: &State, description: &Description) -> Option<i32> {
+        match self.board_heading {
+            Some(board) => (now_us < board.at_us + BOARD_HEADING_FRESH_US).then_some(board.heading_urad),
+            None if description.has(Part::Gyro) => state.gyro.map(|gyro| gyro.heading.0),
+            None => None,
+        }
+    }
+
+    /// Takes a telemetry report, arrived at `now_us`, of a robot that is described by `description`.
+    pub fn take_state(&mut self, now_us: u64, state: &State, description: &Description) {
+        let heading_urad = self.heading_urad(now_us, state, description);
         let view = &mut self.observation;
-        let heading_urad = if description.has(Part::Gyro) {
-            state.gyro.map(|gyro| gyro.heading.0)
-        } else {
-            None
-        };
         let raw = RawTotals {
             count_left: state.count_left,
             count_right: state.count_right,
@@ -84,9 +112,12 @@ impl Observer {
         self.observation.battery_charge = charge;
     }
 
-    /// The microcontroller was reset: its totals begin anew.
+    /// The microcontroller was reset: its totals begin anew. Those of the board's own gyro go on.
     pub fn rebase(&mut self) {
-        self.odometer.rebase();
+        self.odometer.rebase_wheels();
+        if self.board_heading.is_none() {
+            self.odometer.rebase_heading();
+        }
     }
 
     /// Dates the view and says how the link is. Times rise strictly whatever the caller gives.

@@ -59,12 +59,16 @@ impl Odometer {
         }
     }
 
-    /// The totals begin anew at a value that says nothing about the past: the microcontroller was reset. The way made so
-    /// far stays.
-    pub fn rebase(&mut self) {
-        for total in [&mut self.left, &mut self.right, &mut self.heading] {
-            total.last = None;
-        }
+    /// The wheels' totals begin anew at a value that says nothing about the past: the microcontroller was reset. The way
+    /// made so far stays.
+    pub fn rebase_wheels(&mut self) {
+        self.left.last = None;
+        self.right.last = None;
+    }
+
+    /// As [`Self::rebase_wheels`], for the heading.
+    pub fn rebase_heading(&mut self) {
+        self.heading.last = None;
     }
 }
 
@@ -101,7 +105,7 @@ mod tests {
         let mut odometer = Odometer::default();
         odometer.take(raw(0, 0), COUNT_M);
         odometer.take(raw(500, 400), COUNT_M);
-        odometer.rebase();
+        odometer.rebase_wheels();
         let travel = odometer.take(raw(3, 0), COUNT_M);
         assert_eq!((travel.left_m, travel.right_m), (0.5, 0.4));
         assert_eq!(odometer.take(raw(13, 0), COUNT_M).left_m, 0.51);

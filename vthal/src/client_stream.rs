@@ -1,0 +1,52 @@
+//! A client's socket, which wakes the daemon only for what somebody waits for.
+//!
+//! tokio's own stream asks the system for news of both directions. Each client that reads would wake the daemon then
+//! ("there is room again"): fifty times a second for every client, and in the middle of serving the next one.
+
+use std::io::{self, IoSlice, Read, Write};
+use std::os::unix::net::UnixStream;
+
+use tokio::io::Interest;
+use tokio::io::unix::AsyncFd;
+
+/// A connected socket that does not block.
+#[derive(Debug)]
+pub(crate) struct ClientStream(AsyncFd<UnixStream>);
+
+impl ClientStream {
+    /// Takes over a socket that was just accepted.
+    ///
+    /// # Errors
+    /// When the system has no room to watch it.
+    pub(crate) fn new(accepted: tokio::net::UnixStream) -> io::Result<Self> {
+        AsyncFd::with_interest(accepted.into_std()?, Interest::READABLE).map(Self)
+    }
+
+    /// Waits for bytes and takes what fits into `buffer`; 0 when the client hung up.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub(crate) async fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0
+            .async_io(Interest::READABLE, |mut stream| stream.read(buffer))
+            .await
+    }
+
+    /// Writes what the socket takes at once.
+    ///
+    /// # Errors
+    /// `WouldBlock` when that is nothing, and those of the system.
+    pub(crate) fn try_write(&self, slices: &[IoSlice<'_>]) -> io::Result<usize> {
+        self.0.get_ref().write_vectored(slices)
+    }
+
+    /// Waits until the socket takes bytes again: a second handle is watched for just as long.
+    ///
+    /// # Errors
+    /// When the system has no second handle or no room to watch it.
+    pub(crate) async fn writable(&self) -> io::Result<()> {
+        let handle = self.0.get_ref().try_clone()?;
+        let watched = AsyncFd::with_interest(handle, Interest::WRITABLE)?;
+        watched.writable().await.map(drop)
+    }
+}
