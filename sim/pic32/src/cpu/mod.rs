@@ -1,10 +1,50 @@
 //! The M4K core: MIPS32 release 2 without floating point, TLB or caches, in fixed mapping.
+//!
+//! **Time.** An instruction takes one cycle and, besides:
+//!
+//! | what | cycles | confidence |
+//! | --- | --- | --- |
+//! | a load whose result the next instruction needs | 1 | estimated |
+//! | reading a register of the chip | 2 | unknown |
+//! | a load from RAM | BMXCON.BMXWSDRM | known |
+//! | a load from flash | CHECON.PFMWS | known, without the lines for data |
+//! | a jump to a line that the prefetch unit does not hold | CHECON.PFMWS | known, its replacement rule is not |
+//! | each fetch from flash without prefetch | CHECON.PFMWS | estimated |
+//! | HI or LO asked for before they are there | up to 2, after a division up to 33 | estimated |
+//! | `mul` | 1 or 2 | estimated |
+//! | entering or leaving a handler | 3 | estimated |
+//!
+//! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that gives
+//! it no memory), debug mode beyond `sdbbp` and `deret`.
+//!
+//! **How it works.** Flash is decoded once ([`crate::memory`]). The inner loop (`inner.rs`) runs decoded code without any call;
+//! it is left for uncommon instructions, for registers of the chip, and when the next event is due.
 
+mod arithmetic;
 mod bus;
+mod data;
+pub(crate) mod decode;
+mod exception;
+mod inner;
+mod multiplier;
+mod open;
+pub(crate) mod operation;
+mod prefetch;
+mod registers;
+mod run;
+mod system;
+mod timer;
+mod transfer;
+mod uncommon;
 
 pub use bus::{Access, Bus, BusFault, Width};
+pub use exception::{Exception, ExceptionCode};
 
-use crate::memory::Memory;
+use multiplier::Multiplier;
+use prefetch::PrefetchUnit;
+use registers::{Registers, Source, Target};
+use system::System;
+use timer::CoreTimer;
 
 /// What the interrupt controller asks for at the moment (EIC mode).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,42 +57,6 @@ pub struct InterruptRequest {
     pub shadow_set: u8,
 }
 
-/// An exception that was entered and is no interrupt.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exception {
-    /// What it is.
-    pub code: ExceptionCode,
-    /// Virtual address of the instruction that caused it.
-    pub address: u32,
-    /// The address that was accessed, for address and bus errors.
-    pub accessed: Option<u32>,
-}
-
-/// Cause.ExcCode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ExceptionCode {
-    /// Address error on a fetch or load.
-    AddressLoad = 4,
-    /// Address error on a store.
-    AddressStore = 5,
-    /// Bus error on a fetch.
-    BusFetch = 6,
-    /// Bus error on a load or store.
-    BusData = 7,
-    /// `syscall`.
-    Syscall = 8,
-    /// `break`.
-    Breakpoint = 9,
-    /// An instruction that this core does not have.
-    Reserved = 10,
-    /// A coprocessor that this core does not have.
-    CoprocessorUnusable = 11,
-    /// Overflow of `add`, `addi` or `sub`.
-    Overflow = 12,
-    /// A trap instruction whose condition held.
-    Trap = 13,
-}
-
 /// Why [`Cpu::run`] returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -62,6 +66,8 @@ pub enum Exit {
     Horizon,
     /// Count has become equal to Compare: the interrupt flag of the core timer is to be set.
     CoreTimer,
+    /// The program wrote Cause.IP1 and IP0: these bits are the requests of the core software interrupts 1 and 0 now.
+    SoftwareRequests(u8),
     /// A breakpoint of the debugger is at the next instruction, which was not executed.
     Breakpoint,
     /// An exception other than an interrupt was entered; running on executes its handler.
@@ -86,14 +92,34 @@ pub enum CoreReset {
     NonMaskable,
 }
 
+/// The address of the first instruction after a reset.
+const RESET_VECTOR: u32 = 0xBFC0_0000;
+/// The number of the stack pointer.
+const STACK_POINTER: u32 = 29;
+
 /// The core.
 #[derive(Clone, Debug)]
 pub struct Cpu {
     cycle: u64,
     pc: u32,
-    registers: [u32; 32],
+    /// The instruction after the current one: not the next word in a delay slot.
+    next: u32,
+    /// The current instruction is in the delay slot of a branch.
+    in_slot: bool,
+    registers: Registers,
+    /// The register set that is not in use.
+    other_registers: Registers,
+    is_shadow_active: bool,
+    multiplier: Multiplier,
+    system: System,
+    timer: CoreTimer,
+    prefetch: PrefetchUnit,
     request: Option<InterruptRequest>,
+    is_waiting: bool,
+    is_linked: bool,
     idle_cycles: u64,
+    deepest_stack: u32,
+    software_requests: u8,
 }
 
 impl Default for Cpu {
@@ -103,52 +129,53 @@ impl Default for Cpu {
 }
 
 impl Cpu {
-    /// A core right after power-on, at cycle 0.
+    /// A core right after power-on, at cycle 0. Registers that the chip leaves undefined are zero.
     pub fn new() -> Self {
         Self {
             cycle: 0,
-            pc: 0xBFC0_0000,
-            registers: [0; 32],
+            pc: RESET_VECTOR,
+            next: RESET_VECTOR + 4,
+            in_slot: false,
+            registers: Registers::new(),
+            other_registers: Registers::new(),
+            is_shadow_active: false,
+            multiplier: Multiplier::default(),
+            system: System::new(),
+            timer: CoreTimer::new(),
+            prefetch: PrefetchUnit::new(),
             request: None,
+            is_waiting: false,
+            is_linked: false,
             idle_cycles: 0,
+            deepest_stack: u32::MAX,
+            software_requests: 0,
         }
     }
 
-    /// Executes until `until_cycle`, the horizon of the bus, a match of the core timer, a breakpoint or an exception;
-    /// at least up to the begin of the first instruction that is not before the earliest of these. In WAIT time goes on
-    /// without instructions.
-    pub fn run<B: Bus>(&mut self, memory: &mut Memory, bus: &mut B, until_cycle: u64) -> Exit {
-        let _ = (memory, self.request, self.idle_cycles);
-        let end = until_cycle.min(bus.horizon());
-        self.cycle = self.cycle.max(end);
-        if end == until_cycle {
-            Exit::Reached
+    /// Resets the core; time goes on, and general registers stay as they are.
+    pub fn reset(&mut self, reset: CoreReset) {
+        let restart = if self.in_slot {
+            self.pc.wrapping_sub(4)
         } else {
-            Exit::Horizon
+            self.pc
+        };
+        self.system.reset(restart, reset == CoreReset::NonMaskable);
+        self.select_set();
+        if reset == CoreReset::Cold {
+            self.timer.set_stopped(self.cycle, false);
+            self.prefetch = PrefetchUnit::new();
+            self.request = None;
+            self.software_requests = 0;
         }
-    }
-
-    /// Executes one instruction, with its delay slot if it has one; interrupts are taken first.
-    pub fn step<B: Bus>(&mut self, memory: &mut Memory, bus: &mut B) -> Exit {
-        let next = self.cycle + 1;
-        self.run(memory, bus, next)
+        self.is_waiting = false;
+        self.is_linked = false;
+        self.continue_at(RESET_VECTOR);
     }
 
     /// What the interrupt controller requests from now on; `None` for nothing. It is taken before the next instruction
     /// that may be interrupted, and stays until it is replaced.
     pub fn interrupt(&mut self, request: Option<InterruptRequest>) {
         self.request = request;
-    }
-
-    /// The interrupt that was taken since the last call.
-    pub fn take_taken(&mut self) -> Option<Taken> {
-        None
-    }
-
-    /// Resets the core; time goes on.
-    pub fn reset(&mut self, reset: CoreReset) {
-        let _ = reset;
-        self.pc = 0xBFC0_0000;
     }
 
     /// SYSCLK cycles since power-on.
@@ -166,13 +193,55 @@ impl Cpu {
         self.idle_cycles
     }
 
+    /// Whether the core is in WAIT.
+    pub fn is_waiting(&self) -> bool {
+        self.is_waiting
+    }
+
+    /// Whether Cause.TI is set: Count has met Compare, and Compare was not written since.
+    pub fn is_timer_pending(&self) -> bool {
+        self.system.is_timer_pending()
+    }
+
+    /// The lowest value that a function's entry (`addiu sp, sp, -n`) has given the stack pointer; nothing before the first.
+    pub fn deepest_stack(&self) -> Option<u32> {
+        (self.deepest_stack != u32::MAX).then_some(self.deepest_stack)
+    }
+
+    /// Forgets the deepest stack pointer.
+    pub fn clear_deepest_stack(&mut self) {
+        self.deepest_stack = u32::MAX;
+    }
+
     /// Address of the next instruction.
     pub fn pc(&self) -> u32 {
         self.pc
     }
 
-    /// A general register of the current set, 0..=31; higher numbers count modulo 32.
+    /// Goes on at another address.
+    pub fn set_pc(&mut self, address: u32) {
+        self.is_waiting = false;
+        self.continue_at(address);
+    }
+
+    /// A general register of the set in use, 0..=31; higher numbers count modulo 32.
     pub fn register(&self, number: u8) -> u32 {
-        self.registers[usize::from(number & 31)]
+        self.registers.get(Source::new(u32::from(number)))
+    }
+
+    /// Changes a general register of the set in use; register 0 stays zero.
+    pub fn set_register(&mut self, number: u8, value: u32) {
+        self.registers.set(Target::new(u32::from(number)), value);
+    }
+
+    /// HI and LO.
+    pub fn product(&self) -> (u32, u32) {
+        let value = self.multiplier.value();
+        ((value >> 32) as u32, value as u32)
+    }
+
+    /// Changes HI and LO.
+    pub fn set_product(&mut self, high: u32, low: u32) {
+        self.multiplier.set_value(u64::from(high) << 32 | u64::from(low));
     }
 }

@@ -1,6 +1,17 @@
-//! RAM, program flash and boot flash, exactly as big as those of the part, with every flash word decoded.
+//! RAM, program flash and boot flash, exactly as big as those of the part.
+//!
+//! Flash is kept twice, as bytes and as decoded instructions, and shared between clones until one of them writes to it.
 
+mod flash;
+mod timing;
+
+pub use timing::{FlashTiming, Prefetch};
+
+use crate::cpu::operation::{Operation, Uncommon};
 use crate::image::Image;
+use flash::Flash;
+use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Bytes of RAM, at physical 0x0000_0000.
@@ -14,35 +25,16 @@ pub const FLASH_START: u32 = 0x1D00_0000;
 /// Physical address of boot flash.
 pub const BOOT_START: u32 = 0x1FC0_0000;
 
-/// When the prefetch unit helps instruction fetches (CHECON.PREFEN).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Prefetch {
-    /// Never.
-    Off,
-    /// Through KSEG0.
-    Cached,
-    /// Through KSEG1.
-    Uncached,
-    /// Through both.
-    Both,
-}
-
-/// What CHECON says about flash accesses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FlashTiming {
-    /// Cycles that a flash access takes beyond one, 0..=7.
-    pub wait_states: u8,
-    /// When they are hidden.
-    pub prefetch: Prefetch,
-}
-
-/// The memories of the chip. Cloning shares flash until one of the clones writes to it.
+/// The memories of the chip.
 #[derive(Clone, Debug)]
 pub struct Memory {
     ram: Box<[u8; RAM_BYTES]>,
-    flash: Arc<Vec<u8>>,
-    boot: Arc<Vec<u8>>,
+    program: Arc<Flash>,
+    boot: Arc<Flash>,
     timing: FlashTiming,
+    ram_wait_states: u8,
+    ram_code: Range<u32>,
+    ram_breakpoints: BTreeSet<u32>,
 }
 
 /// An address that no memory of the part has.
@@ -55,18 +47,46 @@ pub struct OutsideMemory {
     pub length: usize,
 }
 
+/// Where instructions come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Code {
+    /// Program flash.
+    Program,
+    /// Boot flash.
+    Boot,
+    /// One instruction in RAM; it is decoded each time, because RAM changes.
+    Ram(Operation),
+}
+
+/// What the inner loop needs of the memories, apart from the code that it runs.
+#[derive(Debug)]
+pub(crate) struct Open<'a> {
+    pub(crate) ram: &'a mut [u8; RAM_BYTES],
+    pub(crate) flash: &'a [u8],
+    pub(crate) code: &'a [Operation],
+}
+
 impl Memory {
-    /// Flash as in the image, RAM zero (on the chip it holds anything).
+    /// Flash as in the image, RAM zero (on the chip it holds anything), registers as after a reset.
     pub fn new(image: &Image) -> Self {
-        Self {
+        let mut memory = Self {
             ram: Box::new([0; RAM_BYTES]),
-            flash: Arc::new(image.flash().to_vec()),
-            boot: Arc::new(image.boot().to_vec()),
-            timing: FlashTiming {
-                wait_states: 7,
-                prefetch: Prefetch::Off,
-            },
-        }
+            program: Arc::new(Flash::new(image.flash())),
+            boot: Arc::new(Flash::new(image.boot())),
+            timing: FlashTiming::AFTER_RESET,
+            ram_wait_states: 0,
+            ram_code: 0..0,
+            ram_breakpoints: BTreeSet::new(),
+        };
+        memory.reset();
+        memory
+    }
+
+    /// What a reset does to the settings of flash and RAM; contents and breakpoints stay.
+    pub fn reset(&mut self) {
+        self.timing = FlashTiming::AFTER_RESET;
+        self.ram_wait_states = 1;
+        self.ram_code = 0..0;
     }
 
     /// RAM, byte 0 at physical address 0.
@@ -84,17 +104,15 @@ impl Memory {
     /// # Errors
     /// When a byte lies outside; nothing is read then.
     pub fn read(&self, address: u32, bytes: &mut [u8]) -> Result<(), OutsideMemory> {
-        let outside = OutsideMemory {
-            address,
-            length: bytes.len(),
+        let length = bytes.len();
+        let outside = OutsideMemory { address, length };
+        let memory = match address {
+            ..FLASH_START => self.ram.as_slice(),
+            FLASH_START..BOOT_START => self.program.bytes(),
+            BOOT_START.. => self.boot.bytes(),
         };
-        let (memory, start): (&[u8], u32) = match address {
-            ..FLASH_START => (self.ram.as_slice(), 0),
-            FLASH_START..BOOT_START => (&self.flash, FLASH_START),
-            _ => (&self.boot, BOOT_START),
-        };
-        let start = usize::try_from(address - start).map_err(|_| outside)?;
-        let found = memory.get(start..start + bytes.len()).ok_or(outside)?;
+        let start = offset(address);
+        let found = memory.get(start..start + length).ok_or(outside)?;
         bytes.copy_from_slice(found);
         Ok(())
     }
@@ -104,18 +122,22 @@ impl Memory {
     /// # Errors
     /// When a byte lies outside; nothing is written then.
     pub fn write(&mut self, address: u32, bytes: &[u8]) -> Result<(), OutsideMemory> {
-        let outside = OutsideMemory {
-            address,
-            length: bytes.len(),
+        let length = bytes.len();
+        let outside = OutsideMemory { address, length };
+        let start = offset(address);
+        let flash = match address {
+            ..FLASH_START => {
+                let place = self.ram.get_mut(start..start + length).ok_or(outside)?;
+                place.copy_from_slice(bytes);
+                return Ok(());
+            }
+            FLASH_START..BOOT_START => &mut self.program,
+            BOOT_START.. => &mut self.boot,
         };
-        let (memory, start): (&mut [u8], u32) = match address {
-            ..FLASH_START => (self.ram.as_mut_slice(), 0),
-            FLASH_START..BOOT_START => (Arc::make_mut(&mut self.flash).as_mut_slice(), FLASH_START),
-            _ => (Arc::make_mut(&mut self.boot).as_mut_slice(), BOOT_START),
-        };
-        let start = usize::try_from(address - start).map_err(|_| outside)?;
-        let place = memory.get_mut(start..start + bytes.len()).ok_or(outside)?;
-        place.copy_from_slice(bytes);
+        if start + length > flash.bytes().len() {
+            return Err(outside);
+        }
+        Arc::make_mut(flash).write(start, bytes);
         Ok(())
     }
 
@@ -128,4 +150,98 @@ impl Memory {
     pub fn flash_timing(&self) -> FlashTiming {
         self.timing
     }
+
+    /// Takes over BMXCON.BMXWSDRM: 0 or 1 cycle more for each load from RAM.
+    pub fn set_ram_wait_states(&mut self, wait_states: u8) {
+        self.ram_wait_states = wait_states;
+    }
+
+    pub(crate) fn ram_wait_states(&self) -> u8 {
+        self.ram_wait_states
+    }
+
+    /// Takes over what the bus matrix says: the offsets in RAM that may be executed in kernel mode, which are
+    /// BMXDKPBA..BMXDUDBA, and nothing while BMXDKPBA is 0. Fetches elsewhere in RAM are bus errors.
+    pub fn set_ram_code(&mut self, offsets: Range<u32>) {
+        self.ram_code = offsets;
+    }
+
+    /// Stops [`Cpu::run`](crate::cpu::Cpu::run) before the instruction at a physical address.
+    ///
+    /// # Errors
+    /// When no memory is there.
+    pub fn set_breakpoint(&mut self, address: u32) -> Result<(), OutsideMemory> {
+        self.mark_breakpoint(address, true)
+    }
+
+    /// Takes a breakpoint away; it need not be there.
+    ///
+    /// # Errors
+    /// When no memory is there.
+    pub fn clear_breakpoint(&mut self, address: u32) -> Result<(), OutsideMemory> {
+        self.mark_breakpoint(address, false)
+    }
+
+    fn mark_breakpoint(&mut self, address: u32, wanted: bool) -> Result<(), OutsideMemory> {
+        self.read(address, &mut [0; 4])?;
+        match address {
+            ..FLASH_START if wanted => _ = self.ram_breakpoints.insert(address),
+            ..FLASH_START => _ = self.ram_breakpoints.remove(&address),
+            FLASH_START..BOOT_START => Arc::make_mut(&mut self.program).mark(offset(address), wanted),
+            BOOT_START.. => Arc::make_mut(&mut self.boot).mark(offset(address), wanted),
+        }
+        Ok(())
+    }
+
+    /// The code at a physical address, and the physical address at which that code begins; none when nothing can be
+    /// executed there.
+    pub(crate) fn code(&self, address: u32) -> Option<(Code, u32)> {
+        match address {
+            ..FLASH_START => Some((Code::Ram(self.ram_operation(address)?), address)),
+            FLASH_START..BOOT_START if offset(address) < FLASH_BYTES => Some((Code::Program, FLASH_START)),
+            BOOT_START.. if offset(address) < BOOT_BYTES => Some((Code::Boot, BOOT_START)),
+            _ => None,
+        }
+    }
+
+    fn ram_operation(&self, address: u32) -> Option<Operation> {
+        if !self.ram_code.contains(&address) {
+            return None;
+        }
+        if self.ram_breakpoints.contains(&address) {
+            return Some(Operation::Uncommon(Uncommon::Breakpoint));
+        }
+        let word = |index: usize| {
+            let bytes = self.ram.get(index * 4..index * 4 + 4)?;
+            Some(u32::from_le_bytes(bytes.try_into().ok()?))
+        };
+        Some(crate::cpu::decode::decode_at(word, offset(address) / 4))
+    }
+
+    /// What the inner loop works on; `operation` is the room for an instruction in RAM.
+    pub(crate) fn open<'a>(&'a mut self, code: Code, operation: &'a mut [Operation; 1]) -> Open<'a> {
+        let code = match code {
+            Code::Program => self.program.operations(),
+            Code::Boot => self.boot.operations(),
+            Code::Ram(found) => {
+                *operation = [found];
+                operation
+            }
+        };
+        Open {
+            ram: &mut self.ram,
+            flash: self.program.bytes(),
+            code,
+        }
+    }
+}
+
+/// Where in its memory an address is.
+fn offset(address: u32) -> usize {
+    let start = match address {
+        ..FLASH_START => 0,
+        FLASH_START..BOOT_START => FLASH_START,
+        BOOT_START.. => BOOT_START,
+    };
+    (address - start) as usize
 }
