@@ -6,11 +6,13 @@
 mod bench;
 mod codegen;
 mod demo;
+mod firmware;
 mod panel;
 mod process;
 mod system;
 mod test;
 mod tidy;
+mod toolchain;
 mod workspace;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +32,8 @@ enum Command {
     Demo(demo::Arguments),
     /// Runs every check and test of the project.
     Test(test::Arguments),
+    /// Builds the firmware of a robot and tells what it takes.
+    Firmware(firmware::Arguments),
     /// Measures the link, the relay, the simulator or the size of cordlib.
     Bench(bench::Arguments),
     /// Checks the rules of the repository.
@@ -41,9 +45,14 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    if let Err(error) = firmware::build::as_compiler() {
+        process::complain(&format!("{error:#}"));
+        return ExitCode::FAILURE;
+    }
     let outcome = match Arguments::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
+        Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Tidy => tidy::run(),
         Command::Codegen(arguments) => codegen::run(&arguments),

@@ -1,8 +1,6 @@
 //! Builds the panel: WebAssembly by whatever compiler this machine has for it, then packed into one folder of files.
 
-mod toolchain;
-
-use crate::{process, workspace};
+use crate::{process, toolchain, workspace};
 use anyhow::bail;
 use std::path::PathBuf;
 
@@ -34,7 +32,7 @@ pub(crate) fn build() -> anyhow::Result<PathBuf> {
 }
 
 fn compile() -> anyhow::Result<PathBuf> {
-    let toolchain = toolchain::choose()?;
+    let toolchain = toolchain::choose(&toolchain::WEB)?;
     let target = workspace::target().join("cross");
     let mut cargo = toolchain.cargo();
     cargo
@@ -45,7 +43,7 @@ fn compile() -> anyhow::Result<PathBuf> {
             "--manifest-path",
             "clients/panel/Cargo.toml",
         ])
-        .args(["--target", toolchain::TARGET, "--target-dir"])
+        .args(["--target", toolchain::WEB.triple, "--target-dir"])
         .arg(&target);
     process::run(
         &format!(

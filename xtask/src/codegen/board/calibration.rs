@@ -61,7 +61,8 @@ impl Calibration {
         Self::parse(&text).with_context(|| path.display().to_string())
     }
 
-    fn parse(text: &str) -> anyhow::Result<Self> {
+    /// Reads the text of a robot.toml.
+    pub(crate) fn parse(text: &str) -> anyhow::Result<Self> {
         let table: toml::Table = text.parse()?;
         let items = match table.get("calibration") {
             Some(list) => list.clone().try_into().context("[[calibration]]")?,

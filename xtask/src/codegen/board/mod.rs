@@ -17,8 +17,26 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A robot with firmware of ours: its folder in robots/, and the folder of the firmware's generated sources.
-const BOARDS: [(&str, &str); 1] = [("samsung-sr8730", "firmware/sr8730/src/generated")];
+/// A robot with firmware of ours.
+#[derive(Debug)]
+pub(crate) struct Board {
+    /// Its name in the handshake.
+    pub(crate) name: &'static str,
+    /// The folder of its facts.
+    pub(crate) facts: &'static str,
+    /// The folder of its firmware, a workspace of its own.
+    pub(crate) firmware: &'static str,
+    /// The program of that workspace which is the firmware.
+    pub(crate) program: &'static str,
+}
+
+/// All of them.
+pub(crate) const BOARDS: [Board; 1] = [Board {
+    name: "sr8730",
+    facts: "robots/samsung-sr8730",
+    firmware: "firmware/sr8730",
+    program: "sr8730-firmware",
+}];
 
 const MODULES: &str = "//! Facts about the board as constants. Made by cargo xtask codegen. Do not edit.\n\n\
                        pub mod calibration;\npub mod machine;\npub mod pins;\n";
@@ -26,11 +44,12 @@ const MODULES: &str = "//! Facts about the board as constants. Made by cargo xta
 /// All files of all boards.
 pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
     let mut files = Vec::new();
-    for (robot, sources) in BOARDS {
-        let folder = root.join("robots").join(robot);
+    for board in &BOARDS {
+        let folder = root.join(board.facts);
+        let sources = root.join(board.firmware).join("src/generated");
         let pinout = Pinout::load(&root.join("robots"), &folder)?;
         let calibration = Calibration::load(&folder)?;
-        let from = |file: &str| format!("robots/{robot}/{file}");
+        let from = |file: &str| format!("{}/{file}", board.facts);
         let made = [
             ("mod.rs", MODULES.to_owned()),
             ("pins.rs", pins::source(&pinout, &from("pinout.toml"))?),
@@ -39,8 +58,8 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
         ];
         for (name, text) in made {
             files.push(Generated {
-                path: root.join(sources).join(name),
-                text: formatted(&text).with_context(|| format!("{sources}/{name}"))?,
+                path: sources.join(name),
+                text: formatted(&text).with_context(|| format!("{}/src/generated/{name}", board.firmware))?,
             });
         }
         let readme = folder.join("README.md");

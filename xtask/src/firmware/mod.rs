@@ -1,0 +1,127 @@
+//! `cargo xtask firmware ROBOT`: builds a robot's firmware as ELF and Intel HEX and tells what it takes of the chip.
+
+pub(crate) mod build;
+pub(crate) mod elf;
+mod flow;
+mod graph;
+mod hex;
+mod instruction;
+mod record;
+mod report;
+mod symbol_name;
+
+use crate::codegen::board::calibration::Calibration;
+use crate::codegen::board::{BOARDS, Board};
+use crate::{process, toolchain, workspace};
+use anyhow::{Context, bail};
+use build::{Options, Place};
+use elf::{Elf, Segment};
+use report::Report;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `cargo xtask firmware`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Robot, by the name of its robot.toml.
+    robot: String,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// Put the measured values of this file into the HEX file.
+    #[arg(long, value_name = "FILE")]
+    calibration: Option<PathBuf>,
+    /// Features of the firmware, separated by commas.
+    #[arg(long, value_delimiter = ',')]
+    features: Vec<String>,
+    /// Build once: do not show that a build in another folder gives the same bytes.
+    #[arg(long)]
+    once: bool,
+}
+
+/// Builds, writes both files, prints what the firmware takes, and fails when that is too much.
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let board = board(&arguments.robot)?;
+    let record = arguments
+        .calibration
+        .as_deref()
+        .map(|file| record_of(file, board))
+        .transpose()?;
+    let options = Options {
+        features: arguments.features.clone(),
+    };
+    let elf = build(board, &options)?;
+    let bytes = std::fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
+    let program = Elf::read(&bytes).with_context(|| elf.display().to_string())?;
+    let files = Files::write(board, &bytes, &program, record)?;
+    let reproducible = if arguments.once {
+        None
+    } else {
+        Some(same_elsewhere(board, &options, &bytes)?)
+    };
+    let report = Report::of(&program, reproducible)?;
+    if arguments.json {
+        process::print(&serde_json::to_string(&report)?);
+    } else {
+        report.print();
+        process::say(&format!("{} and {}", files.elf.display(), files.hex.display()));
+    }
+    match report.faults() {
+        faults if faults.is_empty() => Ok(()),
+        faults => bail!("{}", faults.join("; ")),
+    }
+}
+
+/// The firmware of this robot.
+pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
+    BOARDS.iter().find(|board| board.name == robot).with_context(|| {
+        let known: Vec<&str> = BOARDS.iter().map(|board| board.name).collect();
+        format!(
+            "there is no firmware for a robot {robot:?}; there is one for: {}",
+            known.join(", ")
+        )
+    })
+}
+
+/// Builds the firmware once, in the repository; gives the ELF file.
+pub(crate) fn build(board: &Board, options: &Options) -> anyhow::Result<PathBuf> {
+    let tools = toolchain::choose(&toolchain::MIPS)?;
+    build::build(board, &tools, &Place::here(), options)
+}
+
+/// Whether a build in another folder gives the same bytes.
+fn same_elsewhere(board: &Board, options: &Options, bytes: &[u8]) -> anyhow::Result<bool> {
+    let tools = toolchain::choose(&toolchain::MIPS)?;
+    let elf = build::build(board, &tools, &Place::elsewhere()?, options)?;
+    Ok(std::fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))? == bytes)
+}
+
+fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
+    let calibration = Calibration::load(&workspace::root().join(board.facts))?;
+    record::load(file, board.name, &calibration)
+}
+
+/// What is left for people and programmers.
+struct Files {
+    elf: PathBuf,
+    hex: PathBuf,
+}
+
+impl Files {
+    fn write(board: &Board, bytes: &[u8], program: &Elf, record: Option<Segment>) -> anyhow::Result<Self> {
+        let folder = workspace::target().join("firmware");
+        std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        let files = Self {
+            elf: folder.join(format!("{}.elf", board.name)),
+            hex: folder.join(format!("{}.hex", board.name)),
+        };
+        let mut segments = program.segments.clone();
+        segments.extend(record);
+        segments.sort_by_key(|segment| segment.physical);
+        let write = |path: &Path, content: &[u8]| {
+            std::fs::write(path, content).with_context(|| format!("cannot write {}", path.display()))
+        };
+        write(&files.elf, bytes)?;
+        write(&files.hex, hex::text(&segments).as_bytes())?;
+        Ok(files)
+    }
+}

@@ -1,0 +1,244 @@
+//! What a firmware takes of its chip, beside what it may take.
+
+use super::elf::{Elf, Section};
+use super::flow::{self, Flow};
+use super::graph::Depth;
+use crate::process;
+use serde::Serialize;
+
+/// Budgets, in bytes.
+const FLASH_MAX: u32 = 160 * 1024;
+const STATIC_RAM_MAX: u32 = 20 * 1024;
+/// All memory of the chip, in bytes.
+const RAM: u32 = 32 * 1024;
+
+/// First and last-but-one physical address of what can be flashed.
+const PROGRAM_FLASH: std::ops::Range<u32> = 0x1D00_0000..0x1D04_0000;
+const BOOT_FLASH: std::ops::Range<u32> = 0x1FC0_0000..0x1FC0_2FF0;
+/// The configuration words.
+const CONFIGURATION: std::ops::Range<u32> = 0x1FC0_2FF0..0x1FC0_3000;
+
+/// What was measured; the JSON object of `--json`.
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    flash_bytes: u32,
+    flash_budget_bytes: u32,
+    ram_static_bytes: u32,
+    ram_budget_bytes: u32,
+    /// A bound from the calls in the program, not a measurement.
+    stack_worst_bytes: u32,
+    stack_room_bytes: u32,
+    reachable_panics: usize,
+    soft_float_functions: usize,
+    soft_float_in_handlers: usize,
+    configuration_words: bool,
+    /// Whether a build in another folder gave the same bytes; `null` when that was not tried.
+    reproducible: Option<bool>,
+    sections: Vec<Row>,
+    panics: Vec<String>,
+    floats: Vec<String>,
+    /// Why the bound of the stack is none.
+    stack_doubts: Vec<String>,
+    /// The main program's deepest chain of calls.
+    stack_chain: Vec<String>,
+    stack_main_bytes: u32,
+    #[serde(skip)]
+    handlers: Vec<Depth>,
+    #[serde(skip)]
+    stray: Vec<u32>,
+}
+
+/// A section that takes memory.
+#[derive(Debug, Serialize)]
+struct Row {
+    name: String,
+    address: u32,
+    flash_bytes: u32,
+    ram_bytes: u32,
+}
+
+impl Report {
+    /// Measures a program.
+    pub(super) fn of(program: &Elf, reproducible: Option<bool>) -> anyhow::Result<Self> {
+        let Flow {
+            stack,
+            panics,
+            floats,
+            floats_in_handlers,
+        } = flow::examine(program)?;
+        let sections: Vec<Row> = program
+            .sections
+            .iter()
+            .filter(|section| section.size > 0)
+            .map(row)
+            .collect();
+        let ram_static_bytes = sections.iter().map(|row| row.ram_bytes).sum();
+        Ok(Self {
+            flash_bytes: flash_bytes(program),
+            flash_budget_bytes: FLASH_MAX,
+            ram_static_bytes,
+            ram_budget_bytes: STATIC_RAM_MAX,
+            stack_worst_bytes: stack.worst_bytes(),
+            stack_room_bytes: RAM.saturating_sub(ram_static_bytes),
+            reachable_panics: panics.len(),
+            soft_float_functions: floats.len(),
+            soft_float_in_handlers: floats_in_handlers.len(),
+            configuration_words: configuration_is_whole(program),
+            reproducible,
+            sections,
+            panics: panics.into_iter().collect(),
+            floats: floats.into_iter().collect(),
+            stack_doubts: stack.doubts.into_iter().collect(),
+            stack_chain: stack.main.chain,
+            stack_main_bytes: stack.main.bytes,
+            handlers: stack.handlers,
+            stray: stray(program),
+        })
+    }
+
+    /// What is too much or wrong, with the remedy.
+    pub(super) fn faults(&self) -> Vec<String> {
+        let (flash, memory, stack) = (self.flash_bytes, self.ram_static_bytes, self.stack_worst_bytes);
+        let table = [
+            (
+                flash > FLASH_MAX,
+                format!("over budget: {flash} bytes of flash, {FLASH_MAX} allowed"),
+            ),
+            (
+                memory > STATIC_RAM_MAX,
+                format!("over budget: {memory} bytes of static memory, {STATIC_RAM_MAX} allowed"),
+            ),
+            (
+                stack > self.stack_room_bytes,
+                format!(
+                    "the stack can need {stack} bytes and has {}",
+                    self.stack_room_bytes
+                ),
+            ),
+            (
+                !self.stack_doubts.is_empty(),
+                format!(
+                    "the stack has no bound because of {}",
+                    self.stack_doubts.join(", ")
+                ),
+            ),
+            (
+                !self.panics.is_empty(),
+                format!("panics can be reached from {}", self.panics.join(", ")),
+            ),
+            (
+                !self.floats.is_empty(),
+                format!("floating point is used: {}", self.floats.join(", ")),
+            ),
+            (
+                !self.configuration_words,
+                "the four configuration words are not all in the program".to_owned(),
+            ),
+            (
+                self.reproducible == Some(false),
+                "a build in another folder gave other bytes".to_owned(),
+            ),
+        ];
+        let strays = self.stray.iter();
+        let strays = strays
+            .map(|address| format!("there are bytes at {address:#010x}, which is no flash of the chip"));
+        let found = table
+            .into_iter()
+            .filter(|(wrong, _)| *wrong)
+            .map(|(_, text)| text);
+        found.chain(strays).collect()
+    }
+
+    /// Prints the report for people.
+    pub(super) fn print(&self) {
+        process::print("section                  address     flash       RAM");
+        for row in &self.sections {
+            let Row {
+                name,
+                address,
+                flash_bytes,
+                ram_bytes,
+            } = row;
+            process::print(&format!(
+                "{name:24} {address:#010x} {flash_bytes:8} {ram_bytes:9}"
+            ));
+        }
+        let line =
+            |what: &str, bytes: u32, of: u32| process::print(&format!("{what:35} {bytes:8} of {of} bytes"));
+        process::print("");
+        line("flash", self.flash_bytes, FLASH_MAX);
+        line("static memory", self.ram_static_bytes, STATIC_RAM_MAX);
+        line(
+            "stack, bound by analysis of all calls",
+            self.stack_worst_bytes,
+            self.stack_room_bytes,
+        );
+        process::print(&format!(
+            "  main program {:6}: {}",
+            self.stack_main_bytes,
+            self.stack_chain.join(" > ")
+        ));
+        for handler in &self.handlers {
+            process::print(&format!(
+                "  handler      {:6}: {}",
+                handler.bytes,
+                handler.chain.join(" > ")
+            ));
+        }
+        process::print(&format!("panics that can be reached: {}", self.reachable_panics));
+        process::print(&format!(
+            "floating point functions: {}, in interrupt handlers: {}",
+            self.soft_float_functions, self.soft_float_in_handlers
+        ));
+        let same = match self.reproducible {
+            Some(true) => "the same bytes",
+            Some(false) => "OTHER BYTES",
+            None => "not tried",
+        };
+        process::print(&format!("build in another folder: {same}"));
+    }
+}
+
+fn row(section: &Section) -> Row {
+    let in_ram = section.address < 0xA000_8000 && section.address & 0x1FFF_FFFF < RAM;
+    // Room that the linker script keeps for the stack is not taken by anything static.
+    let is_stack = section.name.contains("stack");
+    Row {
+        name: section.name.clone(),
+        address: section.address,
+        flash_bytes: if section.bytes.is_some() { section.size } else { 0 },
+        ram_bytes: if in_ram && !is_stack { section.size } else { 0 },
+    }
+}
+
+fn flash_bytes(program: &Elf) -> u32 {
+    let in_flash = program
+        .segments
+        .iter()
+        .filter(|segment| !CONFIGURATION.contains(&segment.physical));
+    in_flash.map(|segment| segment.bytes.len() as u32).sum()
+}
+
+fn configuration_is_whole(program: &Elf) -> bool {
+    CONFIGURATION.step_by(4).all(|address| holds(program, address))
+}
+
+fn holds(program: &Elf, address: u32) -> bool {
+    program.segments.iter().any(|segment| {
+        let at = address.wrapping_sub(segment.physical) as usize;
+        address >= segment.physical && segment.bytes.len() >= at + 4
+    })
+}
+
+/// Addresses of segments that do not lie in flash as a whole.
+fn stray(program: &Elf) -> Vec<u32> {
+    let fits =
+        |range: &std::ops::Range<u32>, first: u32, last: u32| range.contains(&first) && range.contains(&last);
+    let outside = program.segments.iter().filter(|segment| {
+        let last = segment.physical.saturating_add(segment.bytes.len() as u32 - 1);
+        ![PROGRAM_FLASH, BOOT_FLASH, CONFIGURATION]
+            .iter()
+            .any(|range| fits(range, segment.physical, last))
+    });
+    outside.map(|segment| segment.physical).collect()
+}

@@ -1,0 +1,174 @@
+//! Which compiler makes code for other machines here: what is installed comes first, then what Debian can add.
+
+use crate::{process, system, workspace};
+use anyhow::Context;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Something that the host's own compiler does not build for.
+#[derive(Debug)]
+pub(crate) struct Target {
+    /// Its name in the words of the compiler.
+    pub(crate) triple: &'static str,
+    /// What it is, for people.
+    what: &'static str,
+    /// Crates of the standard library that are compiled along when they are not installed.
+    library: &'static str,
+    /// The linker in Debian's packages.
+    linker: &'static str,
+    /// Variable by which cargo is told that linker.
+    linker_variable: &'static str,
+    /// What a person with rustup can do.
+    remedy: &'static str,
+}
+
+/// The panel's browser.
+pub(crate) const WEB: Target = Target {
+    triple: "wasm32-unknown-unknown",
+    what: "WebAssembly",
+    library: "std,panic_abort",
+    linker: "wasm-ld-19",
+    linker_variable: "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER",
+    remedy: "rustup target add wasm32-unknown-unknown",
+};
+
+/// The robot's microcontroller. No toolchain brings a library for it.
+pub(crate) const MIPS: Target = Target {
+    triple: "mipsel-unknown-none",
+    what: "MIPS microcontrollers",
+    library: "core",
+    linker: "ld.lld-19",
+    linker_variable: "CARGO_TARGET_MIPSEL_UNKNOWN_NONE_LINKER",
+    remedy: "rustup component add rust-src",
+};
+
+/// Debian's packages of a current compiler, its standard library as source, and a linker.
+const PACKAGES: [&str; 5] = [
+    "rustc-web",
+    "cargo-web",
+    "rust-web-src",
+    "rust-web-llvm",
+    "lld-19",
+];
+
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_CARGO: &str = "/usr/bin/cargo";
+const DEBIAN_LIBRARY: &str = "/usr/lib/rustlib/src/rust/library";
+
+/// A way to make code for a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// The active toolchain with the target installed.
+    Installed,
+    /// The active toolchain with the source of its standard library, which is compiled along.
+    Source,
+    /// Debian's compiler with the source of its standard library, which is compiled along.
+    Debian,
+}
+
+/// A compiler for a target.
+#[derive(Clone, Debug)]
+pub(crate) struct Toolchain {
+    target: &'static Target,
+    way: Way,
+}
+
+/// Takes the first way that this machine offers; installs Debian's packages when it offers none.
+pub(crate) fn choose(target: &'static Target) -> anyhow::Result<Toolchain> {
+    let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
+    if let Some(found) = active(target, &sysroot) {
+        return Ok(found);
+    }
+    if !debian_is_complete(target) {
+        process::say(&format!(
+            "this machine has no compiler for {} yet: installing Debian's",
+            target.what
+        ));
+        system::install(&PACKAGES).with_context(|| {
+            format!(
+                "a compiler for {} is needed; with rustup: {}",
+                target.triple, target.remedy
+            )
+        })?;
+    }
+    if debian_is_complete(target) {
+        return Ok(Toolchain {
+            target,
+            way: Way::Debian,
+        });
+    }
+    anyhow::bail!(
+        "Debian's packages {} are installed but {DEBIAN_RUSTC}, {DEBIAN_LIBRARY} or {} is missing; with rustup: {}",
+        PACKAGES.join(" "),
+        target.linker,
+        target.remedy
+    )
+}
+
+fn active(target: &'static Target, sysroot: &Path) -> Option<Toolchain> {
+    let rustlib = sysroot.join("lib/rustlib");
+    let library = rustlib.join("src/rust/library");
+    let way = if rustlib.join(target.triple).join("lib").is_dir() {
+        Way::Installed
+    } else if library.join("std/Cargo.toml").is_file() {
+        Way::Source
+    } else {
+        return None;
+    };
+    Some(Toolchain { target, way })
+}
+
+fn debian_is_complete(target: &Target) -> bool {
+    [DEBIAN_RUSTC, DEBIAN_CARGO, DEBIAN_LIBRARY]
+        .iter()
+        .all(|path| Path::new(path).exists())
+        && system::find(target.linker).is_some()
+}
+
+fn rustc() -> Command {
+    let mut command = Command::new("rustc");
+    command.current_dir(workspace::root());
+    command
+}
+
+impl Toolchain {
+    /// For people.
+    pub(crate) fn name(&self) -> String {
+        match self.way {
+            Way::Installed => format!("the installed {} target", self.target.triple),
+            Way::Source => "the installed rust-src".to_owned(),
+            Way::Debian => "Debian's rustc-web".to_owned(),
+        }
+    }
+
+    /// A cargo of this toolchain that stands in the root of the repository.
+    pub(crate) fn cargo(&self) -> Command {
+        let mut command = match self.way {
+            Way::Installed | Way::Source => workspace::cargo(),
+            Way::Debian => self.debian_cargo(),
+        };
+        if self.way != Way::Installed {
+            command.env("RUSTC_BOOTSTRAP", "1");
+            command.arg(format!("-Zbuild-std={}", self.target.library));
+        }
+        command
+    }
+
+    fn debian_cargo(&self) -> Command {
+        let mut command = Command::new(DEBIAN_CARGO);
+        command.current_dir(workspace::root());
+        // cargo gives its children the toolchain it was started with; Debian's must not inherit rustup's.
+        for name in [
+            "RUSTUP_TOOLCHAIN",
+            "CARGO",
+            "RUSTDOC",
+            "RUSTFLAGS",
+            "CARGO_ENCODED_RUSTFLAGS",
+        ] {
+            command.env_remove(name);
+        }
+        command.env("RUSTC", DEBIAN_RUSTC);
+        command.env(self.target.linker_variable, self.target.linker);
+        command
+    }
+}
