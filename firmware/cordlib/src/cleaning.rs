@@ -141,6 +141,13 @@ impl Cleaning {
         self.vacuum.apply(&mut board.vacuum, standing);
     }
 
+    /// Tells the board again what is permitted, changed or not.
+    pub(crate) fn renew<P: Parts>(&self, board: &mut Board<P>, standing: &Standing) {
+        board.brush_main.set(standing.permit_cleaner(self.main.asked));
+        board.brush_sides.set(standing.permit_cleaner(self.sides.asked));
+        board.vacuum.set(standing.permit_cleaner(self.vacuum.asked));
+    }
+
     /// The board was switched off behind our back, by the one stop path.
     pub(crate) fn stopped(&mut self) {
         self.forget();

@@ -53,6 +53,8 @@ pub struct Cord<P: Parts> {
     floor: FloorWatch,
     watch: Watch,
     applied: (WheelDrive, WheelDrive),
+    /// Outputs are told to the board again, changed or not.
+    renew: bool,
 }
 
 impl<P: Parts> Cord<P> {
@@ -84,6 +86,7 @@ impl<P: Parts> Cord<P> {
             accepted: 0,
             watch: Watch::starting_at(now),
             applied: (WheelDrive::Brake, WheelDrive::Brake),
+            renew: false,
             board,
             parameters,
             session,
@@ -152,6 +155,7 @@ impl<P: Parts> Cord<P> {
         let Some(elapsed_ms) = self.motion.begin_period(&self.parameters, now) else {
             return;
         };
+        self.renew = true;
         let status = self.motion.status();
         let stalled = self
             .reflexes
@@ -204,10 +208,14 @@ impl<P: Parts> Cord<P> {
         }
         let (left, right) = self.motion.asked();
         let permitted = standing.permit(left, right);
-        if permitted != self.applied {
+        let renew = core::mem::take(&mut self.renew);
+        if permitted != self.applied || renew {
             self.board.wheels.drive(permitted.0, permitted.1);
             self.applied = permitted;
             self.motion.applied(permitted);
+        }
+        if renew {
+            self.cleaning.renew(&mut self.board, &standing);
         }
         self.cleaning.apply(&mut self.board, &standing);
         self.watch.check_in(Supervisor::Loop);

@@ -7,7 +7,8 @@ pub trait CleaningMotor {
     /// Whether the machine has it.
     const PRESENT: bool;
 
-    /// Sets the duty, forward positive. Called when it changes.
+    /// Sets the duty, forward positive. Called when it changes, and every 10 ms while it does not: a board may switch off by
+    /// itself when the calls stop.
     fn set(&mut self, duty: Throttle);
 
     /// Total of the pulses of its rotation sensor, wrapping; `None` without such a sensor.

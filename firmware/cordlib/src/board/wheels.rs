@@ -25,7 +25,8 @@ impl WheelDrive {
 
 /// The bridges of both wheels.
 pub trait WheelMotors {
-    /// Sets both bridges. Called when an output changes, not on every pass.
+    /// Sets both bridges. Called when an output changes, and every 10 ms while nothing does: a board may brake by itself
+    /// when the calls stop.
     fn drive(&mut self, left: WheelDrive, right: WheelDrive);
 }
 
