@@ -1,0 +1,88 @@
+//! Start-up code and peripherals of the PIC32MX3xx and MX4xx microcontrollers, written for the PIC32MX360F256L, with the
+//! traits of `embedded-hal` 1.0.
+//!
+//! # A program
+//! ```no_run
+//! #![no_std]
+//! #![no_main]
+//! # extern crate std;
+//!
+//! use embedded_hal::delay::DelayNs;
+//! use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
+//! use pic32mx3_hal::core_timer::Delay;
+//! use pic32mx3_hal::gpio::Level;
+//! use pic32mx3_hal::{Peripherals, configuration, entry, reset};
+//!
+//! const CONFIGURATION: Configuration = Configuration::new()
+//!     .primary_oscillator(PrimaryOscillator::HighSpeed, 8_000_000)
+//!     .pll_to_80_mhz();
+//! configuration!(CONFIGURATION);
+//!
+//! fn main() -> ! {
+//!     let Some(peripherals) = Peripherals::take() else { reset::software_reset() };
+//!     let mut lamp = peripherals.pins.rg7.into_output(Level::Low);
+//!     let mut delay = Delay::new(CONFIGURATION.clocks());
+//!     loop {
+//!         lamp.toggle();
+//!         delay.delay_ms(500);
+//!     }
+//! }
+//! entry!(main);
+//! # #[cfg(not(target_arch = "mips"))] #[unsafe(no_mangle)] extern "C" fn main_is_elsewhere() {}
+//! ```
+//! with a `#[panic_handler]`, and a build script that says `cargo:rustc-link-arg=-Tlink.x`. The README tells how it is
+//! compiled.
+//!
+//! # What is where
+//! | subject | module | section of the chip's reference |
+//! | --- | --- | --- |
+//! | configuration words, clocks | [`configuration`], [`clock`] | 3, 6 |
+//! | pins | [`gpio`], [`change_notice`], [`external`] | 8, 9, 5 |
+//! | interrupts, their handlers and what those own | [`interrupt`] | 5 |
+//! | time | [`core_timer`], [`timer`] | 5, 10 |
+//! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
+//! | ADC | [`adc`] | 13 |
+//! | UART | [`uart`] | 14 |
+//! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
+//! | what stays | [`persistent`], [`flash`] | 16 |
+//! | sleeping, sections without interrupts | [`cpu`] | 5 |
+//!
+//! # Safety
+//! All functions are safe to call: registers are reached through owners, or through functions whose worst is a wrong level
+//! on a pin. The unsafe code is here: register access, coprocessor 0, start-up, the hand-over to handlers, words of memory.
+//!
+//! # Other machines
+//! The crate compiles for every target. Where the processor is no MIPS, registers are plain memory and nothing happens by
+//! itself: enough to compile and check programs.
+#![no_std]
+#![deny(missing_docs)]
+#![cfg_attr(target_arch = "mips", feature(asm_experimental_arch))]
+
+#[cfg(test)]
+extern crate std;
+
+pub mod adc;
+pub mod capture;
+pub mod change_notice;
+pub mod clock;
+pub mod configuration;
+pub mod core_timer;
+pub mod cpu;
+pub mod exception;
+pub mod external;
+pub mod flash;
+pub mod gpio;
+pub mod interrupt;
+pub mod memory;
+mod peripherals;
+pub mod persistent;
+pub mod pwm;
+mod register;
+pub mod reset;
+pub mod stack;
+mod start;
+pub mod timer;
+pub mod uart;
+pub mod watchdog;
+
+pub use peripherals::Peripherals;

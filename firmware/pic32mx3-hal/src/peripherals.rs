@@ -1,0 +1,86 @@
+//! The parts of the chip, each once.
+
+use crate::adc::Adc;
+use crate::capture::InputCapture;
+use crate::change_notice::ChangeNotice;
+use crate::core_timer::CoreTimer;
+use crate::cpu;
+use crate::flash::DataFlash;
+use crate::gpio::Pins;
+use crate::pwm::OutputCompare;
+use crate::timer::Timer;
+use crate::uart::Uart;
+use crate::watchdog::Watchdog;
+use core::sync::atomic::{AtomicBool, Ordering};
+
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// Everything that can have an owner.
+#[derive(Debug)]
+#[allow(missing_docs, reason = "the fields are named like the parts of the chip")]
+pub struct Peripherals {
+    pub pins: Pins,
+    pub core_timer: CoreTimer,
+    pub timer1: Timer<1>,
+    pub timer2: Timer<2>,
+    pub timer3: Timer<3>,
+    pub timer4: Timer<4>,
+    pub timer5: Timer<5>,
+    pub compare1: OutputCompare<1>,
+    pub compare2: OutputCompare<2>,
+    pub compare3: OutputCompare<3>,
+    pub compare4: OutputCompare<4>,
+    pub compare5: OutputCompare<5>,
+    pub capture1: InputCapture<1>,
+    pub capture2: InputCapture<2>,
+    pub capture3: InputCapture<3>,
+    pub capture4: InputCapture<4>,
+    pub capture5: InputCapture<5>,
+    pub adc: Adc,
+    pub uart1: Uart<1>,
+    pub uart2: Uart<2>,
+    pub change_notice: ChangeNotice,
+    pub watchdog: Watchdog,
+    pub data_flash: DataFlash,
+}
+
+impl Peripherals {
+    /// All parts, the first time; `None` after that.
+    #[must_use]
+    pub fn take() -> Option<Self> {
+        let taken = cpu::without_interrupts(|| {
+            let taken = TAKEN.load(Ordering::Relaxed);
+            TAKEN.store(true, Ordering::Relaxed);
+            taken
+        });
+        (!taken).then(Self::new)
+    }
+
+    const fn new() -> Self {
+        Self {
+            pins: Pins::new(),
+            core_timer: CoreTimer::new(),
+            timer1: Timer::new(),
+            timer2: Timer::new(),
+            timer3: Timer::new(),
+            timer4: Timer::new(),
+            timer5: Timer::new(),
+            compare1: OutputCompare::new(),
+            compare2: OutputCompare::new(),
+            compare3: OutputCompare::new(),
+            compare4: OutputCompare::new(),
+            compare5: OutputCompare::new(),
+            capture1: InputCapture::new(),
+            capture2: InputCapture::new(),
+            capture3: InputCapture::new(),
+            capture4: InputCapture::new(),
+            capture5: InputCapture::new(),
+            adc: Adc::new(),
+            uart1: Uart::new(),
+            uart2: Uart::new(),
+            change_notice: ChangeNotice::new(),
+            watchdog: Watchdog::new(),
+            data_flash: DataFlash::new(),
+        }
+    }
+}

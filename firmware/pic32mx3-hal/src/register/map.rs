@@ -1,0 +1,174 @@
+//! Where the registers are. The numbers in parentheses are sections of the chip's reference
+//! (`docs` of this crate: README, "Where the numbers come from").
+
+use super::Register;
+
+/// Watchdog (17).
+pub(crate) const WDTCON: Register = Register::at(0xBF80_0000);
+
+/// Timers (10): control, counter, period.
+pub(crate) const fn timer_control(number: u8) -> Register {
+    Register::at(0xBF80_0600).plus(0x200 * (number as u32 - 1))
+}
+/// TMRx (10).
+pub(crate) const fn timer_count(number: u8) -> Register {
+    timer_control(number).plus(0x10)
+}
+/// PRx (10).
+pub(crate) const fn timer_period(number: u8) -> Register {
+    timer_control(number).plus(0x20)
+}
+
+/// ICxCON (12).
+pub(crate) const fn capture_control(number: u8) -> Register {
+    Register::at(0xBF80_2000).plus(0x200 * (number as u32 - 1))
+}
+/// ICxBUF (12).
+pub(crate) const fn capture_buffer(number: u8) -> Register {
+    capture_control(number).plus(0x10)
+}
+
+/// OCxCON (11).
+pub(crate) const fn compare_control(number: u8) -> Register {
+    Register::at(0xBF80_3000).plus(0x200 * (number as u32 - 1))
+}
+/// OCxR (11).
+pub(crate) const fn compare_primary(number: u8) -> Register {
+    compare_control(number).plus(0x10)
+}
+/// OCxRS (11).
+pub(crate) const fn compare_secondary(number: u8) -> Register {
+    compare_control(number).plus(0x20)
+}
+
+/// UxMODE (14).
+pub(crate) const fn uart_mode(number: u8) -> Register {
+    Register::at(0xBF80_6000).plus(0x200 * (number as u32 - 1))
+}
+/// UxSTA (14).
+pub(crate) const fn uart_status(number: u8) -> Register {
+    uart_mode(number).plus(0x10)
+}
+/// UxTXREG (14).
+pub(crate) const fn uart_transmit(number: u8) -> Register {
+    uart_mode(number).plus(0x20)
+}
+/// UxRXREG (14).
+pub(crate) const fn uart_receive(number: u8) -> Register {
+    uart_mode(number).plus(0x30)
+}
+/// UxBRG (14).
+pub(crate) const fn uart_baud(number: u8) -> Register {
+    uart_mode(number).plus(0x40)
+}
+
+/// ADC (13).
+pub(crate) const AD1CON1: Register = Register::at(0xBF80_9000);
+/// (13)
+pub(crate) const AD1CON2: Register = Register::at(0xBF80_9010);
+/// (13)
+pub(crate) const AD1CON3: Register = Register::at(0xBF80_9020);
+/// (13)
+pub(crate) const AD1CHS: Register = Register::at(0xBF80_9040);
+/// (13)
+pub(crate) const AD1CSSL: Register = Register::at(0xBF80_9050);
+/// (13)
+pub(crate) const AD1PCFG: Register = Register::at(0xBF80_9060);
+/// ADC1BUF0 to ADC1BUFF (13); `index` is 0 to 15.
+pub(crate) const fn adc_buffer(index: u8) -> Register {
+    Register::at(0xBF80_9070).plus(0x10 * (index as u32 & 15))
+}
+
+/// Oscillator (6).
+pub(crate) const OSCCON: Register = Register::at(0xBF80_F000);
+/// Debug data and JTAG (8). Written by the start-up code only.
+#[cfg(target_arch = "mips")]
+pub(crate) const DDPCON: Register = Register::at(0xBF80_F200);
+/// Device identity (2).
+pub(crate) const DEVID: Register = Register::at(0xBF80_F220);
+/// Lock of OSCCON and RSWRST (4).
+pub(crate) const SYSKEY: Register = Register::at(0xBF80_F230);
+/// Flash controller (16).
+pub(crate) const NVMCON: Register = Register::at(0xBF80_F400);
+/// (16)
+pub(crate) const NVMKEY: Register = Register::at(0xBF80_F410);
+/// (16)
+pub(crate) const NVMADDR: Register = Register::at(0xBF80_F420);
+/// (16)
+pub(crate) const NVMDATA: Register = Register::at(0xBF80_F430);
+/// Reset cause (4).
+pub(crate) const RCON: Register = Register::at(0xBF80_F600);
+/// Software reset (4).
+pub(crate) const RSWRST: Register = Register::at(0xBF80_F610);
+
+/// Interrupt controller (5).
+pub(crate) const INTCON: Register = Register::at(0xBF88_1000);
+/// IFS0, IFS1 (5).
+pub(crate) const fn interrupt_flags(index: u32) -> Register {
+    Register::at(0xBF88_1030).plus(0x10 * index)
+}
+/// IEC0, IEC1 (5).
+pub(crate) const fn interrupt_enables(index: u32) -> Register {
+    Register::at(0xBF88_1060).plus(0x10 * index)
+}
+/// IPC0 to IPC11 (5).
+pub(crate) const fn interrupt_priorities(index: u32) -> Register {
+    Register::at(0xBF88_1090).plus(0x10 * index)
+}
+
+/// RAM size (7).
+pub(crate) const BMXDRMSZ: Register = Register::at(0xBF88_2040);
+/// Program flash size (7).
+pub(crate) const BMXPFMSZ: Register = Register::at(0xBF88_2060);
+
+/// Ports (8): TRIS of port A, B .. G by index.
+pub(crate) const fn port_direction(index: u32) -> Register {
+    Register::at(0xBF88_6000).plus(0x40 * index)
+}
+/// PORTx (8).
+pub(crate) const fn port_input(index: u32) -> Register {
+    port_direction(index).plus(0x10)
+}
+/// LATx (8).
+pub(crate) const fn port_latch(index: u32) -> Register {
+    port_direction(index).plus(0x20)
+}
+/// ODCx (8).
+pub(crate) const fn port_open_drain(index: u32) -> Register {
+    port_direction(index).plus(0x30)
+}
+
+/// Change notice (9).
+pub(crate) const CNCON: Register = Register::at(0xBF88_61C0);
+/// (9)
+pub(crate) const CNEN: Register = Register::at(0xBF88_61D0);
+/// (9)
+pub(crate) const CNPUE: Register = Register::at(0xBF88_61E0);
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        adc_buffer, capture_buffer, compare_secondary, interrupt_enables, interrupt_priorities, port_latch,
+        port_open_drain, timer_period, uart_baud,
+    };
+
+    /// The computed addresses are those of the printed tables (sections 5, 8, 10 to 14).
+    #[test]
+    fn computed_addresses_are_those_of_the_tables() {
+        let pairs = [
+            (timer_period(1), 0xBF80_0620),
+            (timer_period(5), 0xBF80_0E20),
+            (capture_buffer(5), 0xBF80_2810),
+            (compare_secondary(4), 0xBF80_3620),
+            (uart_baud(2), 0xBF80_6240),
+            (adc_buffer(15), 0xBF80_9160),
+            (interrupt_enables(1), 0xBF88_1070),
+            (interrupt_priorities(11), 0xBF88_1140),
+            (port_latch(6), 0xBF88_61A0),
+            (port_open_drain(1), 0xBF88_6070),
+        ];
+        for (register, address) in pairs {
+            assert_eq!(register.0, address, "{register:x?}");
+        }
+    }
+}
