@@ -59,6 +59,14 @@ const EMULATOR: &[&str] = &[
 ];
 
 const WIRE: &[&str] = &["rvac-protocol", "rvac-units"];
+/// A firmware joins the main loop to its chip.
+const FIRMWARE: &[&str] = &[
+    "cordlib",
+    "pic32mx3-hal",
+    "rvac-protocol",
+    "rvac-units",
+    "soft-uart",
+];
 const SIMULATED: &[&str] = &[
     "rvac-sim",
     "robot",
@@ -76,11 +84,13 @@ const SIMULATED: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 21] = [
+const DIRECTIONS: [Direction; 23] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
     Direction { of: "cordlib",       knows: WIRE,                                           never: STD },
+    Direction { of: "pic32mx3-hal",  knows: &[],                                            never: STD },
+    Direction { of: "sr8730",        knows: FIRMWARE,                                       never: STD },
     Direction { of: "cordlib-c",     knows: &["cordlib", "rvac-protocol", "rvac-units"],    never: &["tokio"] },
     Direction { of: "soft-uart",     knows: &[],                                            never: STD },
     Direction { of: "brain",         knows: &["rvac-units"],                                never: BRAIN },
@@ -100,15 +110,15 @@ const DIRECTIONS: [Direction; 21] = [
     Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },
 ];
 
-/// Most crates in the firmware, ours included.
-const FIRMWARE_CRATES_MAX: usize = 10;
+/// Most crates in what runs on a robot, ours included: the library for every board, and a board with its chip.
+const CRATES_MAX: [(&str, usize); 2] = [("cordlib", 10), ("sr8730", 16)];
 
 /// Compares the table with what cargo resolves.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
     let mut found = Vec::new();
     for workspace in WORKSPACES
         .iter()
-        .take(2)
+        .take(4)
         .filter(|workspace| files.has(workspace.manifest))
     {
         found.extend(judge(&packages(workspace)?));
@@ -135,10 +145,12 @@ fn judge(packages: &Packages) -> Vec<String> {
             }
         }
         let reached = reach(packages, &package.name).len() + 1;
-        if package.name == "cordlib" && reached > FIRMWARE_CRATES_MAX {
-            found.push(format!(
-                "cordlib: {reached} crates in the firmware, {FIRMWARE_CRATES_MAX} at most"
-            ));
+        for (name, most) in CRATES_MAX {
+            if package.name == name && reached > most {
+                found.push(format!(
+                    "{name}: {reached} crates in the firmware, {most} at most"
+                ));
+            }
         }
     }
     found

@@ -27,8 +27,8 @@ pub(super) struct Workspace {
     platform: &'static str,
 }
 
-/// All of them. The first two hold what users run.
-pub(super) const WORKSPACES: [Workspace; 4] = [
+/// All of them. The first four hold what users and robots run.
+pub(super) const WORKSPACES: [Workspace; 6] = [
     Workspace {
         manifest: "Cargo.toml",
         platform: "x86_64-unknown-linux-gnu",
@@ -36,6 +36,14 @@ pub(super) const WORKSPACES: [Workspace; 4] = [
     Workspace {
         manifest: "clients/panel/Cargo.toml",
         platform: "wasm32-unknown-unknown",
+    },
+    Workspace {
+        manifest: "firmware/sr8730/Cargo.toml",
+        platform: "mipsel-unknown-none",
+    },
+    Workspace {
+        manifest: "firmware/pic32mx3-hal/Cargo.toml",
+        platform: "mipsel-unknown-none",
     },
     Workspace {
         manifest: "xtask/uipack/Cargo.toml",
