@@ -30,7 +30,7 @@ use rvac_protocol::message::ResetCause;
 const KEPT_MAX: usize = 32;
 
 /// The judge.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Monitor {
     permission: Permission,
     standing: Standing,

@@ -39,7 +39,7 @@ struct Arming {
 }
 
 /// What the host has allowed.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Permission {
     to_robot: Splitter,
     from_robot: Splitter,

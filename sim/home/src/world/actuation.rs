@@ -17,6 +17,9 @@ pub struct Actuation {
     pub cliff_emitter: bool,
     /// The robot sends its code to the dock, which gives full current only then.
     pub dock_signal: bool,
+    /// Current that the robot's own charging switch lets into the pack while it is docked, ampere, mean of the last 20 ms;
+    /// `None` = there is no switch, and the dock alone decides.
+    pub charge_a: Option<f64>,
 }
 
 /// Drive of one wheel's full bridge.

@@ -220,11 +220,13 @@ impl World {
         let motors_a = self.left.current_a + self.right.current_a + brush_a + sides_a + vacuum_a;
         let dock_a = match &self.dock {
             Some(dock) if dock.docked_now && !self.is_in_air() => {
-                if actuation.dock_signal {
-                    self.model.battery.charge_a
+                let battery = &self.model.battery;
+                let offered_a = if actuation.dock_signal {
+                    battery.charge_a
                 } else {
-                    self.model.battery.trickle_a
-                }
+                    battery.trickle_a
+                };
+                actuation.charge_a.unwrap_or(offered_a)
             }
             _ => 0.0,
         };
