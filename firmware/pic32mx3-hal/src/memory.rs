@@ -60,27 +60,47 @@ fn within(offset: u32, size: u32) -> bool {
     offset < size && offset.is_multiple_of(4)
 }
 
-/// What the linker knows of the image.
+/// What the linker knows of the image. All of it is constant memory.
 pub mod image {
-    /// Bytes of program flash from its start that the image fills, a multiple of four: vectors, code, constants and initial
-    /// values of variables, without the seal.
+    use super::access;
+
+    /// Program flash from its start to the seal: vectors, code, constants, initial values of variables.
     #[must_use]
-    pub fn size() -> u32 {
-        super::access::image_size()
+    pub fn program() -> &'static [u8] {
+        access::program()
     }
 
-    /// The word behind the image, at offset [`size`]: a place for its check, which whoever writes the image file may fill.
-    /// All ones when nobody did.
+    /// Boot flash as far as the image fills it: the code that runs from reset to the program.
     #[must_use]
-    pub fn seal() -> Option<u32> {
-        super::flash_word(size())
+    pub fn boot() -> &'static [u8] {
+        access::boot()
+    }
+
+    /// The words of [`image_seal!`](crate::image_seal!), as they are in flash now, which whoever writes the image file may
+    /// have changed since the program was compiled. Empty without that macro.
+    #[must_use]
+    pub fn seal() -> &'static [u32] {
+        access::seal()
+    }
+
+    /// Keeps words behind the image for a check of it: `image_seal!([0xFFFF_FFFF; 3]);`. Once in a program.
+    #[macro_export]
+    macro_rules! image_seal {
+        ($words:expr) => {
+            const _: () = {
+                const WORDS: &[u32] = &$words;
+                #[cfg_attr(target_arch = "mips", unsafe(link_section = ".image_seal"))]
+                #[used]
+                static SEAL: [u32; WORDS.len()] = $words;
+            };
+        };
     }
 }
 
 #[cfg(target_arch = "mips")]
 mod access {
     use super::cpu;
-    use core::ptr;
+    use core::{ptr, slice};
 
     #[inline(always)]
     pub(super) fn load(address: u32) -> u32 {
@@ -106,11 +126,36 @@ mod access {
         })
     }
 
-    pub(super) fn image_size() -> u32 {
-        unsafe extern "C" {
-            static __image_seal: u32;
-        }
-        (&raw const __image_seal).addr() as u32 - super::FLASH_BASE
+    unsafe extern "C" {
+        static __vectors: u8;
+        static __boot_flash: u8;
+        static __reset_end: u8;
+        static __image_seal: u32;
+        static __image_end: u32;
+    }
+
+    pub(super) fn program() -> &'static [u8] {
+        let start = &raw const __vectors;
+        let length = (&raw const __image_seal).addr() - start.addr();
+        // SAFETY: the linker puts the seal behind the rest, both in program flash, whose content is constant: the module
+        // `flash` writes to the data pages only.
+        unsafe { slice::from_raw_parts(start, length) }
+    }
+
+    pub(super) fn boot() -> &'static [u8] {
+        // The end is known in the uncached window, where the code runs.
+        const UNCACHED: usize = 0x2000_0000;
+        let start = &raw const __boot_flash;
+        let length = (&raw const __reset_end).addr() - UNCACHED - start.addr();
+        // SAFETY: as for `program`, in boot flash.
+        unsafe { slice::from_raw_parts(start, length) }
+    }
+
+    pub(super) fn seal() -> &'static [u32] {
+        let start = &raw const __image_seal;
+        let words = ((&raw const __image_end).addr() - start.addr()) / size_of::<u32>();
+        // SAFETY: as for `program`; the linker script aligns it.
+        unsafe { slice::from_raw_parts(start, words) }
     }
 }
 
@@ -124,7 +169,15 @@ mod access {
         super::cpu::without_interrupts(|| true)
     }
 
-    pub(super) fn image_size() -> u32 {
-        0
+    pub(super) fn program() -> &'static [u8] {
+        &[]
+    }
+
+    pub(super) fn boot() -> &'static [u8] {
+        &[]
+    }
+
+    pub(super) fn seal() -> &'static [u32] {
+        &[]
     }
 }

@@ -20,8 +20,14 @@ use core::mem::MaybeUninit;
 ///
 /// After power-on the memory holds anything; the check then fails but for one case in 2^32.
 pub struct Persistent<const N: usize> {
-    /// The words, and their check.
-    cell: UnsafeCell<MaybeUninit<([u32; N], u32)>>,
+    cell: UnsafeCell<MaybeUninit<Words<N>>>,
+}
+
+/// The words and, behind them, their check.
+#[repr(C)]
+struct Words<const N: usize> {
+    words: [u32; N],
+    check: u32,
 }
 
 // SAFETY: each access is whole, with interrupts off, on the only core.
@@ -40,28 +46,44 @@ impl<const N: usize> Persistent<N> {
     /// What was stored last, or `None` when nothing was or it was damaged.
     pub fn load(&self) -> Option<[u32; N]> {
         let (words, check) = cpu::without_interrupts(|| {
-            // SAFETY: any bits are words. Read as volatile, because the compiler knows only of the initial zeros.
-            unsafe { self.cell.get().cast::<([u32; N], u32)>().read_volatile() }
+            let mut words = [0; N];
+            // SAFETY: interrupts are off, so nobody writes meanwhile; any bits are words. Volatile, because the compiler
+            // knows only of the initial zeros.
+            unsafe {
+                for (index, word) in words.iter_mut().enumerate() {
+                    *word = self.words().add(index).read_volatile();
+                }
+                (words, self.words().add(N).read_volatile())
+            }
         });
         (check == check_of(&words)).then_some(words)
     }
 
     /// Stores words.
     pub fn store(&self, words: [u32; N]) {
-        let value = (words, check_of(&words));
-        cpu::without_interrupts(|| {
-            // SAFETY: interrupts are off, nobody else reads or writes.
-            unsafe { self.cell.get().cast::<([u32; N], u32)>().write_volatile(value) };
-        });
+        self.put(words, check_of(&words));
     }
 
     /// Makes [`Self::load`] give `None`.
     pub fn forget(&self) {
-        let value = ([0; N], !check_of(&[0; N]));
+        self.put([0; N], !check_of(&[0; N]));
+    }
+
+    fn put(&self, words: [u32; N], check: u32) {
         cpu::without_interrupts(|| {
-            // SAFETY: as in `store`.
-            unsafe { self.cell.get().cast::<([u32; N], u32)>().write_volatile(value) };
+            // SAFETY: interrupts are off, so nobody else reads or writes meanwhile.
+            unsafe {
+                for (index, word) in words.iter().enumerate() {
+                    self.words().add(index).write_volatile(*word);
+                }
+                self.words().add(N).write_volatile(check);
+            }
         });
+    }
+
+    /// The first of `N` words and the check behind them.
+    const fn words(&self) -> *mut u32 {
+        self.cell.get().cast()
     }
 }
 
