@@ -178,6 +178,13 @@ impl<const COMPARE: u8, const TIMER: u8, P> SetDutyCycle for PwmChannel<COMPARE,
     }
 }
 
+/// Takes the pulses off an output, 1 to 5, at once and without owning it: its pin shows its latch, which is low. For
+/// exception hooks and for the handler of a failing clock. [`PwmChannel::enable`] undoes it.
+#[inline(always)]
+pub fn stop(compare: u8) {
+    compare_control(compare.clamp(1, 5)).write(0);
+}
+
 fn period(timer: u8) -> u32 {
     (timer_period(timer).read() & 0xFFFF) + 1
 }

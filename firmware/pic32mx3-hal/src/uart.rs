@@ -104,6 +104,38 @@ impl<const NUMBER: u8> Uart<NUMBER> {
     }
 }
 
+impl<const NUMBER: u8> Uart<NUMBER> {
+    /// Divides it for listening only, off as yet: its sending pin keeps its level, and a handler can own the receiver while the
+    /// main program chooses the rate.
+    pub fn into_listener<R: ReceivePin<NUMBER>>(self, pin: R) -> (Listener<NUMBER>, Receiver<NUMBER, R>) {
+        (Listener(()), Receiver { _pin: pin })
+    }
+}
+
+/// Turns a UART that only listens on and off.
+#[derive(Debug)]
+pub struct Listener<const NUMBER: u8>(());
+
+impl<const NUMBER: u8> Listener<NUMBER> {
+    /// Listens at a rate in bits a second; what was received before is gone. `peripheral_hz` is PBCLK.
+    ///
+    /// # Errors
+    /// [`RateError`] when the rate cannot be made within 2.5 %; it is off then.
+    pub fn start(&mut self, rate: u32, peripheral_hz: u32) -> Result<(), RateError> {
+        self.stop();
+        uart_baud(NUMBER).write(divider(rate, peripheral_hz)?);
+        uart_mode(NUMBER).write(ON | BRGH);
+        uart_status(NUMBER).write(RECEIVE_ENABLE);
+        Ok(())
+    }
+
+    /// Stops listening.
+    pub fn stop(&mut self) {
+        uart_status(NUMBER).write(0);
+        uart_mode(NUMBER).write(0);
+    }
+}
+
 /// The sending half.
 #[derive(Debug)]
 pub struct Transmitter<const NUMBER: u8, P> {
