@@ -18,6 +18,7 @@ fn drive(left: f64, right: f64) -> Actuation {
         vacuum: true,
         cliff_emitter: true,
         dock_signal: false,
+        charge_a: None,
     }
 }
 

@@ -124,6 +124,7 @@ impl SimulatedRobot {
             vacuum: board.vacuum.duty != Throttle::ZERO,
             cliff_emitter: board.cliffs.emitters == Emitters::On,
             dock_signal: false,
+            charge_a: None,
         }
     }
 
