@@ -217,9 +217,7 @@ pub(crate) async fn read_for(client: ClientId, stream: Rc<ClientStream>, events:
     loop {
         let event = match stream.read(&mut buffer).await {
             Ok(0) | Err(_) => Event::ClientClosed(client),
-            Ok(count) => {
-                Event::ClientBytes(client, buffer.get(..count).unwrap_or_default().to_vec())
-            }
+            Ok(count) => Event::ClientBytes(client, buffer.get(..count).unwrap_or_default().to_vec()),
         };
         let ends = matches!(event, Event::ClientClosed(_));
         if events.send(event).await.is_err() || ends {

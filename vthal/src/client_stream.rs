@@ -19,7 +19,7 @@ impl ClientStream {
     /// # Errors
     /// When the system has no room to watch it.
     pub(crate) fn new(accepted: tokio::net::UnixStream) -> io::Result<Self> {
-        AsyncFd::with_interest(accepted.into_std()?, Interest::READABLE).map(Self)
+        watch(accepted.into_std()?, Interest::READABLE).map(Self)
     }
 
     /// Waits for bytes and takes what fits into `buffer`; 0 when the client hung up.
@@ -46,7 +46,14 @@ impl ClientStream {
     /// When the system has no second handle or no room to watch it.
     pub(crate) async fn writable(&self) -> io::Result<()> {
         let handle = self.0.get_ref().try_clone()?;
-        let watched = AsyncFd::with_interest(handle, Interest::WRITABLE)?;
-        watched.writable().await.map(drop)
+        watch(handle, Interest::WRITABLE)?.writable().await.map(drop)
     }
+}
+
+#[expect(
+    deprecated,
+    reason = "its successor is unsafe for types that may change their handle; a UnixStream owns one and keeps it"
+)]
+fn watch(stream: UnixStream, interest: Interest) -> io::Result<AsyncFd<UnixStream>> {
+    AsyncFd::with_interest(stream, interest)
 }

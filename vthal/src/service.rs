@@ -109,10 +109,10 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         config.socket.display()
     );
     announce()?;
-    Daemon::new(Core::new(core_config), Clock::start(speed), wiring)
-        .run()
-        .await;
-    Ok(())
+    let daemon = Daemon::new(Core::new(core_config), Clock::start(speed), wiring);
+    // As a task among its own kind: what the serial line's task wakes runs in the same round of the scheduler, without a
+    // look at the system in between.
+    Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }
 
 /// Tells whoever started the daemon that its socket is open.

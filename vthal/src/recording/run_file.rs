@@ -158,7 +158,9 @@ impl RunFile {
                 &json!({"direction": direction.symbol(), "text": text}),
             ),
             Record::Status { time_us, status } => self.write_json((STATUS, *time_us), status),
-            Record::Pose(pose) => self.write_json((POSE, (pose.t * 1e6).round() as u64), &pose_in_frame(*pose)),
+            Record::Pose(pose) => {
+                self.write_json((POSE, (pose.t * 1e6).round() as u64), &pose_in_frame(*pose))
+            }
         }
     }
 
