@@ -24,6 +24,10 @@ pub(crate) enum Subcommand {
     Watch(WatchOptions),
     /// Run a recording through the brain again.
     Replay(ReplayOptions),
+    /// Measure what nobody knows about a robot's parts; without --port: list it.
+    Calibrate(CalibrateOptions),
+    /// Look at a robot's raw readings, or record its gyro module.
+    Probe(ProbeJob),
     /// Start cleaning.
     Start {
         /// Strategy by name; the daemon's default when absent.
@@ -155,4 +159,52 @@ pub(crate) struct ReplayOptions {
     /// The `vthal` executable; the one beside this program when absent, else the one in the PATH.
     #[arg(long, value_name = "PATH")]
     pub(crate) vthal: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CalibrateOptions {
+    /// Values to measure; all that the file does not hold yet when absent.
+    pub(crate) names: Vec<String>,
+    /// Serial device of the robot; vthal must not run.
+    #[arg(long, value_name = "PATH")]
+    pub(crate) port: Option<PathBuf>,
+    /// Bits per second.
+    #[arg(long, default_value_t = 230_400, value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
+    pub(crate) baud: u32,
+    /// Where the values are kept.
+    #[arg(long, value_name = "PATH", default_value = "calibration.toml")]
+    pub(crate) file: PathBuf,
+    /// Whose values are listed when no robot is connected.
+    #[arg(long, default_value = "sr8730")]
+    pub(crate) robot: String,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ProbeJob {
+    #[command(subcommand)]
+    pub(crate) target: ProbeWhat,
+    /// Serial device of the robot; vthal must not run.
+    #[arg(long, value_name = "PATH", global = true)]
+    pub(crate) port: Option<PathBuf>,
+    /// Bits per second.
+    #[arg(long, default_value_t = 230_400, global = true, value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
+    pub(crate) baud: u32,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum ProbeWhat {
+    /// Counts of the converter, channel by channel.
+    Analog,
+    /// Totals of the wheel encoders.
+    Encoders,
+    /// Levels of all digital lines, port by port.
+    Lines,
+    /// The line of the buttons.
+    Buttons,
+    /// Find the gyro module, record it at rest and in both turns, and look for its frames.
+    Gyro {
+        /// Where the recorded bytes go.
+        #[arg(long, value_name = "PATH", default_value = "gyro.bin")]
+        file: PathBuf,
+    },
 }

@@ -3,9 +3,14 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod calibrate;
 mod control;
+mod lines;
+mod listen;
 mod packet;
+mod probe;
 mod replay;
+mod robot;
 mod show;
 mod socket;
 mod status;
@@ -25,6 +30,8 @@ fn main() -> ExitCode {
         Subcommand::Status(options) => status::print(&options),
         Subcommand::Watch(options) => status::watch(&options),
         Subcommand::Replay(options) => replay::run(&options),
+        Subcommand::Calibrate(options) => calibrate::run(&options),
+        Subcommand::Probe(job) => probe::run(&job),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

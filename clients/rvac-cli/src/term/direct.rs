@@ -1,10 +1,9 @@
 //! Straight on the serial line, with a session of our own or by hand without one.
 
-use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
@@ -17,8 +16,10 @@ use rvac_protocol::text::{Form, is_stop, read_command};
 use rvac_units::Tick;
 use serial2::SerialPort;
 
-use super::{lines, print_packet, print_remark};
+use super::{print_packet, print_remark};
 use crate::arguments::TermOptions;
+use crate::lines;
+use crate::listen::listen;
 use crate::show::Viewer;
 
 /// The robot must answer the handshake within this time.
@@ -38,31 +39,11 @@ pub(super) fn run(port: &Path, options: &TermOptions) -> anyhow::Result<ExitCode
         .with_context(|| format!("cannot open {} at {} baud", port.display(), options.baud))?;
     let serial = Arc::new(serial);
     let (events, inbox) = channel();
-    listen(Arc::clone(&serial), events.clone());
+    listen(Arc::clone(&serial), events.clone(), Event::Received, Event::Lost);
     lines::read_input(events, Event::Typed, || Event::InputEnded);
     let mut terminal = Terminal::new(&serial, options);
     terminal.converse(&inbox)?;
     Ok(ExitCode::SUCCESS)
-}
-
-fn listen(serial: Arc<SerialPort>, events: Sender<Event>) {
-    std::thread::spawn(move || {
-        let mut chunk = [0; 512];
-        loop {
-            let event = match serial.read(&mut chunk) {
-                Ok(0) => Event::Lost(ErrorKind::UnexpectedEof.into()),
-                Ok(count) => Event::Received(chunk[..count].to_vec()),
-                Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => {
-                    continue;
-                }
-                Err(error) => Event::Lost(error),
-            };
-            let over = matches!(event, Event::Lost(_));
-            if events.send(event).is_err() || over {
-                return;
-            }
-        }
-    });
 }
 
 struct Terminal<'a> {
@@ -104,6 +85,7 @@ impl<'a> Terminal<'a> {
         loop {
             self.keep_session()?;
             match inbox.recv_timeout(LOOK) {
+                Ok(Event::Typed(line)) if line.is_empty() => {}
                 Ok(Event::Typed(line)) => self.take_line(line)?,
                 Ok(Event::InputEnded) => self.ends_at = Some(Instant::now()),
                 Ok(Event::Received(bytes)) => self.take_bytes(&bytes)?,

@@ -1,7 +1,6 @@
 //! `rvac term`: a person types packets to the robot.
 
 mod direct;
-mod lines;
 mod relay;
 
 use std::io::Write as _;

@@ -9,8 +9,9 @@ use anyhow::bail;
 use rvac_api::{Failure, Request, RequestBody, Topic, Update};
 use rvac_protocol::message::Refusal;
 
-use super::{lines, print_packet, print_remark};
+use super::{print_packet, print_remark};
 use crate::arguments::TermOptions;
+use crate::lines;
 use crate::show::{Shown, Verdict};
 use crate::socket::Connection;
 
@@ -36,6 +37,7 @@ pub(super) fn run(socket: &Path, options: &TermOptions) -> anyhow::Result<ExitCo
             end.saturating_duration_since(Instant::now())
         });
         match inbox.recv_timeout(pause) {
+            Ok(Event::Typed(packet)) if packet.is_empty() => {}
             Ok(Event::Typed(packet)) => sender.send(&Request {
                 id: Some(1),
                 body: RequestBody::Raw { packet },

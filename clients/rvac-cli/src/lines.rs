@@ -3,8 +3,8 @@
 use std::io::BufRead as _;
 use std::sync::mpsc::Sender;
 
-/// Reads the input to its end; every line that is not empty becomes an event made by `event`, the end one made by `end`.
-pub(super) fn read_input<Event: Send + 'static>(
+/// Reads the input to its end; every line, trimmed, becomes an event made by `event`, the end one made by `end`.
+pub(crate) fn read_input<Event: Send + 'static>(
     events: Sender<Event>,
     event: fn(String) -> Event,
     end: fn() -> Event,
@@ -12,9 +12,8 @@ pub(super) fn read_input<Event: Send + 'static>(
     std::thread::spawn(move || {
         for line in std::io::stdin().lock().lines() {
             let Ok(line) = line else { break };
-            let line = line.trim();
             // The other side is gone when the program ends first.
-            if !line.is_empty() && events.send(event(line.to_owned())).is_err() {
+            if events.send(event(line.trim().to_owned())).is_err() {
                 return;
             }
         }

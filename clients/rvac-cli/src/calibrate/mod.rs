@@ -1,0 +1,130 @@
+//! `rvac calibrate`: walks an owner through what nobody could know about one robot.
+
+mod arithmetic;
+mod catalog;
+mod dialog;
+mod file;
+mod procedure;
+
+use std::process::ExitCode;
+
+use anyhow::Context as _;
+
+use crate::arguments::CalibrateOptions;
+use crate::robot::Robot;
+use catalog::{Catalog, Item};
+use dialog::{Dialog, Quit, Wish};
+use file::Measurements;
+use procedure::{Bench, Procedure};
+
+pub(crate) fn run(options: &CalibrateOptions) -> anyhow::Result<ExitCode> {
+    match &options.port {
+        None => list(options),
+        Some(port) => {
+            let mut robot = Robot::open(port, options.baud)?;
+            let device = robot.device().to_owned();
+            let outcome = walk(&mut robot, &device, options);
+            // Whatever went wrong, nothing is left running.
+            robot.stop().ok();
+            match outcome {
+                Err(error) if error.is::<Quit>() => {
+                    Dialog::say(&error.to_string())?;
+                    Ok(ExitCode::SUCCESS)
+                }
+                other => other.map(|()| ExitCode::SUCCESS),
+            }
+        }
+    }
+}
+
+/// Without a robot: what there is to measure, what it is needed for, and what the file already holds.
+fn list(options: &CalibrateOptions) -> anyhow::Result<ExitCode> {
+    let catalog = Catalog::of(&options.robot)?;
+    let measured = Measurements::open(&options.file, &catalog)?;
+    for item in &catalog.items {
+        let state = match (measured.get(&item.name), item.assumed) {
+            (Some(value), _) => format!("{value} {}", item.unit),
+            (None, Some(assumed)) => format!("not measured, taken as {assumed} {}", item.unit),
+            (None, None) => "not measured".to_owned(),
+        };
+        Dialog::say(&format!("{:<24} {state}; for {}", item.name, item.needed_for))?;
+    }
+    Dialog::say("Name the robot's serial device with --port to measure.")?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Goes through the named values, or through all that the file does not hold yet.
+fn walk(robot: &mut Robot, device: &str, options: &CalibrateOptions) -> anyhow::Result<()> {
+    let catalog = Catalog::of(device)?;
+    let mut measured = Measurements::open(&options.file, &catalog)?;
+    let chosen: Vec<&Item> = if options.names.is_empty() {
+        let missing = |item: &&Item| measured.get(&item.name).is_none();
+        catalog.items.iter().filter(missing).collect()
+    } else {
+        let find = |name: &String| catalog.find(name);
+        options.names.iter().map(find).collect::<anyhow::Result<_>>()?
+    };
+    for (number, item) in chosen.iter().enumerate() {
+        Dialog::say(&format!(
+            "\n{} of {}: {}, needed for {}\n  {}",
+            number + 1,
+            chosen.len(),
+            item.name,
+            item.needed_for,
+            item.measure
+        ))?;
+        if let Some(value) = settle(robot, (&catalog, &measured), item)? {
+            measured.keep(&catalog, &item.name, value)?;
+            Dialog::say(&format!("  kept: {} = {value} {}", item.name, item.unit))?;
+        }
+    }
+    Dialog::say(&format!("\nAll is in {}.", options.file.display()))?;
+    Ok(())
+}
+
+/// Measures one value until the person is content with it; `None` if it is left out.
+fn settle(
+    robot: &mut Robot,
+    (catalog, measured): (&Catalog, &Measurements),
+    item: &Item,
+) -> anyhow::Result<Option<i64>> {
+    if Procedure::of(&item.name).moves() {
+        Dialog::say(
+            "  The robot will MOVE: put it on the floor with a metre free before it, and stay within reach.",
+        )?;
+    }
+    if Dialog::choose(robot, "  Ready?")? != Wish::Yes {
+        return Ok(None);
+    }
+    loop {
+        let mut bench = Bench {
+            robot,
+            catalog,
+            measured,
+        };
+        let question = match bench.measure(item).and_then(|value| plausible(item, value)) {
+            Ok(value) => {
+                let question = format!("  {} = {value} {}. Keep it?", item.name, item.unit);
+                match Dialog::choose(robot, &question)? {
+                    Wish::Yes => return Ok(Some(value)),
+                    Wish::Skip => return Ok(None),
+                    Wish::Again => continue,
+                }
+            }
+            Err(error) if error.is::<Quit>() => return Err(error),
+            Err(error) => format!("  {error:#}. Once more?"),
+        };
+        if Dialog::choose(robot, &question)? == Wish::Skip {
+            return Ok(None);
+        }
+    }
+}
+
+/// A value outside of what can be true is a fault of the measurement.
+fn plausible(item: &Item, value: i64) -> anyhow::Result<i64> {
+    let [low, high] = item.range;
+    (low..=high)
+        .contains(&value)
+        .then_some(value)
+        .with_context(|| format!("{value} {} cannot be true: it lies in {low} to {high}", item.unit))
+}

@@ -1,0 +1,114 @@
+//! Finds and records the gyro module: which serial port, at what rate, and what it says at rest and in turns.
+
+use std::path::Path;
+use std::time::Duration;
+
+use anyhow::{Context as _, bail};
+use rvac_protocol::message::{ProbeTarget, Probed, ProbedContent};
+
+use super::frames::{Frames, Recording};
+use super::say;
+use crate::robot::Robot;
+
+/// Ports of the chip.
+const PORTS: [u8; 2] = [1, 2];
+/// Rates that modules use.
+const RATES: [u32; 8] = [9_600, 19_200, 38_400, 57_600, 115_200, 230_400, 4_800, 2_400];
+/// How long each is listened to.
+const TRY: Duration = Duration::from_millis(600);
+/// Length of each part of the recording.
+const PART: Duration = Duration::from_secs(8);
+/// Bytes in a try below which nobody speaks.
+const BYTES_MIN: usize = 10;
+
+/// What a port gave in a while.
+#[derive(Debug, Default)]
+struct Heard {
+    bytes: Vec<u8>,
+    lost: u32,
+}
+
+impl Heard {
+    /// What the pieces hold, in their order; a gap on our own line is left out.
+    fn join(pieces: Vec<Probed>) -> Self {
+        let mut heard = Self::default();
+        for piece in pieces {
+            if let ProbedContent::Serial(serial) = piece.content {
+                heard.bytes.extend_from_slice(&serial.bytes);
+                heard.lost = heard.lost.max(serial.lost);
+            }
+        }
+        heard
+    }
+}
+
+pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
+    let (port, baud) = find(robot)?;
+    say(&format!(
+        "UART {port} at {baud} baud: bytes without a wrong stop bit."
+    ))?;
+    let target = ProbeTarget::Serial { port, baud };
+    let mut part = |wish: &str| -> anyhow::Result<Vec<u8>> {
+        say(&format!("{wish} for {} s; press Enter to begin.", PART.as_secs()))?;
+        if robot.next_line()?.is_none() {
+            bail!("the input ended before the recording did; nothing was written");
+        }
+        Ok(Heard::join(robot.watch(target, &[], PART)?).bytes)
+    };
+    let recording = Recording {
+        rest: part("Leave the robot alone")?,
+        left: part("Turn it slowly and steadily to the left (counter-clockwise)")?,
+        right: part("Turn it slowly and steadily to the right")?,
+    };
+    save(&recording, file)?;
+    match Frames::find(&recording) {
+        Some(frames) => say(&frames.to_string()),
+        None => say("No frames were recognized. The recording is worth more than nothing: send it in."),
+    }?;
+    say(&format!(
+        "gyro-uart = {port}\ngyro-rate = {baud}\ngyro-frame: compare with robots/samsung-sr8730/gyro.md"
+    ))
+}
+
+/// The first port and rate at which bytes come without errors.
+fn find(robot: &mut Robot) -> anyhow::Result<(u8, u32)> {
+    let mut closest: Option<(u8, u32, usize)> = None;
+    for port in PORTS {
+        for baud in RATES {
+            let heard = Heard::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], TRY)?);
+            say(&format!(
+                "UART {port}, {baud:6} baud: {} bytes, {} wrong",
+                heard.bytes.len(),
+                heard.lost
+            ))?;
+            if heard.bytes.len() >= BYTES_MIN && heard.lost == 0 {
+                return Ok((port, baud));
+            }
+            if heard.bytes.len() > closest.map_or(0, |(.., count)| count) {
+                closest = Some((port, baud, heard.bytes.len()));
+            }
+        }
+    }
+    match closest {
+        Some((port, baud, count)) => bail!(
+            "no rate fits: the most was heard on UART {port} at {baud} baud ({count} bytes), with errors"
+        ),
+        None => bail!("neither UART hears anything: is the module fitted and its plug in?"),
+    }
+}
+
+/// The three parts one after the other, each headed by its name and length.
+fn save(recording: &Recording, file: &Path) -> anyhow::Result<()> {
+    let mut bytes = Vec::new();
+    for (name, part) in [
+        ("rest", &recording.rest),
+        ("left", &recording.left),
+        ("right", &recording.right),
+    ] {
+        bytes.extend(format!("{name} {}\n", part.len()).as_bytes());
+        bytes.extend(part);
+        bytes.push(b'\n');
+    }
+    std::fs::write(file, bytes).with_context(|| format!("cannot write {}", file.display()))?;
+    say(&format!("Recorded to {}.", file.display()))
+}

@@ -1,0 +1,300 @@
+//! A robot on the serial line, asked and answered one thing at a time, while a person reads and types.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, bail};
+use rvac_protocol::PacketBuffer;
+use rvac_protocol::message::{
+    BinaryKinds, Command, Motor, MotorCommand, PROBE_LEASE_MS_MAX, Probe, ProbeTarget, Probed, ProbedContent,
+    Refusal, Report, Sequence,
+};
+use rvac_protocol::session::{HostEvent, HostSession, SendError};
+use rvac_units::{Throttle, Tick};
+use serial2::SerialPort;
+
+use crate::lines;
+use crate::listen::listen;
+
+/// The robot must answer the handshake, and each question, within this time.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Longest pause between two looks at the session.
+const LOOK: Duration = Duration::from_millis(10);
+/// Life of a motor command, and the pause after which it is given again.
+const LEASE_MS: u16 = 250;
+const RENEW: Duration = Duration::from_millis(100);
+
+enum Event {
+    Typed(String),
+    InputEnded,
+    Received(Vec<u8>),
+    Lost(std::io::Error),
+}
+
+/// What has come in while somebody waited.
+#[derive(Default)]
+struct Heard {
+    described: bool,
+    probed: Vec<Probed>,
+    answered: Option<(Sequence, Option<Refusal>)>,
+    refused: Option<Refusal>,
+    unanswered: Option<Sequence>,
+    typed: Option<String>,
+    input_ended: bool,
+}
+
+/// A session with a robot.
+pub(crate) struct Robot {
+    serial: Arc<SerialPort>,
+    inbox: Receiver<Event>,
+    start: Instant,
+    session: HostSession,
+    device: String,
+    heard: Heard,
+}
+
+impl Robot {
+    /// Opens the line and a session on it, and waits until the robot has told what it is.
+    pub(crate) fn open(port: &Path, baud: u32) -> anyhow::Result<Self> {
+        let serial = SerialPort::open(port, baud)
+            .with_context(|| format!("cannot open {} at {baud} baud", port.display()))?;
+        let serial = Arc::new(serial);
+        let (events, inbox) = channel();
+        listen(Arc::clone(&serial), events.clone(), Event::Received, Event::Lost);
+        lines::read_input(events, Event::Typed, || Event::InputEnded);
+        let mut robot = Self {
+            serial,
+            inbox,
+            start: Instant::now(),
+            session: HostSession::new(BinaryKinds::default(), Tick(0)),
+            device: String::new(),
+            heard: Heard::default(),
+        };
+        if robot.wait(PATIENCE, |heard| heard.described)? {
+            return Ok(robot);
+        }
+        bail!(
+            "the robot does not answer the handshake: check power, cable, --port and --baud, and that vthal does not run"
+        )
+    }
+
+    /// Name of the model.
+    pub(crate) fn device(&self) -> &str {
+        &self.device
+    }
+
+    /// The next line that the person types; `None` at the end of the input.
+    pub(crate) fn next_line(&mut self) -> anyhow::Result<Option<String>> {
+        loop {
+            self.wait(Duration::from_secs(3600), |heard| {
+                heard.typed.is_some() || heard.input_ended
+            })?;
+            if let Some(line) = self.heard.typed.take() {
+                return Ok(Some(line));
+            }
+            if self.heard.input_ended {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// One raw reading.
+    pub(crate) fn probe(&mut self, target: ProbeTarget) -> anyhow::Result<ProbedContent> {
+        self.heard.probed.clear();
+        self.command(Command::Probe(Probe {
+            target,
+            lease_ms: 0,
+            sequence: Sequence(0),
+        }))?;
+        self.wait(PATIENCE, |heard| !heard.probed.is_empty())?;
+        match self.heard.probed.pop() {
+            Some(probed) => Ok(probed.content),
+            None => bail!("the robot promised a raw reading and sent none"),
+        }
+    }
+
+    /// Raw readings for `span`, as they come (each 50 ms), while `motors` run open loop; whatever happens, they are stopped
+    /// at the end. Motors need an armed robot; without any the robot need not be armed.
+    pub(crate) fn watch(
+        &mut self,
+        target: ProbeTarget,
+        motors: &[(Motor, Throttle)],
+        span: Duration,
+    ) -> anyhow::Result<Vec<Probed>> {
+        self.heard.probed.clear();
+        let watched = self.watch_running(target, motors, span);
+        if !motors.is_empty() {
+            self.stop()?;
+        }
+        watched.map(|()| std::mem::take(&mut self.heard.probed))
+    }
+
+    fn watch_running(
+        &mut self,
+        target: ProbeTarget,
+        motors: &[(Motor, Throttle)],
+        span: Duration,
+    ) -> anyhow::Result<()> {
+        let end = Instant::now() + span;
+        let mut lease_until = Instant::now();
+        loop {
+            let now = Instant::now();
+            if now >= end {
+                return Ok(());
+            }
+            if now >= lease_until {
+                self.command(Command::Probe(Probe {
+                    target,
+                    lease_ms: PROBE_LEASE_MS_MAX,
+                    sequence: Sequence(0),
+                }))?;
+                lease_until = now + Duration::from_millis(u64::from(PROBE_LEASE_MS_MAX) / 2);
+            }
+            self.run(motors)?;
+            self.wait(RENEW.min(end - now), |heard| heard.refused.is_some())?;
+            if let Some(refusal) = self.heard.refused.take() {
+                bail!("the robot refuses to run the motor: {}", refusal.name());
+            }
+        }
+    }
+
+    /// Gives each motor its duty for the length of a lease.
+    fn run(&mut self, motors: &[(Motor, Throttle)]) -> anyhow::Result<()> {
+        for (motor, throttle) in motors {
+            self.send(Command::Motor(MotorCommand {
+                motor: *motor,
+                throttle: *throttle,
+                lease_ms: LEASE_MS,
+                sequence: Sequence(0),
+                seen_tick: Tick(0),
+            }))?;
+        }
+        Ok(())
+    }
+
+    /// Allows motion.
+    pub(crate) fn arm(&mut self) -> anyhow::Result<()> {
+        self.command(Command::Arm {
+            sequence: Sequence(0),
+            undock: false,
+        })
+    }
+
+    /// Stops everything.
+    pub(crate) fn stop(&mut self) -> anyhow::Result<()> {
+        self.send(Command::Stop).map(drop)
+    }
+
+    /// Sends a command that must arrive and waits for its answer.
+    fn command(&mut self, command: Command) -> anyhow::Result<()> {
+        self.heard.answered = None;
+        self.heard.refused = None;
+        let Some(sent) = self.send(command)? else {
+            return Ok(());
+        };
+        let answered = self.wait(PATIENCE, |heard| {
+            heard.answered.is_some_and(|(sequence, _)| sequence == sent) || heard.unanswered == Some(sent)
+        })?;
+        match self.heard.answered.take() {
+            Some((_, Some(refusal))) => {
+                bail!("the robot refuses {}: {}", command.name().name(), refusal.name())
+            }
+            Some((_, None)) if answered => Ok(()),
+            _ => bail!("the robot did not answer {}", command.name().name()),
+        }
+    }
+
+    fn send(&mut self, command: Command) -> anyhow::Result<Option<Sequence>> {
+        let mut buffer = PacketBuffer::new();
+        match self.session.send(command, self.now(), &mut buffer) {
+            Ok(sequence) => {
+                self.transmit(buffer.as_bytes())?;
+                Ok(sequence)
+            }
+            Err(SendError::NotOpen) => bail!("the robot has left the session: it was reset or lost power"),
+            Err(SendError::Busy) => bail!("eight commands wait for their answers"),
+            Err(SendError::Range | SendError::Reserved) => {
+                bail!("{} cannot be sent to this robot", command.name().name())
+            }
+        }
+    }
+
+    /// Lets the session live for `span`, or until `until` is content; says whether it was.
+    fn wait(&mut self, span: Duration, until: impl Fn(&Heard) -> bool) -> anyhow::Result<bool> {
+        let end = Instant::now() + span;
+        loop {
+            self.keep_session()?;
+            if until(&self.heard) {
+                return Ok(true);
+            }
+            let left = end.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Ok(false);
+            }
+            match self.inbox.recv_timeout(LOOK.min(left)) {
+                Ok(Event::Typed(line)) => self.heard.typed = Some(line),
+                Ok(Event::InputEnded) => self.heard.input_ended = true,
+                Ok(Event::Received(bytes)) => self.take_bytes(&bytes),
+                Ok(Event::Lost(error)) => return Err(error).context("the serial line is gone"),
+                Err(RecvTimeoutError::Disconnected) => bail!("both input and serial line have ended"),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
+    }
+
+    fn now(&self) -> Tick {
+        // Wraps after 49 days, as ticks are meant to.
+        Tick(self.start.elapsed().as_millis() as u32)
+    }
+
+    fn keep_session(&mut self) -> anyhow::Result<()> {
+        let now = self.now();
+        while let Some(event) = self.session.poll(now) {
+            self.take_event(event);
+        }
+        let mut buffer = PacketBuffer::new();
+        while self.session.next_packet(&mut buffer) {
+            self.transmit(buffer.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn take_bytes(&mut self, bytes: &[u8]) {
+        let now = self.now();
+        for byte in bytes {
+            if let Some(event) = self.session.receive(*byte, now) {
+                self.take_event(event);
+            }
+        }
+    }
+
+    fn take_event(&mut self, event: HostEvent) {
+        match event {
+            HostEvent::Opened(hello) => self.device = hello.device.as_str().to_owned(),
+            HostEvent::Described(_) => self.heard.described = true,
+            HostEvent::Report(Report::Probed(probed)) => self.heard.probed.push(probed),
+            HostEvent::Answered {
+                sequence: Some(sequence),
+                refusal,
+            } => {
+                self.heard.answered = Some((sequence, refusal));
+                self.heard.refused = refusal.or(self.heard.refused);
+            }
+            HostEvent::Unanswered(sequence) => self.heard.unanswered = Some(sequence),
+            HostEvent::Report(_)
+            | HostEvent::Answered { .. }
+            | HostEvent::EdgesLost { .. }
+            | HostEvent::Closed(_)
+            | HostEvent::Silent
+            | HostEvent::Incompatible { .. } => {}
+        }
+    }
+
+    fn transmit(&self, bytes: &[u8]) -> anyhow::Result<()> {
+        self.serial
+            .write_all(bytes)
+            .context("cannot write to the serial line")
+    }
+}
