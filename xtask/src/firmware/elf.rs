@@ -18,6 +18,8 @@ pub(crate) struct Elf {
 pub(crate) struct Segment {
     /// Physical address.
     pub(crate) physical: u32,
+    /// Where the bytes stand in the file; 0 for bytes that do not come from one.
+    pub(crate) offset: usize,
     /// The bytes.
     pub(crate) bytes: Vec<u8>,
 }
@@ -48,6 +50,11 @@ pub(crate) struct Symbol {
     pub(crate) size: u32,
     /// Whether it is a function, or code without a type.
     pub(crate) code: bool,
+}
+
+/// The physical address behind a virtual one: both windows on it lie above.
+pub(super) const fn physical(address: u32) -> u32 {
+    address & 0x1FFF_FFFF
 }
 
 const MACHINE_MIPS: u16 = 8;
@@ -176,7 +183,8 @@ impl File<'_> {
             let length = self.word(at + 16)? as usize;
             if self.word(at)? == SEGMENT_LOAD && length > 0 {
                 segments.push(Segment {
-                    physical: self.word(at + 12)? & 0x1FFF_FFFF,
+                    physical: physical(self.word(at + 12)?),
+                    offset: self.word(at + 4)? as usize,
                     bytes: self.slice(self.word(at + 4)? as usize, length)?.to_vec(),
                 });
             }

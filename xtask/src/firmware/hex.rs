@@ -61,10 +61,12 @@ mod tests {
         let segments = [
             Segment {
                 physical: 0x1D00_FFFE,
+                offset: 0,
                 bytes: vec![1, 2, 3],
             },
             Segment {
                 physical: 0x1FC0_2FF0,
+                offset: 0,
                 bytes: vec![0xFF; 16],
             },
         ];

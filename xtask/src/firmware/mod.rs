@@ -1,6 +1,7 @@
 //! `cargo xtask firmware ROBOT`: builds a robot's firmware as ELF and Intel HEX and tells what it takes of the chip.
 
 pub(crate) mod build;
+mod checksum;
 pub(crate) mod elf;
 mod flow;
 mod graph;
@@ -8,6 +9,7 @@ mod hex;
 mod instruction;
 mod record;
 mod report;
+mod seal;
 mod symbol_name;
 
 use crate::codegen::board::calibration::Calibration;
@@ -49,16 +51,13 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let options = Options {
         features: arguments.features.clone(),
     };
-    let elf = build(board, &options)?;
-    let bytes = std::fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
-    let program = Elf::read(&bytes).with_context(|| elf.display().to_string())?;
-    let files = Files::write(board, &bytes, &program, record)?;
-    let reproducible = if arguments.once {
-        None
-    } else {
-        Some(same_elsewhere(board, &options, &bytes)?)
+    let linked = link(board, &Place::here(), &options)?;
+    let files = Files::write(board, &linked, record)?;
+    let reproducible = match arguments.once {
+        true => None,
+        false => Some(link(board, &Place::elsewhere()?, &options)? == linked),
     };
-    let report = Report::of(&program, reproducible)?;
+    let report = Report::of(&Elf::read(&linked)?, reproducible)?;
     if arguments.json {
         process::print(&serde_json::to_string(&report)?);
     } else {
@@ -82,17 +81,20 @@ pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
     })
 }
 
-/// Builds the firmware once, in the repository; gives the ELF file.
-pub(crate) fn build(board: &Board, options: &Options) -> anyhow::Result<PathBuf> {
-    let tools = toolchain::choose(&toolchain::MIPS)?;
-    build::build(board, &tools, &Place::here(), options)
+/// Builds the firmware once and leaves both files; gives the ELF file.
+pub(crate) fn build(board: &Board, options: &Options, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
+    let record = calibration.map(|file| record_of(file, board)).transpose()?;
+    let linked = link(board, &Place::here(), options)?;
+    Ok(Files::write(board, &linked, record)?.elf)
 }
 
-/// Whether a build in another folder gives the same bytes.
-fn same_elsewhere(board: &Board, options: &Options, bytes: &[u8]) -> anyhow::Result<bool> {
+/// Builds the firmware in a place; gives the bytes of the ELF file, sealed.
+fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u8>> {
     let tools = toolchain::choose(&toolchain::MIPS)?;
-    let elf = build::build(board, &tools, &Place::elsewhere()?, options)?;
-    Ok(std::fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))? == bytes)
+    let path = build::build(board, &tools, place, options)?;
+    let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let program = Elf::read(&bytes).with_context(|| path.display().to_string())?;
+    seal::sealed(bytes, &program).with_context(|| path.display().to_string())
 }
 
 fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
@@ -107,20 +109,20 @@ struct Files {
 }
 
 impl Files {
-    fn write(board: &Board, bytes: &[u8], program: &Elf, record: Option<Segment>) -> anyhow::Result<Self> {
+    fn write(board: &Board, linked: &[u8], record: Option<Segment>) -> anyhow::Result<Self> {
         let folder = workspace::target().join("firmware");
         std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
         let files = Self {
             elf: folder.join(format!("{}.elf", board.name)),
             hex: folder.join(format!("{}.hex", board.name)),
         };
-        let mut segments = program.segments.clone();
+        let mut segments = Elf::read(linked)?.segments;
         segments.extend(record);
         segments.sort_by_key(|segment| segment.physical);
         let write = |path: &Path, content: &[u8]| {
             std::fs::write(path, content).with_context(|| format!("cannot write {}", path.display()))
         };
-        write(&files.elf, bytes)?;
+        write(&files.elf, linked)?;
         write(&files.hex, hex::text(&segments).as_bytes())?;
         Ok(files)
     }

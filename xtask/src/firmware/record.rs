@@ -3,6 +3,7 @@
 //! Little endian: magic u32, version u16, number of values u16, the values as i32 in the order of robot.toml (the least i32
 //! means unknown), CRC-32C of all before.
 
+use super::checksum::crc_32c;
 use super::elf::Segment;
 use crate::codegen::board::calibration::Calibration;
 use anyhow::{Context, bail};
@@ -59,6 +60,7 @@ fn segment(text: &str, robot: &str, calibration: &Calibration) -> anyhow::Result
     }
     Ok(Segment {
         physical: ADDRESS,
+        offset: 0,
         bytes: bytes(&values)?,
     })
 }
@@ -72,18 +74,9 @@ fn bytes(values: &[i32]) -> anyhow::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn crc_32c(bytes: &[u8]) -> u32 {
-    const POLYNOMIAL: u32 = 0x82F6_3B78;
-    !bytes.iter().fold(u32::MAX, |crc, byte| {
-        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
-            (crc >> 1) ^ (POLYNOMIAL & 0_u32.wrapping_sub(crc & 1))
-        })
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{bytes, crc_32c, segment};
+    use super::{bytes, segment};
     use crate::codegen::board::calibration::Calibration;
 
     const VALUES: &str = "[[calibration]]\nname = \"a\"\nunit = \"mm\"\nrange = [-5, 5]\nconfidence = \"unknown\"\n\
@@ -93,11 +86,6 @@ mod tests {
 
     fn calibration() -> Calibration {
         Calibration::parse(VALUES).expect("valid")
-    }
-
-    #[test]
-    fn the_check_value_is_the_published_one() {
-        assert_eq!(crc_32c(b"123456789"), 0xE306_9283);
     }
 
     #[test]
