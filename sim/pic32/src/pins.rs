@@ -235,6 +235,15 @@ impl Output {
     pub const fn is_high(self) -> bool {
         matches!(self, Output::High)
     }
+
+    /// The level that it gives the pin, if it drives it.
+    pub const fn level(self) -> Option<Level> {
+        match self {
+            Output::High => Some(Level::High),
+            Output::Low => Some(Level::Low),
+            Output::Floating => None,
+        }
+    }
 }
 
 impl From<Level> for Output {

@@ -4,16 +4,36 @@
 //! circuit: it sets inputs now or ahead of time and reads what the chip did with its outputs. Analog inputs are asked for
 //! through [`Surroundings`] at the very moment at which the converter samples. A machine can be cloned at any time; clones
 //! share flash until one of them writes to it.
+//!
+//! Not modelled: how long a reset and the start of an oscillator take (the first instruction follows at once), Sleep (the
+//! core idles), and the blocks of [`Unmodelled`](crate::peripheral::Unmodelled).
 
+mod accounting;
+mod core_clock;
+mod faults;
 mod surroundings;
+mod view;
+mod wires;
 
+pub use accounting::{Accounting, VectorAccount};
 pub use surroundings::{Grounded, Outputs, Surroundings};
+pub use wires::{LineRate, Uart};
 
-use crate::cpu::{Access, Bus, BusFault, Cpu, Exit};
+use crate::cpu::{CoreReset, Cpu, Exception, Exit};
 use crate::image::Image;
-use crate::memory::Memory;
-use crate::peripheral::{Chip, Direction, MisuseRecord, UnknownAccess};
-use crate::pins::{Level, Output, Pin};
+use crate::memory::{BOOT_START, FLASH_START, Memory};
+pub use crate::peripheral::ResetSource;
+
+use crate::peripheral::{
+    Chip, Irq, Misuse, MisuseRecord, Operation, Order, PAGE_BYTES, ROW_BYTES, UnknownAccess,
+};
+use core_clock::CoreClock;
+use view::View;
+
+/// How many resets and exceptions are kept; those after them are only counted.
+const KEPT: usize = 64;
+/// Physical address of DEVCFG3, the first of the four configuration words.
+const CONFIGURATION: u32 = BOOT_START + 0x2FF0;
 
 /// Why [`Machine::run_until`] returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +42,49 @@ pub enum Halt {
     Reached,
     /// A breakpoint of the debugger is at the next instruction, which was not executed.
     Breakpoint,
+    /// A fault that [`Machine::stop_at`] names; running on goes on behind it.
+    Fault(Fault),
+}
+
+/// What the program did wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// It raised an exception.
+    Exception(Exception),
+    /// It misused the chip for the first time in this way.
+    Misuse(Misuse),
+}
+
+/// Which faults end [`Machine::run_until`]. All are recorded anyway.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StopAt {
+    /// None: the chip goes on, too.
+    #[default]
+    Nothing,
+    /// Exceptions that are no interrupts.
+    Exceptions,
+    /// These, and the first of each kind of misuse.
+    ExceptionsAndMisuse,
+}
+
+/// A reset and where it came in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResetRecord {
+    /// What caused it.
+    pub source: ResetSource,
+    /// When.
+    pub cycle: u64,
+    /// Virtual address of the instruction that would have been next.
+    pub pc: u32,
+}
+
+/// An exception and when it was raised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExceptionRecord {
+    /// What and where.
+    pub exception: Exception,
+    /// When.
+    pub cycle: u64,
 }
 
 /// A PIC32MX360F256L with its program.
@@ -31,31 +94,249 @@ pub struct Machine {
     memory: Memory,
     chip: Chip,
     cycle: u64,
+    clock: CoreClock,
+    stalled_until: u64,
+    stop_at: StopAt,
+    accounting: Accounting,
+    resets: Vec<ResetRecord>,
+    reset_count: u64,
+    untold_resets: Vec<ResetSource>,
+    exceptions: Vec<ExceptionRecord>,
+    exception_count: u64,
 }
 
 impl Machine {
     /// A chip with this program right after power-on.
     pub fn new(image: &Image) -> Machine {
+        let memory = Memory::new(image);
+        let chip = Chip::new(configuration_of(&memory));
         Machine {
             cpu: Cpu::new(),
-            memory: Memory::new(image),
-            chip: Chip::new(),
+            clock: CoreClock::new(chip.system_clock(), 0, 0),
+            memory,
+            chip,
             cycle: 0,
+            stalled_until: 0,
+            stop_at: StopAt::Nothing,
+            accounting: Accounting::new(0),
+            resets: Vec::new(),
+            reset_count: 0,
+            untold_resets: Vec::new(),
+            exceptions: Vec::new(),
+            exception_count: 0,
         }
     }
 
-    /// Runs until this cycle since power-on, or until something named stops the program before.
+    /// Which faults end [`Machine::run_until`] from now on.
+    pub fn stop_at(&mut self, stop_at: StopAt) {
+        self.stop_at = stop_at;
+    }
+
+    /// Resets the chip now. RAM and general registers keep what they have, also at power-on (on the chip they hold anything).
+    pub fn reset(&mut self, source: ResetSource) {
+        self.reset_count += 1;
+        if self.untold_resets.len() < KEPT {
+            self.untold_resets.push(source);
+        }
+        if self.resets.len() < KEPT {
+            self.resets.push(ResetRecord {
+                source,
+                cycle: self.cycle,
+                pc: self.cpu.pc(),
+            });
+        }
+        self.accounting.forget_active(self.cycle);
+        self.stalled_until = self.cycle;
+        self.memory.reset();
+        self.cpu.reset(CoreReset::Cold);
+        self.chip
+            .reset(source, self.cycle, configuration_of(&self.memory));
+    }
+
+    /// Runs until this cycle since power-on, or until something named stops the program before. Everything that is due at
+    /// that cycle has happened then, except the instruction that begins with it.
     pub fn run_until(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) -> Halt {
-        let _ = surroundings;
-        while self.cycle < cycle {
-            self.chip.serve(self.cycle);
-            let exit = self.cpu.run(&mut self.memory, &mut self.chip, cycle);
-            self.cycle = self.cpu.cycle();
-            if exit == Exit::Breakpoint {
-                return Halt::Breakpoint;
+        loop {
+            let misuses = self.chip.record.misuses.len();
+            self.settle(surroundings);
+            if self.cycle >= cycle {
+                self.accounting.charge(self.cycle);
+                return Halt::Reached;
+            }
+            let halt = self.advance(cycle);
+            let halt = halt.or_else(|| self.new_misuse(misuses));
+            if let Some(halt) = halt {
+                self.settle(surroundings);
+                return halt;
             }
         }
-        Halt::Reached
+    }
+
+    /// Executes one instruction, with its delay slot if it has one; in WAIT one cycle passes.
+    pub fn step(&mut self, surroundings: &mut dyn Surroundings) -> Halt {
+        loop {
+            let before = self.cpu.cycle();
+            self.settle(surroundings);
+            let halt = self.advance_by(|cpu, memory, view| cpu.step(memory, view));
+            let halt = if self.clock.is_stopped() {
+                self.advance(self.cycle + 1)
+            } else {
+                halt
+            };
+            self.settle(surroundings);
+            if let Some(halt) = halt {
+                return halt;
+            }
+            if self.cpu.cycle() != before || self.clock.is_stopped() {
+                return Halt::Reached;
+            }
+        }
+    }
+
+    /// Lets happen what is due, and what it asks of core and memories.
+    fn settle(&mut self, surroundings: &mut dyn Surroundings) {
+        self.chip.serve(self.cycle, surroundings);
+        while let Some(order) = self.chip.take_order() {
+            self.obey(order);
+        }
+        if let Some(request) = self.chip.take_request() {
+            self.cpu.interrupt(request);
+        }
+    }
+
+    fn obey(&mut self, order: Order) {
+        match order {
+            Order::Reset(source) => self.reset(source),
+            Order::Bark if self.cpu.is_waiting() => {
+                self.accounting.forget_active(self.cycle);
+                self.chip.bark_at_idle(self.cycle);
+                self.cpu.reset(CoreReset::NonMaskable);
+            }
+            Order::Bark => self.reset(ResetSource::Watchdog),
+            Order::Clock => {
+                self.clock = CoreClock::new(self.chip.system_clock(), self.cycle, self.cpu.cycle());
+            }
+            Order::Matrix => {
+                self.memory.set_flash_timing(self.chip.flash_timing());
+                self.memory.set_ram_wait_states(self.chip.ram_wait_states());
+                self.memory.set_ram_code(self.chip.ram_code());
+            }
+            Order::Flash(operation) => self.program(operation),
+        }
+    }
+
+    /// Flash changes when the operation begins, so that a reset in its midst finds it done, as the chip would have it.
+    fn program(&mut self, operation: Operation) {
+        let done = match operation {
+            Operation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
+            Operation::Row { address, source } => {
+                let mut row = [0; ROW_BYTES as usize];
+                self.memory
+                    .read(source, &mut row)
+                    .is_ok_and(|()| source < FLASH_START)
+                    && self.write_flash(address, &row)
+            }
+            Operation::Page { address } => self.erase(address),
+            Operation::All => (0..FLASH_PAGES).all(|page| self.erase(FLASH_START + page * PAGE_BYTES)),
+        };
+        if !done {
+            self.chip.flash_failed();
+        }
+        // The core waits for flash only if its next instruction is there.
+        if self.cpu.pc() & 0x1FFF_FFFF >= FLASH_START {
+            self.stalled_until = self.cycle + operation.cycles();
+        }
+    }
+
+    /// Programming can clear bits only.
+    fn write_flash(&mut self, address: u32, bytes: &[u8]) -> bool {
+        let mut merged = bytes.to_vec();
+        if self.memory.read(address, &mut merged).is_err() {
+            return false;
+        }
+        for (kept, new) in merged.iter_mut().zip(bytes) {
+            *kept &= new;
+        }
+        self.memory.write(address, &merged).is_ok()
+    }
+
+    fn erase(&mut self, address: u32) -> bool {
+        self.memory.write(address, &[0xFF; PAGE_BYTES as usize]).is_ok()
+    }
+
+    /// Goes on until something is due, at most until `cycle`.
+    fn advance(&mut self, cycle: u64) -> Option<Halt> {
+        let stalled = self.stalled_until > self.cycle;
+        if !stalled && !self.clock.is_stopped() {
+            let until = self.clock.core_of(cycle);
+            return self.advance_by(|cpu, memory, view| cpu.run(memory, view, until));
+        }
+        let mut next = cycle.min(self.chip.next_event());
+        if stalled {
+            next = next.min(self.stalled_until);
+        }
+        self.cycle = self.cycle.max(next);
+        if !self.clock.is_stopped() {
+            self.cpu.stall_until(self.clock.core_of(self.cycle));
+        }
+        None
+    }
+
+    fn advance_by(&mut self, run: impl FnOnce(&mut Cpu, &mut Memory, &mut View<'_>) -> Exit) -> Option<Halt> {
+        let idle_before = self.cpu.idle_cycles();
+        let clock = self.clock;
+        let mut view = View {
+            chip: &mut self.chip,
+            clock,
+            accounting: &mut self.accounting,
+        };
+        let exit = run(&mut self.cpu, &mut self.memory, &mut view);
+        self.cycle = clock.base_of(self.cpu.cycle());
+        let idle = self.cpu.idle_cycles() - idle_before;
+        if idle > 0 {
+            self.accounting
+                .add_idle(self.chip.system_clock().cycles_for(idle));
+        }
+        if self.cpu.is_waiting() {
+            self.chip.note_idle();
+        }
+        match exit {
+            Exit::Reached | Exit::Horizon => None,
+            Exit::CoreTimer => {
+                self.chip.raise(Irq::CORE_TIMER, self.cycle);
+                None
+            }
+            Exit::SoftwareRequests(requests) => {
+                for number in (0..2).filter(|number| requests >> number & 1 != 0) {
+                    self.chip.raise(Irq::software(number), self.cycle);
+                }
+                None
+            }
+            Exit::Breakpoint => Some(Halt::Breakpoint),
+            Exit::Exception(exception) => self.note_exception(exception),
+        }
+    }
+
+    fn note_exception(&mut self, exception: Exception) -> Option<Halt> {
+        self.exception_count += 1;
+        if self.exceptions.len() < KEPT {
+            self.exceptions.push(ExceptionRecord {
+                exception,
+                cycle: self.cycle,
+            });
+        }
+        (self.stop_at != StopAt::Nothing).then_some(Halt::Fault(Fault::Exception(exception)))
+    }
+
+    /// The first misuse after the first `known` ones, if misuse is to stop the machine.
+    fn new_misuse(&self, known: usize) -> Option<Halt> {
+        let misuse = self
+            .chip
+            .record
+            .misuses
+            .get(known)
+            .filter(|_| self.stop_at == StopAt::ExceptionsAndMisuse);
+        misuse.map(|record| Halt::Fault(Fault::Misuse(record.misuse)))
     }
 
     /// Cycles of the 80 MHz time base since power-on.
@@ -63,46 +344,35 @@ impl Machine {
         self.cycle
     }
 
-    /// The outside drives this pin from now on.
-    pub fn set_input(&mut self, pin: Pin, level: Level) {
-        self.chip.set_input(pin, Some(level), self.cycle);
+    /// Whether the core has no clock: the crystal is dead, and nothing replaces it.
+    pub fn is_clock_dead(&self) -> bool {
+        self.clock.is_stopped()
     }
 
-    /// The outside leaves this pin alone from now on: the chip's own pull-up, if it is on, or ground is what it reads.
-    pub fn release_input(&mut self, pin: Pin) {
-        self.chip.set_input(pin, None, self.cycle);
+    /// The core.
+    pub fn cpu(&self) -> &Cpu {
+        &self.cpu
     }
 
-    /// The outside will drive this pin from a cycle to come (a cycle of the past counts as now).
-    pub fn schedule_input(&mut self, cycle: u64, pin: Pin, level: Level) {
-        self.chip.schedule_input(cycle.max(self.cycle), pin, level);
+    /// The core, for a debugger.
+    pub fn cpu_mut(&mut self) -> &mut Cpu {
+        &mut self.cpu
     }
 
-    /// What the chip does to this pin now.
-    pub fn output(&self, pin: Pin) -> Output {
-        self.chip.output(pin, self.cycle)
+    /// The memories.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
     }
 
-    /// What a voltmeter would see on this pin now.
-    pub fn level(&self, pin: Pin) -> Level {
-        self.chip.level(pin, self.cycle)
+    /// The memories, for a debugger or a programmer.
+    pub fn memory_mut(&mut self) -> &mut Memory {
+        &mut self.memory
     }
 
-    /// For how many cycles since power-on the chip has driven this pin high, exact also for PWM: the mean duty of an
-    /// interval is the difference of two such numbers over its length.
-    pub fn high_cycles(&self, pin: Pin) -> u64 {
-        self.chip.high_cycles(pin, self.cycle)
-    }
-
-    /// From now on the level changes of this pin are written down.
-    pub fn watch(&mut self, pin: Pin) {
-        self.chip.watch(pin);
-    }
-
-    /// The level changes of a watched pin since the last call, in time order: cycle and level after it. Nothing for a pin
-    /// that is not watched.
-    pub fn take_edges(&mut self, pin: Pin) -> Vec<(u64, Level)> {
-        self.chip.take_edges(pin, self.cycle)
+    /// The value of the special function register at a physical address or its KSEG1 alias, without what reading it sets in
+    /// motion; nothing for addresses that the reference does not name.
+    pub fn peek_register(&mut self, address: u32) -> Option<u32> {
+        self.chip.peek_address(address & 0x1FFF_FFFF, self.cycle)
     }
 
     /// Registers that the program used and the reference does not name, each once.
@@ -114,20 +384,67 @@ impl Machine {
     pub fn misuses(&self) -> &[MisuseRecord] {
         &self.chip.record.misuses
     }
+
+    /// Forgets unknown accesses and misuse.
+    pub fn clear_records(&mut self) {
+        self.chip.record.unknown.clear();
+        self.chip.record.misuses.clear();
+    }
+
+    /// The first 64 resets after power-on.
+    pub fn resets(&self) -> &[ResetRecord] {
+        &self.resets
+    }
+
+    /// What has reset the chip since the last call, at most 64 of them.
+    pub fn take_resets(&mut self) -> Vec<ResetSource> {
+        std::mem::take(&mut self.untold_resets)
+    }
+
+    /// How many resets there were.
+    pub fn reset_count(&self) -> u64 {
+        self.reset_count
+    }
+
+    /// RCON, as a debugger sees it.
+    pub fn reset_causes(&self) -> u32 {
+        self.chip.reset_causes()
+    }
+
+    /// The first 64 exceptions that were no interrupts.
+    pub fn exceptions(&self) -> &[ExceptionRecord] {
+        &self.exceptions
+    }
+
+    /// How many exceptions there were that were no interrupts.
+    pub fn exception_count(&self) -> u64 {
+        self.exception_count
+    }
+
+    /// Where the time went.
+    pub fn accounting(&self) -> &Accounting {
+        &self.accounting
+    }
+
+    /// Begins a new account; handlers that are active go on in it. The deepest stack is forgotten, too.
+    pub fn restart_accounting(&mut self) {
+        self.accounting.restart(self.cycle);
+        self.cpu.clear_deepest_stack();
+    }
+
+    /// The lowest value of the stack pointer on entering a function; nothing before the first.
+    pub fn deepest_stack(&self) -> Option<u32> {
+        self.cpu.deepest_stack()
+    }
 }
 
-impl Bus for Chip {
-    fn load(&mut self, access: Access) -> Result<u32, BusFault> {
-        self.record.unknown(access.address, Direction::Read);
-        Ok(0)
-    }
+/// Pages of program flash.
+const FLASH_PAGES: u32 = 64;
 
-    fn store(&mut self, access: Access, _value: u32) -> Result<(), BusFault> {
-        self.record.unknown(access.address, Direction::Write);
-        Ok(())
-    }
-
-    fn horizon(&self) -> u64 {
-        self.next_event()
+fn configuration_of(memory: &Memory) -> [u8; 16] {
+    let mut words = [0xFF; 16];
+    match memory.read(CONFIGURATION, &mut words) {
+        Ok(()) => words,
+        Err(_) => [0xFF; 16],
     }
 }

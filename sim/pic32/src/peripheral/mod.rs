@@ -1,97 +1,318 @@
 //! Everything of the chip except core and memories: the special function registers and what stands behind them.
+//!
+//! Nothing is polled. Each part says at which cycle it wants to be called next ([`schedule`]); what can be worked out when
+//! it is asked for (timer counts, PWM) has no events at all.
 
+mod access;
+mod analog;
+mod capture;
+mod clock;
+mod compare;
+mod configuration;
+mod counter;
+mod events;
 mod inputs;
+mod interrupts;
+mod matrix;
+mod notice;
+mod nvm;
+mod pads;
 mod ports;
+mod pulse;
 mod rate;
 mod record;
+mod register;
 mod schedule;
+mod serial;
+mod storage;
+mod system;
+mod timers;
 
 pub use rate::{CYCLES_PER_S, NEVER, Rate};
 pub use record::{Direction, Misuse, MisuseRecord, UnknownAccess};
+pub use serial::Sent;
+pub use storage::Unmodelled;
+pub use system::ResetSource;
 
-use crate::pins::{Level, Output, Pin, Port};
+pub(crate) use interrupts::{Irq, VECTORS};
+pub(crate) use nvm::{Operation, PAGE_BYTES, ROW_BYTES};
+
+use crate::cpu::InterruptRequest;
+use crate::memory::FlashTiming;
+use analog::Analog;
+use capture::Capture;
+use clock::{Change, Clock};
+use compare::Compare;
+use configuration::Configuration;
 use inputs::Inputs;
-use ports::{Changes, Ports, bits};
-use record::Record;
+use interrupts::Interrupts;
+use matrix::Matrix;
+use notice::Notice;
+use nvm::Nvm;
+use ports::Ports;
+use record::{Place, Record};
 use schedule::{Schedule, Slot};
+use serial::Serial;
+use std::ops::Range;
+use storage::Storage;
+use system::{System, Watchdog};
+use timers::{Now, Timers};
+
+/// What the peripherals want of core and memories.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// The chip is to be reset.
+    Reset(ResetSource),
+    /// The watchdog barks: a reset, or a non-maskable interrupt if the core is in WAIT.
+    Bark,
+    /// The system clock is another one.
+    Clock,
+    /// Wait states or the executable part of RAM are other ones.
+    Matrix,
+    /// A flash operation begins.
+    Flash(Operation),
+}
 
 /// The peripherals, and what the outside does to the pins.
 #[derive(Clone, Debug)]
 pub(crate) struct Chip {
     pub(crate) record: Record,
     schedule: Schedule,
+    /// The core must stop before its next instruction: there are orders, or the request is another one.
+    attention: bool,
+    orders: Vec<Order>,
+    offered: Option<InterruptRequest>,
+    interrupts: Interrupts,
+    clock: Clock,
+    system: System,
+    watchdog: Watchdog,
+    nvm: Nvm,
+    matrix: Matrix,
     ports: Ports,
+    notice: Notice,
+    timers: Timers,
+    compares: [Compare; 5],
+    captures: [Capture; 5],
+    analog: Analog,
+    serials: [Serial; 2],
+    storage: Storage,
     inputs: Inputs,
 }
 
 impl Chip {
-    pub(crate) fn new() -> Chip {
-        Chip {
+    /// A chip with these configuration words (DEVCFG3 to DEVCFG0), right after power-on.
+    pub(crate) fn new(configuration: [u8; 16]) -> Chip {
+        let clock = Clock::new(Configuration::of(configuration));
+        let watchdog = Watchdog::new(clock.configuration(), 0);
+        let mut chip = Chip {
             record: Record::default(),
             schedule: Schedule::new(),
+            attention: false,
+            orders: Vec::new(),
+            offered: None,
+            interrupts: Interrupts::new(),
+            clock,
+            system: System::new(),
+            watchdog,
+            nvm: Nvm::new(),
+            matrix: Matrix::new(),
             ports: Ports::new(),
+            notice: Notice::new(),
+            timers: Timers::new(),
+            compares: [const { Compare::OFF }; 5],
+            captures: std::array::from_fn(|_| Capture::default()),
+            analog: Analog::new(),
+            serials: [Serial::new(), Serial::new()],
+            storage: Storage::default(),
             inputs: Inputs::default(),
-        }
+        };
+        chip.begin(0);
+        chip
     }
 
-    /// The cycle of the next event.
+    /// Resets all registers. What the outside does, what was recorded and how long pins were high stay.
+    pub(crate) fn reset(&mut self, source: ResetSource, cycle: u64, configuration: [u8; 16]) {
+        self.advance_outputs(cycle);
+        self.clock.set_configuration(Configuration::of(configuration));
+        self.interrupts = Interrupts::new();
+        self.offered = None;
+        self.system.reset(source);
+        self.watchdog = Watchdog::new(self.clock.configuration(), cycle);
+        self.nvm = Nvm::new();
+        self.matrix = Matrix::new();
+        self.notice = Notice::new();
+        self.timers = Timers::new();
+        self.release_modulated_pins(cycle);
+        self.compares = std::array::from_fn(|number| self.compares[number].reset());
+        self.captures = std::array::from_fn(|_| Capture::default());
+        self.analog = Analog::new();
+        for serial in &mut self.serials {
+            serial.reset();
+        }
+        self.storage = Storage::default();
+        self.ports.reset(cycle);
+        self.schedule = Schedule::new();
+        self.schedule.set(Slot::Input, self.inputs.next());
+        let change = self.clock.reset();
+        self.clock_changed(change, cycle);
+        self.begin(cycle);
+    }
+
+    /// What follows from the registers after a reset.
+    fn begin(&mut self, cycle: u64) {
+        self.settle_analog_pins(cycle);
+        self.settle_held_pins(cycle);
+        self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());
+        self.check_clock();
+        self.orders.clear();
+        self.order(Order::Matrix);
+        self.order(Order::Clock);
+    }
+
+    /// The cycle of the next event; 0 when the core must stop at once.
     pub(crate) fn next_event(&self) -> u64 {
-        self.schedule.next()
+        if self.attention { 0 } else { self.schedule.next() }
     }
 
-    /// Lets happen what is due at `cycle` or before.
-    pub(crate) fn serve(&mut self, cycle: u64) {
-        while let Some((slot, due)) = self.schedule.take_due(cycle) {
-            if slot == Slot::Input {
-                self.serve_inputs(due);
-            }
+    /// The next thing that core and memories are to do.
+    pub(crate) fn take_order(&mut self) -> Option<Order> {
+        if self.orders.is_empty() {
+            None
+        } else {
+            Some(self.orders.remove(0))
         }
     }
 
-    fn serve_inputs(&mut self, cycle: u64) {
-        while let Some((pin, level)) = self.inputs.take(cycle) {
-            self.set_input(pin, Some(level), cycle);
+    fn order(&mut self, order: Order) {
+        self.attention = true;
+        self.orders.push(order);
+    }
+
+    /// What the core is to be shown, if that is news.
+    pub(crate) fn take_request(&mut self) -> Option<Option<InterruptRequest>> {
+        self.attention = false;
+        let request = self.interrupts.request();
+        (request != self.offered).then(|| {
+            self.offered = request;
+            request
+        })
+    }
+
+    /// To be called after everything that may have changed the interrupt request.
+    fn settle_request(&mut self) {
+        self.attention |= self.interrupts.request() != self.offered;
+    }
+
+    /// Raises an interrupt from outside of the peripherals.
+    pub(crate) fn raise(&mut self, irq: Irq, cycle: u64) {
+        self.interrupts.raise(irq, cycle);
+        self.settle_request();
+    }
+
+    /// When the oldest pending source of a vector raised its flag.
+    pub(crate) fn raised_at(&self, vector: u8) -> Option<u64> {
+        self.interrupts.raised_at(vector)
+    }
+
+    /// The vector of what is requested, also while all sources share one.
+    pub(crate) fn requested_vector(&self) -> Option<u8> {
+        self.interrupts.requested_vector()
+    }
+
+    /// How fast the core runs.
+    pub(crate) fn system_clock(&self) -> Rate {
+        self.clock.system
+    }
+
+    /// What CHECON says.
+    pub(crate) fn flash_timing(&self) -> FlashTiming {
+        self.matrix.flash_timing()
+    }
+
+    /// BMXCON.BMXWSDRM.
+    pub(crate) fn ram_wait_states(&self) -> u8 {
+        self.matrix.ram_wait_states()
+    }
+
+    /// Offsets in RAM that may be executed.
+    pub(crate) fn ram_code(&self) -> Range<u32> {
+        self.matrix.ram_code()
+    }
+
+    /// RCON.
+    pub(crate) fn reset_causes(&self) -> u32 {
+        self.system.causes()
+    }
+
+    /// The watchdog ended WAIT instead of resetting.
+    pub(crate) fn bark_at_idle(&mut self, cycle: u64) {
+        let state = if self.clock.sleeps() {
+            system::SLEEP_BIT
+        } else {
+            system::IDLE_BIT
+        };
+        self.system.note_cause(system::WATCHDOG_BIT | state);
+        self.watchdog.restart(cycle);
+        self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());
+    }
+
+    /// The program executes WAIT.
+    pub(crate) fn note_idle(&mut self) {
+        if self.clock.sleeps() {
+            self.record.misuse(Misuse::NotModelled(Unmodelled::Sleep));
         }
-        self.schedule.set(Slot::Input, self.inputs.next());
+        self.system.note_cause(system::IDLE_BIT);
     }
 
-    pub(crate) fn set_input(&mut self, pin: Pin, driven: Option<Level>, cycle: u64) {
-        let changes = self.ports.set_outside(pin, driven, cycle);
-        self.port_changed(pin.port(), changes);
+    /// A flash operation is over.
+    pub(crate) fn flash_failed(&mut self) {
+        self.nvm.fail();
     }
 
-    pub(crate) fn schedule_input(&mut self, cycle: u64, pin: Pin, level: Level) {
-        self.inputs.add(cycle, pin, level);
-        self.schedule.set(Slot::Input, self.inputs.next());
+    /// The crystal stops.
+    pub(crate) fn fail_crystal(&mut self, cycle: u64) {
+        self.advance_outputs(cycle);
+        let change = self.clock.fail_crystal();
+        self.clock_changed(change, cycle);
     }
 
-    fn port_changed(&mut self, port: Port, changes: Changes) {
-        for pin in bits(changes.conflicts).filter_map(|bit| Pin::new(port, bit)) {
-            self.record.misuse(Misuse::PinConflict(pin));
+    fn now(&self, cycle: u64) -> Now {
+        Now {
+            cycle,
+            peripheral: self.clock.peripheral,
         }
     }
 
-    pub(crate) fn output(&self, pin: Pin, _cycle: u64) -> Output {
-        self.ports.output(pin)
+    /// Sets where the program is, for what is recorded.
+    pub(crate) fn set_place(&mut self, pc: u32, cycle: u64) {
+        self.record.place = Place { pc, cycle };
     }
 
-    pub(crate) fn level(&self, pin: Pin, _cycle: u64) -> Level {
-        Level::of(self.ports.levels(pin.port()) & pin.mask() != 0)
+    fn clock_changed(&mut self, change: Change, cycle: u64) {
+        match change {
+            Change::None => return,
+            Change::Forbidden => return self.record.misuse(Misuse::ClockSwitchForbidden),
+            Change::After(cycles) => self.schedule.set(Slot::Clock, cycle + cycles),
+            Change::Rates => {}
+        }
+        self.advance_timers(cycle);
+        self.timers.change_clock(self.now(cycle));
+        self.settle_timers(cycle);
+        self.check_clock();
+        self.order(Order::Clock);
     }
 
-    pub(crate) fn changed(&self, pin: Pin) -> u64 {
-        self.ports.changed(pin)
-    }
-
-    pub(crate) fn high_cycles(&self, pin: Pin, cycle: u64) -> u64 {
-        self.ports.high_cycles(pin, cycle)
-    }
-
-    pub(crate) fn watch(&mut self, pin: Pin) {
-        self.ports.watch(pin);
-    }
-
-    pub(crate) fn take_edges(&mut self, pin: Pin, _cycle: u64) -> Vec<(u64, Level)> {
-        self.ports.take_edges(pin)
+    fn check_clock(&mut self) {
+        let hz = self.clock.system.hz();
+        if hz > clock::FASTEST_HZ {
+            self.record.misuse(Misuse::ClockTooFast(hz));
+        }
+        if let Some(hz) = self.clock.wrong_pll_input() {
+            self.record.misuse(Misuse::PllInput(hz));
+        }
+        if self.matrix.is_too_fast(hz) {
+            let wait_states = self.matrix.flash_timing().wait_states;
+            self.record.misuse(Misuse::FlashTooFast { wait_states });
+        }
     }
 }

@@ -13,6 +13,8 @@ struct State {
     lat: u16,
     open_drain: u16,
     pull_up: u16,
+    /// Resistors to the supply on the board.
+    board_pull_up: u16,
     analog: u16,
     owned: u16,
     owned_high: u16,
@@ -31,6 +33,7 @@ impl State {
         lat: 0,
         open_drain: 0,
         pull_up: 0,
+        board_pull_up: 0,
         analog: 0,
         owned: 0,
         owned_high: 0,
@@ -48,8 +51,14 @@ impl State {
         let wanted = (!self.tris | self.owned) & !self.held;
         self.driven = wanted & !(self.open_drain & high);
         self.driven_high = self.driven & high;
-        let undriven = (self.outside & self.outside_high) | (!self.outside & self.pull_up);
+        let undriven =
+            (self.outside & self.outside_high) | (!self.outside & (self.pull_up | self.board_pull_up));
         self.level = self.driven_high | (undriven & !self.driven);
+    }
+
+    /// What the program reads: analog pins are 0.
+    fn inputs(&self) -> u16 {
+        self.level & !self.analog
     }
 
     fn conflicts(&self) -> u16 {
@@ -64,6 +73,7 @@ pub(crate) enum Field {
     Lat,
     OpenDrain,
     PullUp,
+    BoardPullUp,
     Analog,
     Held,
 }
@@ -71,8 +81,8 @@ pub(crate) enum Field {
 /// What a change on a port led to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Changes {
-    /// Bits whose level is another one now.
-    pub(crate) levels: u16,
+    /// Bits that the program would read otherwise now.
+    pub(crate) inputs: u16,
     /// Bits that the chip now drives against the outside and did not before.
     pub(crate) conflicts: u16,
 }
@@ -107,6 +117,7 @@ impl Ports {
                 *state = State {
                     outside: state.outside,
                     outside_high: state.outside_high,
+                    board_pull_up: state.board_pull_up,
                     ..State::RESET
                 };
             })
@@ -120,6 +131,7 @@ impl Ports {
             Field::Lat => state.lat,
             Field::OpenDrain => state.open_drain,
             Field::PullUp => state.pull_up,
+            Field::BoardPullUp => state.board_pull_up,
             Field::Analog => state.analog,
             Field::Held => state.held,
         }
@@ -132,6 +144,7 @@ impl Ports {
             Field::Lat => state.lat = value,
             Field::OpenDrain => state.open_drain = value,
             Field::PullUp => state.pull_up = value,
+            Field::BoardPullUp => state.board_pull_up = value,
             Field::Analog => state.analog = value,
             Field::Held => state.held = value,
         })
@@ -146,6 +159,14 @@ impl Ports {
             }
             None => state.owned &= !pin.mask(),
         })
+    }
+
+    /// An owned pin has had this level for some time already: its edge was written down and its time counted elsewhere.
+    pub(crate) fn take_over(&mut self, pin: Pin, level: Level, cycle: u64) {
+        let state = &mut self.states[pin.port().index()];
+        set_bit(&mut state.owned_high, pin, level.is_high());
+        state.settle();
+        self.high_since[pin.index()] = cycle;
     }
 
     /// The outside drives the pin, or leaves it alone.
@@ -164,10 +185,10 @@ impl Ports {
         let after = *state;
         self.account(port, before.driven_high ^ after.driven_high, cycle);
         let changes = Changes {
-            levels: before.level ^ after.level,
-            conflicts: after.conflicts() & !before.conflicts(),
+            inputs: (before.inputs() ^ after.inputs()) & port.present(),
+            conflicts: after.conflicts() & !before.conflicts() & port.present(),
         };
-        self.note_edges(port, changes.levels, cycle);
+        self.note_edges(port, before.level ^ after.level, cycle);
         changes
     }
 
@@ -205,8 +226,13 @@ impl Ports {
         self.edges.entry(pin).or_default();
     }
 
-    pub(crate) fn is_watched(&self, pin: Pin) -> bool {
-        self.watched[pin.port().index()] & pin.mask() != 0
+    /// Where the edges of a pin are written down, if it is watched.
+    pub(crate) fn edges_of(&mut self, pin: Pin) -> Option<&mut Vec<(u64, Level)>> {
+        if self.watched[pin.port().index()] & pin.mask() == 0 {
+            None
+        } else {
+            self.edges.get_mut(&pin)
+        }
     }
 
     pub(crate) fn take_edges(&mut self, pin: Pin) -> Vec<(u64, Level)> {
@@ -216,6 +242,11 @@ impl Ports {
     /// Levels of a port's pins as a voltmeter sees them; those of absent pins are 0.
     pub(crate) fn levels(&self, port: Port) -> u16 {
         self.states[port.index()].level & port.present()
+    }
+
+    /// What the program reads from a port.
+    pub(crate) fn inputs(&self, port: Port) -> u16 {
+        self.states[port.index()].inputs() & port.present()
     }
 
     pub(crate) fn output(&self, pin: Pin) -> Output {

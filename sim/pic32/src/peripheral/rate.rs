@@ -44,6 +44,11 @@ impl Rate {
         self.counts * CYCLES_PER_S / self.cycles
     }
 
+    /// Cycles of one count, if that is a whole number.
+    pub const fn whole_cycles(self) -> Option<u64> {
+        if self.counts == 1 { Some(self.cycles) } else { None }
+    }
+
     /// Whether it stands still.
     pub const fn is_stopped(self) -> bool {
         self.counts == 0

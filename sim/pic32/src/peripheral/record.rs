@@ -1,5 +1,6 @@
 //! What the program did that the chip does not forgive or that this emulator does not know, by name.
 
+use super::storage::Unmodelled;
 use crate::pins::Pin;
 
 /// How many different records of a kind are kept; those after it are only counted.
@@ -35,6 +36,35 @@ pub struct UnknownAccess {
 pub enum Misuse {
     /// The chip drives a pin against what drives it from outside.
     PinConflict(Pin),
+    /// The system clock is faster than the part: hertz.
+    ClockTooFast(u64),
+    /// The PLL is fed with what it is not made for: hertz.
+    PllInput(u64),
+    /// Flash has too few wait states for the system clock: instructions may be read wrongly.
+    FlashTooFast {
+        /// CHECON.PFMWS.
+        wait_states: u8,
+    },
+    /// OSCCON or RSWRST was written while the lock was closed; the write was lost.
+    Locked,
+    /// A clock switch that the configuration words forbid; it was not done.
+    ClockSwitchForbidden,
+    /// The prescaler of timer 1 to 5, by number, was changed while the timer was on.
+    PrescalerWhileOn(u8),
+    /// NVMCON.WR was set without the two keys; nothing was programmed.
+    FlashWithoutKeys,
+    /// NVMCON.WR was set sooner than 6 us after WREN.
+    FlashTooSoon,
+    /// TAD of the analog converter is shorter than 65 ns.
+    AnalogTooFast,
+    /// The analog converter sampled a pin that AD1PCFG calls digital; it reads ground.
+    AnalogPinIsDigital(Pin),
+    /// The analog converter sampled a pin that the chip drives itself.
+    AnalogPinIsOutput(Pin),
+    /// A character was written into the full queue of UART 1 or 2, by number, and lost.
+    TransmitQueueFull(u8),
+    /// Something was switched on that this emulator does not model.
+    NotModelled(Unmodelled),
 }
 
 /// A misuse and where it happened first.
