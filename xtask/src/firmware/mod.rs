@@ -94,7 +94,10 @@ fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u
     let path = build::build(board, &tools, place, options)?;
     let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
     let program = Elf::read(&bytes).with_context(|| path.display().to_string())?;
-    seal::sealed(bytes, &program).with_context(|| path.display().to_string())
+    match seal::sealed(bytes, &program).with_context(|| path.display().to_string())? {
+        (bytes, true) => Ok(bytes),
+        (_, false) => bail!("{} keeps no words for its seal (image_seal!)", path.display()),
+    }
 }
 
 fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
