@@ -9,9 +9,9 @@ use super::{Cpu, STACK_POINTER};
 impl Cpu {
     /// Arithmetic on general registers.
     #[inline(always)]
-    pub(super) fn compute(&mut self, operation: Operation) -> Outcome<()> {
+    pub(super) fn compute(&mut self, operation: &Operation) -> Outcome<()> {
         let r = &mut self.registers;
-        match operation {
+        match *operation {
             Operation::Nop => {}
             Operation::Constant { rt, value } => r.set(rt, value),
             Operation::Addiu { rt, rs, value } => r.set(rt, r.get(rs).wrapping_add(value)),
@@ -60,10 +60,10 @@ impl Cpu {
 
     /// Multiplications and divisions, HI and LO; gives the cycle at which the instruction ends.
     #[inline(always)]
-    pub(super) fn multiply(&mut self, operation: Operation, cycle: u64) -> Outcome<u64> {
+    pub(super) fn multiply(&mut self, operation: &Operation, cycle: u64) -> Outcome<u64> {
         let r = &mut self.registers;
         let unit = &mut self.multiplier;
-        Outcome::Done(match operation {
+        Outcome::Done(match *operation {
             Operation::Mul { rd, rs, rt } => {
                 let (product, cycles) = multiplier::product(r.get(rs), r.get(rt));
                 r.set(rd, product);

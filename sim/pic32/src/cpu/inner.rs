@@ -128,12 +128,13 @@ pub(super) enum Outcome<T> {
 impl Cpu {
     /// Executes from the current instruction on, up to the first one that does not begin before `limit`.
     pub(super) fn run_region(&mut self, mut memory: Open<'_>, region: Region, limit: u64) -> Leave {
+        let code = memory.code;
         let mut frame = Frame::new(self, region);
         let leave = loop {
             if frame.cycle >= limit {
                 break Leave::Limit;
             }
-            let Some(&operation) = memory.code.get(frame.index) else {
+            let Some(operation) = code.get(frame.index) else {
                 break Leave::Outside;
             };
             let at = frame.advance(region.fetch);
@@ -148,7 +149,7 @@ impl Cpu {
                 }
                 Outcome::Refused => {
                     frame.undo(at, region.fetch);
-                    break Leave::Uncommon(operation);
+                    break Leave::Uncommon(*operation);
                 }
                 Outcome::Other => {}
             }
@@ -161,7 +162,7 @@ impl Cpu {
                 Outcome::Refused => frame.slot = frame.cycle,
                 Outcome::Other => {
                     frame.undo(at, region.fetch);
-                    break Leave::Uncommon(operation);
+                    break Leave::Uncommon(*operation);
                 }
             }
         };
@@ -185,9 +186,9 @@ impl Cpu {
 
     /// Branches and jumps, which give the index of their target; refused is what is not taken.
     #[inline(always)]
-    fn branch(&mut self, operation: Operation, at: usize, region: Region) -> Outcome<usize> {
+    fn branch(&mut self, operation: &Operation, at: usize, region: Region) -> Outcome<usize> {
         let r = &mut self.registers;
-        let (is_taken, words) = match operation {
+        let (is_taken, words) = match *operation {
             Operation::Beq { rs, rt, words } => (r.get(rs) == r.get(rt), words),
             Operation::Bne { rs, rt, words } => (r.get(rs) != r.get(rt), words),
             Operation::Blez { rs, words } => (signed(r.get(rs)) <= 0, words),

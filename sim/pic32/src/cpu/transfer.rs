@@ -11,10 +11,10 @@ impl Cpu {
     /// Loads and stores; gives the cycles that they take beyond one. Refused is what needs more than memory.
     #[inline(always)]
     #[rustfmt::skip]
-    pub(super) fn access(&mut self, operation: Operation, memory: &mut Open<'_>, region: Region) -> Outcome<u64> {
+    pub(super) fn access(&mut self, operation: &Operation, memory: &mut Open<'_>, region: Region) -> Outcome<u64> {
         let r = &self.registers;
         let at = |base: Source, offset: u32| r.get(base).wrapping_add(offset);
-        let (rt, stall, loaded) = match operation {
+        let (rt, stall, loaded) = match *operation {
             Operation::Lw { rt, base, stall, offset } => (rt, stall, memory.load_u32(at(base, offset))),
             Operation::Lb { rt, base, stall, offset } => (rt, stall, memory.load_i8(at(base, offset))),
             Operation::Lbu { rt, base, stall, offset } => (rt, stall, memory.load_u8(at(base, offset))),
@@ -39,10 +39,10 @@ impl Cpu {
     }
 
     #[inline(always)]
-    fn access_out(&self, operation: Operation, memory: &mut Open<'_>) -> Outcome<u64> {
+    fn access_out(&self, operation: &Operation, memory: &mut Open<'_>) -> Outcome<u64> {
         let r = &self.registers;
         let at = |base: Source, offset: u32| r.get(base).wrapping_add(offset);
-        let stored = match operation {
+        let stored = match *operation {
             Operation::Sw { rt, base, offset } => memory.store(at(base, offset), r.get(rt).to_le_bytes()),
             Operation::Sh { rt, base, offset } => {
                 memory.store(at(base, offset), (r.get(rt) as u16).to_le_bytes())
