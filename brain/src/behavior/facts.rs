@@ -71,6 +71,10 @@ impl Facts {
             "docked" => self.disarmed.docked = true,
             // Already read as what is touched or seen.
             "bumper" | "cliff" => {}
+            // The firmware wants to be charged (S16).
+            "battery-low" | "battery-weak" => self.battery_low = true,
+            // Told to people; it forbids charging only, and no motion.
+            "charger-fault" => {}
             "cliff-sensor" => self.cliff_sensor = true,
             "wheel-drop" => self.wheel_drop = true,
             "not-moving" => self.not_moving = true,

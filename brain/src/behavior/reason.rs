@@ -127,6 +127,20 @@ reasons! {
     Encoder => "encoder",
     /// The firmware failed a self-check.
     Internal => "internal",
+    /// The pack is empty: everything is off (S16).
+    BatteryEmpty => "battery-empty",
+    /// The pack is hot (S17).
+    BatteryHot => "battery-hot",
+    /// The pack was dangerously hot (S17).
+    BatteryOverheated => "battery-overheated",
+    /// The pack's temperature cannot be measured (S17).
+    Thermistor => "thermistor",
+    /// Current flows though the charger is off (S18).
+    ChargerShorted => "charger-shorted",
+    /// The clock of the microcontroller failed (S20).
+    Clock => "clock",
+    /// The memory of the microcontroller failed (S21).
+    Memory => "memory",
     /// Newer firmware inhibits for a reason this brain does not know.
     UnknownInhibit => "unknown-inhibit",
 }

@@ -13,8 +13,9 @@ mod update;
 
 pub use request::{Request, RequestBody, Topic};
 pub use update::{
-    BatteryReading, BumpMark, DeviceTable, Failure, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    Pose, Rle, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Update, Versions,
+    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,
+    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Update,
+    Versions,
 };
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.

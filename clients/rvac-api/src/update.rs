@@ -193,10 +193,24 @@ pub struct BatteryReading {
     pub voltage_v: f64,
     /// Amperes, into the pack positive.
     pub current_a: f64,
-    /// Degrees Celsius.
-    pub temperature_c: f64,
+    /// Degrees Celsius; absent when it cannot be measured.
+    pub temperature_c: Option<f64>,
     /// `discharging`, `charging`, `full`, `fault`.
     pub state: String,
+    /// The charger, where the firmware controls it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub charger: Option<ChargerReading>,
+}
+
+/// What the charger does. Names are those of the protocol.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ChargerReading {
+    /// `idle`, `precharge`, `fast`, `top-off`, `maintain`, `fault`.
+    pub phase: String,
+    /// How the last charge ended, for example `slope`.
+    pub end: Option<String>,
+    /// What is wrong, for example `thermistor-open`.
+    pub fault: Option<String>,
 }
 
 /// Link quality.

@@ -249,8 +249,9 @@ fn the_device_table() {
         charge: 0.5,
         voltage_v: 15.5,
         current_a: -1.5,
-        temperature_c: 25.0,
+        temperature_c: Some(25.0),
         state: "discharging".to_owned(),
+        charger: None,
     };
     let link = LinkReading {
         up: true,

@@ -10,6 +10,7 @@ use crate::board::{
     Board, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive,
     WheelMotors,
 };
+use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::floor::FloorWatch;
 use crate::journal::Journal;
@@ -49,6 +50,8 @@ pub struct Cord<P: Parts> {
     pub(crate) clock: LongClock,
     pub(crate) heard: Tick,
     pub(crate) fitted: Capabilities,
+    pub(crate) charger: ChargeController,
+    pub(crate) charge_output: ChargeOutput,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
@@ -83,6 +86,8 @@ impl<P: Parts> Cord<P> {
             clock: LongClock::starting_at(now),
             heard: now,
             fitted: fitted::<P>(&parameters),
+            charger: ChargeController::new(parameters.pack),
+            charge_output: ChargeOutput::default(),
             accepted: 0,
             watch: Watch::starting_at(now),
             applied: (WheelDrive::Brake, WheelDrive::Brake),
@@ -106,6 +111,7 @@ impl<P: Parts> Cord<P> {
         self.feel(now);
         self.listen(now);
         self.control(now);
+        self.power(now);
         self.apply();
         self.sound.play(&mut self.board.beeper, now);
         self.lights.blink(&mut self.board.lights, now);
@@ -209,12 +215,16 @@ impl<P: Parts> Cord<P> {
         let (left, right) = self.motion.asked();
         let permitted = standing.permit(left, right);
         let renew = core::mem::take(&mut self.renew);
+        if permitted != (WheelDrive::Brake, WheelDrive::Brake) || self.cleaning.is_running() {
+            self.cut_charger();
+        }
         if permitted != self.applied || renew {
             self.board.wheels.drive(permitted.0, permitted.1);
             self.applied = permitted;
             self.motion.applied(permitted);
         }
         if renew {
+            self.renew_charger();
             self.cleaning.renew(&mut self.board, &standing);
         }
         self.cleaning.apply(&mut self.board, &standing);
@@ -234,7 +244,7 @@ impl<P: Parts> Cord<P> {
     /// Everything off at once, and everything that was asked forgotten. The one way to stop, for reflexes, `stop`, buttons
     /// and faults alike.
     pub(crate) fn stop_all(&mut self, end: MoveEnd) {
-        self.board.all_off();
+        self.board.motors_off();
         self.applied = (WheelDrive::Brake, WheelDrive::Brake);
         let ending = self.motion.halt(end);
         self.motion.applied(self.applied);
@@ -250,6 +260,7 @@ impl<P: Parts> Cord<P> {
             HardwareFault::Memory => Inhibit::Memory,
             HardwareFault::Internal => Inhibit::InternalFault,
         });
+        self.cut_charger();
         self.stop_all(MoveEnd::Inhibited);
     }
 
@@ -292,6 +303,10 @@ impl<P: Parts> Cord<P> {
     #[must_use]
     pub const fn wheel_outputs(&self) -> (Throttle, Throttle) {
         (self.applied.0.duty(), self.applied.1.duty())
+    }
+
+    pub(crate) const fn applied_wheels(&self) -> (Throttle, Throttle) {
+        self.wheel_outputs()
     }
 
     /// Cliff sensors that count as seeing no floor.

@@ -8,7 +8,7 @@
 #![deny(missing_docs)]
 
 pub mod board;
-mod charge;
+pub mod charge;
 mod cleaning;
 mod cord;
 mod dispatch;
@@ -19,6 +19,7 @@ mod limit;
 mod motion;
 mod parameters;
 mod permit;
+mod power;
 mod rate;
 mod react;
 mod reflex;
@@ -30,5 +31,7 @@ mod transmitter;
 mod watch;
 
 pub use cord::Cord;
-pub use parameters::{GuardParameters, MotionParameters, PackParameters, Parameters, WheelParameters};
+pub use parameters::{
+    GuardParameters, LoadParameters, MotionParameters, PackParameters, Parameters, WheelParameters,
+};
 pub use permit::Standing;

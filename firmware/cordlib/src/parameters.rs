@@ -62,13 +62,55 @@ pub struct GuardParameters {
     pub floor_level_min: u16,
 }
 
-/// The battery pack: NiMH cells in series.
+/// The battery pack: NiMH cells in series, and what takes from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PackParameters {
     /// Cells in series, 1..=20.
     pub cells: u8,
     /// What a new pack holds, in mAh.
     pub capacity_mah: u16,
+    /// Highest mean current into the pack, in mA.
+    pub current_max_ma: u16,
+    /// Resistance of the pack, in milliohm.
+    pub resistance_mohm: u16,
+    /// What the electronics take all the time, in mA, where a full pack on the dock is to be kept full against it; 0 =
+    /// it is not.
+    pub drain_ma: u16,
+    /// What the machine takes by its parts.
+    pub loads: LoadParameters,
+}
+
+/// Nominal currents, for the estimate of the charge that is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoadParameters {
+    /// Electronics, in mA.
+    pub electronics_ma: u16,
+    /// One wheel that turns, in mA.
+    pub wheel_ma: u16,
+    /// Main brush, in mA.
+    pub brush_main_ma: u16,
+    /// Side brushes, in mA.
+    pub brush_sides_ma: u16,
+    /// Suction, in mA.
+    pub vacuum_ma: u16,
+}
+
+impl PackParameters {
+    /// Twelve cells of 2 Ah in a robot of the usual size.
+    pub const NIMH_12: Self = Self {
+        cells: 12,
+        capacity_mah: 2_000,
+        current_max_ma: 1_000,
+        resistance_mohm: 300,
+        drain_ma: 15,
+        loads: LoadParameters {
+            electronics_ma: 150,
+            wheel_ma: 200,
+            brush_main_ma: 500,
+            brush_sides_ma: 150,
+            vacuum_ma: 900,
+        },
+    };
 }
 
 impl Parameters {
@@ -99,10 +141,7 @@ impl Parameters {
                 brush_current_max: Current(2_000),
                 floor_level_min: 100,
             },
-            pack: PackParameters {
-                cells: 12,
-                capacity_mah: 2_000,
-            },
+            pack: PackParameters::NIMH_12,
         }
     }
 }

@@ -12,14 +12,22 @@ use crate::board::WheelDrive;
 /// Speed limit while a cliff is seen (S8), in µm/s.
 pub(crate) const CLIFF_SPEED_MAX_UM_PER_S: i32 = 100_000;
 
+/// Inhibits that forbid no motion: they tell the host what the robot needs (S16, S18).
+const TELLING: Inhibits =
+    Inhibits::from_bits(bit(Inhibit::BatteryLow) | bit(Inhibit::ChargerFault) | bit(Inhibit::ChargerShorted));
+
 /// Inhibits that leave a way out: motion away from the bumper (S6), slow reverse from a cliff (S8, S9).
-pub(crate) const RESTRICTING: Inhibits =
+const WAY_OUT: Inhibits =
     Inhibits::from_bits(bit(Inhibit::Bumper) | bit(Inhibit::Cliff) | bit(Inhibit::CliffSensorFault));
+
+/// Inhibits that leave the wheels some or all of their motion: a weak pack (S16) still carries the robot to its dock.
+const WHEELS_GO_ON: Inhibits =
+    Inhibits::from_bits(WAY_OUT.bits() | TELLING.bits() | bit(Inhibit::BatteryWeak));
 
 /// Inhibits that leave brushes and suction running: the way out above, the seconds of grace after a lost link (S1), and
 /// a robot that does not get on (S15).
 const CLEANING_GOES_ON: Inhibits =
-    Inhibits::from_bits(RESTRICTING.bits() | bit(Inhibit::LinkLost) | bit(Inhibit::NotMoving));
+    Inhibits::from_bits(WAY_OUT.bits() | TELLING.bits() | bit(Inhibit::LinkLost) | bit(Inhibit::NotMoving));
 
 const fn bit(inhibit: Inhibit) -> u32 {
     1 << inhibit as u32
@@ -55,7 +63,7 @@ impl Standing {
     /// What a brush or the suction may do of what is asked. Its own lease is kept where the wish comes from.
     #[must_use]
     pub const fn permit_cleaner(&self, duty: Throttle) -> Throttle {
-        if self.armed && without(self.inhibits, CLEANING_GOES_ON).is_empty() {
+        if self.armed && self.inhibits.without(CLEANING_GOES_ON).is_empty() {
             duty
         } else {
             Throttle::ZERO
@@ -69,7 +77,7 @@ impl Standing {
         if left == 0 && right == 0 {
             return true;
         }
-        if !without(self.inhibits, RESTRICTING).is_empty() {
+        if !self.inhibits.without(WHEELS_GO_ON).is_empty() {
             return false;
         }
         if self.sees_cliff() && (left > 0 || right > 0) {
@@ -116,9 +124,4 @@ const fn no_more_than(drive: WheelDrive, other: i32) -> WheelDrive {
     } else {
         drive
     }
-}
-
-/// The members of `set` that are not in `taken`.
-const fn without(set: Inhibits, taken: Inhibits) -> Inhibits {
-    Inhibits::from_bits(set.bits() & !taken.bits())
 }

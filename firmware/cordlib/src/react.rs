@@ -33,7 +33,7 @@ impl<P: Parts> Cord<P> {
     }
 
     /// Whether anything moves or is about to.
-    fn is_in_motion(&self) -> bool {
+    pub(crate) fn is_in_motion(&self) -> bool {
         let status = self.motion.status();
         self.motion.is_active()
             || self.cleaning.is_running()

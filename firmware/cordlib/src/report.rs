@@ -1,13 +1,12 @@
 //! Telemetry: `state` and `info` at their periods, edges when something changes, log lines when there are any.
 
 use rvac_protocol::message::{
-    Battery, Bumpers, ChargeState, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
+    Bumpers, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
 };
 use rvac_protocol::session::Mode;
-use rvac_units::{Current, Tick, Voltage};
+use rvac_units::Tick;
 
-use crate::board::{Charger, DockBeams, DustBox, Parts, ProximitySensors};
-use crate::charge::charge_of;
+use crate::board::{DockBeams, DustBox, Parts, ProximitySensors};
 use crate::cord::{Cord, name};
 use crate::rate::Rate;
 use crate::reflex::Reflexes;
@@ -197,18 +196,6 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    fn battery(&mut self) -> Option<Battery> {
-        let readings = self.board.charger.readings()?;
-        Some(Battery {
-            charge: charge_of(readings.pack_mv, self.parameters.pack.cells),
-            voltage: Voltage(readings.pack_mv),
-            current: Current(readings.current_ma),
-            temperature: readings.temperature.unwrap_or_default(),
-            state: ChargeState::Discharging,
-            charger: None,
-        })
-    }
-
     fn state(&mut self, now: Tick) -> State {
         let battery = self.battery();
         State {
@@ -227,7 +214,7 @@ impl<P: Parts> Cord<P> {
             currents: self.senses.currents.unwrap_or_default(),
             battery_voltage: battery.map(|battery| battery.voltage).unwrap_or_default(),
             battery_current: battery.map(|battery| battery.current).unwrap_or_default(),
-            charge: battery.map(|battery| battery.state).unwrap_or_default(),
+            charge: self.charge_state(),
             docked: self.reflexes.dock.is_docked(),
             inhibits: self.reflexes.inhibits(),
             motion: self.motion.phase(),

@@ -1,8 +1,8 @@
 //! From the core's types to those of the interface to clients: the only place where a struct exists twice.
 
 use brain::{CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2};
-use rvac_api::{BatteryReading, BumpMark, MapDelta, MapSnapshot, Pose, RobotDescription};
-use rvac_protocol::message::{Battery, ChargeState, LogLevel};
+use rvac_api::{BatteryReading, BumpMark, ChargerReading, MapDelta, MapSnapshot, Pose, RobotDescription};
+use rvac_protocol::message::{Battery, ChargeState, ChargerStatus, LogLevel};
 
 use crate::device::{Description, Shape};
 
@@ -81,8 +81,17 @@ pub(crate) fn battery(battery: &Battery) -> BatteryReading {
         charge: battery.charge.as_f64(),
         voltage_v: battery.voltage.as_v(),
         current_a: battery.current.as_a(),
-        temperature_c: battery.temperature.as_celsius(),
+        temperature_c: battery.temperature.map(rvac_units::Temperature::as_celsius),
         state: charge_state(battery.state).to_owned(),
+        charger: battery.charger.map(charger),
+    }
+}
+
+fn charger(status: ChargerStatus) -> ChargerReading {
+    ChargerReading {
+        phase: status.phase.name().to_owned(),
+        end: status.end.map(|end| end.name().to_owned()),
+        fault: status.fault.map(|fault| fault.name().to_owned()),
     }
 }
 

@@ -135,6 +135,51 @@ const CATALOGUE: &[(&str, Explanation)] = &[
     ),
     entry("battery-low", "The battery is low.", "Charge it."),
     entry(
+        "battery-weak",
+        "The battery is so low that brushes and suction are off.",
+        "Let it drive to its dock, or carry it there.",
+    ),
+    entry(
+        "battery-empty",
+        "The battery is empty, everything is off.",
+        "Carry it to the dock.",
+    ),
+    entry(
+        "battery-hot",
+        "The battery is hot.",
+        "Let it cool; it goes on by itself below 50 °C.",
+    ),
+    entry(
+        "battery-overheated",
+        "The battery was dangerously hot.",
+        "Take the battery out and have it checked before you clear the fault.",
+    ),
+    entry(
+        "thermistor",
+        "The battery's temperature cannot be measured.",
+        "Check the battery's plug, then clear the fault.",
+    ),
+    entry(
+        "charger-fault",
+        "The charger has stopped because something is wrong.",
+        "Look at the charger fault in the device table, remove its cause, then clear the fault.",
+    ),
+    entry(
+        "charger-shorted",
+        "Current flows into the battery although the charger is off.",
+        "Keep it off the dock, take the battery out and have the electronics repaired.",
+    ),
+    entry(
+        "clock",
+        "The clock of the robot's controller failed.",
+        "Switch it off and on; keep the log if it comes back.",
+    ),
+    entry(
+        "memory",
+        "The memory of the robot's controller failed a check.",
+        "Switch it off and on; keep the log if it comes back.",
+    ),
+    entry(
         "dock-not-found",
         "It did not find the dock in time.",
         "Carry it to the dock.",

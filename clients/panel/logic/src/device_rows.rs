@@ -79,13 +79,33 @@ fn battery(table: &DeviceTable) -> Vec<Row> {
         "fault" => "Charging fault",
         other => other,
     };
-    vec![
+    let temperature = match battery.temperature_c {
+        Some(celsius) => format!("{celsius:.1} °C"),
+        None => "not measured".to_owned(),
+    };
+    let mut rows = vec![
         alarm("Charge", percent_text(battery.charge), battery.charge < 0.15),
         alarm("State", state, battery.state == "fault"),
         row("Voltage", format!("{:.2} V", battery.voltage_v)),
         row("Current", format!("{:.2} A", battery.current_a)),
-        row("Temperature", format!("{:.1} °C", battery.temperature_c)),
-    ]
+        alarm("Temperature", temperature, battery.temperature_c.is_none()),
+    ];
+    if let Some(charger) = &battery.charger {
+        rows.push(row("Charger", charger.phase.as_str()));
+        rows.extend(
+            charger
+                .end
+                .iter()
+                .map(|end| row("Last charge ended by", end.as_str())),
+        );
+        rows.extend(
+            charger
+                .fault
+                .iter()
+                .map(|fault| alarm("Charger fault", fault.as_str(), true)),
+        );
+    }
+    rows
 }
 
 fn link(table: &DeviceTable) -> Vec<Row> {
@@ -252,8 +272,9 @@ mod tests {
             charge: 0.3944,
             voltage_v: 15.98,
             current_a: 0.0,
-            temperature_c: 32.16,
+            temperature_c: Some(32.16),
             state: "x".to_owned(),
+            charger: None,
         };
         let mut table = DeviceTable {
             battery: Some(battery),

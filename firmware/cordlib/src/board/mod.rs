@@ -132,14 +132,20 @@ impl<P: Parts> core::fmt::Debug for Board<P> {
 }
 
 impl<P: Parts> Board<P> {
-    /// Brakes the wheels and switches off every motor, the charger and the sound. The one place where motion ends, whoever asks:
-    /// reflexes, `stop`, hardware faults. A panic handler that has no `Cord` at hand rebuilds the parts and calls this.
+    /// Switches off everything that moves or charges. For a panic handler that has no `Cord` at hand: it rebuilds the
+    /// parts and calls this.
     pub fn all_off(&mut self) {
+        self.charger.drive(ChargeDrive::Off);
+        self.motors_off();
+    }
+
+    /// Brakes the wheels and switches off every motor and the sound. The one place where motion ends, whoever asks:
+    /// reflexes, `stop`, hardware faults.
+    pub fn motors_off(&mut self) {
         self.wheels.drive(WheelDrive::Brake, WheelDrive::Brake);
         self.brush_main.set(Throttle::ZERO);
         self.brush_sides.set(Throttle::ZERO);
         self.vacuum.set(Throttle::ZERO);
-        self.charger.drive(ChargeDrive::Off);
         self.beeper.silence();
     }
 

@@ -77,7 +77,8 @@ pub trait Charger {
     /// The newest readings, or `None` when there never were any. Called once a pass.
     fn readings(&mut self) -> Option<ChargerReadings>;
 
-    /// Sets the switch. Called when it changes. [`ChargeDrive::Off`] takes effect before this returns.
+    /// Sets the switch. Called when it changes, and every 10 ms while it does not: a board may switch off by itself when the
+    /// calls stop. [`ChargeDrive::Off`] takes effect before this returns.
     fn drive(&mut self, drive: ChargeDrive);
 
     /// Asks the dock for current, or stops asking. Called when it changes. A board whose dock needs no asking does nothing.

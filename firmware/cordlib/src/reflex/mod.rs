@@ -3,6 +3,7 @@
 //! Rule numbers are those of SAFETY.md. S2 and S3 end in the protocol session, S5 in `watch`, S9 in `floor`, S22 in the
 //! integer types, S29 in `cleaning`.
 
+mod battery;
 mod bumper;
 mod button;
 mod cliff;
@@ -15,11 +16,12 @@ mod reset;
 mod runaway;
 mod stall;
 
+pub(crate) use battery::PackView;
 pub(crate) use button::ButtonChange;
 pub(crate) use dock::DockChange;
 pub(crate) use stall::{Load, StallRule};
 
-use rvac_protocol::message::{Bumpers, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
+use rvac_protocol::message::{Bumpers, ChargeFault, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
 
 use crate::board::{Encoders, Parts, ResetRecord};
 use crate::motion::{MotionStatus, WheelStatus};
@@ -27,6 +29,7 @@ use crate::parameters::Parameters;
 use crate::permit::Standing;
 use crate::senses::Senses;
 
+use battery::BatteryRule;
 use bumper::{BumperContext, BumperRule};
 use button::ButtonRule;
 use cliff::{CliffContext, CliffRule};
@@ -43,6 +46,9 @@ use runaway::RunawayRule;
 pub(crate) struct Reflexes {
     pub(crate) host: HostRule,
     pub(crate) dock: DockRule,
+    /// What is wrong with the charger.
+    pub(crate) charger_fault: Option<ChargeFault>,
+    battery: BatteryRule,
     buttons: ButtonRule,
     bumper: BumperRule,
     cliff: CliffRule,
@@ -77,6 +83,8 @@ impl Reflexes {
         Self {
             host: HostRule::default(),
             dock: DockRule::default(),
+            charger_fault: None,
+            battery: BatteryRule::default(),
             buttons: ButtonRule::default(),
             bumper: BumperRule::default(),
             cliff: CliffRule::default(),
@@ -194,6 +202,12 @@ impl Reflexes {
         self.idle = self.progress.update(headway, senses.now);
     }
 
+    /// The rules that look at the battery, on every pass.
+    pub(crate) fn judge_battery(&mut self, view: &PackView, now: rvac_units::Tick) {
+        let found = self.battery.update(view, now);
+        self.latched = Inhibits::from_bits(self.latched.bits() | found.bits());
+    }
+
     /// Lets the record of resets age.
     pub(crate) fn age<R: ResetRecord>(&mut self, record: &mut R, now: rvac_units::Tick) {
         self.reset.update(record, now);
@@ -211,9 +225,14 @@ impl Reflexes {
             Inhibit::BumperStuck => self.bumper.any(),
             Inhibit::CliffTrapped => self.cliff.any(),
             Inhibit::Runaway => self.wheel_turns,
-            Inhibit::WheelStall | Inhibit::BrushStall | Inhibit::EncoderFault | Inhibit::InternalFault => {
-                false
-            }
+            Inhibit::BatteryOverheated => self.battery.is_hot(),
+            Inhibit::Thermistor => self.battery.is_unmeasured(),
+            Inhibit::WheelStall
+            | Inhibit::BrushStall
+            | Inhibit::EncoderFault
+            | Inhibit::InternalFault
+            | Inhibit::Clock
+            | Inhibit::Memory => false,
             other => self.inhibits().contains(other),
         };
         if !cause_remains {
@@ -227,8 +246,13 @@ impl Reflexes {
 
     /// Everything that inhibits now.
     pub(crate) fn inhibits(&self) -> Inhibits {
-        let mut all = Inhibits::from_bits(self.latched.bits() | self.host.inhibits().bits());
+        let mut all = Inhibits::from_bits(
+            self.latched.bits() | self.host.inhibits().bits() | self.battery.inhibits().bits(),
+        );
+        let shorted = self.charger_fault == Some(ChargeFault::Shorted);
         let present = [
+            (Inhibit::ChargerShorted, shorted),
+            (Inhibit::ChargerFault, self.charger_fault.is_some() && !shorted),
             (Inhibit::Bumper, self.bumper.any()),
             (Inhibit::Cliff, self.cliff.any()),
             (Inhibit::CliffSensorFault, self.blinded),

@@ -84,8 +84,8 @@ pub struct Battery {
     pub voltage: Voltage,
     /// Into the pack is positive.
     pub current: Current,
-    /// Pack temperature.
-    pub temperature: Temperature,
+    /// Pack temperature; `None` when it cannot be measured.
+    pub temperature: Option<Temperature>,
     /// What the charger does.
     pub state: ChargeState,
     /// More about the charger, where the firmware controls it.

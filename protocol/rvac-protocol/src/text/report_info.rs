@@ -100,9 +100,11 @@ pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Res
         .name("c", "info")
         .number("battery-status", battery.charge.millionths(), span::RATIO)
         .measured("battery-voltage", battery.voltage.0, span::VOLTAGE)
-        .measured("battery-current", battery.current.0, span::CURRENT)
-        .measured("battery-temperature", battery.temperature.0, span::TEMPERATURE)
-        .name("battery-state", state);
+        .measured("battery-current", battery.current.0, span::CURRENT);
+    if let Some(temperature) = battery.temperature {
+        object.measured("battery-temperature", temperature.0, span::TEMPERATURE);
+    }
+    object.name("battery-state", state);
     if let Some(charger) = battery.charger {
         object.name("charge-phase", charger.phase.name());
         if let Some(end) = charger.end {
@@ -161,9 +163,7 @@ fn read_battery(fields: &Fields<'_, 9>) -> Result<Battery, Refusal> {
         charge: Ratio::from_millionths(charge).map_err(|_| Refusal::Range)?,
         voltage: Voltage(fields.int(2, span::VOLTAGE)?),
         current: Current(fields.int(3, span::CURRENT)?),
-        temperature: Temperature(
-            i16::try_from(fields.number(4, span::TEMPERATURE)?).map_err(|_| Refusal::Range)?,
-        ),
+        temperature: read_temperature(fields)?,
         // Firmware of 2016 does not tell.
         state: CHARGE_STATES
             .into_iter()
@@ -171,6 +171,16 @@ fn read_battery(fields: &Fields<'_, 9>) -> Result<Battery, Refusal> {
             .map_or(ChargeState::Discharging, |(state, _)| state),
         charger: read_charger(fields)?,
     })
+}
+
+fn read_temperature(fields: &Fields<'_, 9>) -> Result<Option<Temperature>, Refusal> {
+    if !fields.has(4) {
+        return Ok(None);
+    }
+    let tenths = fields.number(4, span::TEMPERATURE)?;
+    i16::try_from(tenths)
+        .map(|tenths| Some(Temperature(tenths)))
+        .map_err(|_| Refusal::Range)
 }
 
 /// Names of a newer robot are left out: its battery's figures are worth reading all the same.

@@ -167,7 +167,7 @@ pub(crate) fn firmware(info: &Info) -> Value {
 pub(crate) fn battery(battery: &Battery) -> Value {
     let mut meaning = json!({
         "charge_millionths": battery.charge.millionths(), "voltage_mv": battery.voltage.0,
-        "current_ma": battery.current.0, "temperature_tenths": battery.temperature.0,
+        "current_ma": battery.current.0, "temperature_tenths": battery.temperature.map(|temperature| temperature.0),
         "state": charge_state(battery.state),
     });
     if let Some(charger) = battery.charger {

@@ -1,0 +1,302 @@
+//! One pass of the charger: measure, look for faults, advance the state machine, regulate, pass the gate.
+
+use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase, ChargerStatus};
+use rvac_units::{Ratio, Tick};
+
+use crate::board::{ChargeDrive, ChargerReadings, DockRequest};
+use crate::parameters::PackParameters;
+
+use super::faults::FaultWatch;
+use super::gauge::Gauge;
+use super::guard::{AGE_MAX_MS, Guard, View};
+use super::history::History;
+use super::meter::{Beats, Means, Meter, Window};
+use super::phases::{Charge, Pulse, Rest};
+use super::regulate::Regulator;
+use super::scale::PackScale;
+use super::stops::{AllStops, Detectors, Stops};
+use super::thermometer::Thermometer;
+use super::zero::Zero;
+
+/// The supply must be there this long before current flows.
+const SUPPLIED_MS: u32 = 1_000;
+/// The dock is asked this long before current flows, so that it has heard.
+const ASKED_MS: u32 = 2_000;
+
+/// Whether anything on the robot turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motors {
+    /// No motor is driven and no wheel turns.
+    Idle,
+    /// Something is driven or turns.
+    Running,
+}
+
+/// What the rest of the firmware knows that the charger must know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChargeContext {
+    /// The contacts are closed, debounced, and the robot is not about to leave.
+    pub docked: bool,
+    /// Whether anything turns.
+    pub motors: Motors,
+    /// What the machine takes from the pack by what is switched on, in mA, as far as it is known.
+    pub load_ma: i32,
+}
+
+/// What the board is to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ChargeOutput {
+    /// The switch.
+    pub drive: ChargeDrive,
+    /// The dock.
+    pub request: DockRequest,
+}
+
+/// The charger.
+#[derive(Clone, Debug)]
+pub struct ChargeController<S = AllStops> {
+    pub(super) pack: PackParameters,
+    pub(super) scale: PackScale,
+    pub(super) stops: S,
+    pub(super) phase: ChargePhase,
+    pub(super) fault: Option<ChargeFault>,
+    pub(super) end: Option<ChargeEnd>,
+    /// The last charge filled the pack, and the robot has not left the dock since.
+    pub(super) full: bool,
+    pub(super) meter: Meter,
+    pub(super) thermometer: Thermometer,
+    pub(super) zero: Zero,
+    pub(super) watch: FaultWatch,
+    pub(super) detectors: Detectors,
+    pub(super) charge: Charge,
+    pub(super) pulse: Pulse,
+    pub(super) rest: Rest,
+    pub(super) regulator: Regulator,
+    pub(super) history: History,
+    pub(super) gauge: Gauge,
+    /// Newest averages of 100 ms, zero taken off.
+    pub(super) tenth: Option<Means>,
+    pub(super) docked_ms: u32,
+    pub(super) supplied_ms: u32,
+    pub(super) off_ms: u32,
+    asked_ms: u32,
+    guard: Guard,
+    output: ChargeOutput,
+    last: Option<Tick>,
+}
+
+impl ChargeController {
+    /// A charger after a reset: it knows nothing of an earlier charge, and checks everything before it begins one.
+    #[must_use]
+    pub fn new(pack: PackParameters) -> Self {
+        Self::with_stops(pack, AllStops)
+    }
+}
+
+impl<S: Stops> ChargeController<S> {
+    /// As [`ChargeController::new`] with a choice of stops, for campaigns that show what each stop is worth.
+    #[must_use]
+    pub fn with_stops(pack: PackParameters, stops: S) -> Self {
+        Self {
+            pack,
+            scale: PackScale::of(&pack),
+            stops,
+            phase: ChargePhase::Idle,
+            fault: None,
+            end: None,
+            full: false,
+            meter: Meter::new(),
+            thermometer: Thermometer::default(),
+            zero: Zero::default(),
+            watch: FaultWatch::default(),
+            detectors: Detectors::default(),
+            charge: Charge::default(),
+            pulse: Pulse::default(),
+            rest: Rest::default(),
+            regulator: Regulator::default(),
+            history: History::new(),
+            gauge: Gauge::default(),
+            tenth: None,
+            docked_ms: 0,
+            supplied_ms: 0,
+            off_ms: 0,
+            asked_ms: 0,
+            guard: Guard::default(),
+            output: ChargeOutput::default(),
+            last: None,
+        }
+    }
+
+    /// One pass. Call it in every pass of the main loop, at least every 50 ms.
+    pub fn step(
+        &mut self,
+        readings: Option<ChargerReadings>,
+        context: ChargeContext,
+        now: Tick,
+    ) -> ChargeOutput {
+        let elapsed_ms = self.last.map_or(0, |last| now.since(last));
+        self.last = Some(now);
+        let beats = self.meter.take(readings, elapsed_ms, now);
+        self.pass_time(context, elapsed_ms);
+        self.measure(&beats, context);
+        if let Some(fault) = self.find_fault(&beats, context) {
+            self.fail(fault);
+        }
+        self.advance(&beats, context);
+        self.regulate(&beats, context, elapsed_ms)
+    }
+
+    fn pass_time(&mut self, context: ChargeContext, elapsed_ms: u32) {
+        let supplied = context.docked && self.meter.adapter();
+        let add = |condition: bool, span_ms: u32| {
+            if condition {
+                span_ms.saturating_add(elapsed_ms)
+            } else {
+                0
+            }
+        };
+        self.docked_ms = add(context.docked, self.docked_ms);
+        self.supplied_ms = add(supplied, self.supplied_ms);
+        self.off_ms = add(self.output.drive == ChargeDrive::Off, self.off_ms);
+        self.asked_ms = add(self.output.request == DockRequest::Current, self.asked_ms);
+        self.thermometer.pass(elapsed_ms);
+        self.history.pass(elapsed_ms);
+        self.watch.pass(supplied, elapsed_ms);
+        self.rest.pass(elapsed_ms);
+        self.charge.pass(self.is_charging(), elapsed_ms);
+    }
+
+    fn measure(&mut self, beats: &Beats, context: ChargeContext) {
+        if let Some(means) = beats.of(Window::Tenth) {
+            self.thermometer.each_tenth(&means);
+            self.tenth = Some(self.zero.correct(means));
+        }
+        if let Some(means) = beats.of(Window::Second) {
+            self.thermometer.each_second(&means);
+            let no_supply = !self.meter.adapter() && !context.docked;
+            if no_supply && self.off_ms >= means.elapsed_ms {
+                self.zero.learn(&means);
+            }
+            let means = self.zero.correct(means);
+            self.gauge
+                .each_second(&means, context.load_ma, self.is_charging(), &self.pack);
+            if self.is_charging() || self.phase == ChargePhase::Maintain {
+                self.charge.gather(&means);
+            }
+        }
+    }
+
+    fn regulate(&mut self, beats: &Beats, context: ChargeContext, elapsed_ms: u32) -> ChargeOutput {
+        let target_ma = self.target_ma();
+        let wanted = target_ma > 0;
+        let ready = wanted
+            && self.supplied_ms >= SUPPLIED_MS
+            && self.asked_ms >= ASKED_MS
+            && context.motors == Motors::Idle;
+        if !ready {
+            self.regulator.restart();
+            self.charge.pause();
+        } else {
+            self.charge.flow(elapsed_ms);
+            if let Some(means) = beats.of(Window::Envelope) {
+                let current_ma = self.zero.correct(means).current_ma;
+                self.regulator
+                    .fold_back(current_ma, self.scale.fold_back_ma(), target_ma);
+            }
+            if let (Some(_), Some(means)) = (beats.of(Window::Tenth), self.tenth) {
+                self.regulator.control(means.current_ma, target_ma);
+            }
+        }
+        let view = self.view(context);
+        let drive = self.guard.permit(self.regulator.drive(), &view, elapsed_ms);
+        if drive == ChargeDrive::Off && self.regulator.drive() != ChargeDrive::Off {
+            self.regulator.restart();
+        }
+        let request = if wanted && context.docked {
+            DockRequest::Current
+        } else {
+            DockRequest::Silent
+        };
+        self.output = ChargeOutput { drive, request };
+        self.output
+    }
+
+    fn view(&self, context: ChargeContext) -> View {
+        View {
+            supplied: context.docked && self.meter.adapter(),
+            motors_idle: context.motors == Motors::Idle,
+            age_ms: self.meter.age_ms(),
+            temperature_cc: self.thermometer.cc(),
+            pack_mv: self.tenth.map(|means| means.pack_mv),
+            pack_range_mv: (
+                self.scale.deep_mv(),
+                self.scale.voltage_max_mv().saturating_add(200),
+            ),
+        }
+    }
+
+    /// Switches off at once, because a motor is about to run or everything stops. The charge goes on by itself when it
+    /// may.
+    pub fn cut(&mut self) -> ChargeOutput {
+        self.regulator.restart();
+        self.output = ChargeOutput::default();
+        self.output
+    }
+
+    /// What was asked of the board last.
+    #[must_use]
+    pub const fn output(&self) -> ChargeOutput {
+        self.output
+    }
+
+    /// Phase, last end and fault, for telemetry.
+    #[must_use]
+    pub const fn status(&self) -> ChargerStatus {
+        ChargerStatus {
+            phase: self.phase,
+            end: self.end,
+            fault: self.fault,
+        }
+    }
+
+    /// Whether the pack is known to be full.
+    #[must_use]
+    pub const fn is_full(&self) -> bool {
+        self.full
+    }
+
+    /// Charge that is left, 0 to 1; 0 before the first second.
+    #[must_use]
+    pub fn charge_left(&self) -> Ratio {
+        self.gauge.charge()
+    }
+
+    /// Voltage of the pack in mV and current into it in mA, averaged over 100 ms; `None` without readings for longer
+    /// than 200 ms.
+    #[must_use]
+    pub fn pack(&self) -> Option<(i32, i32)> {
+        let fresh = self.meter.age_ms() <= AGE_MAX_MS;
+        self.tenth
+            .filter(|_| fresh)
+            .map(|means| (means.pack_mv, means.current_ma))
+    }
+
+    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` when there is none to be
+    /// believed.
+    #[must_use]
+    pub const fn temperature_cc(&self) -> Option<i32> {
+        self.thermometer.cc()
+    }
+
+    pub(crate) const fn thermometer(&self) -> &Thermometer {
+        &self.thermometer
+    }
+
+    /// Whether current is meant to fill the pack.
+    pub(super) const fn is_charging(&self) -> bool {
+        matches!(
+            self.phase,
+            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff
+        )
+    }
+}

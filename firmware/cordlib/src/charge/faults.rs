@@ -1,0 +1,253 @@
+//! What stops a charge for good until a person clears it.
+
+use rvac_protocol::message::{ChargeFault, ChargePhase};
+
+use crate::board::ThermistorFault;
+
+use super::controller::{ChargeContext, ChargeController};
+use super::guard::AGE_MAX_MS;
+use super::meter::{Beats, Means, Window};
+use super::stops::Stops;
+
+const TOO_HOT_CC: i32 = 5_500;
+/// A pack that was too hot must have cooled to this before the fault can be cleared.
+const COOLED_CC: i32 = 4_500;
+/// Over-current must last for four envelopes, so that the fifth finds it: within 100 ms.
+const OVER_MS: u32 = 80;
+/// Current through a switch that is off: limit, time to settle after switching off, and how long it must last to be found
+/// within a second.
+const LEAK_MA: i32 = 150;
+const SETTLE_MS: u32 = 200;
+const LEAK_MS: u32 = 900;
+/// Current shown at rest, too small for a shorted switch: the sensor's zero is wrong.
+const ZERO_MA: i32 = 60;
+const ZERO_MS: u32 = 10_000;
+/// Less than this is no current.
+const NO_CURRENT_MA: i32 = 50;
+const NO_CURRENT_MS: u32 = 5_000;
+const NO_CURRENT_TRIES: u8 = 3;
+const NO_CURRENT_PAUSE_MS: u32 = 300_000;
+const ADAPTER_MAX_MV: i32 = 30_000;
+const THERMISTOR_MS: u32 = 1_000;
+/// Three quarters of an hour of full current without the least change of a single average: no sensor is that quiet.
+const FROZEN_MS: u32 = 2_700_000;
+/// No battery: the voltage shoots up in the first half minute.
+const ABSENT_MS: u32 = 30_000;
+/// Interruptions by the contacts; one is forgiven each minute.
+const INTERRUPTIONS_MAX: u8 = 10;
+const FORGIVE_MS: u32 = 60_000;
+
+/// How long each condition has lasted.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FaultWatch {
+    over_ms: u32,
+    leak_ms: u32,
+    zero_ms: u32,
+    no_current_ms: u32,
+    no_current_tries: u8,
+    frozen_ms: u32,
+    frozen_cc: Option<i32>,
+    second_mv: Option<i32>,
+    supplied: bool,
+    interruptions: u8,
+    forgive_ms: u32,
+}
+
+impl FaultWatch {
+    pub(super) const fn pass(&mut self, supplied: bool, elapsed_ms: u32) {
+        if self.supplied && !supplied {
+            self.interruptions = self.interruptions.saturating_add(1);
+        }
+        self.supplied = supplied;
+        self.forgive_ms = self.forgive_ms.saturating_add(elapsed_ms);
+        if self.forgive_ms >= FORGIVE_MS {
+            self.forgive_ms = 0;
+            self.interruptions = self.interruptions.saturating_sub(1);
+        }
+    }
+
+    /// Off the dock nothing can be wrong with the charger. How often the contacts came and went is kept.
+    fn rest(&mut self) {
+        *self = Self {
+            supplied: self.supplied,
+            interruptions: self.interruptions,
+            forgive_ms: self.forgive_ms,
+            ..Self::default()
+        };
+    }
+}
+
+/// Adds to a span while a condition holds, else forgets it; whether it has reached `limit_ms`.
+fn lasts(span_ms: &mut u32, condition: bool, elapsed_ms: u32, limit_ms: u32) -> bool {
+    *span_ms = if condition {
+        span_ms.saturating_add(elapsed_ms)
+    } else {
+        0
+    };
+    *span_ms >= limit_ms
+}
+
+impl<S: Stops> ChargeController<S> {
+    /// Looks for a fault in what this pass has measured.
+    pub(super) fn find_fault(&mut self, beats: &Beats, context: ChargeContext) -> Option<ChargeFault> {
+        if !context.docked {
+            self.watch.rest();
+            return None;
+        }
+        let leak = beats.of(Window::Tenth).and_then(|means| self.find_leak(&means));
+        if self.phase == ChargePhase::Fault {
+            return leak.filter(|_| self.fault != Some(ChargeFault::Shorted));
+        }
+        let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
+        leak.or_else(|| (at_work && self.meter.age_ms() > AGE_MAX_MS).then_some(ChargeFault::Stale))
+            .or_else(|| self.find_in_envelope(beats))
+            .or_else(|| self.find_in_tenth(beats))
+            .or_else(|| self.find_in_second(beats))
+    }
+
+    /// Current flows though the switch is off.
+    fn find_leak(&mut self, means: &Means) -> Option<ChargeFault> {
+        let current_ma = self.zero.correct(*means).current_ma;
+        let leaks = self.off_ms >= SETTLE_MS && current_ma > LEAK_MA;
+        lasts(&mut self.watch.leak_ms, leaks, means.elapsed_ms, LEAK_MS).then_some(ChargeFault::Shorted)
+    }
+
+    fn find_in_envelope(&mut self, beats: &Beats) -> Option<ChargeFault> {
+        let means = beats.of(Window::Envelope)?;
+        let current_ma = self.zero.correct(means).current_ma;
+        let over = self.off_ms == 0 && current_ma > self.scale.over_current_ma();
+        lasts(&mut self.watch.over_ms, over, means.elapsed_ms, OVER_MS).then_some(ChargeFault::OverCurrent)
+    }
+
+    fn find_in_tenth(&mut self, beats: &Beats) -> Option<ChargeFault> {
+        let means = beats.of(Window::Tenth)?;
+        let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
+        if means.input_mv > ADAPTER_MAX_MV {
+            return Some(ChargeFault::Adapter);
+        }
+        if at_work && self.watch.interruptions > INTERRUPTIONS_MAX {
+            return Some(ChargeFault::Contact);
+        }
+        let still = self.is_at_full_rate() && means.temperature_cc == self.watch.frozen_cc;
+        self.watch.frozen_cc = means.temperature_cc;
+        if lasts(&mut self.watch.frozen_ms, still, means.elapsed_ms, FROZEN_MS) {
+            return Some(ChargeFault::ThermistorFrozen);
+        }
+        let thermistor = self.thermometer.fault_for(THERMISTOR_MS).filter(|_| at_work);
+        thermistor.map(|fault| match fault {
+            ThermistorFault::Open => ChargeFault::ThermistorOpen,
+            ThermistorFault::Shorted => ChargeFault::ThermistorShorted,
+            ThermistorFault::Range => ChargeFault::ThermistorRange,
+            ThermistorFault::Jump => ChargeFault::ThermistorJump,
+            ThermistorFault::Frozen => ChargeFault::ThermistorFrozen,
+        })
+    }
+
+    fn find_in_second(&mut self, beats: &Beats) -> Option<ChargeFault> {
+        let means = self.zero.correct(beats.of(Window::Second)?);
+        let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
+        if at_work && means.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
+            return Some(ChargeFault::TooHot);
+        }
+        let flows = self.charge.flows();
+        let before_mv = core::mem::replace(&mut self.watch.second_mv, flows.then_some(means.pack_mv));
+        if flows && means.pack_mv >= self.scale.voltage_max_mv() && self.charge.is_young(ABSENT_MS) {
+            return Some(ChargeFault::NoBattery);
+        }
+        if flows && before_mv.is_some_and(|mv| self.scale.is_jump(mv, means.pack_mv)) {
+            return Some(ChargeFault::VoltageJump);
+        }
+        self.find_wrong_zero(&means)
+            .or_else(|| self.find_no_current(&means))
+    }
+
+    fn find_wrong_zero(&mut self, means: &Means) -> Option<ChargeFault> {
+        let needed = self.phase == ChargePhase::Idle && means.pack_mv < self.scale.recharge_mv();
+        let resting = needed && self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS);
+        let wrong = resting && (means.current_ma.saturating_abs() >= ZERO_MA || self.zero.is_broken());
+        lasts(&mut self.watch.zero_ms, wrong, means.elapsed_ms, ZERO_MS).then_some(ChargeFault::CurrentZero)
+    }
+
+    /// A dock that gives nothing is asked again after a pause; the third time it is a fault.
+    fn find_no_current(&mut self, means: &Means) -> Option<ChargeFault> {
+        let dry = self.regulator.must_flow() && means.current_ma < NO_CURRENT_MA;
+        if self.regulator.must_flow() && !dry {
+            self.watch.no_current_tries = 0;
+        }
+        if !lasts(
+            &mut self.watch.no_current_ms,
+            dry,
+            means.elapsed_ms,
+            NO_CURRENT_MS,
+        ) {
+            return None;
+        }
+        self.watch.no_current_ms = 0;
+        self.watch.no_current_tries = self.watch.no_current_tries.saturating_add(1);
+        if self.watch.no_current_tries >= NO_CURRENT_TRIES {
+            return Some(ChargeFault::NoCurrent);
+        }
+        self.phase = ChargePhase::Idle;
+        self.rest.wait(NO_CURRENT_PAUSE_MS);
+        None
+    }
+
+    /// Stops for good.
+    pub(super) fn fail(&mut self, fault: ChargeFault) {
+        self.history.note_fault();
+        self.fault = Some(fault);
+        self.phase = ChargePhase::Fault;
+        self.full = false;
+        self.regulator.restart();
+        self.charge.finish();
+    }
+
+    /// A person has seen to the fault. False if its cause is still there; so is the third fault within a day, until the
+    /// first of them is a day old.
+    pub fn clear(&mut self) -> bool {
+        let Some(fault) = self.fault else {
+            return true;
+        };
+        if self.cause_remains(fault) {
+            return false;
+        }
+        if self.history.is_faulty_day() {
+            self.fault = Some(ChargeFault::Repeated);
+            return false;
+        }
+        self.fault = None;
+        self.watch.rest();
+        self.watch.interruptions = 0;
+        self.rest.wait(0);
+        self.phase = ChargePhase::Idle;
+        true
+    }
+
+    fn cause_remains(&self, fault: ChargeFault) -> bool {
+        let supplied = self.supplied_ms > 0;
+        let pack = self.pack();
+        match fault {
+            ChargeFault::TooHot => self.thermometer.cc().is_none_or(|cc| cc >= COOLED_CC),
+            ChargeFault::ThermistorOpen
+            | ChargeFault::ThermistorShorted
+            | ChargeFault::ThermistorRange
+            | ChargeFault::ThermistorJump => self.thermometer.cc().is_none(),
+            ChargeFault::Stale => pack.is_none(),
+            ChargeFault::Shorted => supplied && pack.is_none_or(|(_, current_ma)| current_ma > LEAK_MA),
+            ChargeFault::Adapter => {
+                supplied && self.tenth.is_none_or(|means| means.input_mv > ADAPTER_MAX_MV)
+            }
+            ChargeFault::NoBattery | ChargeFault::DeepDischarge => {
+                pack.is_none_or(|(pack_mv, _)| self.scale.unfit(pack_mv).is_some())
+            }
+            ChargeFault::Repeated => self.history.is_faulty_day(),
+            ChargeFault::OverCurrent
+            | ChargeFault::CurrentZero
+            | ChargeFault::NoCurrent
+            | ChargeFault::ThermistorFrozen
+            | ChargeFault::VoltageJump
+            | ChargeFault::Precharge
+            | ChargeFault::Contact => false,
+        }
+    }
+}

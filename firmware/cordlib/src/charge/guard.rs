@@ -1,0 +1,177 @@
+//! The one gate between the charger's wishes and its switch, as `permit` is for the motors: it looks at the readings by
+//! itself and knows nothing of phases and stops, so that no mistake there can keep the switch on.
+
+use crate::board::ChargeDrive;
+
+use super::regulate::DUTY_MAX;
+
+/// Readings older than this are no readings.
+pub(super) const AGE_MAX_MS: u32 = 200;
+/// Beyond these temperatures no current flows, in hundredths of a degree: a degree outside of what the charger itself
+/// keeps.
+const COLDEST_CC: i32 = -100;
+const HOTTEST_CC: i32 = 5_100;
+/// No current after 3.6 hours of it, whatever the reason, until there was a rest.
+const FLOW_MAX_MS: u32 = 12_960_000;
+/// A rest that forgets how long current flowed.
+const REST_MS: u32 = 1_800_000;
+/// Current that flowed is forgotten four times slower than it was gathered: it is counted in quarters.
+const QUARTERS: u32 = 4;
+
+/// What the gate looks at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// On the dock's contacts, which carry a supply, and not about to leave.
+    pub(super) supplied: bool,
+    /// No motor is driven and no wheel turns.
+    pub(super) motors_idle: bool,
+    pub(super) age_ms: u32,
+    pub(super) temperature_cc: Option<i32>,
+    pub(super) pack_mv: Option<i32>,
+    /// Least and most voltage at which the pack may get current.
+    pub(super) pack_range_mv: (i32, i32),
+}
+
+/// The gate's own clock.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Guard {
+    flow_quarters: u32,
+    off_ms: u32,
+}
+
+impl Guard {
+    /// What of the wish may reach the switch. `elapsed_ms` is the time since it was asked last.
+    pub(super) fn permit(&mut self, wish: ChargeDrive, view: &View, elapsed_ms: u32) -> ChargeDrive {
+        let drive = if self.allows(view) { wish } else { ChargeDrive::Off };
+        let drive = match drive {
+            ChargeDrive::Duty(duty) if (1..=DUTY_MAX).contains(&duty.millionths()) => drive,
+            _ => ChargeDrive::Off,
+        };
+        self.count(drive, elapsed_ms);
+        drive
+    }
+
+    fn allows(&self, view: &View) -> bool {
+        let (least_mv, most_mv) = view.pack_range_mv;
+        view.supplied
+            && view.motors_idle
+            && view.age_ms <= AGE_MAX_MS
+            && view
+                .temperature_cc
+                .is_some_and(|cc| (COLDEST_CC..=HOTTEST_CC).contains(&cc))
+            && view.pack_mv.is_some_and(|mv| (least_mv..=most_mv).contains(&mv))
+            && self.flow_quarters <= FLOW_MAX_MS.saturating_mul(QUARTERS)
+    }
+
+    fn count(&mut self, drive: ChargeDrive, elapsed_ms: u32) {
+        if drive != ChargeDrive::Off {
+            self.off_ms = 0;
+            self.flow_quarters = self
+                .flow_quarters
+                .saturating_add(elapsed_ms.saturating_mul(QUARTERS));
+            return;
+        }
+        self.off_ms = self.off_ms.saturating_add(elapsed_ms);
+        self.flow_quarters = if self.off_ms >= REST_MS {
+            0
+        } else {
+            self.flow_quarters.saturating_sub(elapsed_ms)
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FLOW_MAX_MS, Guard, View};
+    use crate::board::ChargeDrive;
+    use rvac_units::Ratio;
+
+    const GOOD: View = View {
+        supplied: true,
+        motors_idle: true,
+        age_ms: 20,
+        temperature_cc: Some(2_500),
+        pack_mv: Some(16_000),
+        pack_range_mv: (9_000, 20_600),
+    };
+
+    fn duty(millionths: i32) -> ChargeDrive {
+        ChargeDrive::Duty(Ratio::from_millionths(millionths).unwrap())
+    }
+
+    #[test]
+    fn each_precondition_alone_keeps_the_switch_off() {
+        let wish = duty(500_000);
+        assert_eq!(Guard::default().permit(wish, &GOOD, 1), wish);
+        let bad = [
+            View {
+                supplied: false,
+                ..GOOD
+            },
+            View {
+                motors_idle: false,
+                ..GOOD
+            },
+            View { age_ms: 201, ..GOOD },
+            View {
+                temperature_cc: None,
+                ..GOOD
+            },
+            View {
+                temperature_cc: Some(5_101),
+                ..GOOD
+            },
+            View {
+                temperature_cc: Some(-101),
+                ..GOOD
+            },
+            View {
+                pack_mv: None,
+                ..GOOD
+            },
+            View {
+                pack_mv: Some(8_999),
+                ..GOOD
+            },
+            View {
+                pack_mv: Some(20_601),
+                ..GOOD
+            },
+        ];
+        for view in bad {
+            assert_eq!(
+                Guard::default().permit(wish, &view, 1),
+                ChargeDrive::Off,
+                "{view:?}"
+            );
+        }
+        assert_eq!(Guard::default().permit(duty(950_001), &GOOD, 1), ChargeDrive::Off);
+        assert_eq!(Guard::default().permit(duty(0), &GOOD, 1), ChargeDrive::Off);
+    }
+
+    #[test]
+    fn current_ends_after_its_longest_time_and_comes_back_after_a_rest() {
+        let wish = duty(500_000);
+        let mut guard = Guard::default();
+        let mut flowed_ms = 0;
+        while guard.permit(wish, &GOOD, 1_000) != ChargeDrive::Off {
+            flowed_ms += 1_000;
+        }
+        assert!(
+            (FLOW_MAX_MS..FLOW_MAX_MS + 3_000).contains(&flowed_ms),
+            "{flowed_ms}"
+        );
+        for _ in 0..1_700 {
+            guard.permit(ChargeDrive::Off, &GOOD, 1_000);
+        }
+        let mut more_ms = 0;
+        while guard.permit(wish, &GOOD, 1_000) != ChargeDrive::Off {
+            more_ms += 1_000;
+        }
+        assert!(more_ms < 500_000, "a short rest gives little back: {more_ms}");
+        for _ in 0..1_801 {
+            guard.permit(ChargeDrive::Off, &GOOD, 1_000);
+        }
+        assert_eq!(guard.permit(wish, &GOOD, 1_000), wish);
+    }
+}

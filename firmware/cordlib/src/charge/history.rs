@@ -1,0 +1,106 @@
+//! What is remembered longer than a charge: faults of the last day, and how long the pack was maintained this week.
+
+/// Faults within a day that need more than a clear.
+const FAULTS: usize = 3;
+const DAY_MS: u32 = 24 * 3_600_000;
+const WEEK_MS: u32 = 7 * DAY_MS;
+/// NiMH packs age by current when they are full: 20 hours a week at most.
+const MAINTAIN_MAX_MS: u32 = 20 * 3_600_000;
+
+/// Ages and sums; they stop counting long before they could wrap.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct History {
+    fault_ages_ms: [Option<u32>; FAULTS],
+    maintained_ms: u32,
+    week_ms: u32,
+}
+
+impl History {
+    pub(super) const fn new() -> Self {
+        Self {
+            fault_ages_ms: [None; FAULTS],
+            maintained_ms: 0,
+            week_ms: 0,
+        }
+    }
+
+    /// Time passes.
+    pub(super) fn pass(&mut self, elapsed_ms: u32) {
+        for age in &mut self.fault_ages_ms {
+            *age = age
+                .map(|ms| ms.saturating_add(elapsed_ms))
+                .filter(|ms| *ms < DAY_MS);
+        }
+        if self.maintained_ms > 0 {
+            self.week_ms = self.week_ms.saturating_add(elapsed_ms);
+        }
+        if self.week_ms >= WEEK_MS {
+            self.week_ms = 0;
+            self.maintained_ms = 0;
+        }
+    }
+
+    /// A fault was found.
+    pub(super) fn note_fault(&mut self) {
+        let place = self
+            .fault_ages_ms
+            .iter_mut()
+            .max_by_key(|age| age.unwrap_or(u32::MAX));
+        if let Some(place) = place {
+            *place = Some(0);
+        }
+    }
+
+    /// Whether there were three faults within a day.
+    pub(super) fn is_faulty_day(&self) -> bool {
+        self.fault_ages_ms.iter().all(Option::is_some)
+    }
+
+    /// The pack was maintained.
+    pub(super) const fn note_maintained(&mut self, elapsed_ms: u32) {
+        self.maintained_ms = self.maintained_ms.saturating_add(elapsed_ms);
+    }
+
+    /// Whether the pack may be maintained any more this week.
+    pub(super) const fn may_maintain(&self) -> bool {
+        self.maintained_ms < MAINTAIN_MAX_MS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::History;
+
+    const HOUR_MS: u32 = 3_600_000;
+
+    #[test]
+    fn three_faults_within_a_day_count_and_older_ones_do_not() {
+        let mut history = History::new();
+        history.note_fault();
+        history.pass(13 * HOUR_MS);
+        history.note_fault();
+        history.pass(10 * HOUR_MS);
+        assert!(!history.is_faulty_day());
+        history.note_fault();
+        assert!(history.is_faulty_day());
+        history.pass(2 * HOUR_MS);
+        assert!(!history.is_faulty_day(), "the first is a day old");
+    }
+
+    #[test]
+    fn the_week_of_maintaining_begins_anew() {
+        let mut history = History::new();
+        for hour in 0..20 {
+            assert!(history.may_maintain(), "hour {hour}");
+            history.note_maintained(HOUR_MS);
+            history.pass(HOUR_MS);
+        }
+        assert!(!history.may_maintain());
+        for _ in 0..147 {
+            history.pass(HOUR_MS);
+        }
+        assert!(!history.may_maintain());
+        history.pass(HOUR_MS);
+        assert!(history.may_maintain());
+    }
+}

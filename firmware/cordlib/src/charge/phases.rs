@@ -1,0 +1,370 @@
+//! The state machine of a charge.
+
+use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
+
+use super::controller::{ChargeContext, ChargeController};
+use super::meter::{Beats, Means, Window};
+use super::stops::{Detectors, Progress, Stops, TIME_MS};
+
+/// The contacts must be closed this long before a charge begins.
+const DOCKED_MS: u32 = 1_000;
+/// Window of temperatures in which a charge begins, in hundredths of a degree. Below the second only slow current flows.
+const COLDEST_CC: i32 = 0;
+const COOL_CC: i32 = 500;
+const WARMEST_CC: i32 = 4_000;
+/// Play of the window, so that current does not come and go at its edge.
+const PLAY_CC: i32 = 100;
+/// Current shown at rest beyond which the sensor is not believed.
+const ZERO_MA: i32 = 60;
+const PRECHARGE_MS: u32 = 3_600_000;
+const TOP_OFF_MS: u32 = 1_800_000;
+/// Temperature at which a full pack gets no more current.
+const TOP_OFF_MAX_CC: i32 = 4_500;
+/// A charge that was interrupted for longer is over: what was counted of it is forgotten.
+const AWAY_MS: u32 = 600_000;
+/// An interruption of the current that makes slopes meaningless.
+const PAUSE_MS: u32 = 10_000;
+/// Rest after a charge before the voltage tells how full the pack is.
+const REST_MS: u32 = 600_000;
+/// Rest after a charge that ran out of time.
+const LONG_REST_MS: u32 = 3_600_000;
+/// A full pack is not charged again before this, and after twice the time whenever it turned out to be full still.
+const RECHARGE_MS: u32 = 2 * 3_600_000;
+const RECHARGE_MAX_MS: u32 = 16 * 3_600_000;
+/// Pause between two pulses of `maintain`, and their longest length.
+const PULSE_PERIOD_MS: u32 = 120_000;
+const PULSE_MAX_MS: u32 = 20_000;
+/// A pack that was left alone this long shows its resting voltage.
+const PULSE_REST_MS: u32 = 100_000;
+
+/// What is counted of a charge.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Charge {
+    /// Time in which current was wanted and could flow.
+    flowed_ms: u32,
+    charged_mas: u32,
+    start_cc: Option<i32>,
+    /// Time in this phase, interruptions not counted.
+    phase_ms: u32,
+    /// Time without current.
+    paused_ms: u32,
+    slow: bool,
+    flowing: bool,
+}
+
+impl Charge {
+    pub(super) const fn pass(&mut self, charging: bool, elapsed_ms: u32) {
+        self.paused_ms = self.paused_ms.saturating_add(elapsed_ms);
+        if !charging && self.paused_ms >= AWAY_MS {
+            self.start_cc = None;
+        }
+    }
+
+    /// No current may flow now.
+    pub(super) const fn pause(&mut self) {
+        self.flowing = false;
+    }
+
+    /// Current may flow.
+    pub(super) const fn flow(&mut self, elapsed_ms: u32) {
+        self.flowing = true;
+        self.flowed_ms = self.flowed_ms.saturating_add(elapsed_ms);
+        self.phase_ms = self.phase_ms.saturating_add(elapsed_ms);
+        self.paused_ms = 0;
+    }
+
+    pub(super) fn gather(&mut self, means: &Means) {
+        let seconds_ms = i64::from(means.elapsed_ms);
+        let mas = i64::from(means.current_ma.max(0)).saturating_mul(seconds_ms) / 1_000;
+        self.charged_mas = self
+            .charged_mas
+            .saturating_add(u32::try_from(mas).unwrap_or(u32::MAX));
+    }
+
+    /// A charge that was interrupted for a short time goes on; any other begins from nothing.
+    fn begin(&mut self, temperature_cc: i32) {
+        if self.start_cc.is_none() {
+            *self = Self {
+                start_cc: Some(temperature_cc),
+                ..Self::default()
+            };
+        }
+        self.phase_ms = 0;
+        self.paused_ms = 0;
+    }
+
+    /// The charge is over: the next one begins from nothing.
+    pub(super) const fn finish(&mut self) {
+        self.start_cc = None;
+    }
+
+    /// Whether current was wanted and could flow in the last pass.
+    pub(super) const fn flows(&self) -> bool {
+        self.flowing
+    }
+
+    /// Whether current has flowed for less than `span_ms`.
+    pub(super) const fn is_young(&self, span_ms: u32) -> bool {
+        self.flowed_ms < span_ms
+    }
+
+    fn progress(&self, full_rate: bool) -> Progress {
+        Progress {
+            phase_ms: self.phase_ms,
+            flowed_ms: self.flowed_ms,
+            charged_mas: self.charged_mas,
+            start_cc: self.start_cc.unwrap_or(i32::MAX / 2),
+            full_rate,
+        }
+    }
+}
+
+/// Pulses of `maintain`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pulse {
+    on: bool,
+    ms: u32,
+    from_mas: u32,
+}
+
+/// When the next charge may begin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rest {
+    left_ms: u32,
+    recharge_ms: u32,
+    /// The host wants a charge now.
+    wanted: bool,
+    /// The host wants none.
+    forbidden: bool,
+}
+
+impl Rest {
+    pub(super) const fn pass(&mut self, elapsed_ms: u32) {
+        self.left_ms = self.left_ms.saturating_sub(elapsed_ms);
+    }
+
+    pub(super) const fn wait(&mut self, ms: u32) {
+        self.left_ms = ms;
+    }
+}
+
+impl<S: Stops> ChargeController<S> {
+    /// The host wants a full charge now, or none until it says otherwise or the robot docks anew.
+    pub fn want(&mut self, wanted: bool) {
+        self.rest.wanted = wanted;
+        self.rest.forbidden = !wanted;
+        if wanted {
+            self.rest.wait(0);
+        } else if self.is_charging() || self.phase == ChargePhase::Maintain {
+            self.finish(ChargeEnd::Stopped);
+        }
+    }
+
+    /// The full current flows, as far as is known.
+    pub(super) fn is_at_full_rate(&self) -> bool {
+        self.phase == ChargePhase::Fast && !self.charge.slow && self.charge.flows()
+    }
+
+    /// The current that is wanted now, in mA; 0 = none.
+    pub(super) fn target_ma(&self) -> i32 {
+        let Some(cc) = self.thermometer.cc() else {
+            return 0;
+        };
+        match self.phase {
+            ChargePhase::Precharge | ChargePhase::TopOff if cc >= COLDEST_CC => self.scale.slow_ma(),
+            ChargePhase::Fast if cc >= COLDEST_CC && self.charge.slow => self.scale.slow_ma(),
+            ChargePhase::Fast if cc >= COLDEST_CC => self.scale.full_ma(),
+            ChargePhase::Maintain if self.pulse.on => self.scale.slow_ma(),
+            _ => 0,
+        }
+    }
+
+    /// Lets the state machine look at what was measured.
+    pub(super) fn advance(&mut self, beats: &Beats, context: ChargeContext) {
+        if !context.docked {
+            self.leave_dock();
+            return;
+        }
+        if self.phase == ChargePhase::Fast && self.charge.paused_ms >= PAUSE_MS {
+            self.detectors.restart();
+            self.charge.phase_ms = 0;
+        }
+        if let Some(means) = beats.of(Window::Second) {
+            let means = self.zero.correct(means);
+            match self.phase {
+                ChargePhase::Idle => self.consider(&means),
+                ChargePhase::Precharge => self.precharge(&means),
+                ChargePhase::Fast => self.fast(&means),
+                ChargePhase::TopOff => self.top_off(&means),
+                ChargePhase::Maintain => self.maintain(&means),
+                ChargePhase::Fault => {}
+            }
+        }
+        if let (Some(means), ChargePhase::Fast) = (beats.of(Window::TenSeconds), self.phase) {
+            let means = self.zero.correct(means);
+            let progress = self.charge.progress(!self.charge.slow);
+            let found = self
+                .detectors
+                .each_ten_seconds(&means, &progress, &self.scale, &self.stops);
+            if let Some(end) = found {
+                self.finish(end);
+            }
+        }
+    }
+
+    fn leave_dock(&mut self) {
+        if self.is_charging() {
+            self.end = Some(ChargeEnd::Undocked);
+        }
+        if self.phase != ChargePhase::Fault {
+            self.phase = ChargePhase::Idle;
+        }
+        self.full = false;
+        self.rest = Rest {
+            recharge_ms: self.rest.recharge_ms,
+            ..Rest::default()
+        };
+    }
+
+    /// Whether a charge may begin, and with which phase.
+    fn consider(&mut self, means: &Means) {
+        let settled =
+            self.docked_ms >= DOCKED_MS && self.supplied_ms >= DOCKED_MS && self.off_ms >= DOCKED_MS;
+        let needed = self.rest.wanted || (self.rest.left_ms == 0 && means.pack_mv < self.scale.recharge_mv());
+        if !settled || !needed || self.rest.forbidden || self.rest.left_ms > 0 {
+            return;
+        }
+        if means.current_ma.saturating_abs() >= ZERO_MA {
+            return;
+        }
+        let Some(cc) = means
+            .temperature_cc
+            .filter(|cc| (COLDEST_CC..=WARMEST_CC).contains(cc) && self.thermometer.cc().is_some())
+        else {
+            return;
+        };
+        if let Some(fault) = self.scale.unfit(means.pack_mv) {
+            self.fail(fault);
+            return;
+        }
+        self.rest.wanted = false;
+        self.full = false;
+        self.charge.begin(cc);
+        self.charge.slow = cc < COOL_CC;
+        self.detectors.restart();
+        self.phase = if means.pack_mv < self.scale.precharge_mv() {
+            ChargePhase::Precharge
+        } else {
+            ChargePhase::Fast
+        };
+    }
+
+    fn precharge(&mut self, means: &Means) {
+        if means.pack_mv < self.scale.deep_mv() {
+            self.fail(ChargeFault::DeepDischarge);
+        } else if means.pack_mv >= self.scale.precharge_mv() {
+            self.charge.phase_ms = 0;
+            self.detectors.restart();
+            self.phase = ChargePhase::Fast;
+        } else if self.charge.phase_ms >= PRECHARGE_MS {
+            self.fail(ChargeFault::Precharge);
+        }
+    }
+
+    fn fast(&mut self, means: &Means) {
+        if let Some(cc) = means.temperature_cc {
+            let edge_cc = if self.charge.slow {
+                COOL_CC.saturating_add(PLAY_CC)
+            } else {
+                COOL_CC.saturating_sub(PLAY_CC)
+            };
+            self.charge.slow = cc < edge_cc;
+        }
+        let progress = self.charge.progress(!self.charge.slow);
+        if let Some(end) = Detectors::each_second(means, &progress, &self.scale, &self.stops) {
+            self.finish(end);
+        }
+    }
+
+    fn top_off(&mut self, means: &Means) {
+        let warm = means.temperature_cc.is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
+        let over = self.charge.phase_ms >= TOP_OFF_MS || self.charge.flowed_ms >= TIME_MS;
+        let high = means.pack_mv >= self.scale.voltage_max_mv();
+        if warm || over || high {
+            self.fill();
+        }
+    }
+
+    /// A charge has ended.
+    fn finish(&mut self, end: ChargeEnd) {
+        self.end = Some(end);
+        self.regulator.restart();
+        let warm = self.thermometer.cc().is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
+        match end {
+            ChargeEnd::Slope | ChargeEnd::Drop if !warm => {
+                self.charge.phase_ms = 0;
+                self.phase = ChargePhase::TopOff;
+            }
+            ChargeEnd::Slope | ChargeEnd::Drop | ChargeEnd::Plateau | ChargeEnd::Rise | ChargeEnd::Charge => {
+                self.fill()
+            }
+            ChargeEnd::Time => self.idle(LONG_REST_MS),
+            ChargeEnd::Hot | ChargeEnd::Voltage | ChargeEnd::Undocked | ChargeEnd::Stopped => {
+                self.idle(REST_MS);
+            }
+        }
+    }
+
+    fn idle(&mut self, rest_ms: u32) {
+        self.charge.finish();
+        self.rest.wait(rest_ms);
+        self.phase = ChargePhase::Idle;
+    }
+
+    /// The pack is full. One that took next to nothing was full before: it is left alone for twice as long.
+    fn fill(&mut self) {
+        let was_full = self.charge.charged_mas < self.scale.capacity_mas() / 7;
+        let longer_ms = self.rest.recharge_ms.saturating_mul(2).min(RECHARGE_MAX_MS);
+        self.rest.recharge_ms = if was_full {
+            longer_ms.max(RECHARGE_MS)
+        } else {
+            RECHARGE_MS
+        };
+        self.rest.wait(self.rest.recharge_ms);
+        self.charge.finish();
+        self.pulse = Pulse::default();
+        self.full = true;
+        self.gauge.fill();
+        self.phase = ChargePhase::Maintain;
+    }
+
+    fn maintain(&mut self, means: &Means) {
+        self.pulse.ms = self.pulse.ms.saturating_add(means.elapsed_ms);
+        let rested = !self.pulse.on && self.pulse.ms >= PULSE_REST_MS;
+        let empty = rested && means.pack_mv < self.scale.recharge_mv() && self.rest.left_ms == 0;
+        if empty || self.rest.wanted {
+            self.rest.left_ms = 0;
+            self.phase = ChargePhase::Idle;
+            return;
+        }
+        if self.history.may_maintain() {
+            self.history.note_maintained(means.elapsed_ms);
+        }
+        let drain_mas = u32::from(self.pack.drain_ma).saturating_mul(PULSE_PERIOD_MS / 1_000);
+        let given_mas = self.charge.charged_mas.saturating_sub(self.pulse.from_mas);
+        let in_window = means
+            .temperature_cc
+            .is_some_and(|cc| (COOL_CC..=WARMEST_CC).contains(&cc));
+        let over = given_mas >= drain_mas || self.pulse.ms >= PULSE_MAX_MS || !in_window;
+        if self.pulse.on && over {
+            self.pulse.on = false;
+        } else if !self.pulse.on && self.pulse.ms >= PULSE_PERIOD_MS {
+            let due = in_window && drain_mas > 0 && self.history.may_maintain();
+            self.pulse = Pulse {
+                on: due,
+                ms: 0,
+                from_mas: self.charge.charged_mas,
+            };
+        }
+    }
+}

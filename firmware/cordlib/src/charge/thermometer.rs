@@ -1,0 +1,76 @@
+//! The pack's temperature, as far as it can be believed.
+
+use crate::board::ThermistorFault;
+
+use super::meter::Means;
+
+/// What a pack in a home can have, in hundredths of a degree.
+const LEAST_CC: i32 = -2_000;
+const MOST_CC: i32 = 8_000;
+/// Most that a pack can change in a second.
+const JUMP_CC: i32 = 500;
+/// How long a jump is remembered.
+const JUMP_MS: u32 = 10_000;
+
+/// The temperature and what is wrong with it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Thermometer {
+    cc: Option<i32>,
+    second_cc: Option<i32>,
+    bad_ms: u32,
+    bad: Option<ThermistorFault>,
+    jump_ms: u32,
+}
+
+impl Thermometer {
+    /// Time passes. Without a good reading in it the temperature becomes doubtful.
+    pub(super) const fn pass(&mut self, elapsed_ms: u32) {
+        self.bad_ms = self.bad_ms.saturating_add(elapsed_ms);
+        self.jump_ms = self.jump_ms.saturating_sub(elapsed_ms);
+    }
+
+    /// A window of 100 ms is over.
+    pub(super) const fn each_tenth(&mut self, means: &Means) {
+        match means.temperature_cc {
+            Some(cc) if cc >= LEAST_CC && cc <= MOST_CC => {
+                self.cc = Some(cc);
+                if self.jump_ms == 0 {
+                    self.bad_ms = 0;
+                    self.bad = None;
+                }
+            }
+            Some(_) => self.doubt(ThermistorFault::Range),
+            None => {
+                if let Some(fault) = means.fault {
+                    self.doubt(fault);
+                }
+            }
+        }
+    }
+
+    /// A window of a second is over.
+    pub(super) fn each_second(&mut self, means: &Means) {
+        let before = core::mem::replace(&mut self.second_cc, means.temperature_cc);
+        if let (Some(before), Some(now)) = (before, means.temperature_cc)
+            && now.saturating_sub(before).saturating_abs() > JUMP_CC
+        {
+            self.jump_ms = JUMP_MS;
+            self.doubt(ThermistorFault::Jump);
+        }
+    }
+
+    const fn doubt(&mut self, fault: ThermistorFault) {
+        self.cc = None;
+        self.bad = Some(fault);
+    }
+
+    /// The newest temperature, in hundredths of a degree; `None` when there is none to be believed.
+    pub(crate) const fn cc(&self) -> Option<i32> {
+        if self.jump_ms > 0 { None } else { self.cc }
+    }
+
+    /// What has been wrong for at least `span_ms`. A converter that stands still is a frozen thermistor.
+    pub(crate) fn fault_for(&self, span_ms: u32) -> Option<ThermistorFault> {
+        (self.bad_ms >= span_ms || self.jump_ms > 0).then(|| self.bad.unwrap_or(ThermistorFault::Frozen))
+    }
+}

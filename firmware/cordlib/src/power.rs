@@ -1,0 +1,140 @@
+//! The battery in the main loop: what the charger is told, what follows from what it finds, and what the host is told.
+
+use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, Inhibit, LogLevel};
+use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
+
+use crate::board::{ChargeDrive, Charger, Parts};
+use crate::charge::{ChargeContext, ChargeOutput, Motors};
+use crate::cord::Cord;
+use crate::reflex::PackView;
+
+/// Faults after which no current may flow, whatever the charger thinks.
+const FORBIDDING: [Inhibit; 3] = [Inhibit::Clock, Inhibit::Memory, Inhibit::InternalFault];
+
+impl<P: Parts> Cord<P> {
+    /// One pass of the charger and of the rules of the battery (S16, S17).
+    pub(crate) fn power(&mut self, now: Tick) {
+        if !self.fitted.battery {
+            return;
+        }
+        let readings = self.board.charger.readings();
+        let context = self.charge_context();
+        let before = self.charger.status();
+        let mut output = self.charger.step(readings, context, now);
+        let forbidden = FORBIDDING
+            .into_iter()
+            .any(|inhibit| self.reflexes.inhibits().contains(inhibit));
+        if forbidden || !self.fitted.charger {
+            output = self.charger.cut();
+        }
+        self.switch_charger(output);
+        let view = PackView {
+            pack_mv: self.charger.pack().map(|(pack_mv, _)| pack_mv),
+            cells: i32::from(self.parameters.pack.cells),
+            supplied: self.senses.docked,
+            thermometer: *self.charger.thermometer(),
+        };
+        self.reflexes.judge_battery(&view, now);
+        self.reflexes.charger_fault = self.charger.status().fault;
+        if let Some(fault) = self.charger.status().fault
+            && before.fault != Some(fault)
+        {
+            self.journal.note(LogLevel::Error, "charger:", fault.name());
+        }
+        if let Some(end) = self.charger.status().end
+            && before.end != Some(end)
+        {
+            self.journal.note(LogLevel::Info, "charge ended by", end.name());
+        }
+    }
+
+    /// On the dock and not about to leave; no motor driven, asked for or turning.
+    fn charge_context(&self) -> ChargeContext {
+        let wheels = self.applied_wheels();
+        let driven = wheels != (Throttle::ZERO, Throttle::ZERO);
+        let idle = !driven && !self.is_in_motion();
+        let loads = &self.parameters.pack.loads;
+        let running = self.cleaning.running();
+        let parts = [
+            (true, loads.electronics_ma),
+            (wheels.0 != Throttle::ZERO, loads.wheel_ma),
+            (wheels.1 != Throttle::ZERO, loads.wheel_ma),
+            (running & 1 != 0, loads.brush_main_ma),
+            (running & 2 != 0, loads.brush_sides_ma),
+            (running & 4 != 0, loads.vacuum_ma),
+        ];
+        let load_ma = parts
+            .into_iter()
+            .filter(|(on, _)| *on)
+            .fold(0, |sum: i32, (_, ma)| sum.saturating_add(i32::from(ma)));
+        ChargeContext {
+            docked: self.reflexes.dock.inhibits(),
+            motors: if idle { Motors::Idle } else { Motors::Running },
+            load_ma,
+        }
+    }
+
+    /// The switch is off before any motor is driven, whatever the charger's own pass has decided.
+    pub(crate) fn cut_charger(&mut self) {
+        let output = self.charger.cut();
+        self.switch_charger(output);
+    }
+
+    fn switch_charger(&mut self, output: ChargeOutput) {
+        if output.drive != self.charge_output.drive {
+            self.board.charger.drive(output.drive);
+        }
+        if output.request != self.charge_output.request {
+            self.board.charger.ask_dock(output.request);
+        }
+        self.charge_output = output;
+    }
+
+    /// Tells the board again, changed or not.
+    pub(crate) fn renew_charger(&mut self) {
+        self.board.charger.drive(self.charge_output.drive);
+    }
+
+    /// What the switch of the charger was told last.
+    #[must_use]
+    pub const fn charge_drive(&self) -> ChargeDrive {
+        self.charge_output.drive
+    }
+
+    /// The battery for telemetry; `None` where it is not measured, or not at this moment.
+    pub(crate) fn battery(&self) -> Option<Battery> {
+        if !self.fitted.battery {
+            return None;
+        }
+        let (pack_mv, current_ma) = self.charger.pack()?;
+        let tenths = self
+            .charger
+            .temperature_cc()
+            .and_then(|cc| i16::try_from(cc / 10).ok());
+        Some(Battery {
+            charge: self.charger.charge_left(),
+            voltage: Voltage(pack_mv),
+            current: Current(current_ma),
+            temperature: tenths.map(Temperature),
+            state: self.charge_state(),
+            charger: self.fitted.charger.then(|| self.charger.status()),
+        })
+    }
+
+    /// The charger's state in the words of `state`.
+    pub(crate) fn charge_state(&self) -> ChargeState {
+        let docked = self.reflexes.dock.is_docked();
+        match self.charger.status().phase {
+            ChargePhase::Fault if docked => ChargeState::Fault,
+            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => ChargeState::Charging,
+            ChargePhase::Maintain => ChargeState::Full,
+            ChargePhase::Idle if docked && self.charger.is_full() => ChargeState::Full,
+            ChargePhase::Idle | ChargePhase::Fault => ChargeState::Discharging,
+        }
+    }
+
+    /// Whether current flows though the charger is off: only leaving the dock ends it.
+    pub(crate) fn is_charger_shorted(&self) -> bool {
+        self.charger.status().fault == Some(ChargeFault::Shorted)
+    }
+}

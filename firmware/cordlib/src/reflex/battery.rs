@@ -1,0 +1,133 @@
+//! S16: below 1.1 V a cell for 10 s the robot should go to its dock, below 1.0 V for 2 s brushes and suction are off, below
+//! 0.9 V for 0.5 s everything is. An empty pack recovers its voltage when the load is gone, so each of these stays until
+//! the pack is charged, or exchanged.
+//! S17: above 55 degrees motors are off until the pack has cooled, above 60 that is latched; a temperature that cannot be
+//! measured for 2 s is latched too.
+
+use rvac_protocol::message::{Inhibit, Inhibits};
+use rvac_units::Tick;
+
+use crate::charge::Thermometer;
+use crate::timing::Held;
+
+/// Averages of 100 ms: one of them may pass before a level is seen, and the limits are to hold with it.
+const AVERAGE_MS: u32 = 100;
+/// Millivolts of a cell, and how long it must be below.
+const LEVELS: [(Inhibit, i32, u32); 3] = [
+    (Inhibit::BatteryLow, 1_100, 10_000 - AVERAGE_MS),
+    (Inhibit::BatteryWeak, 1_000, 2_000 - AVERAGE_MS),
+    (Inhibit::BatteryEmpty, 900, 500 - AVERAGE_MS),
+];
+/// On the dock a level ends this far above it.
+const CHARGED_MV: i32 = 50;
+const CHARGED_MS: u32 = 10_000;
+/// Off the dock only a pack that was exchanged rests at this.
+const EXCHANGED_MV: i32 = 1_250;
+const EXCHANGED_MS: u32 = 60_000;
+/// Hundredths of a degree.
+const HOT_CC: i32 = 5_500;
+const OVERHEATED_CC: i32 = 6_000;
+const COOLED_CC: i32 = 5_000;
+const HOT_MS: u32 = 1_000 - AVERAGE_MS;
+const COOLED_MS: u32 = 10_000;
+const UNMEASURED_MS: u32 = 2_000 - AVERAGE_MS;
+
+/// What the rule looks at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PackView {
+    /// Averaged over 100 ms; `None` without fresh readings.
+    pub(crate) pack_mv: Option<i32>,
+    pub(crate) cells: i32,
+    /// The contacts carry a supply.
+    pub(crate) supplied: bool,
+    pub(crate) thermometer: Thermometer,
+}
+
+/// One threshold of the voltage.
+#[derive(Clone, Copy, Debug, Default)]
+struct Level {
+    active: bool,
+    below: Held,
+    charged: Held,
+    exchanged: Held,
+}
+
+/// The battery as the rules see it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BatteryRule {
+    levels: [Level; LEVELS.len()],
+    hot: bool,
+    hot_for: Held,
+    overheated_for: Held,
+    cooled_for: Held,
+    unmeasured: bool,
+}
+
+impl BatteryRule {
+    /// Looks at the pack; returns what is to be latched.
+    pub(crate) fn update(&mut self, view: &PackView, now: Tick) -> Inhibits {
+        if let Some(pack_mv) = view.pack_mv {
+            let cell_mv = pack_mv / view.cells.max(1);
+            for (level, (_, least_mv, span_ms)) in self.levels.iter_mut().zip(LEVELS) {
+                level.update(cell_mv, (least_mv, span_ms), view.supplied, now);
+            }
+        }
+        let cc = view.thermometer.cc();
+        let above = |limit_cc: i32| cc.is_some_and(|cc| cc > limit_cc);
+        self.hot |= self.hot_for.for_at_least(above(HOT_CC), now, HOT_MS);
+        let cooled = cc.is_some_and(|cc| cc < COOLED_CC);
+        if self.cooled_for.for_at_least(self.hot && cooled, now, COOLED_MS) {
+            self.hot = false;
+        }
+        let mut latched = Inhibits::NONE;
+        if self
+            .overheated_for
+            .for_at_least(above(OVERHEATED_CC), now, HOT_MS)
+        {
+            latched.insert(Inhibit::BatteryOverheated);
+        }
+        self.unmeasured = view.thermometer.fault_for(UNMEASURED_MS).is_some();
+        if self.unmeasured {
+            latched.insert(Inhibit::Thermistor);
+        }
+        latched
+    }
+
+    /// What stands against the robot now, besides what is latched.
+    pub(crate) fn inhibits(&self) -> Inhibits {
+        let mut inhibits = Inhibits::NONE;
+        for (level, (inhibit, ..)) in self.levels.iter().zip(LEVELS) {
+            if level.active {
+                inhibits.insert(inhibit);
+            }
+        }
+        if self.hot {
+            inhibits.insert(Inhibit::BatteryHot);
+        }
+        inhibits
+    }
+
+    /// The pack is still too hot to forgive that it was overheated.
+    pub(crate) const fn is_hot(&self) -> bool {
+        self.hot
+    }
+
+    /// The temperature still cannot be measured.
+    pub(crate) const fn is_unmeasured(&self) -> bool {
+        self.unmeasured
+    }
+}
+
+impl Level {
+    fn update(&mut self, cell_mv: i32, (least_mv, span_ms): (i32, u32), supplied: bool, now: Tick) {
+        self.active |= self.below.for_at_least(cell_mv < least_mv, now, span_ms);
+        let charged = supplied && cell_mv >= least_mv.saturating_add(CHARGED_MV);
+        let over = self.charged.for_at_least(self.active && charged, now, CHARGED_MS)
+            | self
+                .exchanged
+                .for_at_least(self.active && cell_mv >= EXCHANGED_MV, now, EXCHANGED_MS);
+        if over {
+            self.active = false;
+        }
+    }
+}
