@@ -50,6 +50,9 @@ pub struct Decoder {
     line: Option<Level>,
     /// An edge that is believed once it has stood long enough.
     pending: Option<Edge>,
+    /// When the line went back soon after the pending edge. One of the two pulses around this moment is noise; what comes
+    /// next shows which.
+    back: Option<u32>,
     phase: Phase,
 }
 
@@ -62,6 +65,7 @@ impl Decoder {
             noise: bit.counts() * NOISE_NUMERATOR / NOISE_DENOMINATOR,
             line: None,
             pending: None,
+            back: None,
             phase: Phase::Idle,
         }
     }
@@ -69,16 +73,23 @@ impl Decoder {
     /// Takes the next edge. Bytes that end before it go to `sink`: usually none or one, two after a break.
     pub fn edge(&mut self, edge: Edge, sink: &mut impl FnMut(Received)) {
         let before = *self.line.get_or_insert(edge.level.inverted());
-        let newest = self.pending.map_or(before, |pending| pending.level);
+        let newest = match (self.pending, self.back) {
+            (Some(pending), None) => pending.level,
+            _ => before,
+        };
         if edge.level == newest {
             // Two edges came so close that the interrupt saw only the level after both.
             return;
         }
-        if let Some(pending) = self.pending.take() {
-            if since(pending.at, edge.at) < self.noise {
+        match (self.pending, self.back.take()) {
+            (Some(pending), None) if since(pending.at, edge.at) < self.noise => {
+                self.back = Some(edge.at);
                 return;
             }
-            self.believe(pending, sink);
+            (Some(pending), None) => self.believe(pending, sink),
+            // The line went there, back, and there again: the shorter of the two pulses was noise.
+            (Some(pending), Some(back)) if since(back, edge.at) < since(pending.at, back) => return,
+            _ => {}
         }
         self.finish_before(edge.at, sink);
         self.pending = Some(edge);
@@ -87,11 +98,14 @@ impl Decoder {
     /// Tells the time, after every edge before `now` was given. A byte whose stop bit is half over goes to `sink`.
     pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
         if let Some(pending) = self.pending {
-            if since(pending.at, now) < self.noise {
+            let newest = self.back.unwrap_or(pending.at);
+            if since(newest, now) < self.noise {
                 return;
             }
             self.pending = None;
-            self.believe(pending, sink);
+            if self.back.take().is_none() {
+                self.believe(pending, sink);
+            }
         }
         self.finish_before(now, sink);
     }

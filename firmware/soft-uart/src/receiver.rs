@@ -5,12 +5,12 @@ use crate::decoder::{Decoder, Received};
 use crate::edge::Edge;
 use crate::meter::RateMeter;
 
-/// What a framing error adds to the doubt, and what a good byte takes away.
+/// What a framing error or a break adds to the doubt, and what a good byte takes away.
 const DOUBT_ERROR: u8 = 3;
 const DOUBT_BYTE: u8 = 1;
-/// From here on the rate is doubtful: four framing errors with few good bytes between them.
+/// From here on the rate is doubtful: four errors with hardly a good byte between them.
 const DOUBTFUL: u8 = 12;
-/// From here on another rate that was seen is taken: two framing errors with at most two good bytes between them.
+/// From here on another rate that was seen is taken: two errors with at most two good bytes between them.
 const DOUBT_SWITCH: u8 = 4;
 const DOUBT_MAX: u8 = 24;
 /// Good bytes after which another rate that was seen is forgotten.
@@ -132,8 +132,9 @@ impl Receiver {
                     *doubt = doubt.saturating_sub(DOUBT_BYTE);
                     *candidate = candidate.and_then(Candidate::after_good_byte);
                 }
-                Received::FramingError => *doubt = (*doubt + DOUBT_ERROR).min(DOUBT_MAX),
-                Received::Break | Received::Overrun => {}
+                // At a sixth of the rate or less, a low bit or two is a break.
+                Received::FramingError | Received::Break => *doubt = (*doubt + DOUBT_ERROR).min(DOUBT_MAX),
+                Received::Overrun => {}
             }
             sink(received);
         };

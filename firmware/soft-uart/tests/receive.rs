@@ -1,0 +1,202 @@
+//! Bytes from edges: every byte at every rate, inexact clocks, late interrupts, gaps, noise, broken frames.
+
+mod line;
+
+use line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
+use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
+use proptest::test_runner::Config;
+use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, Received, Receiver, Trust};
+
+const LATE: f64 = 0.25;
+const ERROR: f64 = 0.025;
+
+fn receiver(baud: Baud) -> Receiver {
+    Receiver::starting_at(baud, COUNTS_PER_S)
+}
+
+#[test]
+fn every_byte_arrives_at_every_rate_with_inexact_clocks_and_late_edges() {
+    let all: Vec<u8> = (0..=255).collect();
+    for baud in Baud::ALL {
+        for clock_error in [-ERROR, 0.0, ERROR] {
+            for late_bits in [0.0, LATE] {
+                for pause in [0.0, 0.3, 7.0] {
+                    let faults = Faults {
+                        clock_error,
+                        late_bits,
+                    };
+                    let mut line = Line::new(faults, 7);
+                    for byte in &all {
+                        line.byte(baud, *byte);
+                        line.pause_bits(baud, pause);
+                    }
+                    let heard = hear(&line, &mut receiver(baud), u32::MAX - 3_000_000);
+                    assert_eq!(heard, good(&all), "{baud:?} {faults:?} pause {pause}");
+                }
+            }
+        }
+    }
+}
+
+fn bauds() -> impl Strategy<Value = Baud> {
+    prop::sample::select(&Baud::ALL[..])
+}
+
+proptest! {
+    #![proptest_config(Config::with_cases(300))]
+
+    #[test]
+    fn random_bytes_with_random_gaps_arrive(
+        baud in bauds(),
+        bytes in prop::collection::vec((any::<u8>(), prop_oneof![Just(0.0), 0.0..40.0]), 1..60),
+        clock_error in -ERROR..ERROR,
+        late_bits in 0.0..LATE,
+        (seed, offset) in any::<(u64, u32)>(),
+    ) {
+        let mut line = Line::new(Faults { clock_error, late_bits }, seed);
+        for (byte, pause) in &bytes {
+            line.byte(baud, *byte);
+            line.pause_bits(baud, *pause);
+        }
+        let sent: Vec<u8> = bytes.iter().map(|(byte, _)| *byte).collect();
+        let mut receiver = receiver(baud);
+        assert_eq!(hear(&line, &mut receiver, offset), good(&sent));
+        assert_eq!(receiver.trust(), Trust::Locked(baud));
+    }
+
+    /// One pulse of noise in each byte, up to a fifth of a bit, wherever it falls.
+    #[test]
+    fn short_pulses_change_nothing(
+        baud in bauds(),
+        bytes in prop::collection::vec(any::<u8>(), 1..40),
+        clock_error in -0.01..0.01,
+        (seed, offset) in any::<(u64, u32)>(),
+    ) {
+        let mut line = Line::new(Faults { clock_error, late_bits: 0.0 }, seed);
+        let mut random = Random::new(seed);
+        let bit = bit_counts(baud);
+        let mut pulses = Vec::new();
+        for byte in &bytes {
+            let start = line.time;
+            line.byte(baud, *byte);
+            line.pause_bits(baud, 3.0 * random.share());
+            pulses.push((start + random.share() * (line.time - start), (0.01 + 0.19 * random.share()) * bit));
+        }
+        for (at, counts) in pulses {
+            line.noise(at, counts);
+        }
+        let mut receiver = receiver(baud);
+        assert_eq!(hear(&line, &mut receiver, offset), good(&bytes));
+        assert_eq!(receiver.rate(), Some(baud));
+    }
+}
+
+#[test]
+fn noise_on_an_idle_line_is_no_byte() {
+    let mut line = Line::new(CLEAN, 3);
+    line.pause_ms(20.0);
+    let bit = bit_counts(Baud::B115200);
+    for number in 0..50 {
+        line.noise(120_000.0 + f64::from(number) * 9_000.0, 0.35 * bit);
+    }
+    assert_eq!(line.edges.len(), 100);
+    assert_eq!(hear(&line, &mut receiver(Baud::B115200), 0), []);
+}
+
+/// The byte is there in the middle of the stop bit and not before, without any edge after it.
+#[test]
+fn a_byte_ends_by_time() {
+    for byte in [0x00, 0x55, 0x7F, 0x80, 0xFF] {
+        let mut line = Line::new(CLEAN, 1);
+        let start = line.time;
+        line.byte(Baud::B38400, byte);
+        let bit = bit_counts(Baud::B38400);
+        let mut decoder = Decoder::new(BitTime::new(Baud::B38400, COUNTS_PER_S));
+        let mut heard = Vec::new();
+        for (time, level) in &line.edges {
+            let edge = Edge {
+                at: *time as u32,
+                level: *level,
+            };
+            decoder.edge(edge, &mut |received| heard.push(received));
+        }
+        decoder.poll((start + 9.45 * bit) as u32, &mut |received| heard.push(received));
+        assert_eq!(heard, [], "{byte:#x}");
+        decoder.poll((start + 9.55 * bit) as u32, &mut |received| heard.push(received));
+        assert_eq!(heard, [Received::Byte(byte)], "{byte:#x}");
+    }
+}
+
+#[test]
+fn a_low_stop_bit_is_a_framing_error_and_the_next_byte_is_well() {
+    let mut line = Line::new(CLEAN, 1);
+    line.byte(Baud::B57600, b'a');
+    line.frame(Baud::B57600, b'b', Level::Low);
+    line.pause_bits(Baud::B57600, 2.0);
+    line.byte(Baud::B57600, b'c');
+    let heard = hear(&line, &mut receiver(Baud::B57600), 0);
+    let expected = [Received::Byte(b'a'), Received::FramingError, Received::Byte(b'c')];
+    assert_eq!(heard, expected);
+}
+
+#[test]
+fn a_break_is_told_once_however_long_it_is() {
+    for bits in [11.0, 3_000.0] {
+        let mut line = Line::new(CLEAN, 1);
+        line.byte(Baud::B57600, b'a');
+        line.hold(Level::Low, Baud::B57600, bits);
+        line.pause_bits(Baud::B57600, 1.0);
+        line.byte(Baud::B57600, b'b');
+        let heard = hear(&line, &mut receiver(Baud::B57600), 0);
+        assert_eq!(
+            heard,
+            [Received::Byte(b'a'), Received::Break, Received::Byte(b'b')]
+        );
+    }
+}
+
+/// A handler that is late sees two changes as none: the level is what it was.
+#[test]
+fn an_edge_to_the_same_level_changes_nothing() {
+    let mut line = Line::new(CLEAN, 1);
+    line.bytes(Baud::B19200, b"xyz");
+    let doubled: Vec<_> = line.edges.iter().flat_map(|edge| [*edge, *edge]).collect();
+    line.edges = doubled;
+    assert_eq!(hear(&line, &mut receiver(Baud::B19200), 0), good(b"xyz"));
+}
+
+/// A queue of 32 edges that nobody empties while five bytes come, then is emptied before the sixth.
+#[test]
+fn a_full_queue_is_an_overrun_at_its_place() {
+    let ring: EdgeRing<32> = EdgeRing::new();
+    let mut line = Line::new(CLEAN, 1);
+    line.bytes(Baud::B115200, b"UUUUU");
+    let burst_ends = line.time;
+    line.pause_ms(2.0);
+    line.byte(Baud::B115200, b'k');
+    let mut receiver = receiver(Baud::B115200);
+    let mut heard = Vec::new();
+    let mut empty = |now: f64, ring: &EdgeRing<32>| {
+        let mut sink = |received| heard.push(received);
+        while let Some(queued) = ring.pop() {
+            match queued {
+                Queued::Edge(edge) => receiver.edge(edge, &mut sink),
+                Queued::Overrun => receiver.overrun(&mut sink),
+            }
+        }
+        receiver.poll(now as u32, &mut sink);
+    };
+    for (time, level) in &line.edges {
+        if *time > burst_ends {
+            empty(*time - 100.0, &ring);
+        }
+        ring.push(Edge {
+            at: *time as u32,
+            level: *level,
+        });
+    }
+    empty(line.time + 1_000.0, &ring);
+    let mut expected = good(b"UUU");
+    expected.extend([Received::Overrun, Received::Byte(b'k')]);
+    assert_eq!(heard, expected);
+}
