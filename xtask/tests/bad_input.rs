@@ -1,4 +1,4 @@
-//! What a person can get wrong about the demo: one clear sentence each, and nothing is started or written.
+//! What a person can get wrong about the demo and the firmware: one clear sentence each, and nothing is started or written.
 
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,12 @@ impl Scratch {
     }
 
     fn demo(&self, words: &[&str]) -> Output {
+        self.xtask(&[&["demo"], words].concat())
+    }
+
+    fn xtask(&self, words: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-        command.arg("demo").args(words).env("TMPDIR", &self.0);
+        command.args(words).env("TMPDIR", &self.0);
         command.output().expect("xtask starts")
     }
 
@@ -37,7 +41,10 @@ impl Drop for Scratch {
 /// Runs the demo with `words` and expects a refusal of one sentence that holds all of `parts`.
 fn refused(name: &str, words: &[&str], parts: &[&str]) {
     let scratch = Scratch::new(name);
-    let output = scratch.demo(words);
+    is_refusal(&scratch, &scratch.demo(words), parts);
+}
+
+fn is_refusal(scratch: &Scratch, output: &Output, parts: &[&str]) {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.status.success(), "{said}");
     assert!(output.stdout.is_empty(), "nothing is printed as a result");
@@ -77,6 +84,15 @@ fn an_unknown_robot_is_answered_with_the_known_ones() {
 }
 
 #[test]
+fn a_robot_without_firmware_cannot_be_emulated() {
+    refused(
+        "emulated",
+        &["--home", &some_home(), "--robot", "relax", "--emulated"],
+        &["no firmware", "\"relax\"", "sr8730"],
+    );
+}
+
+#[test]
 fn a_port_in_use_is_named() {
     let taken = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let port = taken.local_addr().expect("an address").port().to_string();
@@ -85,6 +101,27 @@ fn a_port_in_use_is_named() {
         &["--home", &some_home(), "--port", &port],
         &[&port, "in use", "--port"],
     );
+}
+
+/// What a person can get wrong about the firmware is said before anything is built.
+#[test]
+fn what_is_wrong_with_a_wanted_firmware_is_named() {
+    let scratch = Scratch::new("firmware");
+    let table: [(&[&str], &[&str]); 3] = [
+        (&["roomba"], &["no firmware", "\"roomba\"", "sr8730"]),
+        (
+            &["sr8730", "--calibration", "/no/such.toml"],
+            &["/no/such.toml", "No such file"],
+        ),
+        (
+            &["sr8730", "--calibration", env!("CARGO_MANIFEST_PATH")],
+            &["Cargo.toml", "[values]"],
+        ),
+    ];
+    for (words, parts) in table {
+        let output = scratch.xtask(&[&["firmware"], words].concat());
+        is_refusal(&scratch, &output, parts);
+    }
 }
 
 #[test]

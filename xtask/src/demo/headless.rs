@@ -11,6 +11,7 @@ use crate::process;
 use anyhow::{Context, bail};
 use rvac_api::{Request, RequestBody, SimulatedTruth, Status, Topic, Update};
 use serde_json::{Value, json};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// How long the daemon may take to find the robot, to answer a request, or the simulator to say anything.
@@ -19,10 +20,12 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const PROGRESS_S: f64 = 60.0;
 
 /// Runs, prints the report as the last line, and fails unless the robot moved and violated nothing.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments, firmware: Option<&Path>) -> anyhow::Result<()> {
     let begun = Instant::now();
     let mut stack = Stack::new(State::create(arguments.state.as_deref())?)?;
-    let outcome = clean(arguments, &mut stack);
+    let outcome = stack
+        .start_robot(arguments, firmware)
+        .and_then(|()| clean(arguments, &mut stack));
     stack.stop();
     let mut report = outcome?;
     report.wall_seconds = begun.elapsed().as_secs_f64();
@@ -34,7 +37,6 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 fn clean(arguments: &Arguments, stack: &mut Stack) -> anyhow::Result<Report> {
-    stack.start_robot(arguments)?;
     let mut run = Run::connect(stack)?;
     run.until("the daemon finds the robot", |event| {
         found_robot(event).then_some(())

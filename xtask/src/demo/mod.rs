@@ -12,10 +12,11 @@ mod stack;
 mod state;
 mod trace;
 
+use crate::firmware::{self, build::Options};
 use crate::{panel, process, workspace};
 use stack::Stack;
 use state::State;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The home of who names none.
 const DEFAULT_HOME: &str = "homes/two-room-flat.toml";
@@ -32,7 +33,8 @@ pub(crate) struct Arguments {
     /// Seed of everything random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How many times as fast as the clock on the wall. The page is meant for 1; without a page the default is 10.
+    /// How many times as fast as the clock on the wall. The page and an emulated chip are meant for 1; otherwise the
+    /// default without a page is 10.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100))]
     speed: Option<u32>,
     /// Port of the panel on this machine.
@@ -44,6 +46,12 @@ pub(crate) struct Arguments {
     /// No browser: start cleaning at once and print one JSON object at the end.
     #[arg(long)]
     headless: bool,
+    /// The robot's real firmware in an emulated chip, instead of the same logic built for this machine.
+    #[arg(long)]
+    emulated: bool,
+    /// With --emulated: a robot on which only what stands in this file was measured.
+    #[arg(long, value_name = "FILE", requires = "emulated")]
+    calibration: Option<PathBuf>,
     /// Simulated minutes to clean, with --headless.
     #[arg(long, default_value_t = 10.0, requires = "headless")]
     minutes: f64,
@@ -51,7 +59,23 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     fn speed(&self) -> u32 {
-        self.speed.unwrap_or(if self.headless { 10 } else { 1 })
+        let usual = if self.headless && !self.emulated { 10 } else { 1 };
+        self.speed.unwrap_or(usual)
+    }
+
+    /// Builds the firmware that the emulated chip runs; `None` when there is no such chip.
+    fn firmware(&self) -> anyhow::Result<Option<PathBuf>> {
+        if !self.emulated {
+            return Ok(None);
+        }
+        let board = firmware::board(&self.robot)?;
+        let files = firmware::build(board, &Options::default(), self.calibration.as_deref())?;
+        // The HEX file is the one that has a calibration.
+        Ok(Some(if self.calibration.is_some() {
+            files.hex
+        } else {
+            files.elf
+        }))
     }
 }
 
@@ -59,23 +83,25 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     preflight::arguments(arguments)?;
     preflight::home(arguments)?;
+    let firmware = arguments.firmware()?;
     if arguments.headless {
         workspace::build(&["rvac-sim", "vthal"], workspace::Profile::Dev)?;
-        return headless::run(arguments);
+        return headless::run(arguments, firmware.as_deref());
     }
     workspace::build(&["rvac-sim", "vthal", "panel-server"], workspace::Profile::Dev)?;
     let assets = panel::build()?;
     preflight::port(arguments.port)?;
     let state = State::create(arguments.state.as_deref())?;
     let mut stack = Stack::new(state)?;
-    let outcome = serve(arguments, &assets, &mut stack);
+    let outcome = stack
+        .start_robot(arguments, firmware.as_deref())
+        .and_then(|()| serve(arguments.port, &assets, &mut stack));
     stack.stop();
     outcome
 }
 
-fn serve(arguments: &Arguments, assets: &std::path::Path, stack: &mut Stack) -> anyhow::Result<()> {
-    stack.start_robot(arguments)?;
-    let address = stack.start_panel(arguments.port, assets)?;
+fn serve(port: u16, assets: &Path, stack: &mut Stack) -> anyhow::Result<()> {
+    let address = stack.start_panel(port, assets)?;
     process::say(
         "the robot stands in its home and waits. Open this page and press Start; Ctrl-C ends it all:",
     );

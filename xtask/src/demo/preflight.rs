@@ -35,6 +35,9 @@ pub(crate) fn arguments(arguments: &Arguments) -> anyhow::Result<()> {
         );
     }
     robot(&arguments.robot)?;
+    if arguments.emulated {
+        crate::firmware::board(&arguments.robot)?;
+    }
     if arguments.headless {
         Ok(())
     } else {

@@ -45,8 +45,12 @@ impl Stack {
         })
     }
 
-    /// Starts the simulator, then the daemon on its serial link.
-    pub(crate) fn start_robot(&mut self, arguments: &Arguments) -> anyhow::Result<()> {
+    /// Starts the simulator, with this firmware in an emulated chip if there is one, then the daemon on its serial link.
+    pub(crate) fn start_robot(
+        &mut self,
+        arguments: &Arguments,
+        firmware: Option<&Path>,
+    ) -> anyhow::Result<()> {
         let speed = arguments.speed().to_string();
         let mut simulator = Command::new(program("rvac-sim", Profile::Dev));
         simulator
@@ -66,6 +70,9 @@ impl Stack {
             .arg(self.link())
             .arg("--socket")
             .arg(self.simulator_socket());
+        if let Some(firmware) = firmware {
+            simulator.arg("--firmware").arg(firmware);
+        }
         self.start("rvac-sim", &simulator)?;
 
         let mut daemon = Command::new(program("vthal", Profile::Dev));

@@ -81,11 +81,11 @@ pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
     })
 }
 
-/// Builds the firmware once and leaves both files; gives the ELF file.
-pub(crate) fn build(board: &Board, options: &Options, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
+/// Builds the firmware once and leaves both files.
+pub(crate) fn build(board: &Board, options: &Options, calibration: Option<&Path>) -> anyhow::Result<Files> {
     let record = calibration.map(|file| record_of(file, board)).transpose()?;
     let linked = link(board, &Place::here(), options)?;
-    Ok(Files::write(board, &linked, record)?.elf)
+    Files::write(board, &linked, record)
 }
 
 /// Builds the firmware in a place; gives the bytes of the ELF file, sealed.
@@ -106,9 +106,12 @@ fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
 }
 
 /// What is left for people and programmers.
-struct Files {
-    elf: PathBuf,
-    hex: PathBuf,
+#[derive(Debug)]
+pub(crate) struct Files {
+    /// With names and debug information, without a calibration.
+    pub(crate) elf: PathBuf,
+    /// What is flashed, with the calibration if there is one.
+    pub(crate) hex: PathBuf,
 }
 
 impl Files {

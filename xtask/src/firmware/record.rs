@@ -33,8 +33,10 @@ pub(super) fn load(path: &Path, robot: &str, calibration: &Calibration) -> anyho
 }
 
 fn segment(text: &str, robot: &str, calibration: &Calibration) -> anyhow::Result<Segment> {
-    let measured: Measured =
-        toml::from_str(text).context("it holds `robot = \"NAME\"` and a table [values] of whole numbers")?;
+    let measured: Measured = toml::from_str(text).map_err(|error| {
+        let what = "it holds `robot = \"NAME\"` and a table [values] of whole numbers";
+        anyhow::anyhow!("{what}: {}", error.message())
+    })?;
     if measured.robot != robot {
         bail!("it is of a robot {:?}, not {robot:?}", measured.robot);
     }
