@@ -124,6 +124,24 @@ pub fn put_record(image: &mut Image, record: &[u8]) -> Result<(), ImageError> {
     image.write(RECORD_ADDRESS, record)
 }
 
+/// Whether the image brings something along where the record belongs.
+pub(super) fn has_record(image: &Image) -> bool {
+    record_page(image).iter().any(|byte| *byte != 0xFF)
+}
+
+fn record_page(image: &Image) -> &[u8] {
+    let from = image.flash().len().saturating_sub(PAGE_BYTES);
+    image.flash().get(from..).unwrap_or_default()
+}
+
+/// Erases the page of the record.
+///
+/// # Errors
+/// Never on this part, whose flash holds the page.
+pub(super) fn erase_record(image: &mut Image) -> Result<(), ImageError> {
+    image.write(RECORD_ADDRESS, &[0xFF; PAGE_BYTES])
+}
+
 fn record(values: impl ExactSizeIterator<Item = i32>) -> Vec<u8> {
     // Checked when the file was read: the values fit into a page.
     let count = u16::try_from(values.len()).unwrap_or(u16::MAX);
@@ -165,12 +183,18 @@ pub struct Particulars {
     pub proximity: [i32; 2],
     /// Microvolts a count of both voltage dividers.
     pub battery_scale: i32,
+    /// Reading of charger-voltage less that of battery-voltage without current, hundredths of a count.
+    pub charge_zero: i32,
     /// Leading ones of the code that the dock wants to hear.
     pub dock_code_ones: u8,
     /// Codes of the dock's left, right and near beam.
     pub beams: [u8; 3],
     /// Shortest carrier burst of the beams, microseconds.
     pub beam_unit_us: u32,
+    /// Which of the chip's UARTs the gyro module is on, 1 or 2.
+    pub gyro_uart: u8,
+    /// Bits per second of the gyro module.
+    pub gyro_baud: u32,
 }
 
 impl Particulars {
@@ -199,6 +223,7 @@ impl Particulars {
             cliff_emitters_switched: value("cliff-emitter-line")? != 0,
             proximity: [value("proximity-none")?, value("proximity-touching")?],
             battery_scale: value("battery-scale")?,
+            charge_zero: value("charge-current-zero")?,
             dock_code_ones: small("dock-code-ones")?,
             beams: [
                 small("dock-beam-left")?,
@@ -206,6 +231,8 @@ impl Particulars {
                 small("dock-beam-near")?,
             ],
             beam_unit_us: value("dock-beam-short")?.unsigned_abs(),
+            gyro_uart: small("gyro-uart")?,
+            gyro_baud: value("gyro-rate")?.unsigned_abs(),
         })
     }
 }

@@ -3,14 +3,27 @@
 //! Which pin does what is read from `robots/samsung-sr8730/pinout.toml`, what nobody has measured yet from the
 //! calibration table of `robot.toml` beside it.
 
+mod beams;
 mod calibration;
+mod circuit;
+mod contacts;
+mod dock_code;
+mod encoder;
 mod error;
+mod gyro;
+mod light;
+mod motors;
 pub mod pinout;
+mod power;
+mod robot;
 pub mod serial;
 pub mod wiring;
 
 pub use calibration::{Calibration, Particulars, RECORD_ADDRESS, put_record};
+pub use contacts::{Contact, Hold};
 pub use error::BoardError;
+pub use motors::{Drive, Motor, Reaction, reaction};
+pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, Record};
 
 /// Cycles of the chip's system clock in a second.
 pub const CYCLES_PER_S: u64 = 80_000_000;

@@ -1,7 +1,7 @@
 //! Which pin ends in which part of the robot.
 
 use super::BoardError;
-use super::pinout::{Active, Pinout};
+use super::pinout::{Active, Pinout, Pull};
 use crate::pins::{Level, Output, Pin};
 
 /// A digital line: its pin, and the level that means "on".
@@ -119,6 +119,10 @@ pub struct Wiring {
     pub link_transmit: Line,
     /// Power of the gyro module.
     pub gyro_power: Line,
+    /// Inputs of the two hardware UARTs.
+    pub uart_receive: [Pin; 2],
+    /// Pins that a resistor holds at the supply.
+    pub pulled_up: Vec<Pin>,
 }
 
 fn analog(pinout: &Pinout, name: &'static str) -> Result<u8, BoardError> {
@@ -127,6 +131,19 @@ fn analog(pinout: &Pinout, name: &'static str) -> Result<u8, BoardError> {
         .pin
         .analog()
         .ok_or(BoardError::NotAnalog(name))
+}
+
+fn cliffs(pinout: &Pinout) -> Result<[u8; 3], BoardError> {
+    Ok([
+        analog(pinout, "cliff-left")?,
+        analog(pinout, "cliff-middle")?,
+        analog(pinout, "cliff-right")?,
+    ])
+}
+
+fn pulled_up(pinout: &Pinout) -> Vec<Pin> {
+    let by_board = pinout.signals().filter(|signal| signal.pull == Pull::BoardUp);
+    by_board.map(|signal| signal.pin).collect()
 }
 
 fn lines<const N: usize>(pinout: &Pinout, names: [&'static str; N]) -> Result<[Line; N], BoardError> {
@@ -185,11 +202,7 @@ impl Wiring {
             dust_box: line("dust-box")?,
             button_any: line("button-any")?,
             button_ladder: analog(pinout, "button-ladder")?,
-            cliffs: [
-                analog(pinout, "cliff-left")?,
-                analog(pinout, "cliff-middle")?,
-                analog(pinout, "cliff-right")?,
-            ],
+            cliffs: cliffs(pinout)?,
             cliff_emitters: line("light-supply-unknown")?,
             sensor_select: lines(
                 pinout,
@@ -235,6 +248,11 @@ impl Wiring {
             link_receive: line("link-receive")?,
             link_transmit: line("link-transmit")?,
             gyro_power: line("gyro-power")?,
+            pulled_up: pulled_up(pinout),
+            uart_receive: [
+                pinout.signal("uart1-receive")?.pin,
+                pinout.signal("uart2-receive")?.pin,
+            ],
         })
     }
 }
@@ -249,8 +267,9 @@ pub fn selected(lines: &[Line; 3], output: impl Fn(Pin) -> Output) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Line, Pinout, Wiring, selected};
+    use super::{Line, Wiring, selected};
     use crate::board::BoardError;
+    use crate::board::pinout::Pinout;
     use crate::pins::{Level, Output};
 
     #[test]

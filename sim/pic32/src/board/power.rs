@@ -1,0 +1,220 @@
+//! The charging circuit and the pack's thermistor, as the converter sees them.
+//!
+//! Drawn in the original's source: adapter, a P-channel MOSFET that CHARGING_ENABLE closes through an NPN, a shunt of 0.3 ohm,
+//! the pack. No inductor and no limiter. What was measured on the maker's firmware fits this picture: pulses of 94 µs
+//! (1.5 % at 160 Hz) gave about 250 mA on average, so about 16 A flow while the switch is closed; pulses of 1.7 µs (3.33 %
+//! at 20 kHz) would give half an ampere then, but 1 A was reached, so the switch opens about 1.7 µs late: its gate is
+//! pulled up by a resistor only.
+
+use super::CYCLES_PER_S;
+use super::calibration::Particulars;
+
+/// Shunt, ohm.
+const SHUNT_OHM: f64 = 0.3;
+/// Everything in the way of the current: shunt, switch, wires, adapter. From the 16 A above.
+const SERIES_OHM: f64 = 0.5;
+/// Voltage of the supply without load. Not recorded; a NiMH pack of twelve cells needs more than 20 V.
+const SUPPLY_V: f64 = 24.0;
+/// What the supply gives for long.
+const SUPPLY_A: f64 = 1.5;
+/// What its capacitors give at once, coulomb: 1000 µF that may sag by 5 V.
+const RESERVOIR_C: f64 = 0.005;
+/// How late the switch opens, cycles.
+const OPENS_LATE: f64 = 136.0;
+/// Period of the charger's PWM, cycles: at most one pulse a slice.
+pub(super) const SLICE: u64 = 4_000;
+/// Time constant of the filters at the two converter inputs, seconds. Not recorded; the original measured in the quiet
+/// part of the envelope, so it is well below a millisecond, and the mean of pulses of 20 kHz can be seen, so it is above 50 µs.
+const FILTER_S: f64 = 0.000_2;
+
+/// Current of the charging circuit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ChargeCurrent {
+    /// As the filters show it, ampere.
+    filtered_a: f64,
+    /// Left in the supply's capacitors, coulomb.
+    reservoir_c: f64,
+    /// Sum over the slices of the present millisecond, ampere times cycles.
+    sum: f64,
+    cycles: u64,
+}
+
+/// What is on the contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Supply {
+    /// Nothing.
+    Absent,
+    /// A dock that was not asked for current, or an adapter: gives at most this, ampere.
+    Limited(f64),
+    /// A dock that was.
+    Full,
+}
+
+impl Supply {
+    fn limit_a(self) -> f64 {
+        match self {
+            Self::Absent => 0.0,
+            Self::Limited(limit_a) => limit_a,
+            Self::Full => SUPPLY_A,
+        }
+    }
+}
+
+impl ChargeCurrent {
+    /// The switch was told to be closed for `closed` cycles of the last `cycles`, in pulses that begin at most once a
+    /// [`SLICE`].
+    pub(super) fn pass(&mut self, (closed, cycles): (u64, u64), supply: Supply, pack_v: f64) {
+        let pulses = if closed == 0 {
+            0.0
+        } else {
+            (cycles as f64 / SLICE as f64).max(1.0)
+        };
+        let share = ((closed as f64 + pulses * OPENS_LATE) / cycles as f64).min(1.0);
+        let driven_a = ((SUPPLY_V - pack_v) / SERIES_OHM).max(0.0);
+        let passed_s = cycles as f64 / CYCLES_PER_S as f64;
+        let current_a = self.supplied_a(share * driven_a, supply, passed_s);
+        let follows = 1.0 - (-passed_s / FILTER_S).exp();
+        self.filtered_a += (current_a - self.filtered_a) * follows;
+        self.sum += current_a * cycles as f64;
+        self.cycles += cycles;
+    }
+
+    /// What the supply can give of this current for so long.
+    fn supplied_a(&mut self, wanted_a: f64, supply: Supply, passed_s: f64) -> f64 {
+        let there_c = self.reservoir_c + supply.limit_a() * passed_s;
+        let given_c = there_c.min(wanted_a * passed_s);
+        self.reservoir_c = (there_c - given_c).min(match supply {
+            Supply::Full => RESERVOIR_C,
+            Supply::Absent | Supply::Limited(_) => 0.0,
+        });
+        given_c / passed_s
+    }
+
+    /// Mean current since the last call, ampere.
+    pub(super) fn take_mean_a(&mut self) -> f64 {
+        let mean_a = if self.cycles == 0 {
+            0.0
+        } else {
+            self.sum / self.cycles as f64
+        };
+        (self.sum, self.cycles) = (0.0, 0);
+        mean_a
+    }
+
+    /// Drop over the shunt as the converter sees it, volts.
+    pub(super) fn shunt_v(&self) -> f64 {
+        self.filtered_a * SHUNT_OHM
+    }
+
+    /// Whether the filters still have to follow.
+    pub(super) fn is_flowing(&self) -> bool {
+        self.filtered_a > 1e-4
+    }
+}
+
+/// Reading of a divider at this voltage.
+pub(super) fn divider_counts(volts: f64, particulars: &Particulars) -> f64 {
+    volts * 1e6 / f64::from(particulars.battery_scale.max(1))
+}
+
+/// Resistance of the thermistor, kilo-ohm, from which the original's formula makes this temperature. Below 5 degrees, where
+/// the formula has its pole, it goes on rising as such thermistors do, 6 % a degree.
+fn thermistor_kohm(celsius: f64) -> f64 {
+    const LOWEST: f64 = 5.0;
+    let formula = |celsius: f64| {
+        (42.429_470_166_511_1 / (celsius + 0.966_249_433_923_487) - 0.307_073_187_406_113)
+            / 0.129_333_893_760_934
+    };
+    if celsius >= LOWEST {
+        formula(celsius).max(0.05)
+    } else {
+        formula(LOWEST) * (0.06 * (LOWEST - celsius)).exp()
+    }
+}
+
+/// Reading of the thermistor: parallel to 10 kilo-ohm, with 1.5 kilo-ohm to the supply.
+pub(super) fn thermistor_counts(celsius: f64) -> f64 {
+    let sensor = thermistor_kohm(celsius);
+    let lower = sensor * 10.0 / (sensor + 10.0);
+    1024.0 * lower / (1.5 + lower)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ChargeCurrent, SLICE, Supply, thermistor_counts};
+
+    /// Mean current of an envelope of 20 ms with so many periods of 133 counts.
+    fn envelope_a(pulses: u64, supply: Supply) -> f64 {
+        let mut current = ChargeCurrent::default();
+        for period in 0..400 {
+            let closed = if period < pulses { 133 } else { 0 };
+            current.pass((closed, SLICE), supply, 16.0);
+        }
+        current.take_mean_a()
+    }
+
+    #[test]
+    fn the_maker_s_duties_give_the_maker_s_currents() {
+        let mut current = ChargeCurrent::default();
+        // 160 Hz at 1.5 %: the first two of 125 slices hold a pulse of 7,500 cycles.
+        for slice in 0..1_250 {
+            let closed = [SLICE, 3_500].get(slice % 125).copied().unwrap_or(0);
+            current.pass((closed, SLICE), Supply::Full, 16.0);
+        }
+        let slow_a = current.take_mean_a();
+        assert!((0.22..0.28).contains(&slow_a), "{slow_a}");
+        let full_a = envelope_a(380, Supply::Full);
+        assert!((0.9..1.15).contains(&full_a), "{full_a}");
+        let half_a = envelope_a(190, Supply::Full);
+        assert!((half_a * 2.0 - full_a).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_dock_that_was_not_asked_gives_little_and_no_dock_nothing() {
+        assert!(envelope_a(380, Supply::Limited(0.02)) <= 0.02);
+        assert_eq!(envelope_a(380, Supply::Absent), 0.0);
+    }
+
+    #[test]
+    fn the_quiet_part_of_an_envelope_shows_the_pack_alone() {
+        let mut current = ChargeCurrent::default();
+        for _ in 0..380 {
+            current.pass((133, SLICE), Supply::Full, 16.0);
+        }
+        assert!((0.25..0.36).contains(&current.shunt_v()), "{}", current.shunt_v());
+        for _ in 0..20 {
+            current.pass((0, SLICE), Supply::Full, 16.0);
+        }
+        assert!(current.shunt_v() < 0.005);
+    }
+
+    #[test]
+    fn a_switch_that_is_stuck_gives_what_the_supply_can() {
+        let mut current = ChargeCurrent::default();
+        for _ in 0..100 {
+            current.pass((80_000, 80_000), Supply::Full, 16.0);
+        }
+        let mean_a = current.take_mean_a();
+        assert!((1.49..1.55).contains(&mean_a), "{mean_a}");
+    }
+
+    #[test]
+    fn readings_of_the_thermistor_follow_the_table() {
+        let table = [
+            (5, 869),
+            (10, 850),
+            (20, 811),
+            (25, 790),
+            (35, 746),
+            (45, 699),
+            (55, 648),
+            (60, 621),
+        ];
+        for (celsius, counts) in table {
+            let reading = thermistor_counts(f64::from(celsius));
+            assert!((reading - f64::from(counts)).abs() < 1.6, "{celsius}: {reading}");
+        }
+        assert!(thermistor_counts(-30.0) < 890.0, "a cold pack is no broken wire");
+        assert!(thermistor_counts(0.0) > thermistor_counts(5.0));
+    }
+}

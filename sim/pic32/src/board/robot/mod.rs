@@ -1,0 +1,362 @@
+//! The robot: chip, board and home together.
+
+mod handles;
+mod settings;
+
+pub use settings::{Blueprint, BlueprintError, EmulatedSettings, Record};
+
+use home::{Actuation, Digest, RobotModel, World};
+use monitor::{Bridges, Drives, Monitor, Pins};
+use rvac_channel::ReceivedByte;
+
+use crate::board::CYCLES_PER_MS;
+use crate::board::beams::Beams;
+use crate::board::circuit::Circuit;
+use crate::board::contacts::{Contact, Contacts};
+use crate::board::dock_code::DockEar;
+use crate::board::encoder::{BrushEncoder, Edge, Encoder, Position};
+use crate::board::gyro::GyroModule;
+use crate::board::light::{Lights, Sound};
+use crate::board::motors::{Motor, Motors};
+use crate::board::power::{SLICE, Supply};
+use crate::board::serial::{HostPort, Receiver, Sender};
+use crate::board::wiring::{Wiring, selected};
+use crate::machine::Machine;
+use crate::pins::Level;
+
+/// Channel of the transmit multiplexer whose emitter the dock sees.
+const FRONT: u8 = 3;
+/// A lit cliff receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
+const NO_FLOOR_LEVEL: u8 = 20;
+/// Time after a change of the emitters in which cliff levels mean nothing.
+const CLIFF_SETTLE_MS: u32 = 3;
+/// The charger's envelope: its mean over less says nothing.
+const ENVELOPE_MS: u64 = 20;
+/// Milliseconds between two poses in the digest.
+const DIGEST_MS: u64 = 100;
+
+/// The emulated chip on its board in a simulated home, with a serial line of edges and the safety monitor. One tick is
+/// 1 ms of the home and 80,000 cycles of the chip.
+#[derive(Clone, Debug)]
+pub struct EmulatedRobot {
+    machine: Machine,
+    wiring: Wiring,
+    model: RobotModel,
+    world: World,
+    circuit: Circuit,
+    contacts: Contacts,
+    encoders: [Encoder; 2],
+    brush: BrushEncoder,
+    beams: Beams,
+    gyro: GyroModule,
+    motors: Motors,
+    ear: DockEar,
+    emitter_selected: bool,
+    lights: Lights,
+    sound: Sound,
+    to_robot: Sender,
+    robot_hears: Receiver,
+    to_host: HostPort,
+    monitor: Monitor,
+    digest: Digest,
+    actuation: Actuation,
+    edges: Vec<Edge>,
+    line_edges: Vec<(u64, Level)>,
+    charge_cycles: u64,
+    now_ms: u64,
+    resets: u32,
+    cliff_settled_ms: u32,
+    cliff_seen: bool,
+}
+
+impl EmulatedRobot {
+    /// Switches the robot on where `world` has put it.
+    #[must_use]
+    pub fn new(blueprint: &Blueprint, world: World, settings: &EmulatedSettings) -> Self {
+        let wiring = &blueprint.wiring;
+        let particulars = &blueprint.particulars;
+        let seed = settings.seed;
+        let encoder =
+            |side: usize| Encoder::new(wiring.wheels[side].encoder, particulars.encoder_swapped[side]);
+        let mut robot = Self {
+            machine: Machine::new(&blueprint.image),
+            model: world.model().clone(),
+            circuit: Circuit::new(wiring.clone(), *particulars, seed),
+            contacts: Contacts::new(wiring, settings.bounce_us, seed),
+            encoders: [encoder(0), encoder(1)],
+            brush: BrushEncoder::new(wiring.brush_encoder, particulars.brush_pulses_per_s),
+            beams: Beams::new(wiring.beam_receivers, particulars.beams, particulars.beam_unit_us),
+            gyro: GyroModule::new(wiring, particulars, seed),
+            motors: Motors::new(wiring, settings.bridges == Bridges::DeafToBrake),
+            ear: DockEar::new(particulars.dock_code_ones),
+            emitter_selected: false,
+            lights: Lights::new(wiring),
+            sound: Sound::new(wiring),
+            to_robot: Sender::new(settings.rate, seed),
+            robot_hears: Receiver::new(settings.rate.bit_cycles()),
+            to_host: HostPort::new(settings.rate, seed.wrapping_add(1)),
+            monitor: Monitor::new(),
+            digest: Digest::default(),
+            actuation: Actuation {
+                charge_a: Some(0.0),
+                ..Actuation::default()
+            },
+            edges: Vec::new(),
+            line_edges: Vec::new(),
+            charge_cycles: 0,
+            now_ms: 0,
+            resets: 0,
+            cliff_settled_ms: 0,
+            cliff_seen: false,
+            wiring: wiring.clone(),
+            world,
+        };
+        robot.connect();
+        robot
+    }
+
+    /// Puts every line at the level it has at rest, and looks at those that must be seen to the cycle.
+    fn connect(&mut self) {
+        let now = self.machine.cycle();
+        let mut edges = self.contacts.levels(now).to_vec();
+        edges.extend(self.encoders.iter().flat_map(|encoder| encoder.levels(now)));
+        edges.extend(self.beams.levels(now));
+        edges.push(self.brush.level(now));
+        for (_, pin, level) in edges {
+            self.machine.set_input(pin, level);
+        }
+        let idle_lines = self.wiring.uart_receive.into_iter();
+        for pin in idle_lines.chain([self.wiring.link_receive.pin]) {
+            self.machine.set_input(pin, Level::High);
+        }
+        let emitter = self.wiring.sensor_select.map(|line| line.pin);
+        for pin in emitter
+            .into_iter()
+            .chain([self.wiring.emit.pin, self.wiring.link_transmit.pin])
+        {
+            self.machine.watch(pin);
+        }
+        // The host's UART holds its input high while nobody drives it.
+        let host_input = [self.wiring.link_transmit.pin];
+        for pin in self.wiring.pulled_up.iter().chain(&host_input) {
+            self.machine.pull_up(*pin);
+        }
+        self.lights.watch(&mut self.machine);
+        self.sound.watch(&mut self.machine);
+    }
+
+    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the chip
+    /// did. What reaches the host's receiver is appended to `to_host`.
+    pub fn tick(&mut self, to_host: &mut Vec<u8>) {
+        let from = self.now_ms * CYCLES_PER_MS;
+        self.now_ms += 1;
+        let end = self.now_ms * CYCLES_PER_MS;
+        self.world.step(&self.actuation);
+        self.circuit.sensors = *self.world.sensors();
+        self.drive_inputs(from);
+        self.send_to_robot(from);
+        let pins = self.pins();
+        self.run(from, end);
+        self.look_at_emitter(end);
+        self.lights.take(&mut self.machine, end);
+        self.sound.take(&mut self.machine);
+        self.motors.take(&mut self.machine, end);
+        self.hear_robot(end, to_host);
+        self.actuate(end);
+        self.notice_resets();
+        let drives = self.driven();
+        self.monitor.judge(self.now_ms, &pins, &drives);
+        if self.now_ms.is_multiple_of(DIGEST_MS) {
+            let pose = self.world.truth().pose;
+            for part in [pose.x_m, pose.y_m, pose.heading_rad] {
+                self.digest.word(part.to_bits());
+            }
+        }
+    }
+
+    /// The home moves wheels and switches.
+    fn drive_inputs(&mut self, from: u64) {
+        let sensors = &self.circuit.sensors;
+        self.edges.clear();
+        self.contacts.pass_ms(from, sensors, &mut self.edges);
+        let shown = [sensors.count_left, sensors.count_right];
+        let exact = self.world.encoder_positions();
+        for side in 0..2 {
+            let position = Position {
+                exact: exact[side],
+                shown: shown[side],
+            };
+            self.encoders[side].turn(position, from, &mut self.edges);
+        }
+        self.brush.turn(self.actuation.brush_main, from, &mut self.edges);
+        self.beams.pass_ms(from, sensors.dock_receivers, &mut self.edges);
+        for (cycle, pin, level) in self.edges.drain(..) {
+            self.machine.schedule_input(cycle, pin, level);
+        }
+        self.gyro.pass_ms(from, sensors.gyro, &mut self.machine);
+    }
+
+    fn send_to_robot(&mut self, from: u64) {
+        self.line_edges.clear();
+        self.to_robot.pass_ms(from, &mut self.line_edges);
+        let mut arrivals = Vec::new();
+        let pin = self.wiring.link_receive.pin;
+        for (cycle, level) in &self.line_edges {
+            self.machine.schedule_input(*cycle, pin, *level);
+            self.robot_hears.edge(*cycle, *level, &mut arrivals);
+        }
+        self.robot_hears.advance(from + CYCLES_PER_MS, &mut arrivals);
+        for (_, received) in arrivals {
+            let byte = match received {
+                ReceivedByte::Byte(byte) => Some(byte),
+                ReceivedByte::FramingError | ReceivedByte::Overrun => None,
+            };
+            self.monitor.heard(self.now_ms, byte);
+            self.digest.byte(byte.unwrap_or_default());
+        }
+    }
+
+    /// Runs the chip. While the charger's switch is pulsed the circuit is looked at in every period of the PWM.
+    fn run(&mut self, from: u64, end: u64) {
+        let pulsed = self.machine.high_cycles(self.wiring.charge.pin) != self.charge_cycles;
+        let step = if pulsed || self.circuit.charge.is_flowing() {
+            SLICE
+        } else {
+            end - from
+        };
+        let mut at = from;
+        while at < end {
+            at = (at + step).min(end);
+            self.machine.run_until(at, &mut self.circuit);
+            self.charge(step);
+        }
+    }
+
+    fn charge(&mut self, cycles: u64) {
+        let total = self.machine.high_cycles(self.wiring.charge.pin);
+        let closed = total - self.charge_cycles;
+        self.charge_cycles = total;
+        let supply = self.supply();
+        if closed != 0 || self.circuit.charge.is_flowing() || supply == Supply::Full {
+            let pack_v = f64::from(self.circuit.sensors.battery_voltage.0) / 1000.0;
+            self.circuit.charge.pass((closed, cycles), supply, pack_v);
+        }
+    }
+
+    fn supply(&self) -> Supply {
+        if !self.contacts.is_on(Contact::Adapter) {
+            Supply::Absent
+        } else if self.ear.is_content(self.machine.cycle()) {
+            Supply::Full
+        } else {
+            Supply::Limited(self.model.battery.trickle_a)
+        }
+    }
+
+    /// Feeds the dock's ear with what the front emitter does.
+    fn look_at_emitter(&mut self, end: u64) {
+        let emit = self.wiring.emit;
+        let mut light = self.machine.take_edges(emit.pin).into_iter().peekable();
+        let mut selects: Vec<(u64, usize, Level)> = Vec::new();
+        for (bit, line) in self.wiring.sensor_select.iter().enumerate() {
+            let edges = self.machine.take_edges(line.pin).into_iter();
+            selects.extend(edges.map(|(cycle, level)| (cycle, bit, level)));
+        }
+        selects.sort_unstable_by_key(|(cycle, ..)| *cycle);
+        for (cycle, _, _) in &selects {
+            while let Some((at, level)) = light.next_if(|(at, _)| at < cycle) {
+                self.show_dock(at, level);
+            }
+            // The lines settle one after the other; which channel it is matters only once they have.
+            self.emitter_selected = false;
+        }
+        if !selects.is_empty() {
+            let machine = &self.machine;
+            let channel = selected(&self.wiring.sensor_select, |pin| machine.output(pin));
+            self.emitter_selected = channel == FRONT;
+        }
+        for (at, level) in light {
+            self.show_dock(at, level);
+        }
+        self.ear.advance(end);
+    }
+
+    fn show_dock(&mut self, cycle: u64, level: Level) {
+        if self.emitter_selected && self.contacts.is_on(Contact::Adapter) {
+            let lit = level == self.wiring.emit.active;
+            self.ear.edge(cycle, Level::of(lit));
+        }
+    }
+
+    fn hear_robot(&mut self, end: u64, to_host: &mut Vec<u8>) {
+        let edges = self.machine.take_edges(self.wiring.link_transmit.pin);
+        for (_, received) in self.to_host.take(&edges, end) {
+            if let ReceivedByte::Byte(byte) = received {
+                self.monitor.said(self.now_ms, *byte);
+                self.digest.byte(*byte);
+            }
+        }
+        self.to_host.give_out(end, to_host);
+    }
+
+    /// What the outputs do to the home in the next millisecond.
+    fn actuate(&mut self, end: u64) {
+        let machine = &self.machine;
+        let emitters = self.wiring.cliff_emitters;
+        self.actuation = Actuation {
+            wheel_left: self.motors.bridge(Motor::WheelLeft, machine),
+            wheel_right: self.motors.bridge(Motor::WheelRight, machine),
+            brush_main: self.motors.duty(Motor::BrushMain, machine),
+            brush_sides: self.motors.duty(Motor::BrushSides, machine) != 0.0,
+            vacuum: self.motors.duty(Motor::Vacuum, machine) != 0.0,
+            // The circuit knows whether they are lit at the moment of a sample; the home tells both levels.
+            cliff_emitter: true,
+            dock_signal: self.ear.is_content(end),
+            charge_a: self.actuation.charge_a,
+        };
+        if self.now_ms.is_multiple_of(ENVELOPE_MS) {
+            self.actuation.charge_a = Some(self.circuit.charge.take_mean_a());
+        }
+        if self.circuit.emitters_lit(machine.output(emitters.pin)) {
+            self.cliff_settled_ms = self.cliff_settled_ms.saturating_add(1);
+        } else {
+            self.cliff_settled_ms = 0;
+        }
+    }
+
+    /// What stood at the pins at the beginning of the millisecond, for the judge.
+    fn pins(&mut self) -> Pins {
+        let sensors = &self.circuit.sensors;
+        if self.cliff_settled_ms > CLIFF_SETTLE_MS {
+            let levels = &sensors.cliff_levels[..self.wiring.cliffs.len()];
+            self.cliff_seen = levels.iter().any(|level| *level < NO_FLOOR_LEVEL);
+        }
+        let on = |contact| self.contacts.was_on(contact);
+        Pins {
+            bumper: on(Contact::BumperLeft) || on(Contact::BumperRight),
+            cliff: self.cliff_seen,
+            wheel_drop: on(Contact::WheelDropLeft) || on(Contact::WheelDropRight),
+            docked: on(Contact::Adapter),
+            button: on(Contact::AnyButton),
+            counts: [sensors.count_left, sensors.count_right],
+            fallen: self.world.truth().fallen,
+        }
+    }
+
+    /// A chip that restarted forgets; the judge must know.
+    fn notice_resets(&mut self) {
+        for source in self.machine.take_resets() {
+            self.resets += 1;
+            self.motors.reset();
+            self.monitor.reset(self.now_ms, handles::cause_of(source));
+        }
+    }
+
+    fn driven(&self) -> Drives {
+        let millionths = |motor| (self.motors.duty(motor, &self.machine) * 1e6) as i32;
+        Drives {
+            wheels: [Motor::WheelLeft, Motor::WheelRight].map(millionths),
+            cleaners: [Motor::BrushMain, Motor::BrushSides, Motor::Vacuum].map(millionths),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! How an emulated robot is made.
+
+use monitor::Bridges;
+
+use crate::board::BoardError;
+use crate::board::calibration::{Calibration, Particulars, erase_record, has_record, put_record};
+use crate::board::pinout::Pinout;
+use crate::board::serial::Rate;
+use crate::board::wiring::Wiring;
+use crate::image::{Image, ImageError};
+
+/// Which calibration record the robot's flash holds.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Record {
+    /// What the image brings along; if it brings nothing, everything was measured.
+    #[default]
+    Complete,
+    /// Everything was measured except these values.
+    Without(Vec<String>),
+    /// Nothing: the page is erased.
+    Absent,
+}
+
+/// How an emulated robot is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmulatedSettings {
+    /// Speed of the host's UART.
+    pub rate: Rate,
+    /// Seed of the line's damage, of the converter's noise and of bounces.
+    pub seed: u64,
+    /// Contacts bounce for up to so many microseconds after a change; 0 = not at all.
+    pub bounce_us: u32,
+    /// What the wheel bridges are like.
+    pub bridges: Bridges,
+}
+
+impl Default for EmulatedSettings {
+    fn default() -> Self {
+        Self {
+            rate: Rate::exact(230_400),
+            seed: 1,
+            bounce_us: 0,
+            bridges: Bridges::Sound,
+        }
+    }
+}
+
+/// Why there is no robot.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BlueprintError {
+    /// The board's description is wrong.
+    #[error(transparent)]
+    Board(#[from] BoardError),
+    /// The calibration record does not fit into the image.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+}
+
+/// Everything of a robot that does not change from run to run: its program, its calibration, its board. Read once, for any
+/// number of robots.
+#[derive(Clone, Debug)]
+pub struct Blueprint {
+    pub(super) image: Image,
+    pub(super) wiring: Wiring,
+    pub(super) particulars: Particulars,
+}
+
+impl Blueprint {
+    /// The SR8730's board with this program and record.
+    ///
+    /// # Errors
+    /// When the project's own description of the board is wrong.
+    pub fn sr8730(mut image: Image, record: &Record) -> Result<Self, BlueprintError> {
+        let calibration = Calibration::sr8730()?;
+        match record {
+            Record::Complete if has_record(&image) => {}
+            Record::Complete => put_record(&mut image, &calibration.record())?,
+            Record::Without(unknown) => {
+                let unknown: Vec<&str> = unknown.iter().map(String::as_str).collect();
+                put_record(&mut image, &calibration.record_without(&unknown))?;
+            }
+            Record::Absent => erase_record(&mut image)?,
+        }
+        Ok(Self {
+            image,
+            wiring: Wiring::of(&Pinout::sr8730()?)?,
+            particulars: Particulars::of(&calibration)?,
+        })
+    }
+}
