@@ -16,3 +16,4 @@ pub mod machine;
 pub mod memory;
 pub mod peripheral;
 pub mod pins;
+pub mod trace;

@@ -19,7 +19,7 @@ pub use accounting::{Accounting, VectorAccount};
 pub use surroundings::{Grounded, Outputs, Surroundings};
 pub use wires::{LineRate, Uart};
 
-use crate::cpu::{CoreReset, Cpu, Exception, Exit};
+use crate::cpu::{Access, CoreReset, Cpu, Exception, Exit, Width};
 use crate::image::Image;
 use crate::memory::{BOOT_START, FLASH_START, Memory};
 pub use crate::peripheral::ResetSource;
@@ -373,6 +373,26 @@ impl Machine {
     /// motion; nothing for addresses that the reference does not name.
     pub fn peek_register(&mut self, address: u32) -> Option<u32> {
         self.chip.peek_address(address & 0x1FFF_FFFF, self.cycle)
+    }
+
+    /// Reads a special function register as the program would, with what that sets in motion. Physical address or KSEG1
+    /// alias.
+    pub fn read_register(&mut self, address: u32) -> u32 {
+        self.chip.load(self.access_from_outside(address))
+    }
+
+    /// Writes a special function register as the program would: a debugger does. Physical address or KSEG1 alias.
+    pub fn write_register(&mut self, address: u32, value: u32) {
+        self.chip.store(self.access_from_outside(address), value);
+    }
+
+    fn access_from_outside(&self, address: u32) -> Access {
+        Access {
+            address: address & 0x1FFF_FFFC,
+            width: Width::Word,
+            cycle: self.cycle,
+            pc: self.cpu.pc(),
+        }
     }
 
     /// Registers that the program used and the reference does not name, each once.

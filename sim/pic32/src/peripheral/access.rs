@@ -135,7 +135,7 @@ impl Chip {
     fn write(&mut self, register: Register, value: u32, cycle: u64) {
         let Register { block, word, offset } = register;
         match block {
-            Block::Port(port) => self.write_port(port, word, value, cycle),
+            Block::Port(port) => self.write_port((port, word), value, cycle),
             Block::Interrupts => self.write_interrupts(word, value, cycle),
             Block::Watchdog => {
                 self.watchdog.write(value, cycle);
@@ -171,13 +171,13 @@ impl Chip {
         }
     }
 
-    fn write_port(&mut self, port: Port, word: u8, value: u32, cycle: u64) {
+    fn write_port(&mut self, (port, word): (Port, u8), value: u32, cycle: u64) {
         let field = match word {
             0 => Field::Tris,
             PORT | LAT => Field::Lat,
             _ => Field::OpenDrain,
         };
-        let changes = self.ports.set_field(port, field, low_half(value), cycle);
+        let changes = self.ports.set_field((port, field), low_half(value), cycle);
         self.port_changed(port, changes, cycle);
     }
 
@@ -200,7 +200,7 @@ impl Chip {
         self.advance_timers(cycle);
         let before = self.running_counters();
         let now = self.now(cycle);
-        if self.timers.write(number, word, value, now) == Written::PrescalerWhileOn {
+        if self.timers.write((number, word), value, now) == Written::PrescalerWhileOn {
             self.record.misuse(Misuse::PrescalerWhileOn(number + 1));
         }
         self.begin_pulses(before, cycle);
@@ -208,7 +208,7 @@ impl Chip {
     }
 
     fn write_analog(&mut self, word: u8, value: u32, cycle: u64) {
-        self.analog.write(word, value, cycle, self.clock.peripheral);
+        self.analog.write(word, value, self.now(cycle));
         if word == 6 {
             self.settle_analog_pins(cycle);
         }

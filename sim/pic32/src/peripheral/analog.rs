@@ -1,6 +1,6 @@
 //! The 10-bit converter: sampling, converting, scanning, alternating and its buffer.
 
-use super::rate::{NEVER, Rate};
+use super::rate::{NEVER, Now, Rate};
 
 const ON: u32 = 1 << 15;
 const STOP_AFTER_SEQUENCE: u32 = 1 << 4;
@@ -149,9 +149,9 @@ impl Analog {
         })
     }
 
-    pub(crate) fn write(&mut self, word: u8, value: u32, cycle: u64, peripheral: Rate) {
+    pub(crate) fn write(&mut self, word: u8, value: u32, now: Now) {
         match word {
-            0 => self.write_control(value & 0xE7F7, cycle, peripheral),
+            0 => self.write_control(value & 0xE7F7, now),
             1 => {
                 self.control[1] = value & 0xF43F;
                 self.upper_half &= value & HALVES != 0;
@@ -164,7 +164,7 @@ impl Analog {
         }
     }
 
-    fn write_control(&mut self, value: u32, cycle: u64, peripheral: Rate) {
+    fn write_control(&mut self, value: u32, now: Now) {
         let before = std::mem::replace(&mut self.control[0], value);
         if value & ON == 0 {
             self.state = State::Idle;
@@ -174,19 +174,19 @@ impl Analog {
             return;
         }
         match self.state {
-            State::Idle if value & (SAMPLING | AUTO_SAMPLE) != 0 => self.begin_sample(cycle, peripheral),
+            State::Idle if value & (SAMPLING | AUTO_SAMPLE) != 0 => self.begin_sample(now),
             State::Sampling { .. } if before & SAMPLING != 0 && value & SAMPLING == 0 => {
-                self.state = State::Sampling { ends: cycle };
+                self.state = State::Sampling { ends: now.cycle };
             }
             _ => {}
         }
     }
 
-    fn begin_sample(&mut self, cycle: u64, peripheral: Rate) {
+    fn begin_sample(&mut self, now: Now) {
         self.channel = self.choose_channel();
         self.control[0] |= SAMPLING;
         let ends = match self.trigger_source() {
-            Trigger::Auto => cycle + self.tad(peripheral, u64::from(self.control[2] >> 8 & 0x1F)),
+            Trigger::Auto => now.cycle + self.tad(now.peripheral, u64::from(self.control[2] >> 8 & 0x1F)),
             _ => NEVER,
         };
         self.state = State::Sampling { ends };
@@ -226,8 +226,8 @@ impl Analog {
     }
 
     /// Sampling ends with this level, 0..=1023.
-    pub(crate) fn hold(&mut self, value: u16, cycle: u64, peripheral: Rate) {
-        let ends = cycle + self.tad(peripheral, CONVERSION_TAD);
+    pub(crate) fn hold(&mut self, value: u16, now: Now) {
+        let ends = now.cycle + self.tad(now.peripheral, CONVERSION_TAD);
         self.control[0] &= !(SAMPLING | DONE);
         self.state = State::Converting {
             value: value.min(1023),
@@ -236,7 +236,7 @@ impl Analog {
     }
 
     /// The conversion ends; `true` when that is an interrupt.
-    pub(crate) fn finish(&mut self, cycle: u64, peripheral: Rate) -> bool {
+    pub(crate) fn finish(&mut self, now: Now) -> bool {
         let State::Converting { value, .. } = self.state else {
             return false;
         };
@@ -259,7 +259,7 @@ impl Analog {
         }
         self.state = State::Idle;
         if self.control[0] & AUTO_SAMPLE != 0 {
-            self.begin_sample(cycle, peripheral);
+            self.begin_sample(now);
         }
         interrupt
     }

@@ -27,7 +27,7 @@ impl Chip {
                 Slot::Compare(number) => self.serve_compare(number, due),
                 Slot::Analog => self.serve_analog(due, surroundings),
                 Slot::Transmitter(number) => {
-                    self.serials[usize::from(number)].transmit(due, self.clock.peripheral);
+                    self.serials[usize::from(number)].transmit(self.now(due));
                     self.settle_transmitter(number, due);
                 }
                 Slot::Receiver(number) => {
@@ -234,10 +234,10 @@ impl Chip {
             Due::Nothing => {}
             Due::Hold(channel) => {
                 let value = self.sample(channel, cycle, surroundings);
-                self.analog.hold(value, cycle, self.clock.peripheral);
+                self.analog.hold(value, self.now(cycle));
             }
             Due::Result => {
-                if self.analog.finish(cycle, self.clock.peripheral) {
+                if self.analog.finish(self.now(cycle)) {
                     self.interrupts.raise(Irq::ANALOG, cycle);
                 }
             }
@@ -261,8 +261,9 @@ impl Chip {
     }
 
     pub(super) fn write_serial(&mut self, (number, word): (u8, u8), value: u32, cycle: u64) {
+        let now = self.now(cycle);
         let serial = &mut self.serials[usize::from(number)];
-        if !serial.write(word, value, cycle, self.clock.peripheral) {
+        if !serial.write(word, value, now) {
             self.record.misuse(Misuse::TransmitQueueFull(number + 1));
         }
         if serial.has_options() {
@@ -280,7 +281,7 @@ impl Chip {
         let (level, loops_back) = (serial.transmit_level(), serial.loops_back());
         self.own(serial::TRANSMIT_PINS[usize::from(number)], level, cycle);
         if let Some(level) = level.filter(|_| loops_back) {
-            self.serials[usize::from(number)].edge(level, cycle, self.clock.peripheral);
+            self.serials[usize::from(number)].edge(level, self.now(cycle));
         }
         self.settle_serial(number);
     }

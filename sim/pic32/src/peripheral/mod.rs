@@ -50,13 +50,14 @@ use matrix::Matrix;
 use notice::Notice;
 use nvm::Nvm;
 use ports::Ports;
+use rate::Now;
 use record::{Place, Record};
 use schedule::{Schedule, Slot};
 use serial::Serial;
 use std::ops::Range;
 use storage::Storage;
 use system::{System, Watchdog};
-use timers::{Now, Timers};
+use timers::Timers;
 
 /// What the peripherals want of core and memories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

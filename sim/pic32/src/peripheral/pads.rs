@@ -71,7 +71,7 @@ impl Chip {
     /// The board has a resistor from this pin to the supply.
     pub(crate) fn pull_up(&mut self, pin: Pin, cycle: u64) {
         let all = self.ports.field(pin.port(), Field::BoardPullUp) | pin.mask();
-        let changes = self.ports.set_field(pin.port(), Field::BoardPullUp, all, cycle);
+        let changes = self.ports.set_field((pin.port(), Field::BoardPullUp), all, cycle);
         self.port_changed(pin.port(), changes, cycle);
         self.settle_request();
     }
@@ -139,9 +139,10 @@ impl Chip {
                 self.settle_timers(cycle);
             }
             Hearer::Receiver(number) => {
+                let now = self.now(cycle);
                 let serial = &mut self.serials[usize::from(number)];
                 if !serial.loops_back() {
-                    serial.edge(level, cycle, self.clock.peripheral);
+                    serial.edge(level, now);
                     self.settle_serial(number);
                 }
             }
@@ -161,7 +162,7 @@ impl Chip {
             for port in Port::ALL {
                 let changes = self
                     .ports
-                    .set_field(port, Field::PullUp, self.notice.pull_ups(port), cycle);
+                    .set_field((port, Field::PullUp), self.notice.pull_ups(port), cycle);
                 self.port_changed(port, changes, cycle);
             }
         }
@@ -172,7 +173,7 @@ impl Chip {
     pub(super) fn settle_analog_pins(&mut self, cycle: u64) {
         let changes = self
             .ports
-            .set_field(Port::B, Field::Analog, self.analog.analog_pins(), cycle);
+            .set_field((Port::B, Field::Analog), self.analog.analog_pins(), cycle);
         self.port_changed(Port::B, changes, cycle);
     }
 
@@ -196,7 +197,7 @@ impl Chip {
             (Port::F, receivers),
             (Port::G, g),
         ] {
-            let changes = self.ports.set_field(port, Field::Held, held, cycle);
+            let changes = self.ports.set_field((port, Field::Held), held, cycle);
             self.port_changed(port, changes, cycle);
         }
     }

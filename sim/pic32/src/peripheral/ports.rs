@@ -137,7 +137,7 @@ impl Ports {
         }
     }
 
-    pub(crate) fn set_field(&mut self, port: Port, field: Field, value: u16, cycle: u64) -> Changes {
+    pub(crate) fn set_field(&mut self, (port, field): (Port, Field), value: u16, cycle: u64) -> Changes {
         let value = value & port.present();
         self.change(port, cycle, |state| match field {
             Field::Tris => state.tris = value | !port.present(),

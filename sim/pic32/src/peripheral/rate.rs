@@ -76,6 +76,13 @@ impl Rate {
 /// A cycle that does not come.
 pub const NEVER: u64 = u64::MAX;
 
+/// A moment, and how fast the peripheral clock is then.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Now {
+    pub(crate) cycle: u64,
+    pub(crate) peripheral: Rate,
+}
+
 /// `value * factor / divisor`, without overflow between.
 #[expect(
     clippy::cast_possible_truncation,

@@ -1,6 +1,6 @@
 //! UART 1 and 2 (here 0 and 1): queues, bit times, framing, both as levels on their pins.
 
-use super::rate::{NEVER, Rate};
+use super::rate::{NEVER, Now, Rate};
 use crate::pins::{Level, Pin, Port, known};
 use std::collections::VecDeque;
 
@@ -210,18 +210,18 @@ impl Serial {
     }
 
     /// The next bit is on the line, or the frame is over.
-    pub(crate) fn transmit(&mut self, cycle: u64, peripheral: Rate) {
+    pub(crate) fn transmit(&mut self, now: Now) {
         let Some(shift) = &mut self.shift else { return };
         shift.bit = shift.next_change();
         if shift.bit < shift.length {
             return;
         }
-        self.sent.push((cycle, shift.sent));
+        self.sent.push((now.cycle, shift.sent));
         self.shift = None;
-        self.begin_frame(cycle, peripheral);
+        self.begin_frame(now);
     }
 
-    fn begin_frame(&mut self, cycle: u64, peripheral: Rate) {
+    fn begin_frame(&mut self, now: Now) {
         if self.shift.is_some() || !self.transmits() {
             return;
         }
@@ -246,9 +246,9 @@ impl Serial {
             (levels, length, sent) = (1 << 13, 14, Sent::Break);
             self.status &= !BREAK;
         }
-        let rate = self.bit_rate(peripheral);
+        let rate = self.bit_rate(now.peripheral);
         self.shift = Some(Shift {
-            begun: cycle,
+            begun: now.cycle,
             levels,
             length,
             bit: 0,
@@ -271,7 +271,7 @@ impl Serial {
     }
 
     /// The level of the receive pin is another one.
-    pub(crate) fn edge(&mut self, level: Level, cycle: u64, peripheral: Rate) {
+    pub(crate) fn edge(&mut self, level: Level, now: Now) {
         let high = level.is_high() != (self.mode & RECEIVE_INVERTED != 0);
         if high == self.line {
             return;
@@ -279,13 +279,13 @@ impl Serial {
         self.line = high;
         let begins = !high && self.receives();
         match &mut self.arrival {
-            Some(arrival) => arrival.edges.push((cycle, high)),
+            Some(arrival) => arrival.edges.push((now.cycle, high)),
             None if begins => {
-                let rate = self.bit_rate(peripheral);
+                let rate = self.bit_rate(now.peripheral);
                 self.arrival = Some(Arrival {
-                    begun: cycle,
+                    begun: now.cycle,
                     rate,
-                    edges: vec![(cycle, false)],
+                    edges: vec![(now.cycle, false)],
                     confirmed: false,
                 });
             }
@@ -358,7 +358,7 @@ impl Serial {
     }
 
     /// Writes a register; `false` when a character was written into a full queue and lost.
-    pub(crate) fn write(&mut self, word: u8, value: u32, cycle: u64, peripheral: Rate) -> bool {
+    pub(crate) fn write(&mut self, word: u8, value: u32, now: Now) -> bool {
         let mut kept = true;
         match word {
             0 => self.mode = value & MODE_WRITABLE,
@@ -377,7 +377,7 @@ impl Serial {
             self.incoming.clear();
             (self.shift, self.arrival, self.overrun) = (None, None, false);
         }
-        self.begin_frame(cycle, peripheral);
+        self.begin_frame(now);
         kept
     }
 

@@ -1,7 +1,7 @@
 //! Timers 1 to 5 (here 0 to 4), their pairs, prescalers, gates and external clocks.
 
 use super::counter::Counter;
-use super::rate::Rate;
+use super::rate::{Now, Rate};
 use crate::pins::Level;
 
 const ON: u32 = 1 << 15;
@@ -25,13 +25,6 @@ struct Timer {
     held_edges: u32,
     /// Up to which cycle matches have set the flag.
     flagged_to: u64,
-}
-
-/// When, and how fast the peripheral clock is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Now {
-    pub(crate) cycle: u64,
-    pub(crate) peripheral: Rate,
 }
 
 /// What an edge of TxCK led to.
@@ -117,7 +110,7 @@ impl Timers {
     }
 
     /// Writes a register. Matches must have been taken and outputs brought up to `cycle` before.
-    pub(crate) fn write(&mut self, number: u8, word: u8, value: u32, now: Now) -> Written {
+    pub(crate) fn write(&mut self, (number, word): (u8, u8), value: u32, now: Now) -> Written {
         let number = usize::from(number);
         if word == 0 {
             return self.write_control(number, value, now);
