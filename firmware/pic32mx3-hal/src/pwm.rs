@@ -72,6 +72,13 @@ impl PwmTimer<2> {
     }
 }
 
+impl PwmTimer<2> {
+    /// Starts anew with another prescaler and period. Channels keep their width in counts.
+    pub fn restart(&mut self, prescaler: Prescaler, period_counts: u32) {
+        Timer::<2>::new().start(prescaler, period_counts.clamp(2, 0xFFFF));
+    }
+}
+
 impl PwmTimer<3> {
     /// Starts timer 3 with periods of 2 to 65535 counts.
     #[must_use]
