@@ -22,6 +22,7 @@ pub fn scene(home: &str, noise: &str) -> Scene {
         home: path,
         robot: "sr8730".to_owned(),
         noise: noise.to_owned(),
+        firmware: None,
     })
     .expect("the project's homes suit the project's robot")
 }

@@ -1,7 +1,8 @@
 //! The same seed is the same run, bit for bit; another seed is another run.
 
-use robot::Bridges;
-use rvac_sim::faults::{Homes, TrialSettings, trial};
+use monitor::Bridges;
+use rvac_sim::Firmware;
+use rvac_sim::faults::{Campaign, TrialSettings};
 use rvac_sim::run::{household, run};
 use scenarios::{scene, settings};
 
@@ -22,15 +23,15 @@ fn a_run_repeats_itself() {
 #[test]
 fn a_trial_full_of_faults_repeats_itself() {
     let model = home::RobotModel::by_name("sr8730").unwrap();
-    let homes = Homes::load(&model).unwrap();
+    let campaign = Campaign::load(model, Firmware::HostBuilt).unwrap();
     for seed in [4, 7] {
         let settings = TrialSettings {
             seed,
             duration_ms: 60_000,
             bridges: Bridges::Sound,
         };
-        let first = trial(&homes, &model, settings);
-        assert_eq!(first, trial(&homes, &model, settings));
+        let first = campaign.trial(settings);
+        assert_eq!(first, campaign.trial(settings));
         assert!(first.faults.iter().sum::<u32>() > 5, "there were faults");
     }
 }

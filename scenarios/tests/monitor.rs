@@ -1,23 +1,19 @@
 //! The safety monitor finds a machine that does not obey its firmware.
 
-use monitor::Rule;
-use robot::Bridges;
-use rvac_sim::faults::{Homes, TrialSettings, trial};
+use monitor::{Bridges, Rule};
+use rvac_sim::Firmware;
+use rvac_sim::faults::{Campaign, TrialSettings};
 
 #[test]
 fn bridges_that_do_not_brake_are_found_out() {
     let model = home::RobotModel::by_name("sr8730").unwrap();
-    let homes = Homes::load(&model).unwrap();
+    let campaign = Campaign::load(model, Firmware::HostBuilt).unwrap();
     let outcome = |bridges| {
-        trial(
-            &homes,
-            &model,
-            TrialSettings {
-                seed: 3,
-                duration_ms: 60_000,
-                bridges,
-            },
-        )
+        campaign.trial(TrialSettings {
+            seed: 3,
+            duration_ms: 60_000,
+            bridges,
+        })
     };
     assert_eq!(outcome(Bridges::Sound).violations, Vec::<String>::new());
     let broken = outcome(Bridges::DeafToBrake);

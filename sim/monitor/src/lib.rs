@@ -26,6 +26,16 @@ use causes::Standing;
 use permission::Permission;
 use rvac_protocol::message::ResetCause;
 
+/// Wheel bridges of a simulated robot: sound ones, or a broken machine to see whether the monitor notices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bridges {
+    /// They do what they are told.
+    #[default]
+    Sound,
+    /// They go on with the last duty when they are told to brake.
+    DeafToBrake,
+}
+
 /// How many violations are kept in full; all are counted.
 const KEPT_MAX: usize = 32;
 

@@ -13,5 +13,5 @@ mod robot;
 
 pub use line::Line;
 pub use parameters::parameters_for;
-pub use robot::{Bridges, RobotSettings, SimulatedRobot};
+pub use robot::{RobotSettings, SimulatedRobot};
 pub use rvac_channel::FaultRates;

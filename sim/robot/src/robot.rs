@@ -3,9 +3,9 @@
 use cordlib::Cord;
 use cordlib::board::{ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
 use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
-use monitor::{Drives, Monitor, Pins};
+use monitor::{Bridges, Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
-use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
+use rvac_protocol::message::{Bumpers, Currents, Gyro, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
@@ -31,15 +31,6 @@ impl Default for RobotSettings {
             bridges: Bridges::Sound,
         }
     }
-}
-
-/// Wheel bridges that work, or a broken machine to see whether the monitor notices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bridges {
-    /// They do what they are told.
-    Sound,
-    /// They go on with the last duty when they are told to brake.
-    DeafToBrake,
 }
 
 /// cordlib on a simulated board in a simulated home, with a paced serial line and the safety monitor.
@@ -310,12 +301,6 @@ impl SimulatedRobot {
     #[must_use]
     pub const fn monitor(&self) -> &Monitor {
         &self.monitor
-    }
-
-    /// What keeps the firmware from moving, by its own word.
-    #[must_use]
-    pub fn inhibits(&self) -> Inhibits {
-        self.cord.inhibits()
     }
 
     /// Simulated milliseconds.

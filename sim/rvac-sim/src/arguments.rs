@@ -39,6 +39,9 @@ pub(crate) struct SceneArguments {
     /// Noise class: ideal, good, nominal or bad.
     #[arg(long, default_value = "nominal")]
     noise: String,
+    /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
+    #[arg(long)]
+    firmware: Option<PathBuf>,
 }
 
 impl SceneArguments {
@@ -47,6 +50,7 @@ impl SceneArguments {
             home: self.home.clone(),
             robot: self.robot.clone(),
             noise: self.noise.clone(),
+            firmware: self.firmware.clone(),
         }
     }
 }
@@ -128,6 +132,9 @@ pub(crate) struct FaultArguments {
     /// Simulated minutes of each seed.
     #[arg(long, default_value_t = 10.0, value_parser = minutes)]
     pub(crate) minutes: f64,
+    /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
+    #[arg(long)]
+    pub(crate) firmware: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,10 +1,9 @@
 //! A robot and its host in one process, on a virtual clock.
 
 use home::Pose;
-use robot::SimulatedRobot;
 
-use crate::Host;
 use crate::report::{Driven, Report, RootMeanSquare, StuckWatch};
+use crate::{Host, Robot};
 
 /// Microseconds of a tick.
 pub const TICK_US: u64 = 1_000;
@@ -14,7 +13,7 @@ const SAMPLE_MS: u64 = 100;
 /// A simulated robot, its host if one lives, and the figures of the run.
 #[derive(Debug)]
 pub struct Household {
-    robot: SimulatedRobot,
+    robot: Robot,
     host: Option<Host>,
     from_robot: Vec<u8>,
     map_from_plan: Pose,
@@ -25,7 +24,7 @@ pub struct Household {
 impl Household {
     /// Puts a robot and a host together.
     #[must_use]
-    pub fn new(robot: SimulatedRobot, host: Host) -> Self {
+    pub fn new(robot: Robot, host: Host) -> Self {
         let map_from_plan = robot.world().truth().pose.inverse();
         Self {
             robot,
@@ -89,12 +88,12 @@ impl Household {
 
     /// The robot.
     #[must_use]
-    pub const fn robot(&self) -> &SimulatedRobot {
+    pub const fn robot(&self) -> &Robot {
         &self.robot
     }
 
     /// The robot, to break it.
-    pub const fn robot_mut(&mut self) -> &mut SimulatedRobot {
+    pub const fn robot_mut(&mut self) -> &mut Robot {
         &mut self.robot
     }
 
@@ -128,7 +127,7 @@ impl Household {
     }
 }
 
-fn deliver(robot: &mut SimulatedRobot, pending: &mut Vec<u8>) {
+fn deliver(robot: &mut Robot, pending: &mut Vec<u8>) {
     if !pending.is_empty() {
         let taken = robot.send(pending);
         pending.drain(..taken);

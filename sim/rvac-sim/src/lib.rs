@@ -1,20 +1,25 @@
 //! What the `rvac-sim` binary is made of.
 //!
-//! A [`Household`] is a simulated robot and a host that run against each other in memory, on a virtual clock. [`run`]
+//! A [`Robot`] runs the firmware that is built into this program, or an image in an emulated chip ([`Firmware`]). A
+//! [`Household`] is a robot and a host that run against each other in memory, on a virtual clock. [`run`]
 //! measures how well such a household cleans, [`faults`] breaks it in a thousand ways and lets the safety monitor watch,
 //! and [`serve`] puts the robot alone behind a pseudoterminal for a daemon of flesh and blood.
 #![forbid(unsafe_code)]
 
 pub mod faults;
+mod firmware;
 mod host;
 mod household;
 mod plan;
 mod report;
+mod robot;
 pub mod run;
 mod scene;
 pub mod serve;
 
+pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use household::{Household, TICK_US};
 pub use report::{Report, StuckWatch};
+pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};

@@ -13,10 +13,10 @@ use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments
 use clap::Parser;
 use home::RobotModel;
 use progress::Progress;
-use rvac_sim::faults::{Homes, Summary, trials};
+use rvac_sim::faults::{Campaign, Summary, trials};
 use rvac_sim::run::{household, run};
 use rvac_sim::serve::serve;
-use rvac_sim::{Report, Scene};
+use rvac_sim::{Firmware, Report, Scene};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -65,13 +65,14 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let model = RobotModel::by_name("sr8730")?;
-    let homes = Homes::load(&model)?;
+    let firmware = Firmware::load(arguments.firmware.as_deref())?;
+    let campaign = Campaign::load(model, firmware)?;
     let seeds = arguments.seeds.clone();
     let count = seeds.end - seeds.start;
     let duration_ms = arguments.duration_ms();
     let started = Instant::now();
     let progress = Progress::new("trials");
-    let outcomes = trials(&homes, &model, (seeds, duration_ms), &|done| {
+    let outcomes = trials(&campaign, (seeds, duration_ms), &|done| {
         progress.show(done as f64 / count as f64);
     });
     progress.clear();

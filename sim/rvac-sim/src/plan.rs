@@ -1,8 +1,9 @@
 //! What clients of the simulator's socket see of the home: plan and truth in the map frame.
 
 use home::{Home, Pose};
-use robot::SimulatedRobot;
 use rvac_api::{SimulatedPlan, SimulatedTruth};
+
+use crate::Robot;
 
 /// The floor plan in the map frame, which is the frame of the robot's starting pose.
 pub(crate) fn plan(home: &Home, map_from_plan: Pose) -> SimulatedPlan {
@@ -19,7 +20,7 @@ pub(crate) fn plan(home: &Home, map_from_plan: Pose) -> SimulatedPlan {
 }
 
 /// What is really so now.
-pub(crate) fn truth(robot: &SimulatedRobot, map_from_plan: Pose) -> SimulatedTruth {
+pub(crate) fn truth(robot: &Robot, map_from_plan: Pose) -> SimulatedTruth {
     let truth = robot.world().truth();
     let sim_s = robot.now_ms() as f64 / 1000.0;
     SimulatedTruth {

@@ -1,8 +1,9 @@
 //! How well a run went.
 
 use home::Truth;
-use robot::SimulatedRobot;
 use serde::Serialize;
+
+use crate::Robot;
 
 /// The figures of a run, as one JSON object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,7 +37,7 @@ pub struct Report {
 impl Report {
     /// The figures of `robot` up to now, without those that only others know.
     #[must_use]
-    pub fn of(robot: &SimulatedRobot, stuck: &StuckWatch) -> Self {
+    pub fn of(robot: &Robot, stuck: &StuckWatch) -> Self {
         let home = robot.world().home();
         let truth = robot.world().truth();
         Self {
@@ -146,7 +147,7 @@ pub enum Driven {
 impl Driven {
     /// Of this robot now.
     #[must_use]
-    pub fn of(robot: &SimulatedRobot) -> Self {
+    pub fn of(robot: &Robot) -> Self {
         if robot.wheels_driven() {
             Self::Yes
         } else {

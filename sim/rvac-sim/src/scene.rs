@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, HomeError, ModelError, Noise, RobotModel, World};
-use robot::{RobotSettings, SimulatedRobot};
+use robot::RobotSettings;
+
+use crate::{Firmware, FirmwareError, Robot};
 
 /// What people choose.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,14 +17,17 @@ pub struct SceneSettings {
     pub robot: String,
     /// Name of the noise class.
     pub noise: String,
+    /// File of the firmware image; `None` = the firmware that is built in.
+    pub firmware: Option<PathBuf>,
 }
 
-/// A home and a model of robot, ready for any number of runs.
+/// A home, a model of robot and its firmware, ready for any number of runs.
 #[derive(Clone, Debug)]
 pub struct Scene {
     home: Arc<Home>,
     model: RobotModel,
     noise: Noise,
+    firmware: Firmware,
 }
 
 /// The one board the simulator has.
@@ -40,21 +45,33 @@ impl Scene {
         }
         let noise =
             Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
+        let firmware = Firmware::load(settings.firmware.as_deref())?;
         let home = Home::load(Path::new(&settings.home), &model)?;
-        Ok(Self::new(Arc::new(home), model, noise))
+        Ok(Self::new(Arc::new(home), model, noise).with_firmware(firmware))
     }
 
-    /// A scene of parts that are at hand.
+    /// A scene of parts that are at hand, with the firmware that is built in.
     #[must_use]
     pub fn new(home: Arc<Home>, model: RobotModel, noise: Noise) -> Self {
-        Self { home, model, noise }
+        Self {
+            home,
+            model,
+            noise,
+            firmware: Firmware::HostBuilt,
+        }
+    }
+
+    /// The same with another firmware.
+    #[must_use]
+    pub fn with_firmware(self, firmware: Firmware) -> Self {
+        Self { firmware, ..self }
     }
 
     /// A robot that was just switched on at its starting place.
     #[must_use]
-    pub fn robot(&self, seed: u64, settings: &RobotSettings) -> SimulatedRobot {
+    pub fn robot(&self, seed: u64, settings: &RobotSettings) -> Robot {
         let world = World::new(Arc::clone(&self.home), &self.model, &self.noise, seed, None);
-        SimulatedRobot::new(&self.model, world, settings)
+        self.firmware.robot(world, settings)
     }
 
     /// The home.
@@ -73,6 +90,9 @@ pub enum SceneError {
     /// There is no such robot, or its description is wrong.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// The firmware cannot be run.
+    #[error(transparent)]
+    Firmware(#[from] FirmwareError),
     /// A robot that is described, but whose board is not simulated.
     #[error("the board of `{0}` is not simulated; use --robot {BOARD}")]
     NoBoard(String),

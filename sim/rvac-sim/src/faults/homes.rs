@@ -25,7 +25,7 @@ const OURS_EVERY: u64 = 4;
 
 /// Homes, loaded once for all seeds.
 #[derive(Clone, Debug)]
-pub struct Homes {
+pub(crate) struct Homes {
     ours: Vec<Arc<Home>>,
 }
 
@@ -34,7 +34,7 @@ impl Homes {
     ///
     /// # Errors
     /// When one of them does not suit the model.
-    pub fn load(model: &RobotModel) -> Result<Self, HomeError> {
+    pub(crate) fn load(model: &RobotModel) -> Result<Self, HomeError> {
         let ours = OURS
             .iter()
             .map(|(name, text)| Home::from_floorplan(name, text, model).map(Arc::new))

@@ -14,20 +14,47 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-use home::RobotModel;
+use home::{HomeError, RobotModel};
+use monitor::Bridges;
 
+use crate::Firmware;
 pub use draw::FaultKind;
-pub use homes::Homes;
+use homes::Homes;
 pub use summary::Summary;
-pub use trial::{Outcome, TrialSettings, trial};
+pub use trial::{Outcome, TrialSettings};
 
-use robot::Bridges;
+/// What all trials have in common: the homes, the model of robot and its firmware.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    homes: Homes,
+    model: RobotModel,
+    firmware: Firmware,
+}
+
+impl Campaign {
+    /// Prepares trials of this model with this firmware.
+    ///
+    /// # Errors
+    /// When one of the project's homes does not suit the model.
+    pub fn load(model: RobotModel, firmware: Firmware) -> Result<Self, HomeError> {
+        Ok(Self {
+            homes: Homes::load(&model)?,
+            model,
+            firmware,
+        })
+    }
+
+    /// Runs one seed.
+    #[must_use]
+    pub fn trial(&self, settings: TrialSettings) -> Outcome {
+        trial::run(self, settings)
+    }
+}
 
 /// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the order
 /// of their seeds.
 pub fn trials(
-    homes: &Homes,
-    model: &RobotModel,
+    campaign: &Campaign,
     (seeds, duration_ms): (Range<u64>, u64),
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<Outcome> {
@@ -45,7 +72,7 @@ pub fn trials(
                 duration_ms,
                 bridges: Bridges::Sound,
             };
-            let outcome = trial(homes, model, settings);
+            let outcome = campaign.trial(settings);
             outcomes
                 .lock()
                 .expect("no trial panics while it holds the list")

@@ -1,14 +1,15 @@
 //! One seed: a home, a household, ten minutes of misfortune.
 
 use brain::command::StrategyName;
-use home::{Noise, Pcg, RobotModel, SensorId};
-use robot::{Bridges, FaultRates, RobotSettings};
+use home::{Noise, Pcg, SensorId};
+use monitor::Bridges;
+use robot::{FaultRates, RobotSettings};
 use rvac_api::RequestBody;
 use rvac_protocol::message::{Inhibit, Inhibits};
 use vthal_core::{Checkpoints, CoreConfig};
 
+use super::Campaign;
 use super::draw::{Fault, FaultDraw, FaultKind};
-use super::homes::Homes;
 use crate::{Host, Household};
 
 /// What came of a seed.
@@ -53,6 +54,8 @@ enum End {
     Button(u8),
 }
 
+/// Milliseconds between two looks at what keeps the robot from moving: the host hears of it 50 times a second.
+const STOPS_MS: u64 = 20;
 /// Milliseconds between two looks of the person who wants the robot to clean.
 const LOOK_MS: u64 = 1_000;
 const STREAM: u64 = 0x7E57;
@@ -68,11 +71,13 @@ struct Trial {
 }
 
 /// Runs one seed.
-#[must_use]
-pub fn trial(homes: &Homes, model: &RobotModel, settings: TrialSettings) -> Outcome {
+pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
     let mut random = Pcg::new(settings.seed, STREAM);
     let noise = [Noise::ideal(), Noise::good(), Noise::nominal(), Noise::bad()][random.below(4) as usize];
-    let scene = homes.scene(settings.seed, model, noise);
+    let scene = campaign
+        .homes
+        .scene(settings.seed, &campaign.model, noise)
+        .with_firmware(campaign.firmware.clone());
     let robot = scene.robot(
         settings.seed,
         &RobotSettings {
@@ -112,7 +117,9 @@ impl Trial {
     fn tick(&mut self) {
         self.household.tick();
         let now_ms = self.household.robot().now_ms();
-        self.count_stops();
+        if now_ms.is_multiple_of(STOPS_MS) {
+            self.count_stops();
+        }
         if now_ms >= self.next_fault_ms {
             self.next_fault_ms = now_ms + self.draw.pause_ms();
             let fault = self.draw.fault();
@@ -124,8 +131,17 @@ impl Trial {
         }
     }
 
+    /// What the firmware says keeps it from moving, as its host has heard it.
     fn count_stops(&mut self) {
-        let inhibits = self.household.robot().inhibits();
+        let Some(status) = self.household.host().map(Host::status) else {
+            return;
+        };
+        let mut inhibits = Inhibits::NONE;
+        for name in &status.inhibits {
+            if let Some(inhibit) = Inhibit::from_name(name.as_bytes()) {
+                inhibits.insert(inhibit);
+            }
+        }
         if inhibits == self.inhibits {
             return;
         }

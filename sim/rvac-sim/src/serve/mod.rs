@@ -16,12 +16,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use home::Pose;
-use robot::{RobotSettings, SimulatedRobot};
+use robot::RobotSettings;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rvac_api::Update;
 
 use crate::report::{Driven, Report, StuckWatch};
-use crate::{Scene, SceneError, plan};
+use crate::{Robot, Scene, SceneError, plan};
 use clients::Clients;
 use pace::Pace;
 use pty::{Peer, Pty, PtyError};
@@ -86,7 +86,7 @@ pub fn serve(scene: &Scene, settings: &ServeSettings) -> Result<(), ServeError> 
 }
 
 struct Server {
-    robot: SimulatedRobot,
+    robot: Robot,
     pty: Pty,
     listener: Listener,
     clients: Clients,
