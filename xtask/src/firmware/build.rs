@@ -81,6 +81,24 @@ pub(crate) fn build(
     Ok(elf)
 }
 
+/// Builds other programs for the chip, such as examples: the words say of which manifest and which. Their bytes may depend on
+/// where they are built. Gives the folder in which cargo leaves them.
+pub(crate) fn build_others(what: &str, words: &[&str]) -> anyhow::Result<PathBuf> {
+    let tools = toolchain::choose(&toolchain::MIPS)?;
+    let target = workspace::target().join("cross");
+    let mut cargo = tools.cargo();
+    cargo
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS");
+    cargo
+        .args(["build", "--release", "--locked"])
+        .args(words)
+        .args(["--target", toolchain::MIPS.triple, "--target-dir"])
+        .arg(&target);
+    process::run(&format!("build {what} with {}", tools.name()), &mut cargo)?;
+    Ok(target.join(toolchain::MIPS.triple).join("release"))
+}
+
 /// A folder with sources and a folder for what is built of them.
 #[derive(Debug)]
 pub(crate) struct Place {

@@ -1,6 +1,7 @@
 //! `cargo xtask test`: every check and test of the project in one command, stage after stage.
 
 mod count;
+mod robot;
 mod runner;
 mod stages;
 

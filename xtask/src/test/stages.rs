@@ -1,6 +1,7 @@
 //! The stages in the order in which they run: the quick ones first, so that a slip shows at once.
 
 use super::count::Count;
+use super::robot;
 use super::runner::{Result, all, check, checks, tests};
 use crate::workspace::{self, Profile, program};
 use crate::{codegen, panel, system, tidy};
@@ -17,7 +18,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 13] = [
+pub(super) const STAGES: [Stage; 15] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -37,6 +38,16 @@ pub(super) const STAGES: [Stage; 13] = [
         name: "clippy",
         does: "the linter finds nothing",
         run: clippy,
+    },
+    Stage {
+        name: "firmware",
+        does: "the robot's firmware keeps to its budgets; its parts pass their tests",
+        run: robot::firmware,
+    },
+    Stage {
+        name: "emulator",
+        does: "the emulated chip runs programs as other implementations do",
+        run: robot::emulator,
     },
     Stage {
         name: "tests",
@@ -86,8 +97,11 @@ pub(super) const STAGES: [Stage; 13] = [
 ];
 
 /// Manifests of the workspaces besides the main one.
-const OTHERS: [&str; 3] = [
+const OTHERS: [&str; 6] = [
     "clients/panel/Cargo.toml",
+    "firmware/pic32mx3-hal/Cargo.toml",
+    "firmware/sr8730/Cargo.toml",
+    "sim/pic32/proof/Cargo.toml",
     "xtask/uipack/Cargo.toml",
     "protocol/fuzz/Cargo.toml",
 ];
@@ -125,7 +139,7 @@ fn clippy(_long: bool) -> Result {
     ]))
 }
 
-/// Prepares what tests start: programs of the workspace, a C compiler, Raku.
+/// Prepares what tests start: programs of the workspace, a C compiler, Raku. The emulated chip has a stage of its own.
 fn workspace_tests(_long: bool) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
@@ -135,6 +149,8 @@ fn workspace_tests(_long: bool) -> Result {
             "nextest",
             "run",
             "--workspace",
+            "--exclude",
+            "pic32",
             "--locked",
             "--no-fail-fast",
         ]))
@@ -142,6 +158,8 @@ fn workspace_tests(_long: bool) -> Result {
         tests(&mut cargo(&[
             "test",
             "--workspace",
+            "--exclude",
+            "pic32",
             "--locked",
             "--all-targets",
             "--no-fail-fast",

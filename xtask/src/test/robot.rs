@@ -1,0 +1,50 @@
+//! Stages about the robot's own chip: its firmware, and the emulator that runs it.
+
+use super::runner::{Result, all, check, tests};
+use crate::firmware::build::build_others;
+use crate::{system, workspace};
+use std::process::Command;
+
+/// Workspaces of firmware, whose parts are also tested on this machine.
+const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
+
+/// The firmware is built and measured, and what of it runs on this machine is tested.
+pub(super) fn firmware(_long: bool) -> Result {
+    let mut build = workspace::cargo();
+    build.args(["xtask", "firmware", "sr8730"]);
+    let lints = FIRMWARE
+        .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
+    let tested = FIRMWARE.map(|manifest| on_this_machine("test", manifest, &["--lib", "--no-fail-fast"]));
+    let lints = lints.into_iter().map(|mut command| check(&mut command));
+    let tested = tested.into_iter().map(|mut command| tests(&mut command));
+    all([check(&mut build)].into_iter().chain(lints).chain(tested))
+}
+
+fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
+    let mut command = workspace::cargo();
+    command.args([what, "--locked", "--manifest-path", manifest, "--target-dir"]);
+    command.arg(workspace::target().join("firmware/host")).args(words);
+    command
+}
+
+/// The emulated chip beside qemu-user, and with the programs that are written for it.
+pub(super) fn emulator(_long: bool) -> Result {
+    system::need("qemu-mipsel-static", &["qemu-user-static"])?;
+    let programs = build_others(
+        "the emulator's proof",
+        &["--manifest-path", "sim/pic32/proof/Cargo.toml"],
+    )?;
+    let examples = [
+        "--manifest-path",
+        "firmware/pic32mx3-hal/Cargo.toml",
+        "--examples",
+    ];
+    let examples = build_others("the examples of pic32mx3-hal", &examples)?.join("examples");
+    let mut command = workspace::cargo();
+    command
+        .args(["test", "--locked", "--package", "pic32", "--no-fail-fast"])
+        .env("RVAC_PROOF", programs)
+        .env("RVAC_EXAMPLES", examples)
+        .env("RVAC_FIRMWARE", workspace::target().join("firmware/sr8730.elf"));
+    tests(&mut command)
+}
