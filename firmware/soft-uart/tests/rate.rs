@@ -145,6 +145,50 @@ fn a_host_that_restarts_at_another_rate_is_understood_again() {
     }
 }
 
+/// At a third of the rate the letter itself looks like data. The damaged bytes after it show what it was, without a second
+/// greeting.
+#[test]
+fn one_letter_at_a_third_of_the_rate_is_remembered() {
+    for (before, after) in [(Baud::B115200, Baud::B38400), (Baud::B57600, Baud::B19200)] {
+        let mut line = Line::new(CLEAN, 1);
+        line.bytes(before, GREETING);
+        line.pause_ms(50.0);
+        line.byte(after, b'U');
+        line.pause_ms(2.0);
+        let mut receiver = automatic();
+        hear(&line, &mut receiver, 0);
+        assert_eq!(receiver.trust(), Trust::Locked(before), "nothing was wrong yet");
+        line.edges.clear();
+        line.bytes(after, b"\nhello 3 17 a9c2\n");
+        line.pause_ms(2.0);
+        line.bytes(after, b"lease 500\n");
+        let heard = hear(&line, &mut receiver, 0);
+        assert_eq!(receiver.rate(), Some(after));
+        assert!(ends_with(&heard, b"lease 500\n"), "{heard:?}");
+    }
+}
+
+/// What looked like a slower letter is forgotten after enough good bytes: errors then do not lead to its rate.
+#[test]
+fn a_remembered_rate_is_forgotten() {
+    let baud = Baud::B115200;
+    for (good_bytes, expected) in [(4, Baud::B38400), (40, baud)] {
+        let mut line = Line::new(CLEAN, 1);
+        for _ in 0..4 {
+            line.byte(baud, 0x1C);
+            line.pause_bits(baud, 2.0);
+        }
+        line.bytes(baud, &vec![b'x'; good_bytes]);
+        line.frame(baud, 0x41, Level::Low);
+        line.pause_bits(baud, 3.0);
+        line.frame(baud, 0x41, Level::Low);
+        line.pause_bits(baud, 3.0);
+        let mut receiver = Receiver::starting_at(baud, COUNTS_PER_S);
+        hear(&line, &mut receiver, 0);
+        assert_eq!(receiver.rate(), Some(expected), "after {good_bytes} good bytes");
+    }
+}
+
 /// The robot restarts in the midst of data: it listens, and the next greeting is enough.
 #[test]
 fn a_receiver_that_restarts_within_data_waits_for_a_greeting() {

@@ -103,6 +103,27 @@ fn noise_on_an_idle_line_is_no_byte() {
     assert_eq!(hear(&line, &mut receiver(Baud::B115200), 0), []);
 }
 
+/// Pulses of almost half a bit in the midst of equal bits, and on an idle line.
+#[test]
+fn pulses_up_to_half_a_bit_between_other_edges_change_nothing() {
+    let baud = Baud::B38400;
+    let bit = bit_counts(baud);
+    for byte in [0x00, 0xFF, 0x0F] {
+        for share in [0.41, 0.45, 0.49] {
+            for position in [2.6, 3.3, 6.7, 7.2] {
+                let mut line = Line::new(CLEAN, 1);
+                let start = line.time;
+                line.byte(baud, byte);
+                line.pause_bits(baud, 8.0);
+                line.noise(start + position * bit, share * bit);
+                line.noise(line.time - 4.0 * bit, share * bit);
+                let heard = hear(&line, &mut receiver(baud), 0);
+                assert_eq!(heard, good(&[byte]), "{byte:#x} {share} at {position}");
+            }
+        }
+    }
+}
+
 /// The byte is there in the middle of the stop bit and not before, without any edge after it.
 #[test]
 fn a_byte_ends_by_time() {

@@ -206,6 +206,26 @@ fn samples_show_framing_errors_breaks_and_no_noise() {
     assert_eq!(sample(&line, baud, 3), expected);
 }
 
+/// After a loss nothing is taken until the loss was told, even when there is room: else the mark would have no place.
+#[test]
+fn a_gap_has_one_place() {
+    let ring: EdgeRing<4> = EdgeRing::new();
+    let edge = |at| Edge {
+        at,
+        level: Level::High,
+    };
+    (0..6).for_each(|number| ring.push(edge(2 * number)));
+    assert_eq!(ring.pop(), Some(Queued::Edge(edge(0))));
+    ring.push(edge(100));
+    for at in [2, 4, 6] {
+        assert_eq!(ring.pop(), Some(Queued::Edge(edge(at))));
+    }
+    assert_eq!(ring.pop(), Some(Queued::Overrun));
+    ring.push(edge(200));
+    assert_eq!(ring.pop(), Some(Queued::Edge(edge(200))));
+    assert_eq!(ring.pop(), None);
+}
+
 /// One thread pushes, the other takes: nothing is lost, doubled or out of order, and after a loss there is one mark, at its
 /// place.
 #[test]
