@@ -14,10 +14,12 @@ use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::floor::FloorWatch;
 use crate::journal::Journal;
+use crate::leaving::Leaving;
 use crate::lights::LightPatterns;
 use crate::motion::{Motion, Period};
 use crate::parameters::Parameters;
 use crate::permit::Standing;
+use crate::probing::Probing;
 use crate::reflex::Reflexes;
 use crate::report::Reporter;
 use crate::senses::Senses;
@@ -52,6 +54,8 @@ pub struct Cord<P: Parts> {
     pub(crate) fitted: Capabilities,
     pub(crate) charger: ChargeController,
     pub(crate) charge_output: ChargeOutput,
+    pub(crate) probing: Probing,
+    pub(crate) leaving: Leaving,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
@@ -63,12 +67,18 @@ pub struct Cord<P: Parts> {
 impl<P: Parts> Cord<P> {
     /// Takes the board over. All motors are switched off; motion is inhibited until the host arms (S4).
     #[must_use]
-    pub fn new(mut board: Board<P>, parameters: Parameters) -> Self {
+    pub fn new(mut board: Board<P>, mut parameters: Parameters) -> Self {
         board.all_off();
         let now = board.clock.tick();
-        let session = RobotSession::new(identity(&mut board, &parameters), now);
-        let floor = FloorWatch::new(&mut board.cliffs, now, parameters.guard.floor_level_min);
-        let reflexes = Reflexes::new(&mut board.reset, now);
+        let fitted = fitted::<P>(&parameters);
+        if !fitted.encoders {
+            // Counts without a calibrated way mean nothing.
+            parameters.limits.count_nm = 0;
+        }
+        let session = RobotSession::new(identity(&mut board, &parameters, fitted), now);
+        let floor_level_min = (fitted.cliffs > 0).then_some(parameters.guard.floor_level_min);
+        let floor = FloorWatch::new(&mut board.cliffs, now, floor_level_min);
+        let reflexes = Reflexes::new(&mut board.reset, fitted.encoders, now);
         let counts = board.encoders.counts();
         Self {
             motion: Motion::new(counts, parameters.limits.count_nm, now),
@@ -85,7 +95,9 @@ impl<P: Parts> Cord<P> {
             },
             clock: LongClock::starting_at(now),
             heard: now,
-            fitted: fitted::<P>(&parameters),
+            fitted,
+            probing: Probing::starting_at(now),
+            leaving: Leaving::default(),
             charger: ChargeController::new(parameters.pack),
             charge_output: ChargeOutput::default(),
             accepted: 0,
@@ -104,7 +116,7 @@ impl<P: Parts> Cord<P> {
     /// as the board can, at least every 5 ms for the reaction times of SAFETY.md; a simulator calls it once for each
     /// simulated millisecond.
     pub fn step(&mut self) {
-        self.senses = Senses::read(&mut self.board, &mut self.floor);
+        self.senses = Senses::read(&mut self.board, &mut self.floor, &self.fitted);
         let now = self.senses.now;
         self.clock.advance(now);
         self.reflexes.age(&mut self.board.reset, now);
@@ -112,6 +124,7 @@ impl<P: Parts> Cord<P> {
         self.listen(now);
         self.control(now);
         self.power(now);
+        self.leave_shorted_dock(now);
         self.apply();
         self.sound.play(&mut self.board.beeper, now);
         self.lights.blink(&mut self.board.lights, now);
@@ -165,7 +178,7 @@ impl<P: Parts> Cord<P> {
         let status = self.motion.status();
         let stalled = self
             .reflexes
-            .judge_wheels::<P>(&self.senses, &status, &self.parameters);
+            .judge_wheels(&self.senses, &status, &self.parameters);
         for motor in stalled.into_iter().flatten() {
             self.note_stall(motor);
         }
@@ -272,7 +285,10 @@ impl<P: Parts> Cord<P> {
     /// What is allowed now, and why not more.
     #[must_use]
     pub fn standing(&self) -> Standing {
-        self.reflexes.standing(self.motion.is_fresh())
+        Standing {
+            leaving: self.leaving.is_backing(),
+            ..self.reflexes.standing(self.motion.is_fresh())
+        }
     }
 
     /// Everything that keeps the robot from moving now.
@@ -343,12 +359,34 @@ impl<P: Parts> Cord<P> {
     }
 }
 
-/// What the machine has.
+/// What the machine has: no more than its board's types can have.
 fn fitted<P: Parts>(parameters: &Parameters) -> Capabilities {
-    parameters.fitted.unwrap_or_else(Board::<P>::capabilities)
+    let can = Board::<P>::capabilities();
+    let Some(has) = parameters.fitted else {
+        return can;
+    };
+    Capabilities {
+        encoders: has.encoders && can.encoders,
+        gyro: has.gyro && can.gyro,
+        bumpers: has.bumpers.min(can.bumpers),
+        cliffs: has.cliffs.min(can.cliffs),
+        wheel_drops: has.wheel_drops.min(can.wheel_drops),
+        proximity: has.proximity.min(can.proximity),
+        dock_receivers: has.dock_receivers.min(can.dock_receivers),
+        buttons: has.buttons.min(can.buttons),
+        leds: has.leds.min(can.leds),
+        beeper: has.beeper && can.beeper,
+        brush_main: has.brush_main && can.brush_main,
+        brush_sides: has.brush_sides && can.brush_sides,
+        vacuum: has.vacuum && can.vacuum,
+        currents: has.currents && can.currents,
+        battery: has.battery && can.battery,
+        charger: has.charger && can.charger,
+        probe: has.probe && can.probe,
+    }
 }
 
-fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters) -> RobotIdentity {
+fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters, fitted: Capabilities) -> RobotIdentity {
     let boot_count = board.reset.boot_count();
     let moment = board.clock.tick().0 ^ u32::from(board.clock.microseconds()).rotate_left(16);
     RobotIdentity {
@@ -362,7 +400,7 @@ fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters) -> RobotIde
             drive: true,
         },
         description: Description {
-            capabilities: fitted::<P>(parameters),
+            capabilities: fitted,
             limits: parameters.limits,
         },
     }

@@ -2,7 +2,8 @@
 //! what inhibits.
 
 use rvac_protocol::message::{
-    Beep, Command, Drive, Inhibit, Led, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Refusal,
+    Beep, Command, Drive, Inhibit, Led, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Probe,
+    Refusal,
 };
 use rvac_protocol::session::{HAND_SPEED_MAX, HAND_TURN_MAX, Mode, RobotEvent, SessionEnd};
 use rvac_units::Tick;
@@ -48,6 +49,7 @@ impl<P: Parts> Cord<P> {
             self.reflexes.host.lose_link();
         }
         self.stop_all(MoveEnd::Inhibited);
+        self.probing.end(&mut self.board.probe);
     }
 
     /// Carries out a command of the host and answers it as the wire wants it.
@@ -73,7 +75,7 @@ impl<P: Parts> Cord<P> {
         self.carry_out(command, now)
     }
 
-    fn carry_out(&mut self, command: &Command, now: Tick) -> Answer {
+    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> Answer {
         match command {
             Command::Info => self.reporter.want_info(),
             Command::State => self.reporter.want_state(),
@@ -87,7 +89,8 @@ impl<P: Parts> Cord<P> {
             Command::Arm { undock: false, .. } => return self.arm(),
             Command::Clear { inhibit, .. } => return self.clear(*inhibit),
             Command::Set { parameter, value, .. } => return self.set(*parameter, *value, now),
-            Command::Charge { .. } | Command::Probe(_) => return Err(Refusal::Absent),
+            Command::Charge { wanted, .. } => return self.charge(*wanted),
+            Command::Probe(probe) => return self.probe(probe, now),
             Command::Hello(_)
             | Command::Hand
             | Command::Describe { .. }
@@ -105,6 +108,9 @@ impl<P: Parts> Cord<P> {
     }
 
     fn drive(&mut self, drive: &Drive, now: Tick) -> Answer {
+        if !self.fitted.encoders {
+            return Err(Refusal::Absent);
+        }
         let limits = &self.parameters.limits;
         if drive.speed.magnitude() > limits.speed_max.0 || drive.turn.magnitude() > limits.turn_max.0 {
             return Err(Refusal::Range);
@@ -235,7 +241,7 @@ impl<P: Parts> Cord<P> {
 
     /// Motion is allowed from here on; what was asked before is forgotten (S19).
     fn arm_anew(&mut self) -> Answer {
-        if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.buttons() != 0 {
+        if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.any_button() {
             return Err(Refusal::CauseRemains);
         }
         let ending = self.motion.halt(MoveEnd::Replaced);
@@ -245,7 +251,40 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
+    /// Charging is asked for or forbidden on the dock only; coming to it anew is a question of its own.
+    fn charge(&mut self, wanted: bool) -> Answer {
+        if !self.fitted.charger {
+            return Err(Refusal::Absent);
+        }
+        let faulty = self.charger.status().fault.is_some();
+        if !self.reflexes.dock.inhibits() || (wanted && faulty) {
+            return Err(Refusal::Inhibited);
+        }
+        self.charger.want(wanted);
+        Ok(())
+    }
+
+    /// One look while the robot is not armed, or looks under a lease.
+    fn probe(&mut self, probe: &Probe, now: Tick) -> Answer {
+        if !self.fitted.probe {
+            return Err(Refusal::Absent);
+        }
+        if probe.lease_ms == 0 && self.reflexes.host.is_armed() {
+            return Err(Refusal::Inhibited);
+        }
+        self.probing.begin(&mut self.board.probe, probe, now)
+    }
+
     fn clear(&mut self, inhibit: Inhibit) -> Answer {
+        if matches!(inhibit, Inhibit::ChargerFault | Inhibit::ChargerShorted) {
+            let cleared = !self.inhibits().contains(inhibit) || self.charger.clear();
+            self.reflexes.charger_fault = self.charger.status().fault;
+            return if cleared {
+                Ok(())
+            } else {
+                Err(Refusal::CauseRemains)
+            };
+        }
         if !self.reflexes.clear(inhibit) {
             return Err(Refusal::CauseRemains);
         }

@@ -25,6 +25,7 @@ enum Phase {
 /// State of the evaluation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloorWatch {
+    fitted: bool,
     floor_level_min: u16,
     phase: Phase,
     phase_end: Until,
@@ -35,11 +36,13 @@ pub(crate) struct FloorWatch {
 }
 
 impl FloorWatch {
-    /// Starts with a self-test, so that no level is believed before its ambient part is known.
-    pub(crate) fn new<C: CliffSensors>(sensors: &mut C, now: Tick, floor_level_min: u16) -> Self {
+    /// Starts with a self-test, so that no level is believed before its ambient part is known. Sensors whose threshold is
+    /// not calibrated are not fitted: `floor_level_min` is `None`.
+    pub(crate) fn new<C: CliffSensors>(sensors: &mut C, now: Tick, floor_level_min: Option<u16>) -> Self {
         sensors.set_emitters(Emitters::Off);
         Self {
-            floor_level_min: floor_level_min.max(1),
+            fitted: floor_level_min.is_some() && C::FITTED != Cliffs::default(),
+            floor_level_min: floor_level_min.unwrap_or(u16::MAX).max(1),
             phase: Phase::Dark,
             phase_end: Until::at(now.after(SETTLE_MS)),
             ambient: CliffLevels::default(),
@@ -61,7 +64,7 @@ impl FloorWatch {
 
     /// One look. Between darkening and the end of relighting the previous judgement stands.
     pub(crate) fn update<C: CliffSensors>(&mut self, sensors: &mut C, now: Tick) {
-        if C::FITTED == Cliffs::default() {
+        if !self.fitted {
             return;
         }
         let phase_over = self.phase_end.has_come(now);

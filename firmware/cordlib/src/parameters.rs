@@ -10,8 +10,10 @@ pub struct Parameters {
     pub device: &'static str,
     /// Version of the board's firmware; at most 24 bytes.
     pub firmware: &'static str,
-    /// What is really fitted, where a board's types serve several machines; `None` = all that the types name. Encoders
-    /// cannot be taken away here: a board without them has `Absent` for its type.
+    /// What is really fitted and calibrated, where a board's types serve several machines; `None` = all that the types
+    /// name. What a machine has but nobody has calibrated yet is not fitted: the host is told that it is absent, and its
+    /// readings are not believed. Without encoders `drive` and `move` are refused, while `motor` runs a wheel with an open
+    /// loop; a press of any button stops even where no button is fitted.
     pub fitted: Option<Capabilities>,
     /// Geometry and limits, as they go to the host.
     pub limits: Limits,

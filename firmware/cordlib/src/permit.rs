@@ -24,6 +24,14 @@ const WAY_OUT: Inhibits =
 const WHEELS_GO_ON: Inhibits =
     Inhibits::from_bits(WAY_OUT.bits() | TELLING.bits() | bit(Inhibit::BatteryWeak));
 
+/// Inhibits that do not hold a robot on a dock that charges it against its will.
+const LEAVING_GOES_ON: Inhibits = Inhibits::from_bits(
+    bit(Inhibit::BatteryHot)
+        | bit(Inhibit::BatteryOverheated)
+        | bit(Inhibit::Thermistor)
+        | bit(Inhibit::BatteryEmpty),
+);
+
 /// Inhibits that leave brushes and suction running: the way out above, the seconds of grace after a lost link (S1), and
 /// a robot that does not get on (S15).
 const CLEANING_GOES_ON: Inhibits =
@@ -44,6 +52,8 @@ pub struct Standing {
     pub inhibits: Inhibits,
     /// Bumper zones that are pressed, as S6 sees them (release debounced).
     pub bumpers: Bumpers,
+    /// The robot backs off a dock whose current nothing else can stop (S18): a hot or empty pack does not hold it there.
+    pub leaving: bool,
 }
 
 impl Standing {
@@ -77,7 +87,13 @@ impl Standing {
         if left == 0 && right == 0 {
             return true;
         }
-        if !self.inhibits.without(WHEELS_GO_ON).is_empty() {
+        let held = self.inhibits.without(WHEELS_GO_ON);
+        let held = if self.leaving {
+            held.without(LEAVING_GOES_ON)
+        } else {
+            held
+        };
+        if !held.is_empty() {
             return false;
         }
         if self.sees_cliff() && (left > 0 || right > 0) {

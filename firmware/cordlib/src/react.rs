@@ -18,14 +18,11 @@ impl<P: Parts> Cord<P> {
             }
             Some(DockChange::Left) | None => {}
         }
-        let changed = findings.buttons.pressed | findings.buttons.released;
-        if changed == 0 {
-            return;
-        }
-        if findings.buttons.pressed != 0 && self.is_in_motion() {
+        if findings.buttons.any_pressed && self.is_in_motion() {
             self.reflexes.host.button();
             self.stop_all(MoveEnd::Inhibited);
         }
+        let changed = findings.buttons.pressed | findings.buttons.released;
         for button in (0..8).filter(|number| changed & (1 << number) != 0) {
             let pressed = findings.buttons.pressed & (1 << button) != 0;
             self.session.queue_edge(EdgeKind::Button { button, pressed }, now);

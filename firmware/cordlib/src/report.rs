@@ -10,6 +10,7 @@ use crate::board::{DockBeams, DustBox, Parts, ProximitySensors};
 use crate::cord::{Cord, name};
 use crate::rate::Rate;
 use crate::reflex::Reflexes;
+use crate::senses::shown;
 use crate::timing::Periodic;
 
 const STATE_PERIOD_MS: u32 = 20;
@@ -163,6 +164,7 @@ impl<P: Parts> Cord<P> {
     /// Writes the next packet if the last one is gone: what the session wants sent, then rare reports, then `state`.
     pub(crate) fn fill_transmitter(&mut self, now: Tick) {
         self.reporter.tick(self.session.mode(), now);
+        self.probing.gather(&mut self.board.probe, now);
         let Some(packet) = self.transmitter.next() else {
             return;
         };
@@ -173,6 +175,8 @@ impl<P: Parts> Cord<P> {
             Report::Info(self.info())
         } else if let Some((level, text)) = self.journal.take() {
             Report::Log { level, text }
+        } else if let Some(probed) = self.probing.take(&mut self.board.probe, now) {
+            Report::Probed(probed)
         } else if self.reporter.state.take() {
             Report::State(self.state(now))
         } else {
@@ -200,14 +204,14 @@ impl<P: Parts> Cord<P> {
         let battery = self.battery();
         State {
             tick: now,
-            count_left: self.senses.counts.left,
-            count_right: self.senses.counts.right,
+            count_left: shown(self.fitted.encoders, self.senses.counts.left),
+            count_right: shown(self.fitted.encoders, self.senses.counts.right),
             gyro: self.senses.gyro,
             bumpers: self.reflexes.bumpers(),
             cliffs: self.reflexes.cliffs(),
             wheel_drops: self.reflexes.wheel_drops(),
-            proximity: self.board.proximity.closeness(),
-            dock: self.board.dock_beams.symbols(),
+            proximity: shown(self.fitted.proximity > 0, self.board.proximity.closeness()),
+            dock: shown(self.fitted.dock_receivers > 0, self.board.dock_beams.symbols()),
             buttons: self.reflexes.buttons(),
             // The wire has no word for a machine without this switch: its box is never missed.
             dust_box: self.board.dust_box.inserted().unwrap_or(true),

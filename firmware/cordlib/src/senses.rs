@@ -1,6 +1,6 @@
 //! One look at the board's inputs, taken at the start of every pass.
 
-use rvac_protocol::message::{Bumpers, Cliffs, Currents, Gyro, WheelDrops};
+use rvac_protocol::message::{Bumpers, Capabilities, Cliffs, Currents, Gyro, WheelDrops};
 use rvac_units::Tick;
 
 use crate::board::{
@@ -21,27 +21,44 @@ pub(crate) struct Senses {
     pub(crate) blinded: Cliffs,
     pub(crate) wheel_drops: WheelDrops,
     pub(crate) docked: bool,
+    /// Buttons that are down, as far as the board can tell which.
     pub(crate) buttons: u8,
+    /// Any button is down, whichever.
+    pub(crate) any_button: bool,
     pub(crate) gyro: Option<Gyro>,
     pub(crate) currents: Option<Currents>,
 }
 
 impl Senses {
-    /// Reads everything the rules need.
-    pub(crate) fn read<P: Parts>(board: &mut Board<P>, floor: &mut FloorWatch) -> Self {
+    /// Reads everything the rules need. What is not fitted, or not calibrated yet, shows nothing.
+    pub(crate) fn read<P: Parts>(
+        board: &mut Board<P>,
+        floor: &mut FloorWatch,
+        fitted: &Capabilities,
+    ) -> Self {
         let now = board.clock.tick();
         floor.update(&mut board.cliffs, now);
+        let known_buttons = match fitted.buttons {
+            count @ 0..=7 => (1_u8 << count).wrapping_sub(1),
+            _ => u8::MAX,
+        };
         Self {
             now,
             counts: board.encoders.counts(),
-            bumpers: board.bumpers.pressed(),
+            bumpers: shown(fitted.bumpers > 0, board.bumpers.pressed()),
             no_floor: floor.no_floor(),
             blinded: floor.blinded(),
-            wheel_drops: board.wheel_drops.hanging(),
+            wheel_drops: shown(fitted.wheel_drops > 0, board.wheel_drops.hanging()),
             docked: board.dock_contacts.closed(),
-            buttons: board.buttons.down(),
-            gyro: board.gyro.heading(),
-            currents: board.currents.currents(),
+            buttons: board.buttons.down() & known_buttons,
+            any_button: board.buttons.any_down(),
+            gyro: board.gyro.heading().filter(|_| fitted.gyro),
+            currents: board.currents.currents().filter(|_| fitted.currents),
         }
     }
+}
+
+/// The reading of a part that is fitted; of any other nothing is believed.
+pub(crate) fn shown<T: Default>(fitted: bool, reading: T) -> T {
+    if fitted { reading } else { T::default() }
 }

@@ -7,7 +7,7 @@ use crate::board::{ChargeDrive, ChargerReadings, DockRequest};
 use crate::parameters::PackParameters;
 
 use super::faults::FaultWatch;
-use super::gauge::Gauge;
+use super::gauge::{Gauge, Use};
 use super::guard::{AGE_MAX_MS, Guard, View};
 use super::history::History;
 use super::meter::{Beats, Means, Meter, Window};
@@ -159,7 +159,9 @@ impl<S: Stops> ChargeController<S> {
         self.supplied_ms = add(supplied, self.supplied_ms);
         self.off_ms = add(self.output.drive == ChargeDrive::Off, self.off_ms);
         self.asked_ms = add(self.output.request == DockRequest::Current, self.asked_ms);
-        self.thermometer.pass(elapsed_ms);
+        if self.meter.has_measured() {
+            self.thermometer.pass(elapsed_ms);
+        }
         self.history.pass(elapsed_ms);
         self.watch.pass(supplied, elapsed_ms);
         self.rest.pass(elapsed_ms);
@@ -178,8 +180,11 @@ impl<S: Stops> ChargeController<S> {
                 self.zero.learn(&means);
             }
             let means = self.zero.correct(means);
-            self.gauge
-                .each_second(&means, context.load_ma, self.is_charging(), &self.pack);
+            let use_of = Use {
+                load_ma: context.load_ma,
+                charging: self.is_charging(),
+            };
+            self.gauge.each_second(&means, use_of, &self.pack);
             if self.is_charging() || self.phase == ChargePhase::Maintain {
                 self.charge.gather(&means);
             }

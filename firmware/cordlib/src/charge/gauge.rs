@@ -4,6 +4,7 @@
 
 use rvac_units::Ratio;
 
+use crate::limit::within;
 use crate::parameters::PackParameters;
 
 use super::meter::Means;
@@ -31,6 +32,15 @@ const PULL: i64 = 600;
 /// Milliseconds and millionths to milliampere hours.
 const MS_PER_H: i64 = 3_600_000;
 
+/// What happens to the pack.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Use {
+    /// What the machine takes by its own reckoning.
+    pub(super) load_ma: i32,
+    /// It is being filled.
+    pub(super) charging: bool,
+}
+
 /// The estimate in millionths.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gauge {
@@ -38,8 +48,9 @@ pub(super) struct Gauge {
 }
 
 impl Gauge {
-    /// A second is over. `load_ma` is what the machine takes by its own reckoning.
-    pub(super) fn each_second(&mut self, means: &Means, load_ma: i32, charging: bool, pack: &PackParameters) {
+    /// A second is over.
+    pub(super) fn each_second(&mut self, means: &Means, use_of: Use, pack: &PackParameters) {
+        let Use { load_ma, charging } = use_of;
         let sag_mv = i64::from(load_ma).saturating_mul(i64::from(pack.resistance_mohm)) / 1_000;
         let open_mv = means.pack_mv.saturating_add(i32::try_from(sag_mv).unwrap_or(0));
         let by_voltage = by_voltage(open_mv, pack.cells);
@@ -56,10 +67,10 @@ impl Gauge {
             / capacity_ma_ms.max(1);
         let counted = charge.saturating_add(change);
         self.charge = Some(if charging {
-            counted.max(0).min(ALMOST.max(charge))
+            within(counted, 0, ALMOST.max(charge))
         } else {
             let pulled = counted.saturating_add(by_voltage.saturating_sub(counted) / PULL);
-            pulled.max(0).min(WHOLE)
+            within(pulled, 0, WHOLE)
         });
     }
 
@@ -93,7 +104,7 @@ fn by_voltage(pack_mv: i32, cells: u8) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CURVE, Gauge, by_voltage};
+    use super::{CURVE, Gauge, Use, by_voltage};
     use crate::charge::meter::Means;
     use crate::parameters::PackParameters;
 
@@ -132,15 +143,36 @@ mod tests {
     #[test]
     fn a_charge_counts_up_and_is_full_only_when_it_has_ended() {
         let mut gauge = Gauge::default();
-        gauge.each_second(&means(14_640, 0), 0, false, &PACK);
+        gauge.each_second(
+            &means(14_640, 0),
+            Use {
+                load_ma: 0,
+                charging: false,
+            },
+            &PACK,
+        );
         assert_eq!(gauge.charge().millionths(), 200_000);
         for _ in 0..3_600 {
-            gauge.each_second(&means(17_000, 950), 15, true, &PACK);
+            gauge.each_second(
+                &means(17_000, 950),
+                Use {
+                    load_ma: 15,
+                    charging: true,
+                },
+                &PACK,
+            );
         }
         let after_an_hour = gauge.charge().millionths();
         assert!((620_000..640_000).contains(&after_an_hour), "{after_an_hour}");
         for _ in 0..7_200 {
-            gauge.each_second(&means(17_500, 950), 15, true, &PACK);
+            gauge.each_second(
+                &means(17_500, 950),
+                Use {
+                    load_ma: 15,
+                    charging: true,
+                },
+                &PACK,
+            );
         }
         assert_eq!(gauge.charge().millionths(), 990_000);
         gauge.fill();
@@ -152,10 +184,24 @@ mod tests {
         let mut gauge = Gauge::default();
         let load_ma = 1_500;
         let sag_mv = load_ma * i32::from(PACK.resistance_mohm) / 1_000;
-        gauge.each_second(&means(15_180, 0), 0, false, &PACK);
+        gauge.each_second(
+            &means(15_180, 0),
+            Use {
+                load_ma: 0,
+                charging: false,
+            },
+            &PACK,
+        );
         let before = gauge.charge().millionths();
         for _ in 0..600 {
-            gauge.each_second(&means(15_180 - sag_mv, 0), load_ma, false, &PACK);
+            gauge.each_second(
+                &means(15_180 - sag_mv, 0),
+                Use {
+                    load_ma,
+                    charging: false,
+                },
+                &PACK,
+            );
         }
         let after = gauge.charge().millionths();
         assert!(

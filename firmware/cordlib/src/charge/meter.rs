@@ -63,6 +63,7 @@ pub(super) struct Meter {
     taken: Option<Tick>,
     age_ms: u32,
     adapter: bool,
+    measured: bool,
     sums: [Sums; WINDOWS],
 }
 
@@ -79,6 +80,7 @@ impl Meter {
             taken: None,
             age_ms: NEVER_MS,
             adapter: false,
+            measured: false,
             sums: [Sums {
                 elapsed_ms: 0,
                 count: 0,
@@ -95,6 +97,7 @@ impl Meter {
     /// Takes the newest readings, `elapsed_ms` after the last ones.
     pub(super) fn take(&mut self, readings: Option<ChargerReadings>, elapsed_ms: u32, now: Tick) -> Beats {
         self.adapter = readings.is_some_and(|readings| readings.adapter);
+        self.measured |= readings.is_some();
         self.age_ms = match readings {
             Some(readings) => readings.age_ms,
             None => self.age_ms.saturating_add(elapsed_ms),
@@ -111,6 +114,12 @@ impl Meter {
     /// How old the newest reading is, in ms.
     pub(super) const fn age_ms(&self) -> u32 {
         self.age_ms
+    }
+
+    /// Whether there were ever readings. A board that has none, for example because its pack is not calibrated, measures
+    /// nothing, and nothing can be wrong with it.
+    pub(super) const fn has_measured(&self) -> bool {
+        self.measured
     }
 
     /// The supply is on the contacts.

@@ -4,6 +4,7 @@ use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::controller::{ChargeContext, ChargeController};
 use super::meter::{Beats, Means, Window};
+use super::scale::PackScale;
 use super::stops::{Detectors, Progress, Stops, TIME_MS};
 
 /// The contacts must be closed this long before a charge begins.
@@ -108,13 +109,14 @@ impl Charge {
         self.flowed_ms < span_ms
     }
 
-    fn progress(&self, full_rate: bool) -> Progress {
+    fn progress(&self, scale: PackScale) -> Progress {
         Progress {
             phase_ms: self.phase_ms,
             flowed_ms: self.flowed_ms,
             charged_mas: self.charged_mas,
             start_cc: self.start_cc.unwrap_or(i32::MAX / 2),
-            full_rate,
+            full_rate: !self.slow,
+            scale,
         }
     }
 }
@@ -202,10 +204,8 @@ impl<S: Stops> ChargeController<S> {
         }
         if let (Some(means), ChargePhase::Fast) = (beats.of(Window::TenSeconds), self.phase) {
             let means = self.zero.correct(means);
-            let progress = self.charge.progress(!self.charge.slow);
-            let found = self
-                .detectors
-                .each_ten_seconds(&means, &progress, &self.scale, &self.stops);
+            let progress = self.charge.progress(self.scale);
+            let found = self.detectors.each_ten_seconds(&means, &progress, &self.stops);
             if let Some(end) = found {
                 self.finish(end);
             }
@@ -280,8 +280,8 @@ impl<S: Stops> ChargeController<S> {
             };
             self.charge.slow = cc < edge_cc;
         }
-        let progress = self.charge.progress(!self.charge.slow);
-        if let Some(end) = Detectors::each_second(means, &progress, &self.scale, &self.stops) {
+        let progress = self.charge.progress(self.scale);
+        if let Some(end) = Detectors::each_second(means, &progress, &self.stops) {
             self.finish(end);
         }
     }

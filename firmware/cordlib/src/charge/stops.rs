@@ -60,6 +60,7 @@ pub(super) struct Progress {
     pub(super) start_cc: i32,
     /// The full current flows, so that slopes of voltage mean something.
     pub(super) full_rate: bool,
+    pub(super) scale: PackScale,
 }
 
 /// The stops that need a memory.
@@ -81,12 +82,7 @@ impl Detectors {
     }
 
     /// The stops that look once a second. `end` asks whether a stop applies.
-    pub(super) fn each_second(
-        means: &Means,
-        progress: &Progress,
-        scale: &PackScale,
-        stops: &impl Stops,
-    ) -> Option<ChargeEnd> {
+    pub(super) fn each_second(means: &Means, progress: &Progress, stops: &impl Stops) -> Option<ChargeEnd> {
         let temperature_cc = means.temperature_cc;
         let at_least = |limit_cc: i32| temperature_cc.is_some_and(|cc| cc >= limit_cc);
         let found = [
@@ -95,8 +91,14 @@ impl Detectors {
                 ChargeEnd::Rise,
                 at_least(progress.start_cc.saturating_add(RISE_CC)),
             ),
-            (ChargeEnd::Voltage, means.pack_mv >= scale.voltage_max_mv()),
-            (ChargeEnd::Charge, progress.charged_mas >= scale.charge_max_mas()),
+            (
+                ChargeEnd::Voltage,
+                means.pack_mv >= progress.scale.voltage_max_mv(),
+            ),
+            (
+                ChargeEnd::Charge,
+                progress.charged_mas >= progress.scale.charge_max_mas(),
+            ),
             (ChargeEnd::Time, progress.flowed_ms >= TIME_MS),
         ];
         found
@@ -109,13 +111,12 @@ impl Detectors {
         &mut self,
         means: &Means,
         progress: &Progress,
-        scale: &PackScale,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
         let slope = self.sees_slope(means.temperature_cc, progress);
         self.smooth_voltage(means);
-        let drop = self.sees_drop(means.current_ma, progress, scale);
-        let plateau = self.sees_plateau(progress, scale);
+        let drop = self.sees_drop(means.current_ma, progress);
+        let plateau = self.sees_plateau(progress);
         let found = [
             (ChargeEnd::Slope, slope),
             (ChargeEnd::Drop, drop),
@@ -151,7 +152,7 @@ impl Detectors {
         self.smooth = Some(smooth);
     }
 
-    fn sees_drop(&mut self, current_ma: i32, progress: &Progress, scale: &PackScale) -> bool {
+    fn sees_drop(&mut self, current_ma: i32, progress: &Progress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
         let changed = current_ma.saturating_sub(self.peak_current_ma).saturating_abs() > SAME_CURRENT_MA;
         if smooth > self.peak || changed || progress.phase_ms < DROP_HOLD_OFF_MS {
@@ -160,7 +161,7 @@ impl Detectors {
             self.drop_windows = 0;
             return false;
         }
-        let below = self.peak.saturating_sub(smooth) >= scale.drop_mv().saturating_mul(FINE);
+        let below = self.peak.saturating_sub(smooth) >= progress.scale.drop_mv().saturating_mul(FINE);
         self.drop_windows = if below {
             self.drop_windows.saturating_add(1)
         } else {
@@ -170,10 +171,10 @@ impl Detectors {
     }
 
     /// Where a tenth of the current flows the voltage is flat all the time.
-    fn sees_plateau(&mut self, progress: &Progress, scale: &PackScale) -> bool {
+    fn sees_plateau(&mut self, progress: &Progress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
         let rise = smooth.saturating_sub(self.plateau_from);
-        if rise >= scale.plateau_mv().saturating_mul(FINE) || !progress.full_rate {
+        if rise >= progress.scale.plateau_mv().saturating_mul(FINE) || !progress.full_rate {
             self.plateau_from = smooth;
             self.plateau_windows = 0;
             return false;

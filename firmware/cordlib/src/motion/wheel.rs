@@ -18,6 +18,8 @@ const SLEW: i32 = 50_000;
 
 /// A wheel that turns faster than this is braked before a commanded duty drives it the other way.
 const REVERSAL_UM_PER_S: i32 = 50_000;
+/// Where the speed is not known the wheel brakes this long instead: 0.4 s.
+const BLIND_REST_PERIODS: u8 = 40;
 
 /// One wheel as the rules and the telemetry see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +53,10 @@ pub(crate) struct WheelController {
     behind_nm: i32,
     duty: i32,
     status: WheelStatus,
+    /// Counts mean ways, so that the speed is known.
+    counted: bool,
+    /// Control periods for which a wheel of unknown speed still brakes before it is driven the other way.
+    coming_to_rest: u8,
 }
 
 /// What the wheel should do in one control period.
@@ -70,6 +76,7 @@ impl WheelController {
         let step = i64::from(count_nm) / i64::from(CONTROL_MS);
         Self {
             count,
+            counted: count_nm > 0,
             status: WheelStatus {
                 set_point_um_per_s: Some(0),
                 speed_step_um_per_s: saturate(step),
@@ -154,7 +161,13 @@ impl WheelController {
             .status
             .speed_um_per_s
             .saturating_mul(duty.millionths().signum());
-        self.duty = if along < -REVERSAL_UM_PER_S {
+        let opposite = self.duty.signum() * duty.millionths().signum() < 0;
+        if opposite && !self.counted {
+            self.coming_to_rest = BLIND_REST_PERIODS;
+        }
+        let rests = self.coming_to_rest > 0;
+        self.coming_to_rest = self.coming_to_rest.saturating_sub(1);
+        self.duty = if rests || along < -REVERSAL_UM_PER_S {
             0
         } else {
             self.slew(duty.millionths(), parameters.dead_band.millionths())

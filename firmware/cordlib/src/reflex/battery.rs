@@ -69,7 +69,9 @@ impl BatteryRule {
         if let Some(pack_mv) = view.pack_mv {
             let cell_mv = pack_mv / view.cells.max(1);
             for (level, (_, least_mv, span_ms)) in self.levels.iter_mut().zip(LEVELS) {
-                level.update(cell_mv, (least_mv, span_ms), view.supplied, now);
+                let above_mv = cell_mv.saturating_sub(least_mv);
+                level.fall(above_mv, now, span_ms);
+                level.recover(view.supplied && above_mv >= CHARGED_MV, cell_mv, now);
             }
         }
         let cc = view.thermometer.cc();
@@ -119,9 +121,11 @@ impl BatteryRule {
 }
 
 impl Level {
-    fn update(&mut self, cell_mv: i32, (least_mv, span_ms): (i32, u32), supplied: bool, now: Tick) {
-        self.active |= self.below.for_at_least(cell_mv < least_mv, now, span_ms);
-        let charged = supplied && cell_mv >= least_mv.saturating_add(CHARGED_MV);
+    fn fall(&mut self, above_mv: i32, now: Tick, span_ms: u32) {
+        self.active |= self.below.for_at_least(above_mv < 0, now, span_ms);
+    }
+
+    fn recover(&mut self, charged: bool, cell_mv: i32, now: Tick) {
         let over = self.charged.for_at_least(self.active && charged, now, CHARGED_MS)
             | self
                 .exchanged

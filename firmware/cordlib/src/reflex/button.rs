@@ -11,6 +11,7 @@ const STABLE_MS: u32 = 10;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ButtonRule {
     buttons: [Debounced<STABLE_MS, STABLE_MS>; 8],
+    any: Debounced<STABLE_MS, STABLE_MS>,
     down: u8,
     raw: u8,
 }
@@ -22,11 +23,24 @@ pub(crate) struct ButtonChange {
     pub(crate) pressed: u8,
     /// Went up, bit by number.
     pub(crate) released: u8,
+    /// Some button went down, whichever: what S28 needs.
+    pub(crate) any_pressed: bool,
 }
 
 impl ButtonRule {
-    /// Takes the raw buttons; returns what changed.
-    pub(crate) fn update(&mut self, raw: u8, now: Tick) -> ButtonChange {
+    /// Takes the raw buttons, and whether any is down, which a board may know without knowing which; returns what
+    /// changed.
+    pub(crate) fn update(&mut self, raw: u8, any: bool, now: Tick) -> ButtonChange {
+        let before = self.any.is_active();
+        let any_pressed = self.any.update(any || raw != 0, now) && !before;
+        let change = self.update_known(raw, now);
+        ButtonChange {
+            any_pressed: any_pressed || change.pressed != 0,
+            ..change
+        }
+    }
+
+    fn update_known(&mut self, raw: u8, now: Tick) -> ButtonChange {
         let settled = raw == self.down && self.raw == self.down;
         self.raw = raw;
         if settled {
@@ -43,7 +57,13 @@ impl ButtonRule {
         ButtonChange {
             pressed: self.down & !before,
             released: before & !self.down,
+            any_pressed: false,
         }
+    }
+
+    /// Whether any button is down.
+    pub(crate) const fn any_down(&self) -> bool {
+        self.any.is_active() || self.down != 0
     }
 
     /// Buttons that are down, bit by number.
@@ -61,7 +81,7 @@ mod tests {
     fn a_chattering_button_does_not_hide_another() {
         let mut rule = ButtonRule::default();
         let pressed: u8 = (0..=STABLE_MS)
-            .map(|ms| rule.update(0b100 | (ms & 1) as u8, Tick(ms)).pressed)
+            .map(|ms| rule.update(0b100 | (ms & 1) as u8, true, Tick(ms)).pressed)
             .fold(0, |all, pressed| all | pressed);
         assert_eq!(pressed, 0b100);
         assert_eq!(rule.down(), 0b100);
@@ -71,10 +91,23 @@ mod tests {
     fn short_contacts_are_no_press() {
         let mut rule = ButtonRule::default();
         for ms in 0..STABLE_MS {
-            assert_eq!(rule.update(1, Tick(ms)), ButtonChange::default());
+            assert_eq!(rule.update(1, true, Tick(ms)), ButtonChange::default());
         }
-        assert_eq!(rule.update(0, Tick(STABLE_MS)), ButtonChange::default());
-        assert_eq!(rule.update(0, Tick(STABLE_MS + 1)), ButtonChange::default());
-        assert_eq!(rule.update(1, Tick(STABLE_MS + 2)), ButtonChange::default());
+        assert_eq!(rule.update(0, false, Tick(STABLE_MS)), ButtonChange::default());
+        assert_eq!(
+            rule.update(0, false, Tick(STABLE_MS + 1)),
+            ButtonChange::default()
+        );
+        assert_eq!(rule.update(1, true, Tick(STABLE_MS + 2)), ButtonChange::default());
+    }
+
+    #[test]
+    fn a_press_counts_without_knowing_which_button() {
+        let mut rule = ButtonRule::default();
+        let changes = (0..=STABLE_MS).map(|ms| rule.update(0, true, Tick(ms)));
+        let pressed: usize = changes.filter(|change| change.any_pressed).count();
+        assert_eq!(pressed, 1);
+        assert!(rule.any_down());
+        assert_eq!(rule.down(), 0);
     }
 }

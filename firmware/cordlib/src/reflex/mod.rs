@@ -23,7 +23,7 @@ pub(crate) use stall::{Load, StallRule};
 
 use rvac_protocol::message::{Bumpers, ChargeFault, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
 
-use crate::board::{Encoders, Parts, ResetRecord};
+use crate::board::ResetRecord;
 use crate::motion::{MotionStatus, WheelStatus};
 use crate::parameters::Parameters;
 use crate::permit::Standing;
@@ -63,6 +63,10 @@ pub(crate) struct Reflexes {
     idle: bool,
     latched: Inhibits,
     wheel_turns: bool,
+    /// Encoder counts mean ways: fitted and calibrated.
+    counted: bool,
+    /// Wheels whose encoder has counted since the reset, calibrated or not.
+    alive: [bool; 2],
 }
 
 /// What the fast rules found in one pass.
@@ -74,7 +78,7 @@ pub(crate) struct Findings {
 
 impl Reflexes {
     /// Starts disarmed; a reset loop is latched from the start.
-    pub(crate) fn new<R: ResetRecord>(record: &mut R, now: rvac_units::Tick) -> Self {
+    pub(crate) fn new<R: ResetRecord>(record: &mut R, counted: bool, now: rvac_units::Tick) -> Self {
         let (reset, is_loop) = ResetRule::new(record, now);
         let mut latched = Inhibits::NONE;
         if is_loop {
@@ -99,6 +103,8 @@ impl Reflexes {
             idle: false,
             latched,
             wheel_turns: false,
+            counted,
+            alive: [false; 2],
         }
     }
 
@@ -120,19 +126,22 @@ impl Reflexes {
             driven: motion.left.duty != 0 || motion.right.duty != 0,
             travelled_nm: motion.travelled_nm,
         };
-        if self.cliff.update(senses.no_floor, context, now) {
+        let trapped = self.cliff.update(senses.no_floor, context, now);
+        // Without counts neither the way nor the speed back from a cliff could be limited.
+        let blind = !self.counted && context.driven && self.cliff.any();
+        if trapped || blind {
             self.latched.insert(Inhibit::CliffTrapped);
         }
         self.blinded = senses.blinded != Cliffs::default();
         self.lifted = self.lift.update(senses.wheel_drops, now);
         Findings {
             dock,
-            buttons: self.buttons.update(senses.buttons, now),
+            buttons: self.buttons.update(senses.buttons, senses.any_button, now),
         }
     }
 
     /// The rules that look at motors, once for each control period. Returns wheels that were switched off for load.
-    pub(crate) fn judge_wheels<P: Parts>(
+    pub(crate) fn judge_wheels(
         &mut self,
         senses: &Senses,
         motion: &MotionStatus,
@@ -149,14 +158,16 @@ impl Reflexes {
         ];
         let mut stalled = [None; 2];
         let motors = [Motor::WheelLeft, Motor::WheelRight];
-        for (((load, rule), out), motor) in loads
+        for ((((load, rule), out), motor), alive) in loads
             .into_iter()
             .zip(&mut self.stall)
             .zip(&mut stalled)
             .zip(motors)
+            .zip(&mut self.alive)
         {
             let (wheel, current) = load;
-            let turned = P::Encoders::PRESENT.then_some(wheel.turned);
+            *alive |= wheel.turned;
+            let turned = (self.counted || *alive).then_some(wheel.turned);
             let load = Load {
                 duty: wheel.duty,
                 turned,
@@ -168,7 +179,7 @@ impl Reflexes {
                 *out = Some(motor);
             }
         }
-        if P::Encoders::PRESENT {
+        if self.counted {
             self.judge_encoders(senses, motion, parameters);
         }
         stalled
@@ -275,6 +286,7 @@ impl Reflexes {
             fresh,
             inhibits: self.inhibits(),
             bumpers: self.bumper.pressed(),
+            leaving: false,
         }
     }
 
@@ -291,6 +303,11 @@ impl Reflexes {
     /// Wheels that hang.
     pub(crate) const fn wheel_drops(&self) -> WheelDrops {
         self.lift.hanging()
+    }
+
+    /// Whether any button is down, whichever.
+    pub(crate) const fn any_button(&self) -> bool {
+        self.buttons.any_down()
     }
 
     /// Buttons that are down, bit by number.
