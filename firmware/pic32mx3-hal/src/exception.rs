@@ -170,19 +170,12 @@ fn run_hook(exception: &Exception) -> ! {
     unsafe extern "C" {
         fn __exception_hook(exception: &Exception) -> !;
     }
-    // SAFETY: made by `exception_hook!`, or the default below, with this signature.
+    // SAFETY: made by `exception_hook!`, or the one of start/exception.S, with this signature.
     unsafe { __exception_hook(exception) }
 }
 
 #[cfg(not(target_arch = "mips"))]
 fn run_hook(_exception: &Exception) -> ! {
-    reset::software_reset()
-}
-
-/// The hook of a program that has none (link.x).
-#[cfg(target_arch = "mips")]
-#[unsafe(no_mangle)]
-extern "C" fn __default_exception_hook(_exception: &Exception) -> ! {
     reset::software_reset()
 }
 

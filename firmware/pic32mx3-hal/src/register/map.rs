@@ -81,9 +81,6 @@ pub(crate) const fn adc_buffer(index: u8) -> Register {
 
 /// Oscillator (6).
 pub(crate) const OSCCON: Register = Register::at(0xBF80_F000);
-/// Debug data and JTAG (8). Written by the start-up code only.
-#[cfg(target_arch = "mips")]
-pub(crate) const DDPCON: Register = Register::at(0xBF80_F200);
 /// Device identity (2).
 pub(crate) const DEVID: Register = Register::at(0xBF80_F220);
 /// Lock of OSCCON and RSWRST (4).

@@ -17,6 +17,14 @@ __general_exception:
     j       __exception
     nop
 
+# The hook of a program that has none (link.x).
+    .section .text.hook, "ax"
+    .globl __default_exception_hook
+    .type __default_exception_hook, @function
+__default_exception_hook:
+    j       __restart_far
+    nop
+
 # A vector without handler. It came through __interrupt_entry, or stands in for a function.
     .section .text.unhandled, "ax"
     .globl __unhandled_interrupt

@@ -23,7 +23,6 @@ macro_rules! entry {
 
 #[cfg(target_arch = "mips")]
 mod assembly {
-    use crate::register::map::DDPCON;
     use core::arch::global_asm;
 
     // One block, so that all of it is linked when the reset entry is.
@@ -41,12 +40,4 @@ mod assembly {
         ".text",
         options(raw)
     );
-
-    /// What runs first of all compiled code, before variables have values: JTAG gives back RA0, RA1, RA4 and RA5 (section
-    /// 8). A program that is debugged over JTAG defines a function `__pre_init` that does not.
-    #[unsafe(no_mangle)]
-    extern "C" fn __default_pre_init() {
-        const JTAGEN: u32 = 1 << 3;
-        DDPCON.clear(JTAGEN);
-    }
 }

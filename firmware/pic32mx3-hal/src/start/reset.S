@@ -10,6 +10,8 @@
     .equ CHECON_80_MHZ,     0x00000032      # 2 wait states, prefetch for cacheable and other regions
     .equ BMXCONCLR,         0xBF882004
     .equ BMX_RAM_WAIT,      1 << 6          # BMXWSDRM
+    .equ DDPCONCLR,         0xBF80F204
+    .equ DDPCON_JTAGEN,     1 << 3
     .equ SYSKEY,            0xBF80F230
     .equ RSWRST,            0xBF80F610
     .equ RSWRSTSET,         0xBF80F618
@@ -133,6 +135,16 @@ __start:
     nop
     j       __restart_far                   # the program does not return
     nop
+
+# What runs before variables have values: JTAG gives back RA0, RA1, RA4 and RA5 (section 8). A program that is debugged over
+# JTAG has a function __pre_init of its own that does not (link.x).
+    .globl __default_pre_init
+    .type __default_pre_init, @function
+__default_pre_init:
+    lui     $t0, %hi(DDPCONCLR)
+    li      $t1, DDPCON_JTAGEN
+    jr      $ra
+    sw      $t1, %lo(DDPCONCLR)($t0)
 
     .globl __restart_far
 __restart_far:

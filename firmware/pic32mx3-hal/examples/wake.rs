@@ -1,0 +1,48 @@
+//! Timer 2 sets a word and RG7; the main program sleeps until the word is set and clears both. Between two sleeps it works
+//! for a time that differs each time, so that the interrupt meets every instruction on the way into the sleep. RG7 is never
+//! high for long: no wake-up is lost.
+#![cfg_attr(target_arch = "mips", no_std, no_main)]
+
+mod board;
+
+use core::sync::atomic::{AtomicU32, Ordering};
+use pic32mx3_hal::gpio::Port;
+use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
+use pic32mx3_hal::timer::Prescaler;
+use pic32mx3_hal::{Peripherals, core_timer, cpu, entry, interrupt, reset};
+
+const LAMP: u16 = 1 << 7;
+
+static WORD: AtomicU32 = AtomicU32::new(0);
+
+fn on_timer(_: &mut Context<vector::TIMER_2>) {
+    WORD.store(1, Ordering::Release);
+    Port::G.set(LAMP);
+    Source::Timer2.clear();
+}
+interrupt!(TIMER_2, on_timer);
+
+fn main() -> ! {
+    let Some(mut peripherals) = Peripherals::take() else {
+        reset::software_reset()
+    };
+    Port::G.drive(LAMP);
+    if interrupt::set_priority(Vector::Timer2, Priority::Level2, SubPriority::Sub0).is_err() {
+        reset::software_reset();
+    }
+    peripherals.timer2.start(Prescaler::By1, 4_000);
+    Source::Timer2.enable();
+    interrupt::start();
+    let mut work_counts = 0;
+    loop {
+        while WORD.load(Ordering::Acquire) == 0 {
+            cpu::sleep_while_zero(&WORD);
+        }
+        WORD.store(0, Ordering::Relaxed);
+        Port::G.clear(LAMP);
+        let begun = core_timer::count();
+        work_counts = 1_900 + (work_counts + 1) % 90;
+        while core_timer::count().wrapping_sub(begun) < work_counts {}
+    }
+}
+entry!(main);
