@@ -5,11 +5,12 @@ use super::files::Files;
 use super::rust_text::code;
 
 /// Crates that run on a microcontroller.
-const NO_STD: [&str; 7] = [
+const NO_STD: [&str; 8] = [
     "firmware/pic32mx3-hal",
     "firmware/size-probe",
     "firmware/soft-uart",
     "firmware/sr8730",
+    "sim/pic32/proof",
     "protocol/rvac-units",
     "protocol/rvac-protocol",
     "firmware/cordlib",

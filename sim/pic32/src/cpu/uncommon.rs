@@ -100,7 +100,7 @@ impl Cpu {
                 self.registers.set(rt, value);
             }
             Uncommon::Mtc0 { rt, register, select } => {
-                self.set_system_register((register, select), self.registers.get(rt));
+                self.set_system_register(register, select, self.registers.get(rt));
             }
             Uncommon::Rdpgpr { rd, rt } => {
                 let value = self.previous_registers().get(rt);
@@ -146,7 +146,7 @@ impl Cpu {
     }
 
     /// Writes a register of coprocessor 0 as `mtc0` does.
-    pub(super) fn set_system_register(&mut self, (register, select): (u8, u8), value: u32) {
+    pub fn set_system_register(&mut self, register: u8, select: u8, value: u32) {
         match self.system.write(register, select, value) {
             Written::Plain => {}
             Written::Count(value) => self.timer.set_count(self.cycle, value),
