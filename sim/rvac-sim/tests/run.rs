@@ -64,13 +64,20 @@ fn trials_are_counted() {
 #[test]
 fn bad_input_names_itself() {
     let flat = "homes/two-room-flat.toml";
-    let cases: [(&[&str], &str); 6] = [
+    let cut = std::env::temp_dir().join(format!("rvac-sim-cut-{}.elf", std::process::id()));
+    std::fs::write(&cut, b"\x7fELF\x01\x01\x01\0").unwrap();
+    let cut = cut.to_str().unwrap();
+    let cases: [(&[&str], &str); 10] = [
         (&["run", "--home", "nowhere.toml"], "nowhere.toml"),
         (&["run", "--home", "Cargo.toml"], "Cargo.toml"),
         (&["run", "--home", flat, "--robot", "relax"], "relax"),
         (&["run", "--home", flat, "--strategy", "magic"], "magic"),
         (&["run", "--home", flat, "--minutes", "-3"], "-3"),
         (&["faults", "--seeds", "9..3"], "9..3"),
+        (&["run", "--home", flat, "--firmware", "no.elf"], "no.elf"),
+        (&["run", "--home", flat, "--firmware", "Cargo.toml"], "no ELF"),
+        (&["run", "--home", flat, "--firmware", cut], "ends at byte 8"),
+        (&["faults", "--firmware", "no.elf"], "cargo xtask firmware"),
     ];
     for (arguments, named) in cases {
         let output = rvac_sim(arguments);
@@ -79,4 +86,5 @@ fn bad_input_names_itself() {
         assert!(text.contains(named), "{text}");
         assert_eq!(output.stdout, b"");
     }
+    std::fs::remove_file(cut).unwrap();
 }

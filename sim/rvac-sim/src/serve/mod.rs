@@ -8,12 +8,13 @@ mod pace;
 mod pty;
 mod request;
 mod socket;
+mod speedometer;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use home::Pose;
 use robot::RobotSettings;
@@ -27,6 +28,7 @@ use pace::Pace;
 use pty::{Peer, Pty, PtyError};
 use request::SimulatorRequest;
 use socket::{Listener, SocketError};
+use speedometer::Speedometer;
 
 /// What the server is told.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +64,9 @@ pub enum ServeError {
 
 /// Truths a client gets in a second of the wall clock.
 const TRUTHS_PER_S: u32 = 10;
+/// Longest time on the wall for the ticks of one turn, so that clients and the terminal are served however slow the machine
+/// is.
+const TURN_MAX: Duration = Duration::from_millis(20);
 /// How long a press of a button lasts, simulated.
 const PRESS_MS: u64 = 200;
 /// Simulated milliseconds between two looks at whether the robot is stuck.
@@ -91,6 +96,7 @@ struct Server {
     listener: Listener,
     clients: Clients,
     pace: Pace,
+    speedometer: Speedometer,
     map_from_plan: Pose,
     stuck: StuckWatch,
     presses: Vec<(u8, u64)>,
@@ -117,6 +123,7 @@ impl Server {
             pty: Pty::open(&settings.link)?,
             clients: Clients::new(&greeting),
             pace: Pace::starting(started, settings.speed),
+            speedometer: Speedometer::starting(started, settings.speed),
             robot,
             map_from_plan,
             stuck: StuckWatch::default(),
@@ -175,16 +182,29 @@ impl Server {
             self.robot.send(buffer.get(..count).unwrap_or_default());
         }
         self.to_host.clear();
-        for _ in 0..due {
-            self.robot.tick(&mut self.to_host);
-            self.release_buttons();
-            self.watch_stuck();
-        }
+        self.advance(due);
         if peer != Peer::Absent && !self.to_host.is_empty() {
             // What does not fit is lost, as bytes are that a receiver does not take in time.
             self.pty.write(&self.to_host)?;
         }
         Ok(())
+    }
+
+    /// Does these ticks, or as many of them as there is time for. The others are given up: simulated time passes more slowly
+    /// then, and nothing else changes.
+    fn advance(&mut self, due: u64) {
+        let begun = Instant::now();
+        let mut done = 0;
+        while done < due && (done == 0 || begun.elapsed() < TURN_MAX) {
+            self.robot.tick(&mut self.to_host);
+            self.release_buttons();
+            self.watch_stuck();
+            done += 1;
+        }
+        if let Some(notice) = self.speedometer.pass(Instant::now(), done) {
+            // When standard error is gone there is nobody left to tell.
+            writeln!(io::stderr(), "rvac-sim: {notice}").ok();
+        }
     }
 
     fn watch_stuck(&mut self) {
