@@ -13,6 +13,8 @@ const LEVELS: usize = 6;
 const ENTRY: &str = "__interrupt_entry";
 /// Where the program begins.
 const START: &str = "__start";
+/// What runs when the program breaks, on a stack of its own.
+const EXCEPTION: &str = "__exception";
 /// What a vector without handler calls: it ends in a reset on a stack of its own.
 const UNHANDLED: &str = "__unhandled_interrupt";
 /// k0, in which a vector passes its handler's address.
@@ -58,7 +60,8 @@ pub(super) fn examine(elf: &Elf) -> anyhow::Result<Flow> {
         .address_of(START)
         .with_context(|| format!("the program has no {START}"))?;
     let in_handlers = graph.reach(&handlers);
-    let everything = graph.reach(&[&[start], handlers.as_slice()].concat());
+    let exception: Vec<u32> = elf.address_of(EXCEPTION).into_iter().collect();
+    let everything = graph.reach(&[&[start], handlers.as_slice(), &exception].concat());
     let entry = elf.address_of(ENTRY).and_then(|entry| graph.function(entry));
     Ok(Flow {
         stack: stack(&graph, start, entry.map_or(0, |entry| entry.frame), &handlers),
@@ -183,7 +186,62 @@ fn floats(graph: &Graph, among: &BTreeSet<u32>) -> BTreeSet<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_float, is_panic};
+    use super::{examine, is_float, is_panic};
+    use crate::firmware::sample::{BASE, linked};
+
+    const fn grow(bytes: u32) -> u32 {
+        0x27BD_0000 | (0x1_0000 - bytes)
+    }
+
+    const fn jump(word_index: u32) -> u32 {
+        0x0800_0000 | (((BASE & 0x0FFF_FFFF) >> 2) + word_index)
+    }
+
+    const fn call(word_index: u32) -> u32 {
+        jump(word_index) | 0x0400_0000
+    }
+
+    /// A slot of the vector table: the handler's address goes into k0, and the entry is at word 6.
+    const fn slot(handler_word: u32) -> [u32; 3] {
+        [0x3C1A_9D00, jump(6), 0x275A_0000 | (4 * handler_word)]
+    }
+
+    /// Two slots, one of them without handler; the entry with 112 bytes; the program; handlers.
+    fn examined(handler: [u32; 2]) -> super::Flow {
+        const INDIRECT: u32 = 0x0320_F809;
+        let slots = [slot(12), slot(16)].concat();
+        let vectors: [(&str, &[u32]); 2] = [("slots", &slots), ("__interrupt_entry", &[grow(112), INDIRECT])];
+        let text: [(&str, &[u32]); 6] = [
+            ("__start", &[call(10), 0]),
+            ("__program", &[grow(24), 0]),
+            ("ADC", &handler),
+            ("leaf", &[grow(8), 0]),
+            ("__unhandled_interrupt", &[jump(18), 0]),
+            ("core::panicking::panic", &[grow(200), 0]),
+        ];
+        examine(&linked(&[(".vectors", &vectors), (".text", &text)], &[])).expect("it has a start")
+    }
+
+    #[test]
+    fn handlers_are_read_from_the_vectors_and_stand_on_top_of_the_program() {
+        let flow = examined([grow(16), call(14)]);
+        assert_eq!(flow.stack.main.bytes, 24);
+        let handlers: Vec<_> = flow
+            .stack
+            .handlers
+            .iter()
+            .map(|handler| handler.chain.join(" "))
+            .collect();
+        assert_eq!(handlers, ["ADC leaf"]);
+        assert_eq!(flow.stack.worst_bytes(), 24 + 112 + 16 + 8);
+        assert!(flow.panics.is_empty() && flow.stack.doubts.is_empty());
+    }
+
+    #[test]
+    fn a_panic_in_a_handler_is_found_by_its_caller() {
+        let flow = examined([grow(16), call(18)]);
+        assert_eq!(flow.panics.into_iter().collect::<Vec<_>>(), ["ADC"]);
+    }
 
     #[test]
     fn floating_point_is_told_from_whole_numbers() {

@@ -41,6 +41,12 @@ pub(super) struct Depth {
     pub(super) recursive: BTreeSet<String>,
 }
 
+/// Sections of the start-up code's own: addresses of functions in them are no pointers that the program could call. The
+/// vectors pass those of handlers, and reset that of the program.
+const START_UP: [&str; 2] = [".vectors", ".reset"];
+/// Functions that go on with a stack of their own and do not come back.
+const FRESH_STACK: [&str; 1] = ["__general_exception"];
+
 impl Graph {
     /// Reads all functions of a program.
     pub(super) fn of(elf: &Elf) -> Self {
@@ -56,6 +62,15 @@ impl Graph {
             );
             graph.scan(elf, start, end);
         }
+        let fresh = FRESH_STACK.iter().filter_map(|name| elf.address_of(name));
+        for start in fresh {
+            graph.functions.entry(start).and_modify(|function| {
+                *function = Function {
+                    name: std::mem::take(&mut function.name),
+                    ..Function::default()
+                };
+            });
+        }
         for section in elf.sections.iter().filter(|section| !section.executable) {
             let words = section.bytes.iter().flat_map(|bytes| bytes.chunks_exact(4));
             let words = words.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
@@ -68,6 +83,11 @@ impl Graph {
 
     fn scan(&mut self, elf: &Elf, start: u32, end: u32) {
         let mut uppers: BTreeMap<u8, u32> = BTreeMap::new();
+        let section = elf
+            .sections
+            .iter()
+            .find(|section| start.wrapping_sub(section.address) < section.size);
+        let holds_pointers = !section.is_some_and(|section| START_UP.contains(&section.name.as_str()));
         let mut function = self.functions.remove(&start).unwrap_or_default();
         for address in (start..end).step_by(4) {
             let Some(word) = elf.word(address) else { break };
@@ -91,7 +111,9 @@ impl Graph {
                 } => {
                     if let Some(upper) = uppers.get(&base).copied() {
                         let address = upper.wrapping_add_signed(i32::from(offset));
-                        self.pointed_at.insert(address);
+                        if holds_pointers {
+                            self.pointed_at.insert(address);
+                        }
                         uppers.insert(register, address);
                     }
                 }
@@ -250,34 +272,10 @@ fn extents(symbols: &[Symbol], code: &[&Section]) -> Vec<(u32, u32, String)> {
 #[cfg(test)]
 mod tests {
     use super::Graph;
-    use crate::firmware::elf::{Elf, Section, Symbol};
+    use crate::firmware::sample::{BASE, linked};
 
-    const BASE: u32 = 0x9D00_0000;
-
-    /// A program of functions with their instructions, and constants.
     fn program(functions: &[(&str, &[u32])], constants: &[u32]) -> Graph {
-        let mut elf = Elf::default();
-        let mut bytes = Vec::new();
-        for (name, words) in functions {
-            elf.symbols.push(Symbol {
-                name: (*name).to_owned(),
-                address: BASE + bytes.len() as u32,
-                size: words.len() as u32 * 4,
-                code: true,
-            });
-            words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
-        }
-        let section = |address, executable, bytes: Vec<u8>| Section {
-            name: String::new(),
-            address,
-            size: bytes.len() as u32,
-            executable,
-            bytes: Some(bytes),
-        };
-        elf.sections.push(section(BASE, true, bytes));
-        let constants = constants.iter().flat_map(|word| word.to_le_bytes()).collect();
-        elf.sections.push(section(0x9D01_0000, false, constants));
-        Graph::of(&elf)
+        Graph::of(&linked(&[(".text", functions)], constants))
     }
 
     const fn call(word_index: u32) -> u32 {

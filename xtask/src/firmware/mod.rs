@@ -9,6 +9,8 @@ mod hex;
 mod instruction;
 mod record;
 mod report;
+#[cfg(test)]
+mod sample;
 mod seal;
 mod symbol_name;
 
