@@ -10,17 +10,18 @@ use crate::parameters::PackParameters;
 use super::meter::Means;
 
 /// Millivolts of one cell and its charge in millionths: a resting NiMH cell at room temperature.
-const CURVE: [(i32, i32); 10] = [
+const CURVE: [(i32, i32); 11] = [
     (1_000, 0),
     (1_190, 100_000),
     (1_220, 200_000),
+    (1_235, 300_000),
     (1_245, 400_000),
+    (1_255, 500_000),
     (1_265, 600_000),
     (1_280, 700_000),
     (1_300, 800_000),
-    (1_320, 870_000),
-    (1_345, 940_000),
-    (1_390, 1_000_000),
+    (1_335, 900_000),
+    (1_400, 1_000_000),
 ];
 const WHOLE: i64 = 1_000_000;
 /// Share of what goes in that stays in, in hundredths.
@@ -122,7 +123,7 @@ mod tests {
     #[test]
     fn the_curve_rises_from_empty_to_full_and_both_ends_are_reached() {
         assert_eq!(by_voltage(12_000, 12), 0);
-        assert_eq!(by_voltage(16_680, 12), 1_000_000);
+        assert_eq!(by_voltage(16_800, 12), 1_000_000);
         assert_eq!(by_voltage(20_000, 12), 1_000_000);
         assert_eq!(by_voltage(-5, 12), 0);
         let rising = CURVE

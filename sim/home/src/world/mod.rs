@@ -19,12 +19,12 @@ mod wheel;
 use std::sync::Arc;
 
 pub use actuation::{Actuation, Bridge};
+pub use battery::{OddCell, Pack, PackMake, Supply};
 pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
 
 use crate::{Home, Noise, Pcg, Pose, RobotModel};
-use battery::Battery;
 use body::Body;
 use dirt::Dirt;
 use dock::Dock;
@@ -50,7 +50,7 @@ pub struct World {
     proximity: Option<Proximity>,
     gyro: Option<Gyro>,
     dock: Option<Dock>,
-    battery: Battery,
+    battery: Pack,
     dirt: Dirt,
     lidar: Option<Lidar>,
     faults: Faults,
@@ -60,6 +60,9 @@ pub struct World {
     sensors: Sensors,
     truth: Truth,
 }
+
+/// Temperature of the room, degrees Celsius.
+const ROOM_C: f64 = 22.0;
 
 /// Streams of random numbers, so that one part's draws do not shift another's.
 #[derive(Clone, Copy)]
@@ -95,7 +98,7 @@ impl World {
                 .map(|part| Proximity::new(part, model.body.radius_m, noise, random)),
             gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
             dock: Dock::of(&home, model),
-            battery: Battery::new(model.battery, 1.0),
+            battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             dirt: Dirt::new(
                 &home,
                 model.body.swath_m,
@@ -213,8 +216,17 @@ impl World {
 
     /// Sets the charge of the battery, clamped to 0..1.
     pub fn set_battery_charge(&mut self, charge: f64) {
-        self.battery = Battery::new(self.model.battery, charge.clamp(0.0, 1.0));
-        self.truth.battery_charge = self.battery.charge;
+        self.set_pack(Pack::new(
+            PackMake::of(&self.model.battery),
+            charge.clamp(0.0, 1.0),
+            ROOM_C,
+        ));
+    }
+
+    /// Puts another pack in.
+    pub fn set_pack(&mut self, pack: Pack) {
+        self.truth.battery_charge = pack.charge();
+        self.battery = pack;
     }
 
     /// Makes a sensor lie, or (`None`) tell the truth again. A sensor that the robot has not is ignored.

@@ -231,20 +231,21 @@ impl World {
             _ => 0.0,
         };
         self.battery
-            .step(self.model.battery.electronics_a + motors_a, dock_a, dt_s);
+            .step(dock_a - (self.model.battery.electronics_a + motors_a), dt_s);
         self.publish_battery(brush_a);
     }
 
     fn publish_battery(&mut self, brush_a: f64) {
         let deviation = self.noise.analog;
         let mut noisy = |value: f64| value * (1.0 + 0.2 * deviation * self.random.normal());
-        self.sensors.battery_voltage = Voltage::from_v(noisy(self.battery.voltage_v));
-        self.sensors.battery_current = Current::from_a(noisy(self.battery.current_a));
-        self.sensors.battery_temperature = Temperature::from_celsius(self.battery.temperature_c);
+        self.sensors.battery_voltage = Voltage::from_v(noisy(self.battery.voltage_v()));
+        self.sensors.battery_current = Current::from_a(noisy(self.battery.current_a()));
+        self.sensors.battery_temperature = Temperature::from_celsius(self.battery.sensor_c());
         self.sensors.wheel_left_current = Current::from_a(noisy(self.left.current_a));
         self.sensors.wheel_right_current = Current::from_a(noisy(self.right.current_a));
         self.sensors.brush_main_current = Current::from_a(noisy(brush_a));
-        self.truth.battery_charge = self.battery.charge;
+        self.truth.battery_charge = self.battery.charge().min(1.0);
+        self.truth.battery_hottest_c = self.battery.hottest_c();
         self.truth.dirt_share = self.dirt.share();
         self.truth.swept_m2 = f64::from(self.dirt.swept_cells) * self.home.grid().cell_area_m2();
         self.truth.swept_share =

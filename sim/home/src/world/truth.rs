@@ -42,6 +42,8 @@ pub struct Truth {
     pub docked: bool,
     /// Charge of the battery, 0..1.
     pub battery_charge: f64,
+    /// Temperature of the hottest cell, degrees Celsius.
+    pub battery_hottest_c: f64,
 }
 
 impl Truth {
@@ -73,6 +75,7 @@ impl Truth {
             lifted: false,
             docked: false,
             battery_charge: 1.0,
+            battery_hottest_c: 22.0,
         }
     }
 }
