@@ -37,14 +37,15 @@ fn main() -> ! {
     change_notice.start();
     let mut closed = switch.is_low();
     Source::ChangeNotice.clear();
-    if interrupt::set_priority(Vector::ChangeNotice, Priority::Level6, SubPriority::Sub0).is_err() {
+    if interrupt::set_priority(Vector::ChangeNotice, Priority::Level4, SubPriority::Sub0).is_err() {
         reset::software_reset();
     }
     Source::ChangeNotice.enable();
     interrupt::start();
     loop {
-        // The handler has level 6, which does not begin a sleep anew, so another look before it.
-        while CHANGED.load(Ordering::Acquire) == 0 {}
+        while CHANGED.load(Ordering::Acquire) == 0 {
+            cpu::sleep_while_zero(&CHANGED);
+        }
         let begun = core_timer::count();
         while core_timer::count().wrapping_sub(begun) < SETTLE_COUNTS {}
         CHANGED.store(0, Ordering::Relaxed);
@@ -53,7 +54,6 @@ fn main() -> ! {
             lamp.toggle();
         }
         closed = is_closed;
-        cpu::without_interrupts(|| {});
     }
 }
 entry!(main);

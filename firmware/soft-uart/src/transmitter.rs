@@ -11,7 +11,7 @@ pub enum Due {
     Run {
         /// The level of the pin.
         level: Level,
-        /// How long it holds, in counts, at least one.
+        /// How long it holds, in counts: 1 to 65535, so that a timer of 16 bits will do.
         counts: u32,
     },
     /// Nothing more to send: the pin is high, stop the timer. Begin again with [`Transmitter::prepare`].
@@ -49,6 +49,8 @@ pub enum Due {
 #[derive(Clone, Debug)]
 pub struct Transmitter {
     bit: BitTime,
+    /// Most bits in one run.
+    run_bits_max: u32,
     /// Bits not sent yet, next one lowest, with a sentinel bit above the last. 1: none.
     frame: u32,
     /// Parts of a count that earlier runs left over.
@@ -67,6 +69,7 @@ impl Transmitter {
     pub const fn new(bit: BitTime) -> Self {
         Self {
             bit,
+            run_bits_max: run_bits_max(bit),
             frame: EMPTY,
             parts: 0,
             due: Due::Idle,
@@ -98,6 +101,7 @@ impl Transmitter {
             Level::Low => self.frame.trailing_zeros(),
             Level::High => self.frame.trailing_ones().min(31 - self.frame.leading_zeros()),
         };
+        let equal = equal.min(self.run_bits_max);
         self.frame >>= equal;
         let parts = equal * self.bit.parts().get() + self.parts;
         self.parts = parts & 0xFF;
@@ -110,6 +114,13 @@ impl Transmitter {
     /// Changes the rate. Call it while nothing is sent; a byte under way would be torn.
     pub fn set_bit_time(&mut self, bit: BitTime) {
         self.bit = bit;
+        self.run_bits_max = run_bits_max(bit);
         self.parts = 0;
     }
+}
+
+/// Bits whose counts, with what earlier runs left over, stay below 2^16.
+const fn run_bits_max(bit: BitTime) -> u32 {
+    let bits = 0x00FF_FF00 / bit.parts().get();
+    if bits == 0 { 1 } else { bits }
 }

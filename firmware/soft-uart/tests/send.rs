@@ -72,6 +72,24 @@ fn equal_bits_are_one_wait() {
     assert_eq!(runs(0xF0), [(Level::Low, 5), (Level::High, 5)]);
 }
 
+/// At 9600 baud a whole byte would not fit into a timer of 16 bits at 80 MHz: the run is cut, the pin is set to the level that
+/// it has.
+#[test]
+fn long_runs_fit_into_sixteen_bits() {
+    let bytes = ByteRing::<256>::new();
+    bytes.push(&[0xFF, 0x00]);
+    let mut transmitter = Transmitter::new(BitTime::new(Baud::B9600, TIMER_PER_S));
+    let (mut total, mut longest) = (0, 0);
+    transmitter.prepare(|| bytes.pop());
+    while let Due::Run { counts, .. } = transmitter.due() {
+        total += counts;
+        longest = longest.max(counts);
+        transmitter.prepare(|| bytes.pop());
+    }
+    assert!(longest <= 0xFFFF, "{longest}");
+    assert_eq!((total + 5) / 10, 16_667);
+}
+
 /// Both directions at once, each at full speed, the interrupts of both in the order of time. Neither changes the other.
 #[test]
 fn both_directions_at_once_are_byte_exact() {

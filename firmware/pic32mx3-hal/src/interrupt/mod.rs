@@ -8,7 +8,7 @@
 //! | | cycles before the handler's first instruction | after its last |
 //! | --- | --- | --- |
 //! | level 6 | 32 | 24 |
-//! | levels 1 to 5 | 38, of which 17 hold off higher levels | 38, of which 9 hold off higher levels |
+//! | levels 1 to 5 | 42, of which 20 hold off higher levels | 39, of which 11 hold off higher levels |
 //!
 //! These are instructions of the code in `start/interrupt.S`, one cycle each; what the chip adds for taking the interrupt
 //! and for reading flash comes on top.
