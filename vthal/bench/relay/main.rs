@@ -1,21 +1,25 @@
 //! Measures the daemon as a relay: a robot at a real pseudo terminal, the real binary, and 1, 10 and 100 clients.
 //!
 //! Beside it runs a *plain* relay in a process of its own, which copies bytes from the terminal to every client and
-//! understands nothing: what it costs is what any relay on this machine costs.
+//! understands nothing: what it costs is what any relay on this machine costs. Both are measured in the same seconds,
+//! a packet through one and then a packet through the other, because other programs delay them both.
 
+mod lane;
 mod measure;
 #[path = "../peer/mod.rs"]
 mod peer;
 mod plain;
+mod reader;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::time::Duration;
 
 use anyhow::{Context, bail};
 use clap::{Parser, Subcommand};
-use measure::{Figures, Relay, Trial};
-use peer::{Daemon, Scratch, built_beside};
+use lane::{Lane, Relay};
+use measure::Figures;
+use peer::built_beside;
 
 /// Numbers of clients.
 const CLIENTS: [usize; 3] = [1, 10, 100];
@@ -62,19 +66,22 @@ fn main() -> ExitCode {
 
 fn measure_all(arguments: &Arguments) -> anyhow::Result<()> {
     let vthal = build_vthal()?;
-    let time = Duration::from_secs(if arguments.long { 20 } else { 4 });
+    let time = Duration::from_secs(if arguments.long { 60 } else { 10 });
+    let load_before = load()?;
     let mut rows = Vec::new();
-    for relay in [Relay::Vthal, Relay::Plain] {
-        for clients in CLIENTS {
-            let trial = Trial { relay, clients, time };
-            let figures = run_trial(&trial, &vthal)
-                .with_context(|| format!("{} with {clients} clients", relay.name()))?;
+    for clients in CLIENTS {
+        let relays = [Relay::Plain, Relay::Vthal];
+        let lanes = relays.map(|relay| Lane::start(relay, clients, &vthal));
+        let lanes = lanes.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
+        let all = measure::run(lanes, time).with_context(|| format!("{clients} clients"))?;
+        for (relay, figures) in relays.into_iter().zip(&all) {
             if !arguments.json {
-                print_row(&trial, &figures);
+                print_row((relay, clients), figures);
             }
-            rows.push(as_json(&trial, &figures));
+            rows.push(as_json((relay, clients), figures));
         }
     }
+    let loads = [load_before, load()?];
     if arguments.json {
         let profile = if cfg!(debug_assertions) {
             "debug"
@@ -83,27 +90,22 @@ fn measure_all(arguments: &Arguments) -> anyhow::Result<()> {
         };
         println!(
             "{}",
-            serde_json::json!({"profile": profile, "state_hz": 50, "rows": rows})
+            serde_json::json!({"profile": profile, "state_hz": 50, "load_average": loads, "rows": rows})
+        );
+    } else {
+        println!(
+            "load average of the machine: {} before, {} after",
+            loads[0], loads[1]
         );
     }
     Ok(())
 }
 
-fn run_trial(trial: &Trial, vthal: &Path) -> anyhow::Result<Figures> {
-    let scratch = Scratch::new()?;
-    let robot = measure::switch_on(&scratch)?;
-    let daemon = match trial.relay {
-        Relay::Vthal => Daemon::start(vthal, &scratch, &["--seed", "1"])?,
-        Relay::Plain => start_plain(&scratch)?,
-    };
-    measure::run(trial, (robot, &daemon), &scratch.join("vthal.sock"))
-}
-
-fn start_plain(scratch: &Scratch) -> anyhow::Result<Daemon> {
-    let mut command = Command::new(std::env::current_exe()?);
-    command.arg("plain").arg("--serial").arg(scratch.join("tty"));
-    command.arg("--socket").arg(scratch.join("vthal.sock"));
-    Ok(Daemon::start_command(command)?)
+/// Programs that ran or wanted to, on average over the last minute.
+fn load() -> anyhow::Result<f64> {
+    let text = std::fs::read_to_string("/proc/loadavg")?;
+    let word = text.split(' ').next().context("no load in /proc")?;
+    Ok(word.parse()?)
 }
 
 /// `cargo run` builds only what it runs; the daemon of the same profile may still be missing or old.
@@ -121,28 +123,29 @@ fn build_vthal() -> anyhow::Result<PathBuf> {
     built_beside("vthal")?.context("vthal is not built beside this program: cargo build -p vthal")
 }
 
-fn print_row(trial: &Trial, figures: &Figures) {
+fn print_row((relay, clients): (Relay, usize), figures: &Figures) {
     println!(
-        "{:5} {:3} clients: {:7.0} packets/s to each; at 50 Hz: latency median {:4.0} us, p99 {:4.0} us; \
-         {:.2} % of a core, {:.1} MiB",
-        trial.relay.name(),
-        trial.clients,
+        "{:5} {clients:3} clients: {:7.0} packets/s to each; at 50 Hz: latency median {:4.0} us, p99 {:4.0} us; \
+         {:.2} % of a core, {:.2} % waiting for one, {:.1} MiB",
+        relay.name(),
         figures.packets_per_s,
         figures.latency_median_us,
         figures.latency_p99_us,
         figures.cpu_share * 100.0,
+        figures.wait_share * 100.0,
         figures.rss_mib,
     );
 }
 
-fn as_json(trial: &Trial, figures: &Figures) -> serde_json::Value {
+fn as_json((relay, clients): (Relay, usize), figures: &Figures) -> serde_json::Value {
     serde_json::json!({
-        "relay": trial.relay.name(),
-        "clients": trial.clients,
+        "relay": relay.name(),
+        "clients": clients,
         "packets_per_s": figures.packets_per_s,
         "latency_median_us": figures.latency_median_us,
         "latency_p99_us": figures.latency_p99_us,
         "cpu_share": figures.cpu_share,
+        "wait_share": figures.wait_share,
         "rss_mib": figures.rss_mib,
     })
 }

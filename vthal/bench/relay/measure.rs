@@ -1,16 +1,13 @@
-//! One trial: a robot that sends as fast as everybody reads, then at 50 Hz, and the clients that read.
+//! One trial: robots that send at 50 Hz by turns, then each as fast as everybody reads.
 
 use std::fs;
-use std::io::Read;
-use std::os::unix::net::UnixStream;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail};
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rvac_protocol::message::BinaryKinds;
 
-use crate::peer::{Client, Daemon, Scratch, SyntheticRobot};
+use crate::lane::{Lane, listen};
+use crate::peer::Daemon;
+use crate::reader::read_ready;
 
 /// Packets under way at most in the test of the highest rate: nobody's queue overflows.
 const UNDER_WAY: u64 = 200;
@@ -18,36 +15,10 @@ const UNDER_WAY: u64 = 200;
 const BURST: u64 = 20;
 /// Telemetry of the SR8730.
 const PERIOD: Duration = Duration::from_millis(20);
-/// What marks a telemetry packet, in both relays' output.
-const MARK: &[u8] = b"state";
+/// For packets that are under way when time is over.
+const LAST_WAIT: Duration = Duration::from_secs(2);
 
-/// Who relays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Relay {
-    /// The daemon.
-    Vthal,
-    /// The plain one.
-    Plain,
-}
-
-impl Relay {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Vthal => "vthal",
-            Self::Plain => "plain",
-        }
-    }
-}
-
-/// What is measured.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Trial {
-    pub(crate) relay: Relay,
-    pub(crate) clients: usize,
-    pub(crate) time: Duration,
-}
-
-/// What was measured.
+/// What was measured of one relay.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Figures {
     /// To each client, at the highest rate without loss.
@@ -57,198 +28,110 @@ pub(crate) struct Figures {
     pub(crate) latency_p99_us: f64,
     /// Of one core, at 50 Hz.
     pub(crate) cpu_share: f64,
+    /// Share of the time in which it could run and other programs had the processors, at 50 Hz.
+    pub(crate) wait_share: f64,
     pub(crate) rss_mib: f64,
 }
 
-/// A robot that sends text, as the one of 2016 did and as a person reads it.
-pub(crate) fn switch_on(scratch: &Scratch) -> anyhow::Result<SyntheticRobot> {
-    Ok(SyntheticRobot::switch_on(
-        &scratch.join("tty"),
-        BinaryKinds::NONE,
-        1,
-    )?)
-}
-
-pub(crate) fn run(
-    trial: &Trial,
-    (mut robot, daemon): (SyntheticRobot, &Daemon),
-    socket: &Path,
-) -> anyhow::Result<Figures> {
-    if trial.relay == Relay::Vthal {
-        let deadline = Instant::now() + Duration::from_secs(10);
-        if !robot.live_until(deadline, SyntheticRobot::is_sealed)? {
-            bail!("the daemon opened no session");
-        }
-        robot.live_until(Instant::now() + Duration::from_millis(500), |_| false)?;
+/// Measures lanes beside each other: what else the machine does at that time then delays all of them alike.
+pub(crate) fn run(mut lanes: Vec<Lane>, time: Duration) -> anyhow::Result<Vec<Figures>> {
+    let began = Instant::now();
+    let before: Vec<Processor> = usage(&lanes)?;
+    at_fifty_hertz(&mut lanes, time)?;
+    let elapsed_s = began.elapsed().as_secs_f64();
+    let after = usage(&lanes)?;
+    let mut all = Vec::new();
+    for (mut lane, (before, after)) in lanes.into_iter().zip(before.iter().zip(&after)) {
+        let rss_mib = resident_mib(&lane.daemon)?;
+        let packets_per_s = at_highest_rate(&mut lane, time / 4)?;
+        lane.latencies_us.sort_by(f64::total_cmp);
+        let count = lane.latencies_us.len() as f64;
+        let rank = |share: f64| lane.latencies_us.get((count * share) as usize).copied();
+        all.push(Figures {
+            packets_per_s,
+            latency_median_us: rank(0.5).context("nothing came")?,
+            latency_p99_us: rank(0.99).context("nothing came")?,
+            cpu_share: (after.ran_s - before.ran_s) / elapsed_s,
+            wait_share: (after.waited_s - before.waited_s) / elapsed_s,
+            rss_mib,
+        });
     }
-    let mut readers = connect(trial, socket)?;
-    robot.live_until(Instant::now() + Duration::from_millis(300), |_| false)?;
-    drain(&mut readers)?;
-    let (cpu, began) = (cpu_time(daemon)?, Instant::now());
-    let mut latencies_us = at_fifty_hertz(trial, &mut robot, &mut readers)?;
-    let cpu_share = (cpu_time(daemon)? - cpu).as_secs_f64() / began.elapsed().as_secs_f64();
-    let rss_mib = resident_mib(daemon)?;
-    let packets_per_s = at_highest_rate(trial, &mut robot, &mut readers)?;
-    latencies_us.sort_by(f64::total_cmp);
-    let rank = |share: f64| {
-        latencies_us
-            .get((latencies_us.len() as f64 * share) as usize)
-            .copied()
-    };
-    Ok(Figures {
-        packets_per_s,
-        latency_median_us: rank(0.5).context("nothing came")?,
-        latency_p99_us: rank(0.99).context("nothing came")?,
-        cpu_share,
-        rss_mib,
-    })
+    Ok(all)
 }
 
-/// A client that only counts telemetry packets.
-struct Reader {
-    stream: UnixStream,
-    /// Packets that came.
-    packets: u64,
-    /// Whether the packet that is coming has the mark; what it began with.
-    part: Vec<u8>,
-}
-
-fn connect(trial: &Trial, socket: &Path) -> anyhow::Result<Vec<Reader>> {
-    (0..trial.clients)
-        .map(|_| {
-            let mut client = Client::connect(socket)?;
-            if trial.relay == Relay::Vthal {
-                client.send(r#"{"c":"watch","topics":["packets"]}"#)?;
+fn at_fifty_hertz(lanes: &mut [Lane], time: Duration) -> anyhow::Result<()> {
+    let began = Instant::now();
+    let gap = PERIOD / lanes.len().max(1) as u32;
+    let mut next = began;
+    while began.elapsed() < time {
+        for turn in 0..lanes.len() {
+            if let Some(lane) = lanes.get_mut(turn) {
+                lane.report()?;
+                lane.robot.listen(Instant::now())?;
             }
-            client.stream.set_nonblocking(true)?;
-            Ok(Reader {
-                stream: client.stream,
-                packets: 0,
-                part: Vec::new(),
-            })
-        })
-        .collect()
-}
-
-impl Reader {
-    fn read(&mut self) -> anyhow::Result<()> {
-        let mut bytes = [0; 64 << 10];
-        match self.stream.read(&mut bytes) {
-            Ok(0) => bail!("the relay hung up"),
-            Ok(count) => self.count(bytes.get(..count).unwrap_or_default()),
-            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {}
-            Err(error) => return Err(error.into()),
-        }
-        Ok(())
-    }
-
-    fn count(&mut self, bytes: &[u8]) {
-        for piece in bytes.split_inclusive(|byte| *byte == rvac_api::SEPARATOR) {
-            // The mark stands within the first bytes of a packet.
-            let room = 80_usize.saturating_sub(self.part.len());
-            self.part.extend(piece.iter().take(room));
-            if piece.ends_with(&[rvac_api::SEPARATOR]) {
-                self.packets += u64::from(self.part.windows(MARK.len()).any(|window| window == MARK));
-                self.part.clear();
+            next += gap;
+            while Instant::now() < next {
+                listen(lanes, next.saturating_duration_since(Instant::now()))?;
             }
         }
     }
-}
-
-/// Reads whatever comes within `pause`, from whomever.
-fn read_ready(readers: &mut [Reader], pause: Duration) -> anyhow::Result<bool> {
-    let timeout = Timespec::try_from(pause).unwrap_or_default();
-    let ready: Vec<bool> = {
-        let mut polled: Vec<PollFd<'_>> = readers
-            .iter()
-            .map(|reader| PollFd::new(&reader.stream, PollFlags::IN))
-            .collect();
-        poll(&mut polled, Some(&timeout))?;
-        polled.iter().map(|polled| !polled.revents().is_empty()).collect()
-    };
-    for (reader, _) in readers.iter_mut().zip(&ready).filter(|(_, ready)| **ready) {
-        reader.read()?;
+    let deadline = Instant::now() + LAST_WAIT;
+    while lanes.iter().any(Lane::waits) && Instant::now() < deadline {
+        listen(lanes, PERIOD)?;
     }
-    Ok(ready.contains(&true))
-}
-
-fn drain(readers: &mut [Reader]) -> anyhow::Result<()> {
-    while read_ready(readers, Duration::from_millis(50))? {}
-    for reader in readers {
-        reader.packets = 0;
+    if let Some(lane) = lanes.iter().find(|lane| lane.waits()) {
+        bail!("{} lost packets at 50 Hz", lane.relay.name());
     }
     Ok(())
 }
 
-fn at_fifty_hertz(
-    trial: &Trial,
-    robot: &mut SyntheticRobot,
-    readers: &mut [Reader],
-) -> anyhow::Result<Vec<f64>> {
-    let mut latencies_us = Vec::new();
-    let end = Instant::now() + trial.time;
-    let mut sent = 0;
-    while Instant::now() < end {
-        let next = Instant::now() + PERIOD;
-        let moment = robot.report()?;
-        sent += 1;
-        while Instant::now() < next {
-            let before: Vec<u64> = readers.iter().map(|reader| reader.packets).collect();
-            read_ready(readers, next.saturating_duration_since(Instant::now()))?;
-            let latency_us = moment.elapsed().as_secs_f64() * 1e6;
-            let came = readers
-                .iter()
-                .zip(&before)
-                .filter(|(reader, before)| reader.packets > **before)
-                .count();
-            latencies_us.extend(std::iter::repeat_n(latency_us, came));
-        }
-        robot.listen(Instant::now())?;
-    }
-    if readers.iter().any(|reader| reader.packets + 1 < sent) {
-        bail!("packets were lost at 50 Hz");
-    }
-    Ok(latencies_us)
-}
-
-fn at_highest_rate(trial: &Trial, robot: &mut SyntheticRobot, readers: &mut [Reader]) -> anyhow::Result<f64> {
-    drain(readers)?;
+fn at_highest_rate(lane: &mut Lane, time: Duration) -> anyhow::Result<f64> {
+    lane.drain()?;
     let began = Instant::now();
     let mut sent: u64 = 0;
-    while began.elapsed() < trial.time {
-        let arrived = readers
-            .iter()
-            .map(|reader| reader.packets)
-            .min()
-            .unwrap_or_default();
-        if sent - arrived.min(sent) < UNDER_WAY {
+    while began.elapsed() < time {
+        let free = sent - lane.arrived().min(sent) < UNDER_WAY;
+        let pause = if free {
             for _ in 0..BURST {
-                robot.report()?;
+                lane.robot.report()?;
             }
             sent += BURST;
-            robot.listen(Instant::now())?;
-            read_ready(readers, Duration::ZERO)?;
+            lane.robot.listen(Instant::now())?;
+            Duration::ZERO
         } else {
-            read_ready(readers, Duration::from_millis(100))?;
-        }
+            Duration::from_millis(100)
+        };
+        read_ready(&mut lane.readers.iter_mut().collect::<Vec<_>>(), pause)?;
     }
-    let arrived = readers
-        .iter()
-        .map(|reader| reader.packets)
-        .min()
-        .unwrap_or_default();
-    Ok(arrived as f64 / began.elapsed().as_secs_f64())
+    Ok(lane.arrived() as f64 / began.elapsed().as_secs_f64())
 }
 
-/// Time on a processor of all threads so far.
-fn cpu_time(daemon: &Daemon) -> anyhow::Result<Duration> {
-    let mut total_ns = 0;
+/// What a daemon has had of the processors so far, over all threads.
+struct Processor {
+    ran_s: f64,
+    waited_s: f64,
+}
+
+fn usage(lanes: &[Lane]) -> anyhow::Result<Vec<Processor>> {
+    lanes.iter().map(|lane| processor(&lane.daemon)).collect()
+}
+
+fn processor(daemon: &Daemon) -> anyhow::Result<Processor> {
+    let (mut ran_ns, mut waited_ns) = (0, 0);
     for task in fs::read_dir(format!("/proc/{}/task", daemon.id()))? {
         let text = fs::read_to_string(task?.path().join("schedstat"))?;
-        let on_cpu = text.split(' ').next().and_then(|word| word.parse::<u64>().ok());
-        total_ns += on_cpu.context("no processor times in /proc")?;
+        let mut words = text.split(' ').map_while(|word| word.parse::<u64>().ok());
+        let (ran, waited) = words
+            .next()
+            .zip(words.next())
+            .context("no processor times in /proc")?;
+        ran_ns += ran;
+        waited_ns += waited;
     }
-    Ok(Duration::from_nanos(total_ns))
+    Ok(Processor {
+        ran_s: Duration::from_nanos(ran_ns).as_secs_f64(),
+        waited_s: Duration::from_nanos(waited_ns).as_secs_f64(),
+    })
 }
 
 fn resident_mib(daemon: &Daemon) -> anyhow::Result<f64> {
