@@ -11,6 +11,9 @@ use crate::logic::ladder::Ladder;
 use crate::logic::proximity::ProximityScale;
 use crate::logic::quadrature::Order;
 
+/// Bytes of a record: header, values, check value.
+pub const RECORD_BYTES: usize = 8 + 4 * COUNT + 4;
+
 /// All values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Calibration {

@@ -1,14 +1,20 @@
 //! The board of the Samsung Navibot SR8730.
 //!
-//! [`logic`] holds what can be decided without a chip, [`calibration`] what is known of this very robot. The program around
-//! them (`main.rs`) joins both to the pins.
+//! [`logic`] holds what can be decided without a chip, [`calibration`] what is known of this very robot, [`board`] the parts
+//! on their pins, and [`robot`] all of it together with cordlib. The program is `main.rs`.
 #![no_std]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 #![deny(missing_docs)]
 
 #[cfg(test)]
 extern crate std;
 
+#[allow(
+    unsafe_code,
+    reason = "symbols of interrupt handlers and one section of memory; there are no unsafe blocks"
+)]
+pub mod board;
 pub mod calibration;
 pub mod generated;
 pub mod logic;
+pub mod robot;

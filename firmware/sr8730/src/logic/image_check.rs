@@ -1,15 +1,17 @@
-//! Whether program flash still holds what was written to it (S21).
+//! Whether flash still holds what was written to it (S21).
 //!
-//! `cargo xtask firmware` puts the CRC-32C of the image behind its last word. The start-up code checks all of it before
-//! the first motor may move, and the main loop goes over it again, a few words in each millisecond, so that a bit that
-//! flips later is noticed within ten seconds.
+//! `cargo xtask firmware` puts two check values behind the image, CRC-32C of program flash and of boot flash. The start-up
+//! code checks both before the first motor may move, and the main loop goes over them again, a few bytes in each
+//! millisecond, so that a bit that flips later is noticed within ten seconds.
 
 use rvac_protocol::seal::crc32c;
 
-/// What stands in place of the check value when nobody has written one.
-const UNSEALED: u32 = u32::MAX;
-/// Words checked in one millisecond.
-const SLICE_WORDS: u32 = 4;
+/// Pieces of an image: program flash and boot flash.
+pub const PIECES: usize = 2;
+/// What stands in place of the check values when nobody has written them.
+pub const UNSEALED: [u32; PIECES] = [u32::MAX; PIECES];
+/// Bytes checked in one millisecond.
+const SLICE_BYTES: usize = 16;
 
 /// What the checks have found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,112 +26,108 @@ pub enum Verdict {
 
 /// Goes over the image again and again.
 #[derive(Clone, Copy, Debug)]
-pub struct ImageCheck {
-    size_bytes: u32,
-    expected: u32,
-    place: u32,
+pub struct ImageCheck<'a> {
+    pieces: [(&'a [u8], u32); PIECES],
+    piece: usize,
+    place: usize,
     register: u32,
 }
 
-impl ImageCheck {
-    /// Of an image of so many bytes, a multiple of four, with this check value.
+impl<'a> ImageCheck<'a> {
+    /// Of these pieces, with their check values. A seal of another size counts as none.
     #[must_use]
-    pub const fn new(size_bytes: u32, expected: u32) -> Self {
+    pub fn new(flash: [&'a [u8]; PIECES], seal: &[u32]) -> Self {
+        let seal = seal.first_chunk().copied().unwrap_or(UNSEALED);
+        let [program, boot] = flash;
+        let [program_check, boot_check] = seal;
         Self {
-            size_bytes,
-            expected,
+            pieces: [(program, program_check), (boot, boot_check)],
+            piece: 0,
             place: 0,
             register: u32::MAX,
         }
     }
 
-    /// Checks everything at once. `read` gives the word at an offset.
+    /// Checks everything at once.
     #[must_use]
-    pub fn all(&self, read: impl Fn(u32) -> Option<u32>) -> Verdict {
-        if self.expected == UNSEALED {
+    pub fn all(&self) -> Verdict {
+        if self.pieces.iter().map(|(_, check)| *check).eq(UNSEALED) {
             return Verdict::Unsealed;
         }
-        let mut register = u32::MAX;
-        let mut place = 0;
-        while place < self.size_bytes {
-            register = crc32c(register, &read(place).unwrap_or(0).to_le_bytes());
-            place += 4;
-        }
-        self.judge(register)
+        let whole = self
+            .pieces
+            .iter()
+            .all(|(bytes, check)| !crc32c(u32::MAX, bytes) == *check);
+        if whole { Verdict::Whole } else { Verdict::Damaged }
     }
 
-    /// Checks the next few words. An image without check value is found by [`Self::all`].
-    pub fn slice(&mut self, read: impl Fn(u32) -> Option<u32>) -> Verdict {
-        let end = self.size_bytes.min(self.place + 4 * SLICE_WORDS);
-        while self.place < end {
-            self.register = crc32c(self.register, &read(self.place).unwrap_or(0).to_le_bytes());
-            self.place += 4;
-        }
-        if self.place < self.size_bytes {
+    /// Checks the next few bytes. An image without check values is found by [`Self::all`].
+    pub fn slice(&mut self) -> Verdict {
+        let Some((bytes, check)) = self.pieces.get(self.piece).copied() else {
+            self.piece = 0;
             return Verdict::Whole;
+        };
+        let rest = bytes.get(self.place..).unwrap_or_default();
+        if rest.is_empty() {
+            let whole = !self.register == check;
+            self.piece += 1;
+            self.place = 0;
+            self.register = u32::MAX;
+            return if whole { Verdict::Whole } else { Verdict::Damaged };
         }
-        let verdict = self.judge(self.register);
-        self.place = 0;
-        self.register = u32::MAX;
-        verdict
-    }
-
-    const fn judge(&self, register: u32) -> Verdict {
-        if !register == self.expected {
-            Verdict::Whole
-        } else {
-            Verdict::Damaged
-        }
+        let slice = rest.get(..SLICE_BYTES).unwrap_or(rest);
+        self.register = crc32c(self.register, slice);
+        self.place += slice.len();
+        Verdict::Whole
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ImageCheck, Verdict};
+    use super::{ImageCheck, UNSEALED, Verdict};
     use rvac_protocol::seal::crc32c;
     use std::vec::Vec;
 
-    fn image() -> Vec<u32> {
-        (0..101_u32)
-            .map(|place| place.wrapping_mul(0x9E37_79B9))
-            .collect()
+    fn flash() -> [Vec<u8>; 2] {
+        let bytes = |length: u32, step: u32| (0..length).map(|place| ((place * step) >> 3) as u8).collect();
+        [bytes(1_000, 37), bytes(33, 201)]
     }
 
-    fn check_of(image: &[u32]) -> ImageCheck {
-        let bytes: Vec<u8> = image.iter().flat_map(|word| word.to_le_bytes()).collect();
-        ImageCheck::new(u32::try_from(bytes.len()).unwrap(), !crc32c(u32::MAX, &bytes))
-    }
-
-    fn reader(image: &[u32]) -> impl Fn(u32) -> Option<u32> + '_ {
-        |offset| image.get(offset as usize / 4).copied()
+    fn check_of<'a>(flash: &'a [Vec<u8>; 2], sealed: &[Vec<u8>; 2]) -> ImageCheck<'a> {
+        let seal = [&sealed[0], &sealed[1]].map(|piece| !crc32c(u32::MAX, piece));
+        ImageCheck::new([&flash[0], &flash[1]], &seal)
     }
 
     #[test]
     fn a_sealed_image_is_whole_round_after_round() {
-        let image = image();
-        let mut check = check_of(&image);
-        assert_eq!(check.all(reader(&image)), Verdict::Whole);
+        let flash = flash();
+        let mut check = check_of(&flash, &flash);
+        assert_eq!(check.all(), Verdict::Whole);
         for _ in 0..1_000 {
-            assert_eq!(check.slice(reader(&image)), Verdict::Whole);
+            assert_eq!(check.slice(), Verdict::Whole);
         }
     }
 
     #[test]
     fn a_flipped_bit_anywhere_is_found_at_once_and_within_one_round() {
-        for place in [0, 1, 50, 100] {
-            let mut check = check_of(&image());
-            let mut damaged = image();
-            damaged[place] ^= 0x10;
-            assert_eq!(check.all(reader(&damaged)), Verdict::Damaged);
-            let found = (0..26).any(|_| check.slice(reader(&damaged)) == Verdict::Damaged);
-            assert!(found, "{place}");
+        for (piece, place) in [(0, 0), (0, 17), (0, 999), (1, 0), (1, 32)] {
+            let mut damaged = flash();
+            damaged[piece][place] ^= 0x10;
+            let sound = flash();
+            let mut check = check_of(&damaged, &sound);
+            assert_eq!(check.all(), Verdict::Damaged);
+            // 63 and 3 slices, two ends of a piece, and the turn to the first one.
+            let found = (0..69).any(|_| check.slice() == Verdict::Damaged);
+            assert!(found, "{piece} {place}");
         }
     }
 
     #[test]
-    fn an_image_without_check_value_says_so() {
-        let image = image();
-        let check = ImageCheck::new(404, u32::MAX);
-        assert_eq!(check.all(reader(&image)), Verdict::Unsealed);
+    fn an_image_without_check_values_says_so() {
+        let flash = flash();
+        for seal in [&UNSEALED[..], &[], &[7]] {
+            let check = ImageCheck::new([&flash[0], &flash[1]], seal);
+            assert_eq!(check.all(), Verdict::Unsealed);
+        }
     }
 }

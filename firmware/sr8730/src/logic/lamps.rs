@@ -61,8 +61,8 @@ impl Lamps {
         self.lamps.iter().any(|lamp| lamp.level > 0)
     }
 
-    /// The next millisecond.
-    pub fn next(&mut self) -> LampLines {
+    /// The next millisecond: the other group's turn.
+    pub fn change(&mut self) -> LampLines {
         self.group = match self.group {
             Group::Main => Group::Battery,
             Group::Battery => Group::Main,
@@ -109,7 +109,30 @@ mod tests {
     fn shares(lamps: &mut Lamps) -> [[u32; 5]; 2] {
         let mut on = [[0; 5]; 2];
         for _ in 0..160 {
-            let shown = lamps.next();
+            let shown = lamps.change();
+            let group = usize::from(shown.group == Group::Battery);
+            for (line, count) in on[group].iter_mut().enumerate() {
+                *count += u32::from(shown.lines >> line & 1);
+            }
+        }
+        on
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Group, Lamps};
+    use rvac_units::Ratio;
+
+    fn ratio(millionths: i32) -> Ratio {
+        Ratio::from_millionths(millionths).unwrap()
+    }
+
+    /// Milliseconds of 160 in which each line of each group is on.
+    fn shares(lamps: &mut Lamps) -> [[u32; 5]; 2] {
+        let mut on = [[0; 5]; 2];
+        for _ in 0..160 {
+            let shown = lamps.change();
             for line in 0..5 {
                 let group = usize::from(shown.group == Group::Battery);
                 on[group][line] += u32::from(shown.lines >> line & 1);
@@ -155,7 +178,7 @@ mod tests {
         lamps.set(2, ratio(1));
         let mut gap = 0;
         for _ in 0..200 {
-            let lit = lamps.next().lines != 0;
+            let lit = lamps.change().lines != 0;
             gap = if lit { 0 } else { gap + 1 };
             assert!(gap < 16);
         }

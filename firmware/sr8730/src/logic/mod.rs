@@ -16,6 +16,7 @@ pub mod pace;
 pub mod pack;
 pub mod proximity;
 pub mod quadrature;
+pub mod renewal;
 pub mod reset_log;
 pub mod storm;
 pub mod thermistor;

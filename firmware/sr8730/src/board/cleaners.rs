@@ -1,0 +1,114 @@
+//! Main brush, side brushes and suction.
+
+use cordlib::board::CleaningMotor;
+use embedded_hal::digital::OutputPin;
+use pic32mx3_hal::gpio::{Level, Output, Pin};
+use pic32mx3_hal::pwm::PwmChannel;
+use rvac_units::Throttle;
+
+use super::link;
+use super::off::Motor;
+use super::wheels::Bridge;
+use crate::logic::renewal::Renewal;
+
+/// Above this a motor with a plain switch runs.
+const SWITCH_ON: i32 = 500_000;
+
+/// ENABLE of the main brush: RD1, OC2 on Timer3.
+pub type BrushEnable = PwmChannel<2, 3, Pin<'D', 1, Output>>;
+
+/// The main brush.
+#[derive(Debug)]
+pub struct BrushMain {
+    bridge: Bridge<BrushEnable, Pin<'C', 2, Output>>,
+    renewal: Renewal,
+    has_pulses: bool,
+}
+
+impl BrushMain {
+    /// PHASE low is forward, DECAY low brakes in the off-time. `has_pulses` = its encoder is known to give pulses.
+    #[must_use]
+    pub fn take(
+        enable: BrushEnable,
+        phase: Pin<'C', 2, Output>,
+        mut decay: Pin<'C', 3, Output>,
+        has_pulses: bool,
+    ) -> Self {
+        decay.set_low();
+        Self {
+            bridge: Bridge::new(enable, phase, Level::Low, Motor::BrushMain),
+            renewal: Renewal::default(),
+            has_pulses,
+        }
+    }
+
+    /// To be called once in a millisecond.
+    pub fn service(&mut self) {
+        if self.renewal.is_overdue() {
+            self.bridge.command(Throttle::ZERO);
+        }
+        self.bridge.service();
+    }
+}
+
+impl CleaningMotor for BrushMain {
+    const PRESENT: bool = true;
+
+    fn set(&mut self, duty: Throttle) {
+        self.renewal.renew();
+        self.bridge.command(duty);
+    }
+
+    fn pulses(&mut self) -> Option<u32> {
+        self.has_pulses.then(link::brush_pulses)
+    }
+}
+
+/// A motor with a plain switch.
+#[derive(Debug)]
+pub struct Switched<P> {
+    pin: P,
+    motor: Motor,
+    renewal: Renewal,
+}
+
+impl<P: OutputPin> Switched<P> {
+    /// Off.
+    #[must_use]
+    pub fn take(pin: P, motor: Motor) -> Self {
+        let mut switched = Self {
+            pin,
+            motor,
+            renewal: Renewal::default(),
+        };
+        switched.write(Throttle::ZERO);
+        switched
+    }
+
+    /// To be called once in a millisecond.
+    pub fn service(&mut self) {
+        if self.renewal.is_overdue() {
+            self.write(Throttle::ZERO);
+        }
+    }
+
+    fn write(&mut self, duty: Throttle) {
+        let on = duty.millionths() > SWITCH_ON;
+        self.motor.note(on);
+        // Pins of this chip cannot fail.
+        if on {
+            self.pin.set_high().ok()
+        } else {
+            self.pin.set_low().ok()
+        };
+    }
+}
+
+impl<P: OutputPin> CleaningMotor for Switched<P> {
+    const PRESENT: bool = true;
+
+    fn set(&mut self, duty: Throttle) {
+        self.renewal.renew();
+        self.write(duty);
+    }
+}

@@ -1,0 +1,197 @@
+//! The converter: ten channels once in a millisecond, and the infrared proximity sensors, whose multiplexers move on with
+//! each scan.
+//!
+//! The interrupt at the end of a scan copies all results with the millisecond in which they were taken, so that their age is
+//! known, and then prepares the next look of the proximity sensors, which has the rest of the millisecond to settle.
+
+use core::sync::atomic::{AtomicU16, AtomicU32, Ordering};
+
+use pic32mx3_hal::adc::{Adc, Channels, Results, Scanner, Timing};
+use pic32mx3_hal::gpio::Port;
+use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
+use pic32mx3_hal::{cpu, interrupt};
+
+use super::off::{mask, port};
+use super::tick;
+use crate::generated::pins::{self, Signal};
+use crate::logic::proximity::{FRONT_CHANNEL, Look, SENSORS, Sweep};
+
+/// Channels of the chip.
+pub const CHANNELS: usize = 16;
+/// AN0, 2, 3, 4, 8, 10, 11, 12, 13, 14: everything analog on the board.
+const SCANNED: Channels = Channels::from_bits(pins::ANALOG as u16);
+/// 400 ns clocks and the longest sampling, for the dividers of 10 kilo-ohm and more: ten channels last 172 µs.
+const TIMING: Timing = Timing {
+    clock_divider: 15,
+    sample_clocks: 31,
+};
+
+static COUNTS: [AtomicU16; CHANNELS] = [const { AtomicU16::new(0) }; CHANNELS];
+static SCANS: AtomicU32 = AtomicU32::new(0);
+static SCANNED_AT: AtomicU32 = AtomicU32::new(0);
+static DARK: [AtomicU16; SENSORS] = [const { AtomicU16::new(0) }; SENSORS];
+static LIT: [AtomicU16; SENSORS] = [const { AtomicU16::new(0) }; SENSORS];
+/// Who uses the emitters: see [`Emitter`].
+static EMITTER: AtomicU32 = AtomicU32::new(Emitter::Sweeping as u32);
+static HANDLER: HandlerCell<vector::ADC, Scanning> = HandlerCell::empty();
+
+/// Who uses the infrared emitters. The sweep goes on by itself; the code for the dock asks and is answered by the next
+/// scan, when the emitter is dark and the multiplexers stand on the front emitter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(super) enum Emitter {
+    Sweeping = 0,
+    Asked = 1,
+    Lent = 2,
+}
+
+#[derive(Debug)]
+struct Scanning {
+    results: Results,
+    sweep: Sweep,
+}
+
+fn on_scan(context: &mut Context<vector::ADC>) {
+    Source::Adc.clear();
+    let Some(scanning) = HANDLER.get(context) else {
+        return;
+    };
+    let mut position = 0;
+    for (channel, count) in (0_u8..).zip(&COUNTS) {
+        if SCANNED.position(channel).is_some() {
+            count.store(scanning.results.get(position), Ordering::Relaxed);
+            position += 1;
+        }
+    }
+    SCANNED_AT.store(tick::ticks(), Ordering::Relaxed);
+    SCANS.store(SCANS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
+    scanning.sweep = next_look(scanning.sweep);
+}
+interrupt!(ADC, on_scan);
+
+/// Notes what this look saw and prepares the one after it.
+fn next_look(sweep: Sweep) -> Sweep {
+    match EMITTER.load(Ordering::Relaxed) {
+        LENT => Sweep::new(),
+        ASKED => {
+            aim(Look {
+                channel: FRONT_CHANNEL,
+                lit: false,
+            });
+            EMITTER.store(LENT, Ordering::Relaxed);
+            Sweep::new()
+        }
+        _ => {
+            let Look { channel, lit } = sweep.look();
+            let seen = count(pins::PROXIMITY_RECEIVE);
+            let readings = if lit { &LIT } else { &DARK };
+            if let Some(reading) = readings.get(usize::from(channel)) {
+                reading.store(seen, Ordering::Relaxed);
+            }
+            let next = sweep.next();
+            aim(next.look());
+            next
+        }
+    }
+}
+
+const ASKED: u32 = Emitter::Asked as u32;
+const LENT: u32 = Emitter::Lent as u32;
+
+/// Select lines move in the dark only. Writes latches by their set and clear registers, so neighbours on these ports are
+/// left alone.
+fn aim(look: Look) {
+    put(pins::PROXIMITY_EMIT, false);
+    put(pins::PROXIMITY_SELECT_A, look.channel & 1 != 0);
+    put(pins::PROXIMITY_SELECT_B, look.channel & 2 != 0);
+    put(pins::PROXIMITY_SELECT_C, look.channel & 4 != 0);
+    put(pins::PROXIMITY_EMIT, look.lit);
+}
+
+#[inline(always)]
+pub(super) fn put(signal: Signal, high: bool) {
+    let port: Port = port(signal);
+    if high {
+        port.set(mask(signal));
+    } else {
+        port.clear(mask(signal));
+    }
+}
+
+/// Starts the converter. The scanner goes to the tick.
+#[must_use]
+pub fn take(adc: Adc) -> (Scanner, Channels) {
+    let (scanner, results) = adc.start(TIMING);
+    let sweep = Sweep::new();
+    aim(sweep.look());
+    // Given once, because `Peripherals` gives the converter once.
+    HANDLER.hand_over(Scanning { results, sweep }).ok();
+    interrupt::set_priority(Vector::Adc, Priority::Level3, SubPriority::Sub0).ok();
+    Source::Adc.enable();
+    (scanner, SCANNED)
+}
+
+/// Newest count of an analog signal, 0..=1023.
+#[must_use]
+pub fn count(signal: Signal) -> u16 {
+    let channel = usize::from(signal.analog.unwrap_or_default());
+    COUNTS
+        .get(channel)
+        .map_or(0, |count| count.load(Ordering::Relaxed))
+}
+
+/// Newest counts of all channels; 0 for those that are not scanned.
+#[must_use]
+pub fn counts() -> [u16; CHANNELS] {
+    whole(|| {
+        core::array::from_fn(|channel| {
+            COUNTS
+                .get(channel)
+                .map_or(0, |count| count.load(Ordering::Relaxed))
+        })
+    })
+}
+
+/// Runs a function between two scans, so that what it reads belongs to one of them.
+pub fn whole<R>(function: impl FnOnce() -> R) -> R {
+    cpu::with_level(Priority::Level3, function)
+}
+
+/// Number of scans since the start, wrapping.
+#[must_use]
+pub fn scans() -> u32 {
+    SCANS.load(Ordering::Relaxed)
+}
+
+/// Milliseconds since the newest scan ended, or `None` before the first.
+#[must_use]
+pub fn age_ms() -> Option<u32> {
+    (scans() != 0).then(|| tick::ticks().wrapping_sub(SCANNED_AT.load(Ordering::Relaxed)))
+}
+
+/// Newest pair of a proximity sensor: dark and lit.
+#[must_use]
+pub fn proximity(sensor: usize) -> (u16, u16) {
+    let of = |readings: &[AtomicU16; SENSORS]| {
+        readings
+            .get(sensor)
+            .map_or(0, |count| count.load(Ordering::Relaxed))
+    };
+    (of(&DARK), of(&LIT))
+}
+
+/// Asks for the front emitter.
+pub(super) fn ask_for_emitter() {
+    EMITTER.store(ASKED, Ordering::Relaxed);
+}
+
+/// Whether the front emitter was lent.
+pub(super) fn emitter_is_lent() -> bool {
+    EMITTER.load(Ordering::Relaxed) == LENT
+}
+
+/// Gives the emitters back to the sweep, dark.
+pub(super) fn return_emitter() {
+    put(pins::PROXIMITY_EMIT, false);
+    EMITTER.store(Emitter::Sweeping as u32, Ordering::Relaxed);
+}

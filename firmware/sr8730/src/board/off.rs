@@ -1,0 +1,139 @@
+//! Everything off at once, for code that owns nothing: the panic handler, the exception hook, the handler of a failing clock.
+//!
+//! Output compares fall back to their pins' latches, which are low. PHASE and MODE stay: with ENABLE low and MODE
+//! high the wheels brake.
+
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use pic32mx3_hal::gpio::Port;
+use pic32mx3_hal::pwm;
+
+use crate::generated::pins::{self, Signal};
+
+/// Left wheel, main brush, charger, right wheel, sound.
+const COMPARES: [u8; 5] = [1, 2, 3, 4, 5];
+
+const SWITCHES: [Signal; 4] = [
+    pins::BRUSH_SIDES,
+    pins::VACUUM,
+    pins::PROXIMITY_EMIT,
+    pins::SOUND_ENABLE,
+];
+
+/// The clock monitor has found the crystal dead; nothing is switched on any more until the next reset.
+static CLOCK_FAILED: AtomicBool = AtomicBool::new(false);
+
+/// Motors that may draw current: bit 0 left wheel, 1 right wheel, 2 main brush, 3 side brushes, 4 suction. The charger's gate
+/// stays shut while any of them does.
+static DRIVEN: AtomicU32 = AtomicU32::new(0);
+
+/// Switches off all motors, the charger, the sound and the infrared emitter. Takes a microsecond.
+pub fn everything() {
+    for compare in COMPARES {
+        pwm::stop(compare);
+    }
+    for signal in SWITCHES {
+        port(signal).clear(mask(signal));
+    }
+}
+
+/// The port of a signal.
+#[inline(always)]
+#[must_use]
+pub const fn port(signal: Signal) -> Port {
+    port_of(signal.port)
+}
+
+/// The library's name of a port.
+#[inline(always)]
+#[must_use]
+pub const fn port_of(port: pins::Port) -> Port {
+    match port {
+        pins::Port::A => Port::A,
+        pins::Port::B => Port::B,
+        pins::Port::C => Port::C,
+        pins::Port::D => Port::D,
+        pins::Port::E => Port::E,
+        pins::Port::F => Port::F,
+        pins::Port::G => Port::G,
+    }
+}
+
+/// The bit of a signal in its port.
+#[inline(always)]
+#[must_use]
+pub const fn mask(signal: Signal) -> u16 {
+    signal.mask() as u16
+}
+
+/// Notes that the clock failed.
+pub(super) fn note_clock_failure() {
+    CLOCK_FAILED.store(true, Ordering::Relaxed);
+}
+
+/// Whether the clock failed since the reset.
+#[must_use]
+pub fn clock_has_failed() -> bool {
+    CLOCK_FAILED.load(Ordering::Relaxed)
+}
+
+/// A motor, for the interlock with the charger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motor {
+    /// Left wheel.
+    WheelLeft = 1,
+    /// Right wheel.
+    WheelRight = 2,
+    /// Main brush.
+    BrushMain = 4,
+    /// Side brushes.
+    BrushSides = 8,
+    /// Suction.
+    Vacuum = 16,
+}
+
+impl Motor {
+    /// Notes whether it may draw current. Called from the main program only.
+    pub(super) fn note(self, driven: bool) {
+        let motors = DRIVEN.load(Ordering::Relaxed);
+        let changed = if driven {
+            motors | self as u32
+        } else {
+            motors & !(self as u32)
+        };
+        DRIVEN.store(changed, Ordering::Relaxed);
+    }
+}
+
+/// Whether any motor may draw current.
+#[inline(always)]
+#[must_use]
+pub(super) fn any_motor_driven() -> bool {
+    DRIVEN.load(Ordering::Relaxed) != 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Motor, any_motor_driven, mask, port};
+    use crate::generated::pins;
+    use pic32mx3_hal::gpio::Port;
+
+    #[test]
+    fn signals_name_their_port_and_bit() {
+        assert_eq!((port(pins::VACUUM), mask(pins::VACUUM)), (Port::D, 1 << 5));
+        assert_eq!(
+            (port(pins::BRUSH_SIDES), mask(pins::BRUSH_SIDES)),
+            (Port::A, 1 << 4)
+        );
+    }
+
+    #[test]
+    fn the_interlock_forgets_a_motor_only_when_that_one_stops() {
+        Motor::WheelLeft.note(true);
+        Motor::Vacuum.note(true);
+        Motor::WheelLeft.note(false);
+        assert!(any_motor_driven());
+        Motor::Vacuum.note(false);
+        assert!(!any_motor_driven());
+    }
+}

@@ -1,0 +1,191 @@
+//! Sensors that are read from the converter: cliffs, proximity, wheel currents.
+
+use cordlib::board::{CliffLevels, CliffSensors, CurrentSense, Emitters, ProximitySensors};
+use pic32mx3_hal::gpio::{Output, Pin};
+use rvac_protocol::message::{Cliffs, Currents, PROXIMITY_SENSORS};
+use rvac_units::Current;
+
+use super::converter;
+use super::encoders::WayCounter;
+use super::tick;
+use crate::calibration::{Calibration, CliffCalibration, CliffEmitters, CurrentCalibration};
+use crate::generated::calibration::Calibrated;
+use crate::generated::pins::{self, Signal};
+use crate::logic::floor_light::{StillnessWatch, still_counts};
+use crate::logic::proximity::{ProximityScale, SENSORS};
+
+const CLIFFS: [Signal; 3] = [pins::CLIFF_LEFT, pins::CLIFF_MIDDLE, pins::CLIFF_RIGHT];
+
+/// The cliff sensors.
+#[derive(Debug)]
+pub struct CliffReceivers {
+    /// LED_UNKNOWNS: perhaps the supply of the emitters.
+    emitters: Pin<'G', 0, Output>,
+    calibration: Option<CliffCalibration>,
+    lit: bool,
+    watch: [StillnessWatch; 3],
+    way: WayCounter,
+    still_counts: u32,
+    seen: u32,
+    plausible: [bool; 3],
+}
+
+impl CliffReceivers {
+    /// With what is known of their emitters and levels.
+    #[must_use]
+    pub fn take(emitters: Pin<'G', 0, Output>, calibration: &Calibration) -> Self {
+        Self {
+            emitters,
+            calibration: calibration.cliffs(),
+            lit: true,
+            watch: [StillnessWatch::default(); 3],
+            way: WayCounter::default(),
+            still_counts: still_counts(calibration.measured(Calibrated::WheelCountWay)),
+            seen: 0,
+            plausible: [true; 3],
+        }
+    }
+
+    /// Levels of emitters that nothing switches. A dark look cannot be had, so the level of a drop stands for it; and a
+    /// receiver whose readings no living sensor gives shows that level when lit, too, which cordlib takes for a drop.
+    fn always_lit(&mut self, counts: [u16; 3], drop_level: u16) -> [u16; 3] {
+        if !self.lit {
+            return [drop_level; 3];
+        }
+        let scans = converter::scans();
+        if scans != self.seen {
+            self.seen = scans;
+            let way = self.way.take();
+            for ((plausible, watch), count) in self.plausible.iter_mut().zip(&mut self.watch).zip(counts) {
+                *plausible = watch.is_plausible(count, way, self.still_counts);
+            }
+        }
+        let [left, middle, right] = self.plausible;
+        let judged = |plausible: bool, count| if plausible { count } else { drop_level };
+        let [left_count, middle_count, right_count] = counts;
+        [
+            judged(left, left_count),
+            judged(middle, middle_count),
+            judged(right, right_count),
+        ]
+    }
+}
+
+impl CliffSensors for CliffReceivers {
+    const FITTED: Cliffs = Cliffs {
+        left: true,
+        middle: true,
+        right: true,
+    };
+
+    fn set_emitters(&mut self, emitters: Emitters) {
+        self.lit = emitters == Emitters::On;
+        // While nobody knows what this line feeds, it stays off.
+        let switched = self
+            .calibration
+            .is_some_and(|known| known.emitters == CliffEmitters::Switched);
+        if switched && self.lit {
+            self.emitters.set_high();
+        } else {
+            self.emitters.set_low();
+        }
+    }
+
+    fn levels(&mut self) -> CliffLevels {
+        let counts = converter::whole(|| CLIFFS.map(converter::count));
+        let levels = match self.calibration.map(|known| known.emitters) {
+            Some(CliffEmitters::AlwaysLit(drop_level)) => self.always_lit(counts, drop_level),
+            Some(CliffEmitters::Switched) | None => counts,
+        };
+        let [left, middle, right] = levels;
+        CliffLevels { left, middle, right }
+    }
+}
+
+/// The seven infrared proximity sensors.
+#[derive(Debug)]
+pub struct ProximityReceivers {
+    scale: Option<ProximityScale>,
+}
+
+impl ProximityReceivers {
+    /// With the readings that mean nothing and touching, if they are known.
+    #[must_use]
+    pub const fn take(scale: Option<ProximityScale>) -> Self {
+        Self { scale }
+    }
+}
+
+impl ProximitySensors for ProximityReceivers {
+    const COUNT: u8 = SENSORS as u8;
+
+    fn closeness(&mut self) -> [u8; PROXIMITY_SENSORS] {
+        let mut closeness = [0; PROXIMITY_SENSORS];
+        if let Some(scale) = self.scale {
+            for (sensor, place) in closeness.iter_mut().take(SENSORS).enumerate() {
+                let (dark, lit) = converter::proximity(sensor);
+                *place = scale.closeness(dark, lit);
+            }
+        }
+        closeness
+    }
+}
+
+/// Currents of the wheels. The main brush has no such line.
+#[derive(Debug)]
+pub struct WheelCurrents {
+    calibration: Option<CurrentCalibration>,
+    smooth: [Smooth; 2],
+    at: u32,
+}
+
+/// A mean over the last few milliseconds: the line is not filtered, and a motor at 20 kHz makes it jump.
+#[derive(Clone, Copy, Debug, Default)]
+struct Smooth {
+    sixteenths: i32,
+}
+
+impl Smooth {
+    const fn take(&mut self, count: u16) {
+        self.sixteenths += count as i32 - self.sixteenths / 16;
+    }
+}
+
+impl WheelCurrents {
+    /// With zero and scale, if they are known.
+    #[must_use]
+    pub fn take(calibration: Option<CurrentCalibration>) -> Self {
+        Self {
+            calibration,
+            smooth: [Smooth::default(); 2],
+            at: tick::ticks(),
+        }
+    }
+}
+
+impl CurrentSense for WheelCurrents {
+    const PRESENT: bool = true;
+
+    fn currents(&mut self) -> Option<Currents> {
+        let known = self.calibration?;
+        converter::age_ms()?;
+        let counts = [pins::WHEEL_LEFT_CURRENT, pins::WHEEL_RIGHT_CURRENT].map(converter::count);
+        let now = tick::ticks();
+        let [left, right] = &mut self.smooth;
+        let [left_count, right_count] = counts;
+        if now != self.at {
+            self.at = now;
+            left.take(left_count);
+            right.take(right_count);
+        }
+        let current = |smooth: &Smooth, zero: i32| {
+            // Below 1,023 counts of 50 mA: fits.
+            Current((smooth.sixteenths / 16 - zero) * known.scale_ua / 1_000)
+        };
+        Some(Currents {
+            wheel_left: current(left, known.left_zero),
+            wheel_right: current(right, known.right_zero),
+            brush_main: Current::ZERO,
+        })
+    }
+}

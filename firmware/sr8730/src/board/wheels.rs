@@ -1,0 +1,134 @@
+//! The wheels' bridges (A3950) and the main brush's (DRV8840).
+
+use cordlib::board::{WheelDrive, WheelMotors};
+use embedded_hal::digital::OutputPin;
+use embedded_hal::pwm::SetDutyCycle;
+use pic32mx3_hal::gpio::Level;
+use pic32mx3_hal::gpio::{Output, Pin};
+use pic32mx3_hal::pwm::PwmChannel;
+use rvac_units::Throttle;
+
+use super::off::Motor;
+use crate::logic::bridge::{BridgeLines, BridgeSequence, Turn};
+use crate::logic::renewal::Renewal;
+
+/// A bridge with ENABLE and PHASE.
+#[derive(Debug)]
+pub struct Bridge<E, P> {
+    enable: E,
+    phase: P,
+    forward: Level,
+    motor: Motor,
+    sequence: BridgeSequence,
+    written: BridgeLines,
+}
+
+impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
+    /// Braking. `forward` is the level of PHASE for forward.
+    #[must_use]
+    pub fn new(enable: E, phase: P, forward: Level, motor: Motor) -> Self {
+        let mut bridge = Self {
+            enable,
+            phase,
+            forward,
+            motor,
+            sequence: BridgeSequence::new(),
+            written: BridgeLines {
+                compare: 0,
+                turn: Turn::Backward,
+            },
+        };
+        bridge.write(BridgeLines::default());
+        bridge
+    }
+
+    /// Takes a new duty.
+    pub fn command(&mut self, duty: Throttle) {
+        let lines = self.sequence.command(duty);
+        self.write(lines);
+    }
+
+    /// To be called once in a millisecond: the second half of a reversal.
+    pub fn service(&mut self) {
+        let lines = self.sequence.service();
+        self.write(lines);
+    }
+
+    /// Width and direction in the order that lets no current flow the wrong way: PHASE differs only when the width is 0,
+    /// and the width is written last.
+    fn write(&mut self, lines: BridgeLines) {
+        if lines.compare != 0 {
+            self.motor.note(true);
+        }
+        if lines.turn != self.written.turn {
+            let level = match lines.turn {
+                Turn::Forward => self.forward,
+                Turn::Backward => self.forward.inverted(),
+            };
+            // Pins of this chip cannot fail.
+            match level {
+                Level::High => self.phase.set_high().ok(),
+                Level::Low => self.phase.set_low().ok(),
+            };
+        }
+        self.enable.set_duty_cycle(lines.compare).ok();
+        self.written = lines;
+        if lines.compare == 0 {
+            self.motor.note(false);
+        }
+    }
+}
+
+/// ENABLE of the left wheel: RD0, OC1 on Timer3.
+pub type LeftEnable = PwmChannel<1, 3, Pin<'D', 0, Output>>;
+/// ENABLE of the right wheel: RD3, OC4 on Timer3.
+pub type RightEnable = PwmChannel<4, 3, Pin<'D', 3, Output>>;
+
+/// Both wheels.
+#[derive(Debug)]
+pub struct Wheels {
+    left: Bridge<LeftEnable, Pin<'C', 1, Output>>,
+    right: Bridge<RightEnable, Pin<'G', 7, Output>>,
+    renewal: Renewal,
+}
+
+/// Lines that hold a wheel's bridge in the mode in which it brakes in the off-time. They never change.
+pub type LeftMode = Pin<'E', 7, Output>;
+/// See [`LeftMode`].
+pub type RightMode = Pin<'G', 6, Output>;
+
+impl Wheels {
+    /// The left wheel drives forward with PHASE low, the right one, which is mirrored, with PHASE high.
+    #[must_use]
+    pub fn take(
+        (left_enable, left_phase): (LeftEnable, Pin<'C', 1, Output>),
+        (right_enable, right_phase): (RightEnable, Pin<'G', 7, Output>),
+        (mut left_mode, mut right_mode): (LeftMode, RightMode),
+    ) -> Self {
+        left_mode.set_high();
+        right_mode.set_high();
+        Self {
+            left: Bridge::new(left_enable, left_phase, Level::Low, Motor::WheelLeft),
+            right: Bridge::new(right_enable, right_phase, Level::High, Motor::WheelRight),
+            renewal: Renewal::default(),
+        }
+    }
+
+    /// To be called once in a millisecond. Brakes when nobody has said for 50 ms that the wheels shall turn.
+    pub fn service(&mut self) {
+        if self.renewal.is_overdue() {
+            self.left.command(Throttle::ZERO);
+            self.right.command(Throttle::ZERO);
+        }
+        self.left.service();
+        self.right.service();
+    }
+}
+
+impl WheelMotors for Wheels {
+    fn drive(&mut self, left: WheelDrive, right: WheelDrive) {
+        self.renewal.renew();
+        self.left.command(left.duty());
+        self.right.command(right.duty());
+    }
+}

@@ -1,0 +1,137 @@
+//! What the chip runs: start-up before memory has values, the program, and what happens when it breaks.
+
+use core::arch::global_asm;
+use core::panic::PanicInfo;
+
+use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
+use pic32mx3_hal::exception::{Exception, Kind};
+use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_seal, reset};
+
+use sr8730::board::off;
+use sr8730::generated::pins;
+use sr8730::logic::image_check::UNSEALED;
+use sr8730::logic::reset_log::Trouble;
+use sr8730::robot::{self, Robot};
+
+/// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the first
+/// instruction on and that no flipped bit can stop.
+const CONFIGURATION: Configuration = Configuration::new()
+    .primary_oscillator(PrimaryOscillator::HighSpeed, 8_000_000)
+    .pll_to_80_mhz()
+    .clock_monitor(true)
+    .watchdog_period_ms(128)
+    .watchdog_always();
+configuration!(CONFIGURATION);
+image_seal!(UNSEALED);
+entry!(main);
+exception_hook!(on_exception);
+
+fn main() -> ! {
+    match Peripherals::take() {
+        Some(chip) => Robot::new(chip).run(),
+        None => reset::software_reset(),
+    }
+}
+
+fn on_exception(exception: &Exception) -> ! {
+    robot::give_up(match exception.kind() {
+        Kind::UnhandledInterrupt => Trouble::StrayInterrupt,
+        _ => Trouble::Exception,
+    })
+}
+
+#[panic_handler]
+fn on_panic(_: &PanicInfo<'_>) -> ! {
+    robot::give_up(Trouble::Panic)
+}
+
+// Before any variable has its value: the levels of all outputs, then a march over memory (S21). It runs in registers only,
+// because it overwrites all that it tests, the stack included; what a reset shall not clear is left out.
+//
+// Up with 0 written; up reading 0 writing 1; up reading 1 writing 0; down reading 0 writing 1; down reading 1 writing 0; reading 0
+// (March C-). A cell that does not hold its value ends the start here, with all outputs safe: the watchdog tries again.
+global_asm!(
+    ".set push",
+    ".set noreorder",
+    ".section .text.pre_init, \"ax\"",
+    ".globl __pre_init",
+    ".type __pre_init, @function",
+    "__pre_init:",
+    "move $s0, $ra",
+    "jal __default_pre_init",
+    "nop",
+    "jal sr8730_safe_outputs",
+    "nop",
+    "lui $a0, 0x8000",
+    "lui $a1, %hi(__bss_end)",
+    "addiu $a1, $a1, %lo(__bss_end)",
+    "bal 1f",
+    "nop",
+    "lui $a0, %hi(__stack_bottom)",
+    "addiu $a0, $a0, %lo(__stack_bottom)",
+    "lui $a1, %hi(__stack_top)",
+    "addiu $a1, $a1, %lo(__stack_top)",
+    "bal 1f",
+    "nop",
+    "jr $s0",
+    "nop",
+    // One region, from a0 up to a1.
+    "1: li $t1, -1",
+    "move $t0, $a0",
+    "2: addiu $t0, $t0, 4",
+    "bne $t0, $a1, 2b",
+    "sw $zero, -4($t0)",
+    "move $t0, $a0",
+    "3: lw $t2, 0($t0)",
+    "bnez $t2, 9f",
+    "sw $t1, 0($t0)",
+    "addiu $t0, $t0, 4",
+    "bne $t0, $a1, 3b",
+    "nop",
+    "move $t0, $a0",
+    "4: lw $t2, 0($t0)",
+    "bne $t2, $t1, 9f",
+    "sw $zero, 0($t0)",
+    "addiu $t0, $t0, 4",
+    "bne $t0, $a1, 4b",
+    "nop",
+    "move $t0, $a1",
+    "5: addiu $t0, $t0, -4",
+    "lw $t2, 0($t0)",
+    "bnez $t2, 9f",
+    "sw $t1, 0($t0)",
+    "bne $t0, $a0, 5b",
+    "nop",
+    "move $t0, $a1",
+    "6: addiu $t0, $t0, -4",
+    "lw $t2, 0($t0)",
+    "bne $t2, $t1, 9f",
+    "sw $zero, 0($t0)",
+    "bne $t0, $a0, 6b",
+    "nop",
+    "move $t0, $a0",
+    "7: lw $t2, 0($t0)",
+    "addiu $t0, $t0, 4",
+    "bnez $t2, 9f",
+    "nop",
+    "bne $t0, $a1, 7b",
+    "nop",
+    "jr $ra",
+    "nop",
+    "9: b 9b",
+    "nop",
+    ".set pop",
+    ".text",
+    options(raw)
+);
+
+/// Called by the code above, first of all: every output gets its safe level, then its direction.
+#[unsafe(no_mangle)]
+extern "C" fn sr8730_safe_outputs() {
+    for start in pins::START {
+        let port = off::port_of(start.port);
+        port.write(u16::MAX, start.lat as u16);
+        port.release(start.tris as u16);
+        port.drive(!(start.tris as u16));
+    }
+}

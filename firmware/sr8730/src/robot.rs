@@ -1,0 +1,156 @@
+//! The robot: its parameters, its start, its main loop.
+
+use cordlib::board::HardwareFault;
+use cordlib::{Cord, Parameters};
+use pic32mx3_hal::flash::DataFlash;
+use pic32mx3_hal::{Peripherals, interrupt, reset};
+use rvac_protocol::message::{Capabilities, Limits, LogLevel};
+use rvac_units::{AngularSpeed, Length, Speed, Throttle};
+
+use crate::board::checks::SelfChecks;
+use crate::board::resets::{self, Starts};
+use crate::board::{Service, Sr8730, service, tick, wiring};
+use crate::calibration::{Calibration, RECORD_BYTES};
+use crate::generated::calibration::Calibrated;
+use crate::generated::machine;
+use crate::logic::calibration_record::RecordFault;
+use crate::logic::image_check::Verdict;
+use crate::logic::reset_log::Trouble;
+
+const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
+
+/// The robot, put together.
+#[derive(Debug)]
+pub struct Robot {
+    cord: Cord<Sr8730>,
+    checks: SelfChecks,
+}
+
+impl Robot {
+    /// From the chip, as the start-up code has left it: all outputs off.
+    #[must_use]
+    pub fn new(chip: Peripherals) -> Self {
+        let starts = Starts::take();
+        let trouble = starts.trouble();
+        let calibration = Calibration::from_record(&record(&chip.data_flash));
+        let (board, checks) = wiring::assemble(chip, &calibration, starts);
+        let verdict = checks.image_at_start();
+        let mut robot = Self {
+            cord: Cord::new(board, parameters(&calibration)),
+            checks,
+        };
+        robot.report_start(trouble, calibration.fault(), verdict);
+        robot
+    }
+
+    fn report_start(&mut self, trouble: Trouble, record: Option<RecordFault>, verdict: Verdict) {
+        if trouble != Trouble::None {
+            self.cord.log(LogLevel::Error, trouble.words());
+        }
+        let record = match record {
+            None => None,
+            Some(RecordFault::Absent) => Some("not calibrated: parts are absent"),
+            Some(RecordFault::Foreign) => Some("calibration is of another kind: parts are absent"),
+            Some(RecordFault::Count(_)) => Some("calibration is of another firmware: parts are absent"),
+            Some(RecordFault::Damaged) => Some("calibration is damaged: parts are absent"),
+        };
+        if let Some(words) = record {
+            self.cord.log(LogLevel::Warn, words);
+        }
+        match verdict {
+            Verdict::Whole => {}
+            Verdict::Damaged => self.fail(HardwareFault::Memory, "image in flash is damaged"),
+            Verdict::Unsealed => self.fail(HardwareFault::Internal, "image carries no check value"),
+        }
+    }
+
+    fn fail(&mut self, fault: HardwareFault, words: &'static str) {
+        self.cord.log(LogLevel::Error, words);
+        self.cord.hardware_fault(fault);
+    }
+
+    /// The main loop. Interrupts go on here.
+    pub fn run(mut self) -> ! {
+        interrupt::start();
+        loop {
+            if !cfg!(feature = "free-running") {
+                tick::wait();
+            }
+            tick::seen();
+            self.pass();
+        }
+    }
+
+    fn pass(&mut self) {
+        if let Some(fault) = self.checks.service() {
+            self.cord.hardware_fault(fault);
+        }
+        self.cord.step();
+        match service(self.cord.board_mut()) {
+            Service::Well => {}
+            // Nothing in memory can be believed: everything off, and from the start.
+            Service::DamagedVariable => give_up(Trouble::Variable),
+        }
+    }
+}
+
+/// The calibration record at the start of the data page.
+fn record(flash: &DataFlash) -> [u8; RECORD_BYTES] {
+    let mut record = [0; RECORD_BYTES];
+    for (offset, bytes) in (0..).step_by(4).zip(record.as_chunks_mut::<4>().0) {
+        *bytes = flash.word(offset).unwrap_or(u32::MAX).to_le_bytes();
+    }
+    record
+}
+
+/// Everything off, noted for the next run, and a reset, which makes every pin an input.
+pub fn give_up(trouble: Trouble) -> ! {
+    crate::board::off::everything();
+    resets::note(trouble);
+    reset::software_reset()
+}
+
+/// What cordlib must know of this machine. What nobody has measured on this robot is not fitted.
+#[must_use]
+pub fn parameters(calibration: &Calibration) -> Parameters {
+    let wheels = calibration.wheels();
+    let limits = Limits {
+        speed_max: Speed(machine::SPEED_MAX_UM_PER_S),
+        turn_max: AngularSpeed(machine::TURN_MAX_URAD_PER_S),
+        track: Length(wheels.map_or(0, |known| known.track_um)),
+        count_nm: wheels.map_or(0, |known| known.count_way_nm),
+        radius: Length(machine::RADIUS_UM),
+        swath: Length(machine::SWATH_UM),
+    };
+    let mut parameters = Parameters::for_machine(machine::DEVICE, FIRMWARE, limits);
+    if let Some(known) = wheels {
+        parameters.wheel.speed_at_full = Speed(known.free_speed_mm_per_s * 1_000);
+        parameters.wheel.dead_band = Throttle::saturating_from_millionths(known.dead_band_permille * 1_000);
+    }
+    if let Some(known) = calibration.cliffs() {
+        parameters.guard.floor_level_min = known.floor_level;
+    }
+    let capacity = calibration.measured(Calibrated::BatteryCapacity);
+    if let Some(capacity) = capacity.and_then(|capacity| u16::try_from(capacity).ok()) {
+        parameters.pack.capacity_mah = capacity;
+    }
+    parameters.fitted = Some(fitted(calibration));
+    parameters
+}
+
+/// What the host is told to be there.
+fn fitted(calibration: &Calibration) -> Capabilities {
+    let all = cordlib::board::Board::<Sr8730>::capabilities();
+    let count = |known: bool, count: u8| if known { count } else { 0 };
+    Capabilities {
+        encoders: calibration.wheels().is_some(),
+        gyro: calibration.gyro().is_some(),
+        cliffs: count(calibration.cliffs().is_some(), all.cliffs),
+        proximity: count(calibration.proximity().is_some(), all.proximity),
+        dock_receivers: count(calibration.beams().is_some(), all.dock_receivers),
+        buttons: count(calibration.ladder().is_some(), all.buttons),
+        currents: calibration.currents().is_some(),
+        charger: calibration.allows_charging(),
+        ..all
+    }
+}
