@@ -117,29 +117,6 @@ mod tests {
         }
         on
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Group, Lamps};
-    use rvac_units::Ratio;
-
-    fn ratio(millionths: i32) -> Ratio {
-        Ratio::from_millionths(millionths).unwrap()
-    }
-
-    /// Milliseconds of 160 in which each line of each group is on.
-    fn shares(lamps: &mut Lamps) -> [[u32; 5]; 2] {
-        let mut on = [[0; 5]; 2];
-        for _ in 0..160 {
-            let shown = lamps.change();
-            for line in 0..5 {
-                let group = usize::from(shown.group == Group::Battery);
-                on[group][line] += u32::from(shown.lines >> line & 1);
-            }
-        }
-        on
-    }
 
     #[test]
     fn each_light_has_its_line_and_half_of_the_time() {
