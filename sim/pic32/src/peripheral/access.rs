@@ -15,6 +15,8 @@ const PORT: u8 = 1;
 const LAT: u8 = 2;
 /// IFS0 to IEC1 among the registers of the interrupt controller.
 const FLAGS_AND_ENABLES: std::ops::RangeInclusive<u8> = 3..=7;
+/// IEC0 and IEC1.
+const ENABLES: std::ops::RangeInclusive<u8> = 6..=7;
 /// ON of all blocks that are not modelled.
 const ON: u32 = 1 << 15;
 
@@ -90,7 +92,7 @@ impl Chip {
             Block::Reset => self.system.read_reset(word),
             Block::Interrupts => {
                 if FLAGS_AND_ENABLES.contains(&word) {
-                    self.advance_timers(cycle);
+                    self.advance_flags(cycle);
                 }
                 self.interrupts.read(word)
             }
@@ -182,13 +184,12 @@ impl Chip {
     }
 
     fn write_interrupts(&mut self, word: u8, value: u32, cycle: u64) {
-        let counted = FLAGS_AND_ENABLES.contains(&word);
-        if counted {
-            self.advance_timers(cycle);
+        if FLAGS_AND_ENABLES.contains(&word) {
+            self.advance_flags(cycle);
         }
         self.interrupts.write(word, value, cycle);
-        if counted {
-            self.schedule_timers(cycle);
+        if ENABLES.contains(&word) {
+            self.schedule_timers();
         }
         if word == 2 && value != 0 {
             self.record
@@ -220,7 +221,7 @@ impl Chip {
             self.record.misuse(Misuse::AnalogTooFast);
         }
         self.schedule.set(Slot::Analog, self.analog.next_event());
-        self.schedule_timers(cycle);
+        self.schedule_timers();
     }
 
     fn write_oscillator(&mut self, word: u8, value: u32, cycle: u64) {

@@ -47,7 +47,7 @@ impl Chip {
 
     fn serve_timer(&mut self, number: u8, cycle: u64) {
         self.advance_timer(number, cycle);
-        self.schedule_timer(number, cycle);
+        self.schedule_timer(number);
     }
 
     /// Takes the matches of a timer up to `cycle`.
@@ -66,33 +66,38 @@ impl Chip {
 
     /// Brings flags of timers and outputs of compares up to `cycle`: before anything that they depend on changes.
     pub(super) fn advance_timers(&mut self, cycle: u64) {
+        self.advance_flags(cycle);
+        self.advance_outputs(cycle);
+    }
+
+    /// Brings flags of timers up to `cycle`.
+    pub(super) fn advance_flags(&mut self, cycle: u64) {
         for number in ALL {
             self.advance_timer(number, cycle);
         }
-        self.advance_outputs(cycle);
     }
 
     /// After anything that timers depend on has changed.
     pub(super) fn settle_timers(&mut self, cycle: u64) {
-        self.schedule_timers(cycle);
+        self.schedule_timers();
         for number in ALL {
             self.schedule_compare(number, cycle);
         }
     }
 
     /// Matches are events only for those who listen; flags are otherwise worked out when they are read.
-    pub(super) fn schedule_timers(&mut self, cycle: u64) {
+    pub(super) fn schedule_timers(&mut self) {
         for number in ALL {
-            self.schedule_timer(number, cycle);
+            self.schedule_timer(number);
         }
     }
 
-    fn schedule_timer(&mut self, number: u8, cycle: u64) {
+    fn schedule_timer(&mut self, number: u8) {
         let flagged = self.timers.interrupt_of(number);
         let heard = self.interrupts.is_enabled(Irq::timer(flagged))
             || flagged == TIMER_3 && self.analog.trigger_source() == Trigger::Timer3;
         let due = if heard {
-            self.timers.counter(number).next_match(cycle)
+            self.timers.next_match(number)
         } else {
             NEVER
         };

@@ -81,6 +81,19 @@ const fn vector_of(irq: u8) -> u8 {
     }
 }
 
+/// IRQs of each vector.
+const SOURCES: [u64; VECTORS] = {
+    let mut sources = [0; VECTORS];
+    let mut irq = 0;
+    while irq < 64 {
+        if PRESENT >> irq & 1 != 0 {
+            sources[vector_of(irq) as usize] |= 1 << irq;
+        }
+        irq += 1;
+    }
+    sources
+};
+
 const INTCON_WRITABLE: u32 = 0x0001_571F;
 const MULTI_VECTOR: u32 = 1 << 12;
 const SHADOW_FOR_SINGLE: u32 = 1 << 16;
@@ -228,12 +241,14 @@ impl Interrupts {
 
     /// When the oldest pending and enabled source of this vector raised its flag.
     pub(crate) fn raised_at(&self, vector: u8) -> Option<u64> {
-        let pending = self.flags & self.enables;
-        let of_vector = |irq: &u8| pending & (1 << irq) != 0 && vector_of(*irq) == vector;
-        (0..64)
-            .filter(of_vector)
-            .map(|irq| self.raised_at[usize::from(irq)])
-            .min()
+        let mut rest = self.flags & self.enables & SOURCES.get(usize::from(vector)).copied().unwrap_or(0);
+        let mut oldest = None;
+        while rest != 0 {
+            let raised = self.raised_at[rest.trailing_zeros() as usize];
+            oldest = Some(oldest.map_or(raised, |oldest: u64| oldest.min(raised)));
+            rest &= rest - 1;
+        }
+        oldest
     }
 
     /// Reads the register `word` of the block (its address / 16).

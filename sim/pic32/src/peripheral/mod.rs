@@ -39,6 +39,7 @@ pub(crate) use nvm::{Operation, PAGE_BYTES, ROW_BYTES};
 
 use crate::cpu::InterruptRequest;
 use crate::memory::FlashTiming;
+use crate::pins::Port;
 use analog::Analog;
 use capture::Capture;
 use clock::{Change, Clock};
@@ -141,8 +142,8 @@ impl Chip {
         self.watchdog = Watchdog::new(self.clock.configuration(), cycle);
         self.nvm = Nvm::new();
         self.matrix = Matrix::new();
-        self.notice = Notice::new();
-        self.timers = Timers::new();
+        self.notice.reset();
+        self.timers.reset();
         self.release_modulated_pins(cycle);
         self.compares = std::array::from_fn(|number| self.compares[number].reset());
         self.captures = std::array::from_fn(|_| Capture::default());
@@ -161,6 +162,9 @@ impl Chip {
 
     /// What follows from the registers after a reset.
     fn begin(&mut self, cycle: u64) {
+        for port in Port::ALL {
+            self.notice.set_levels(port, self.ports.inputs(port));
+        }
         self.settle_analog_pins(cycle);
         self.settle_held_pins(cycle);
         self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());

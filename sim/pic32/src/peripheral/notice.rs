@@ -28,6 +28,15 @@ impl Notice {
         }
     }
 
+    /// After a reset; what pins showed stays.
+    pub(crate) fn reset(&mut self) {
+        *self = Notice {
+            reference: self.reference,
+            levels: self.levels,
+            ..Notice::new()
+        };
+    }
+
     pub(crate) fn read(&self, word: u8) -> Option<u32> {
         Some(match word {
             0 => self.control,

@@ -1,7 +1,7 @@
 //! Timers 1 to 5 (here 0 to 4), their pairs, prescalers, gates and external clocks.
 
 use super::counter::Counter;
-use super::rate::{Now, Rate};
+use super::rate::{NEVER, Now, Rate};
 use crate::pins::Level;
 
 const ON: u32 = 1 << 15;
@@ -25,6 +25,8 @@ struct Timer {
     held_edges: u32,
     /// Up to which cycle matches have set the flag.
     flagged_to: u64,
+    /// The first match after that.
+    next_match: u64,
 }
 
 /// What an edge of TxCK led to.
@@ -45,6 +47,12 @@ pub(crate) enum Written {
     PrescalerWhileOn,
 }
 
+impl Timer {
+    fn look_ahead(&mut self) {
+        self.next_match = self.counter.next_match(self.flagged_to);
+    }
+}
+
 /// All five.
 #[derive(Clone, Debug)]
 pub(crate) struct Timers {
@@ -59,9 +67,19 @@ impl Timers {
             clock_pin: false,
             held_edges: 0,
             flagged_to: 0,
+            next_match: NEVER,
         };
         Timers {
             timers: std::array::from_fn(|_| timer.clone()),
+        }
+    }
+
+    /// All off; the pins stay as they are.
+    pub(crate) fn reset(&mut self) {
+        let pins = self.timers.each_ref().map(|timer| timer.clock_pin);
+        *self = Timers::new();
+        for (timer, clock_pin) in self.timers.iter_mut().zip(pins) {
+            timer.clock_pin = clock_pin;
         }
     }
 
@@ -91,9 +109,17 @@ impl Timers {
     /// The first match since the last call up to `cycle`, if there was one.
     pub(crate) fn take_match(&mut self, number: u8, cycle: u64) -> Option<u64> {
         let timer = &mut self.timers[usize::from(number)];
-        let first = timer.counter.next_match(timer.flagged_to);
+        let first = timer.next_match;
         timer.flagged_to = timer.flagged_to.max(cycle);
-        (first <= cycle).then_some(first)
+        (first <= cycle).then(|| {
+            timer.look_ahead();
+            first
+        })
+    }
+
+    /// The first match that [`Timers::take_match`] has not told yet.
+    pub(crate) fn next_match(&self, number: u8) -> u64 {
+        self.timers[usize::from(number)].next_match
     }
 
     pub(crate) fn read(&self, number: u8, word: u8, cycle: u64) -> Option<u32> {
@@ -136,6 +162,7 @@ impl Timers {
         } else {
             timer.counter.period = new;
         }
+        timer.look_ahead();
         Written::Fine
     }
 
@@ -185,6 +212,7 @@ impl Timers {
             let count = timer.counter.count_at(now.cycle);
             timer.counter.restart(count, rate, now.cycle);
         }
+        timer.look_ahead();
     }
 
     fn rate(&self, number: usize, peripheral: Rate) -> Rate {

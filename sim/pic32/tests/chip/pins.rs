@@ -272,3 +272,18 @@ fn scheduled_levels_come_in_order_and_change_notice_is_disabled_without_its_enab
     );
     assert_eq!(machine.read_register(IFS1), 0);
 }
+
+#[test]
+fn after_a_reset_change_notice_knows_the_levels() {
+    let mut machine = bare();
+    let rc13 = pin("RC13");
+    machine.set_input(rc13, Level::High);
+    machine.reset(pic32::machine::ResetSource::MasterClear);
+    machine.write_register(CNCON, 0x8000);
+    machine.read_register(PORTC);
+    machine.write_register(CNEN, 1 << 1);
+    machine.write_register(IFS1 + CLR, 1);
+    assert_eq!(machine.read_register(IFS1) & 1, 0);
+    machine.set_input(rc13, Level::Low);
+    assert_eq!(machine.read_register(IFS1) & 1, 1);
+}
