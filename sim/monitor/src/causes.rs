@@ -1,5 +1,7 @@
 //! What stands against motion, and for how long.
 
+use crate::charging::{ChargeStanding, Charging};
+
 /// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pins {
@@ -17,6 +19,8 @@ pub struct Pins {
     pub counts: [i32; 2],
     /// The body fell down the stairs (ground truth).
     pub fallen: bool,
+    /// Charger and pack (ground truth).
+    pub charging: Charging,
 }
 
 /// What the motors get, in millionths of full drive, forward positive.
@@ -73,6 +77,7 @@ pub(crate) struct Standing {
     /// Each wheel: driven hard while its encoder stands still.
     pub(crate) stalled_ms: [u32; 2],
     pub(crate) fallen: bool,
+    pub(crate) charge: ChargeStanding,
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
@@ -101,6 +106,7 @@ impl Default for Standing {
             button_ms: 0,
             stalled_ms: [0; 2],
             fallen: false,
+            charge: ChargeStanding::default(),
             cleaners_start: false,
             cleaners_were_on: false,
             counts: [0; 2],
@@ -137,6 +143,7 @@ impl Standing {
         }
         self.counts = pins.counts;
         self.fallen = pins.fallen;
+        self.charge.update(&pins.charging, self.motors_run);
         self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;
         self.cleaners_were_on = drives.cleaners_on();
     }

@@ -14,12 +14,14 @@
 #![deny(missing_docs)]
 
 mod causes;
+mod charging;
 mod permission;
 mod said;
 mod verdict;
 mod wire;
 
 pub use causes::{Drives, Pins};
+pub use charging::Charging;
 pub use verdict::{Rule, Violation};
 
 use causes::Standing;
@@ -85,11 +87,17 @@ impl Monitor {
         self.standing.reset();
     }
 
+    /// The firmware's millisecond clock begins to count at `now_ms`: a firmware that checks its memories first starts it
+    /// later than the reset. The age of what it is told is counted by it.
+    pub fn clock_started(&mut self, now_ms: u64) {
+        self.permission.clock_started(now_ms);
+    }
+
     /// Judges one millisecond: what the pins showed before the firmware's pass and what the motors got after it.
     pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
         self.standing.update(pins, drives);
         self.permission.update(now_ms, &self.standing);
-        if drives.is_off() && self.broken == 0 && !pins.fallen {
+        if drives.is_off() && self.broken == 0 && !pins.fallen && !pins.charging.driven {
             return;
         }
         let broken = verdict::broken(now_ms, &self.permission, &self.standing, drives);

@@ -46,7 +46,8 @@ pub(crate) struct Permission {
     session: u16,
     /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
     sealed_ms: Option<u64>,
-    reset_ms: u64,
+    /// When the firmware's clock began to count.
+    clock_ms: u64,
     arming: Arming,
     /// What a refused `arm` falls back to.
     before: Arming,
@@ -120,7 +121,7 @@ impl Permission {
     /// S3: not older than 400 ms, and newer than the newest motion of this session.
     fn is_fresh(&mut self, now_ms: u64, mark: super::said::Mark) -> bool {
         if let Some(tick) = mark.tick {
-            let age = ((now_ms - self.reset_ms) as u32).wrapping_sub(tick);
+            let age = (now_ms.saturating_sub(self.clock_ms) as u32).wrapping_sub(tick);
             if age > FRESH_MS {
                 return false;
             }
@@ -160,7 +161,7 @@ impl Permission {
     pub(crate) fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.session = 0;
         self.sealed_ms = None;
-        self.reset_ms = now_ms;
+        self.clock_ms = now_ms;
         self.arming = Arming::default();
         self.before = Arming::default();
         self.newest_motion = None;
@@ -174,6 +175,10 @@ impl Permission {
             self.resets_ms.rotate_right(1);
             self.resets_ms[0] = Some(now_ms);
         }
+    }
+
+    pub(crate) fn clock_started(&mut self, now_ms: u64) {
+        self.clock_ms = now_ms;
     }
 
     pub(crate) fn update(&mut self, now_ms: u64, standing: &Standing) {

@@ -3,7 +3,7 @@
 use rvac_protocol::message::ResetCause;
 
 use super::wire::{Direction, seal_over};
-use super::{Drives, Monitor, Pins, Rule};
+use super::{Charging, Drives, Monitor, Pins, Rule};
 
 const SESSION: u16 = 0x1234;
 const FORWARD: Drives = Drives {
@@ -355,4 +355,108 @@ fn a_binary_drive_covers_its_lease() {
     scene.monitor.heard(scene.now_ms, Some(0x1F));
     assert_eq!(scene.pass(300, FORWARD), []);
     assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease]);
+}
+
+/// A pack that may be charged.
+const CHARGING: Charging = Charging {
+    driven: true,
+    supplied: true,
+    current_ma: 1_000,
+    pack_mv: 17_000,
+    temperature_dc: 300,
+};
+
+#[test]
+fn each_cause_against_charging_has_its_reaction_time() {
+    let cases: [(Charging, Drives, u32, Rule); 6] = [
+        (
+            Charging {
+                supplied: false,
+                ..CHARGING
+            },
+            OFF,
+            100,
+            Rule::ChargeUnsupplied,
+        ),
+        (
+            Charging {
+                temperature_dc: 550,
+                ..CHARGING
+            },
+            OFF,
+            2_000,
+            Rule::ChargeTemperature,
+        ),
+        (
+            Charging {
+                temperature_dc: -51,
+                ..CHARGING
+            },
+            OFF,
+            2_000,
+            Rule::ChargeTemperature,
+        ),
+        (
+            Charging {
+                pack_mv: 21_001,
+                ..CHARGING
+            },
+            OFF,
+            2_000,
+            Rule::ChargeVoltage,
+        ),
+        (
+            Charging {
+                current_ma: 1_401,
+                ..CHARGING
+            },
+            OFF,
+            200,
+            Rule::ChargeCurrent,
+        ),
+        (CHARGING, BACKWARD, 100, Rule::ChargeDriving),
+    ];
+    for (charging, drives, reaction_ms, rule) in cases {
+        let mut scene = Scene::armed();
+        scene.pins.charging = charging;
+        assert_eq!(scene.pass_driven(reaction_ms, drives), [], "{rule:?}");
+        assert_eq!(scene.pass_driven(1, drives), [rule]);
+    }
+}
+
+#[test]
+fn a_charge_ends_in_time_and_a_rest_begins_another() {
+    let mut scene = Scene::armed();
+    let hours = |hours: f64| (hours * 3_600_000.0) as u32;
+    scene.pins.charging = CHARGING;
+    assert_eq!(scene.pass(hours(3.0), OFF), []);
+    scene.pins.charging.driven = false;
+    scene.pass(hours(0.4), OFF);
+    scene.pins.charging.driven = true;
+    assert_eq!(scene.pass(hours(0.6), OFF), []);
+    scene.pins.charging.driven = false;
+    scene.pass(hours(0.6), OFF);
+    scene.pins.charging.driven = true;
+    assert_eq!(scene.pass(hours(3.6), OFF), []);
+    assert_eq!(scene.pass(1, OFF), [Rule::ChargeTime]);
+}
+
+#[test]
+fn a_clock_that_starts_late_makes_no_command_old() {
+    let mut scene = Scene::armed();
+    scene.monitor.reset(scene.now_ms, ResetCause::Watchdog);
+    scene.open_session(SESSION);
+    scene.pass(600, OFF);
+    scene.monitor.clock_started(scene.now_ms);
+    let started_ms = scene.now_ms;
+    scene.arm(false);
+    scene.pass(300, OFF);
+    scene.number += 1;
+    let tick = scene.now_ms - started_ms - 100;
+    let json = format!(
+        r#"{{"c":"drive","v":0.2,"w":0,"ttl":250,"n":{},"t":{tick}}}"#,
+        scene.number
+    );
+    scene.host(&json);
+    assert_eq!(scene.pass(300, FORWARD), []);
 }

@@ -1,6 +1,7 @@
 //! The rules, as far as they can be judged from outside.
 
 use super::causes::{Drives, Pins, Standing};
+use super::charging::ChargeStanding;
 use super::permission::Permission;
 
 /// A line of SAFETY.md that the monitor judges.
@@ -35,11 +36,23 @@ pub enum Rule {
     Button = 12,
     /// S29: brushes or suction started with a pressed bumper or a hanging wheel.
     CleanersStart = 13,
+    /// S18: the charging switch driven 100 ms after the supply was gone.
+    ChargeUnsupplied = 14,
+    /// S18: the charging switch driven while a motor was, for 100 ms.
+    ChargeDriving = 15,
+    /// S18: charging for 2 s although the pack was really above 55 or below -5 degrees.
+    ChargeTemperature = 16,
+    /// S18: charging for 2 s above 21 V.
+    ChargeVoltage = 17,
+    /// S18: more than 1.4 A for 200 ms.
+    ChargeCurrent = 18,
+    /// S18: the charging switch driven for more than 3.6 hours in one charge.
+    ChargeTime = 19,
 }
 
 impl Rule {
     /// All of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 20] = [
         Self::WheelsWithoutLease,
         Self::CleanersWithoutLease,
         Self::NotArmed,
@@ -54,6 +67,12 @@ impl Rule {
         Self::Docked,
         Self::Button,
         Self::CleanersStart,
+        Self::ChargeUnsupplied,
+        Self::ChargeDriving,
+        Self::ChargeTemperature,
+        Self::ChargeVoltage,
+        Self::ChargeCurrent,
+        Self::ChargeTime,
     ];
 
     /// Rule number and a word.
@@ -74,6 +93,12 @@ impl Rule {
             Self::Docked => "S19-docked",
             Self::Button => "S28-button",
             Self::CleanersStart => "S29-cleaners-start",
+            Self::ChargeUnsupplied => "S18-charge-unsupplied",
+            Self::ChargeDriving => "S18-charge-driving",
+            Self::ChargeTemperature => "S18-charge-temperature",
+            Self::ChargeVoltage => "S18-charge-voltage",
+            Self::ChargeCurrent => "S18-charge-current",
+            Self::ChargeTime => "S18-charge-time",
         }
     }
 }
@@ -110,6 +135,7 @@ impl core::fmt::Display for Violation {
             wheel_drop,
             docked,
             button,
+            charging,
             ..
         } = self.pins;
         let standing: Vec<&str> = [
@@ -118,6 +144,7 @@ impl core::fmt::Display for Violation {
             (wheel_drop, "wheel-drop"),
             (docked, "docked"),
             (button, "button"),
+            (charging.driven, "charging"),
         ]
         .into_iter()
         .filter_map(|(stands, name)| stands.then_some(name))
@@ -148,6 +175,22 @@ const BUTTON_MS: u32 = 50;
 const START_MS: u32 = 20;
 /// A pass of the firmware's loop and the debouncing of the judge's own clock.
 const MARGIN_MS: u32 = 2;
+
+const CHARGE_MS: u32 = 100;
+const CHARGE_SLOW_MS: u32 = 2_000;
+const CHARGE_CURRENT_MS: u32 = 200;
+const CHARGE_TIME_MS: u32 = 12_960_000;
+
+fn charger_verdicts(standing: &ChargeStanding) -> [(Rule, bool); 6] {
+    [
+        (Rule::ChargeUnsupplied, standing.unsupplied_ms > CHARGE_MS),
+        (Rule::ChargeDriving, standing.driving_ms > CHARGE_MS),
+        (Rule::ChargeTemperature, standing.temperature_ms > CHARGE_SLOW_MS),
+        (Rule::ChargeVoltage, standing.voltage_ms > CHARGE_SLOW_MS),
+        (Rule::ChargeCurrent, standing.current_ms > CHARGE_CURRENT_MS),
+        (Rule::ChargeTime, standing.charged_ms > CHARGE_TIME_MS),
+    ]
+}
 
 /// The rules that are broken now, bit by rule.
 pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, drives: &Drives) -> u32 {
@@ -196,6 +239,7 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
     ];
     verdicts
         .into_iter()
+        .chain(charger_verdicts(&standing.charge))
         .filter(|(_, broken)| *broken)
         .fold(0, |bits, (rule, _)| bits | 1 << rule as u32)
 }

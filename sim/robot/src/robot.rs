@@ -1,9 +1,11 @@
 //! A robot whose firmware runs in a simulated home.
 
 use cordlib::Cord;
-use cordlib::board::{ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive};
+use cordlib::board::{
+    ChargeDrive, ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive,
+};
 use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
-use monitor::{Bridges, Drives, Monitor, Pins};
+use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
@@ -208,6 +210,18 @@ impl SimulatedRobot {
             button: sensors.buttons != 0,
             counts: [counts.left, counts.right],
             fallen: self.world.truth().fallen,
+            charging: self.charging(),
+        }
+    }
+
+    fn charging(&self) -> Charging {
+        let truth = self.world.truth();
+        Charging {
+            driven: self.cord.board().charger.drive != ChargeDrive::Off,
+            supplied: self.world.sensors().dock_contacts,
+            current_ma: (truth.battery_a * 1e3) as i32,
+            pack_mv: (truth.battery_v * 1e3) as i32,
+            temperature_dc: (truth.battery_c * 10.0) as i32,
         }
     }
 

@@ -246,6 +246,9 @@ impl World {
         self.sensors.brush_main_current = Current::from_a(noisy(brush_a));
         self.truth.battery_charge = self.battery.charge().min(1.0);
         self.truth.battery_hottest_c = self.battery.hottest_c();
+        self.truth.battery_c = self.battery.temperature_c();
+        self.truth.battery_v = self.battery.voltage_v();
+        self.truth.battery_a = self.battery.current_a();
         self.truth.dirt_share = self.dirt.share();
         self.truth.swept_m2 = f64::from(self.dirt.swept_cells) * self.home.grid().cell_area_m2();
         self.truth.swept_share =

@@ -44,6 +44,12 @@ pub struct Truth {
     pub battery_charge: f64,
     /// Temperature of the hottest cell, degrees Celsius.
     pub battery_hottest_c: f64,
+    /// Mean temperature of the cells, degrees Celsius.
+    pub battery_c: f64,
+    /// At the pack's terminals, volts.
+    pub battery_v: f64,
+    /// Into the pack positive, ampere.
+    pub battery_a: f64,
 }
 
 impl Truth {
@@ -76,6 +82,9 @@ impl Truth {
             docked: false,
             battery_charge: 1.0,
             battery_hottest_c: 22.0,
+            battery_c: 22.0,
+            battery_v: 0.0,
+            battery_a: 0.0,
         }
     }
 }

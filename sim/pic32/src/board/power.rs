@@ -2,25 +2,25 @@
 //!
 //! Drawn in the original's source: adapter, a P-channel MOSFET that CHARGING_ENABLE closes through an NPN, a shunt of 0.3 ohm,
 //! the pack. No inductor and no limiter. What was measured on the maker's firmware fits this picture: pulses of 94 µs
-//! (1.5 % at 160 Hz) gave about 250 mA on average, so about 16 A flow while the switch is closed; pulses of 1.7 µs (3.33 %
-//! at 20 kHz) would give half an ampere then, but 1 A was reached, so the switch opens about 1.7 µs late: its gate is
-//! pulled up by a resistor only.
+//! (1.5 % at 160 Hz) gave about 250 mA on average, so some 16 to 20 A flow while the switch is closed; pulses of 1.7 µs
+//! (3.33 % at 20 kHz) would give half an ampere then, but 1 A was reached, so the switch opens about 1.7 µs late: its gate
+//! is pulled up by a resistor only.
+
+use home::Supply;
 
 use super::CYCLES_PER_S;
 use super::calibration::Particulars;
 
 /// Shunt, ohm.
 const SHUNT_OHM: f64 = 0.3;
-/// Everything in the way of the current: shunt, switch, wires, adapter. From the 16 A above.
-const SERIES_OHM: f64 = 0.5;
-/// Voltage of the supply without load. Not recorded; a NiMH pack of twelve cells needs more than 20 V.
-const SUPPLY_V: f64 = 24.0;
-/// What the supply gives for long.
-const SUPPLY_A: f64 = 1.5;
+/// What is behind the contacts: the same as the home's own charger has.
+const SUPPLY: Supply = Supply::USUAL;
 /// What its capacitors give at once, coulomb: 1000 µF that may sag by 5 V.
 const RESERVOIR_C: f64 = 0.005;
 /// How late the switch opens, cycles.
 const OPENS_LATE: f64 = 136.0;
+/// Cycles of a pulse of 3.33 % at 20 kHz.
+const PULSE: f64 = 133.0;
 /// Period of the charger's PWM, cycles: at most one pulse a slice.
 pub(super) const SLICE: u64 = 4_000;
 /// Time constant of the filters at the two converter inputs, seconds. Not recorded; the original measured in the quiet
@@ -41,7 +41,7 @@ pub(super) struct ChargeCurrent {
 
 /// What is on the contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Supply {
+pub(super) enum Feed {
     /// Nothing.
     Absent,
     /// A dock that was not asked for current, or an adapter: gives at most this, ampere.
@@ -50,12 +50,12 @@ pub(super) enum Supply {
     Full,
 }
 
-impl Supply {
+impl Feed {
     fn limit_a(self) -> f64 {
         match self {
             Self::Absent => 0.0,
             Self::Limited(limit_a) => limit_a,
-            Self::Full => SUPPLY_A,
+            Self::Full => SUPPLY.limit_a,
         }
     }
 }
@@ -63,14 +63,16 @@ impl Supply {
 impl ChargeCurrent {
     /// The switch was told to be closed for `closed` cycles of the last `cycles`, in pulses that begin at most once a
     /// [`SLICE`].
-    pub(super) fn pass(&mut self, (closed, cycles): (u64, u64), supply: Supply, pack_v: f64) {
+    pub(super) fn pass(&mut self, (closed, cycles): (u64, u64), supply: Feed, pack_v: f64) {
         let pulses = if closed == 0 {
             0.0
         } else {
             (cycles as f64 / SLICE as f64).max(1.0)
         };
         let share = ((closed as f64 + pulses * OPENS_LATE) / cycles as f64).min(1.0);
-        let driven_a = ((SUPPLY_V - pack_v) / SERIES_OHM).max(0.0);
+        // The home's supply tells the resistance for the mean of all pulses; this is that of a closed switch.
+        let closed_ohm = SUPPLY.series_ohm * (PULSE + OPENS_LATE) / SLICE as f64;
+        let driven_a = ((SUPPLY.open_v - pack_v) / closed_ohm).max(0.0);
         let passed_s = cycles as f64 / CYCLES_PER_S as f64;
         let current_a = self.supplied_a(share * driven_a, supply, passed_s);
         let follows = 1.0 - (-passed_s / FILTER_S).exp();
@@ -80,12 +82,12 @@ impl ChargeCurrent {
     }
 
     /// What the supply can give of this current for so long.
-    fn supplied_a(&mut self, wanted_a: f64, supply: Supply, passed_s: f64) -> f64 {
+    fn supplied_a(&mut self, wanted_a: f64, supply: Feed, passed_s: f64) -> f64 {
         let there_c = self.reservoir_c + supply.limit_a() * passed_s;
         let given_c = there_c.min(wanted_a * passed_s);
         self.reservoir_c = (there_c - given_c).min(match supply {
-            Supply::Full => RESERVOIR_C,
-            Supply::Absent | Supply::Limited(_) => 0.0,
+            Feed::Full => RESERVOIR_C,
+            Feed::Absent | Feed::Limited(_) => 0.0,
         });
         given_c / passed_s
     }
@@ -141,10 +143,10 @@ pub(super) fn thermistor_counts(celsius: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ChargeCurrent, SLICE, Supply, thermistor_counts};
+    use super::{ChargeCurrent, Feed, SLICE, thermistor_counts};
 
     /// Mean current of an envelope of 20 ms with so many periods of 133 counts.
-    fn envelope_a(pulses: u64, supply: Supply) -> f64 {
+    fn envelope_a(pulses: u64, supply: Feed) -> f64 {
         let mut current = ChargeCurrent::default();
         for period in 0..400 {
             let closed = if period < pulses { 133 } else { 0 };
@@ -159,31 +161,31 @@ mod tests {
         // 160 Hz at 1.5 %: the first two of 125 slices hold a pulse of 7,500 cycles.
         for slice in 0..1_250 {
             let closed = [SLICE, 3_500].get(slice % 125).copied().unwrap_or(0);
-            current.pass((closed, SLICE), Supply::Full, 16.0);
+            current.pass((closed, SLICE), Feed::Full, 16.0);
         }
         let slow_a = current.take_mean_a();
-        assert!((0.22..0.28).contains(&slow_a), "{slow_a}");
-        let full_a = envelope_a(380, Supply::Full);
-        assert!((0.9..1.15).contains(&full_a), "{full_a}");
-        let half_a = envelope_a(190, Supply::Full);
+        assert!((0.25..0.36).contains(&slow_a), "{slow_a}");
+        let full_a = envelope_a(380, Feed::Full);
+        assert!((1.3..1.45).contains(&full_a), "{full_a}");
+        let half_a = envelope_a(190, Feed::Full);
         assert!((half_a * 2.0 - full_a).abs() < 0.01);
     }
 
     #[test]
     fn a_dock_that_was_not_asked_gives_little_and_no_dock_nothing() {
-        assert!(envelope_a(380, Supply::Limited(0.02)) <= 0.02);
-        assert_eq!(envelope_a(380, Supply::Absent), 0.0);
+        assert!(envelope_a(380, Feed::Limited(0.02)) <= 0.02);
+        assert_eq!(envelope_a(380, Feed::Absent), 0.0);
     }
 
     #[test]
     fn the_quiet_part_of_an_envelope_shows_the_pack_alone() {
         let mut current = ChargeCurrent::default();
         for _ in 0..380 {
-            current.pass((133, SLICE), Supply::Full, 16.0);
+            current.pass((133, SLICE), Feed::Full, 16.0);
         }
-        assert!((0.25..0.36).contains(&current.shunt_v()), "{}", current.shunt_v());
+        assert!((0.35..0.5).contains(&current.shunt_v()), "{}", current.shunt_v());
         for _ in 0..20 {
-            current.pass((0, SLICE), Supply::Full, 16.0);
+            current.pass((0, SLICE), Feed::Full, 16.0);
         }
         assert!(current.shunt_v() < 0.005);
     }
@@ -192,7 +194,7 @@ mod tests {
     fn a_switch_that_is_stuck_gives_what_the_supply_can() {
         let mut current = ChargeCurrent::default();
         for _ in 0..100 {
-            current.pass((80_000, 80_000), Supply::Full, 16.0);
+            current.pass((80_000, 80_000), Feed::Full, 16.0);
         }
         let mean_a = current.take_mean_a();
         assert!((1.49..1.55).contains(&mean_a), "{mean_a}");

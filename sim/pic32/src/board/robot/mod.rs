@@ -6,7 +6,7 @@ mod settings;
 pub use settings::{Blueprint, BlueprintError, EmulatedSettings, Record};
 
 use home::{Actuation, Digest, RobotModel, World};
-use monitor::{Bridges, Drives, Monitor, Pins};
+use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::ReceivedByte;
 
 use crate::board::CYCLES_PER_MS;
@@ -18,7 +18,7 @@ use crate::board::encoder::{BrushEncoder, Edge, Encoder, Position};
 use crate::board::gyro::GyroModule;
 use crate::board::light::{Lights, Sound};
 use crate::board::motors::{Motor, Motors};
-use crate::board::power::{SLICE, Supply};
+use crate::board::power::{Feed, SLICE};
 use crate::board::serial::{HostPort, Receiver, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
@@ -32,6 +32,8 @@ const NO_FLOOR_LEVEL: u8 = 20;
 const CLIFF_SETTLE_MS: u32 = 3;
 /// The charger's envelope: its mean over less says nothing.
 const ENVELOPE_MS: u64 = 20;
+/// Vector of the core timer.
+const CORE_TIMER: u8 = 0;
 /// Milliseconds between two poses in the digest.
 const DIGEST_MS: u64 = 100;
 
@@ -63,6 +65,10 @@ pub struct EmulatedRobot {
     edges: Vec<Edge>,
     line_edges: Vec<(u64, Level)>,
     charge_cycles: u64,
+    /// The last millisecond in which the charging switch was closed.
+    charge_driven_ms: Option<u64>,
+    /// Entries of the core timer's handler at the last reset, until the first one after it.
+    ticks_before: Option<u64>,
     now_ms: u64,
     resets: u32,
     cliff_settled_ms: u32,
@@ -104,6 +110,8 @@ impl EmulatedRobot {
             edges: Vec::new(),
             line_edges: Vec::new(),
             charge_cycles: 0,
+            charge_driven_ms: None,
+            ticks_before: Some(0),
             now_ms: 0,
             resets: 0,
             cliff_settled_ms: 0,
@@ -236,20 +244,23 @@ impl EmulatedRobot {
         let total = self.machine.high_cycles(self.wiring.charge.pin);
         let closed = total - self.charge_cycles;
         self.charge_cycles = total;
+        if closed != 0 {
+            self.charge_driven_ms = Some(self.now_ms);
+        }
         let supply = self.supply();
-        if closed != 0 || self.circuit.charge.is_flowing() || supply == Supply::Full {
+        if closed != 0 || self.circuit.charge.is_flowing() || supply == Feed::Full {
             let pack_v = f64::from(self.circuit.sensors.battery_voltage.0) / 1000.0;
             self.circuit.charge.pass((closed, cycles), supply, pack_v);
         }
     }
 
-    fn supply(&self) -> Supply {
+    fn supply(&self) -> Feed {
         if !self.contacts.is_on(Contact::Adapter) {
-            Supply::Absent
+            Feed::Absent
         } else if self.ear.is_content(self.machine.cycle()) {
-            Supply::Full
+            Feed::Full
         } else {
-            Supply::Limited(self.model.battery.trickle_a)
+            Feed::Limited(self.model.battery.trickle_a)
         }
     }
 
@@ -340,6 +351,20 @@ impl EmulatedRobot {
             button: on(Contact::AnyButton),
             counts: [sensors.count_left, sensors.count_right],
             fallen: self.world.truth().fallen,
+            charging: self.charging(),
+        }
+    }
+
+    fn charging(&self) -> Charging {
+        let truth = self.world.truth();
+        Charging {
+            driven: self
+                .charge_driven_ms
+                .is_some_and(|last_ms| self.now_ms - last_ms <= ENVELOPE_MS),
+            supplied: self.contacts.was_on(Contact::Adapter),
+            current_ma: (truth.battery_a * 1e3) as i32,
+            pack_mv: (truth.battery_v * 1e3) as i32,
+            temperature_dc: (truth.battery_c * 10.0) as i32,
         }
     }
 
@@ -349,7 +374,18 @@ impl EmulatedRobot {
             self.resets += 1;
             self.motors.reset();
             self.monitor.reset(self.now_ms, handles::cause_of(source));
+            self.ticks_before = Some(self.ticks());
         }
+        if self.ticks_before.is_some_and(|before| self.ticks() > before) {
+            self.ticks_before = None;
+            self.monitor.clock_started(self.now_ms - 1);
+        }
+    }
+
+    /// Times that the core timer's handler was entered: the firmware's millisecond clock.
+    fn ticks(&self) -> u64 {
+        let account = self.machine.accounting().vector(CORE_TIMER);
+        account.map_or(0, |account| account.entries)
     }
 
     fn driven(&self) -> Drives {
