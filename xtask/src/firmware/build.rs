@@ -35,11 +35,12 @@ pub(crate) fn build(
     let mut cargo = tools.cargo();
     cargo
         .current_dir(&place.root)
+        // Before the word `build`: a list of -Z behind it would replace the toolchain's own.
         .args([
+            "-Ztrim-paths",
             "build",
             "--release",
             "--locked",
-            "-Ztrim-paths",
             "--manifest-path",
         ])
         .arg(place.root.join(board.firmware).join("Cargo.toml"))
