@@ -120,6 +120,7 @@ impl Cpu {
         self.pc = address;
         self.next = address.wrapping_add(4);
         self.in_slot = false;
+        self.line = None;
     }
 
     /// Brings the register set into use that SRSCtl names.

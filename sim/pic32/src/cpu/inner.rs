@@ -79,13 +79,12 @@ struct Frame {
 
 impl Frame {
     fn new(cpu: &Cpu, region: Region) -> Self {
-        let index = region.index(cpu.pc);
         Self {
-            index,
+            index: region.index(cpu.pc),
             next: region.index(cpu.next),
             cycle: cpu.cycle,
             slot: if cpu.in_slot { cpu.cycle } else { u64::MAX },
-            line: line_of(region.first_line.unwrap_or(0), index),
+            line: cpu.line.unwrap_or(0),
         }
     }
 
@@ -111,6 +110,7 @@ impl Frame {
         cpu.next = region.address(self.next);
         cpu.cycle = self.cycle;
         cpu.in_slot = self.slot == self.cycle;
+        cpu.line = region.first_line.map(|_| self.line);
     }
 }
 
@@ -167,7 +167,23 @@ impl Cpu {
             }
         };
         frame.save(self, region);
+        if matches!(leave, Leave::Outside) {
+            self.line = None;
+        }
         leave
+    }
+
+    /// Fetches the line of flash where execution begins when the core comes from elsewhere.
+    pub(super) fn arrive(&mut self, region: Region) {
+        let Some(first) = region.first_line else { return };
+        if self.line.is_some() {
+            return;
+        }
+        let line = line_of(first, region.index(self.pc));
+        if self.prefetch.misses(line) {
+            self.cycle += region.flash_wait;
+        }
+        self.line = Some(line);
     }
 
     /// A jump is taken after the next instruction.

@@ -10,9 +10,9 @@
 //! | a load from flash | CHECON.PFMWS | known, without the lines for data |
 //! | a jump to a line that the prefetch unit does not hold | CHECON.PFMWS | known, its replacement rule is not |
 //! | each fetch from flash without prefetch | CHECON.PFMWS | estimated |
-//! | HI or LO asked for before they are there | up to 2, after a division up to 33 | estimated |
+//! | HI or LO asked for before they are there | 1, after a division up to 32 | estimated |
 //! | `mul` | 1 or 2 | estimated |
-//! | entering or leaving a handler | 3 | estimated |
+//! | entering or leaving a handler | 3, and the wait for its line of flash | estimated |
 //!
 //! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that gives
 //! it no memory), debug mode beyond `sdbbp` and `deret`.
@@ -114,6 +114,8 @@ pub struct Cpu {
     system: System,
     timer: CoreTimer,
     prefetch: PrefetchUnit,
+    /// The line of flash at which the last jump ended; nothing when the core came here otherwise.
+    line: Option<u16>,
     request: Option<InterruptRequest>,
     is_waiting: bool,
     is_linked: bool,
@@ -143,6 +145,7 @@ impl Cpu {
             system: System::new(),
             timer: CoreTimer::new(),
             prefetch: PrefetchUnit::new(),
+            line: None,
             request: None,
             is_waiting: false,
             is_linked: false,

@@ -33,6 +33,10 @@ impl Cpu {
     /// Executes one instruction, with its delay slot if it has one; interrupts are taken first. In WAIT one cycle passes.
     pub fn step<B: Bus>(&mut self, memory: &mut Memory, bus: &mut B) -> Exit {
         loop {
+            // To wait for flash is no step.
+            if let Some((code, start)) = self.fetch(memory) {
+                self.arrive(self.region(memory, code, start));
+            }
             let exit = self.run(memory, bus, self.cycle + 1);
             if exit != Exit::Reached || !self.in_slot {
                 return exit;
@@ -85,6 +89,7 @@ impl Cpu {
             return Some(Exit::Exception(self.raise(self.fetch_fault())));
         };
         let region = self.region(memory, code, start);
+        self.arrive(region);
         let leave = self.run_region(
             memory.open(code, &mut [crate::cpu::operation::Operation::Nop]),
             region,
