@@ -23,6 +23,16 @@ const BAUD: Baud = Baud::B230400;
 const CORE_HZ: u32 = 40_000_000;
 /// Counts of Timer4 a second, prescaler 2: nine equal bits at 9600 baud are 37,500 counts then, which fit into 16 bits.
 const TIMER_HZ: u32 = 40_000_000;
+/// Length of a bit at each rate, reckoned here and not in the handler.
+const BIT_TIMES: [BitTime; Baud::ALL.len()] = {
+    let mut times = [BitTime::new(BAUD, TIMER_HZ); Baud::ALL.len()];
+    let mut index = 0;
+    while index < times.len() {
+        times[index] = BitTime::new(Baud::ALL[index], TIMER_HZ);
+        index += 1;
+    }
+    times
+};
 /// Counts until the first bit of a message: as soon as can be.
 const BEGIN_COUNTS: u32 = 100;
 /// Change notices in a millisecond: 230 edges of the link at 230,400 baud, and the brush.
@@ -104,10 +114,10 @@ impl Sender {
     fn rest(&mut self) {
         let rate = RATE.load(Ordering::Relaxed);
         if rate != self.rate
-            && let Some(baud) = Baud::ALL.get(usize::from(rate))
+            && let Some(time) = BIT_TIMES.get(usize::from(rate))
         {
             self.rate = rate;
-            self.transmitter.set_bit_time(BitTime::new(*baud, TIMER_HZ));
+            self.transmitter.set_bit_time(*time);
         }
         self.transmitter.prepare(|| TO_SEND.pop());
         if self.transmitter.due() == Due::Idle {
