@@ -92,7 +92,8 @@ impl Graph {
         for address in (start..end).step_by(4) {
             let Some(word) = elf.word(address) else { break };
             match effect(word, address) {
-                Effect::Call(place) => {
+                // A call into the middle of itself is a subroutine of hand-written code, with the frame that it is part of.
+                Effect::Call(place) if place == start || !(start..end).contains(&place) => {
                     function.calls.insert(place);
                 }
                 Effect::Jump(place) if !(start..end).contains(&place) => {
@@ -117,7 +118,7 @@ impl Graph {
                         uppers.insert(register, address);
                     }
                 }
-                Effect::Jump(_) | Effect::None => {}
+                Effect::Call(_) | Effect::Jump(_) | Effect::None => {}
             }
         }
         self.functions.insert(start, function);
@@ -326,5 +327,8 @@ mod tests {
     fn recursion_is_named() {
         let graph = program(&[("main", &[call(2), 0]), ("again", &[grow(8), call(2)])], &[]);
         assert!(graph.depth(BASE).recursive.contains("again"));
+        let with_subroutine = program(&[("main", &[grow(8), call(3), 0, grow(16)])], &[]);
+        let depth = with_subroutine.depth(BASE);
+        assert!(depth.recursive.is_empty() && depth.bytes == 24);
     }
 }
