@@ -44,6 +44,8 @@ enum Phase {
 #[derive(Clone, Debug)]
 pub struct Decoder {
     bit: BitTime,
+    /// 2^40 by the bit time's parts: counts times this, by 2^32, are bits.
+    bits_per_count: u32,
     /// Pulses shorter than this are noise, in counts.
     noise: u32,
     /// Since the last edge that was believed; `None` before the first and after edges were lost.
@@ -62,6 +64,7 @@ impl Decoder {
     pub fn new(bit: BitTime) -> Self {
         Self {
             bit,
+            bits_per_count: ((1_u64 << 40) / u64::from(bit.parts().get())).min(u64::from(u32::MAX)) as u32,
             noise: bit.counts() * NOISE_NUMERATOR / NOISE_DENOMINATOR,
             line: None,
             pending: None,
@@ -70,8 +73,37 @@ impl Decoder {
         }
     }
 
-    /// Takes the next edge. Bytes that end before it go to `sink`: usually none or one, two after a break.
+    /// Takes the next edge. A byte that ends before it goes to `sink`.
+    #[inline(always)]
     pub fn edge(&mut self, edge: Edge, sink: &mut impl FnMut(Received)) {
+        if let Some(received) = self.take_edge(edge) {
+            sink(received);
+        }
+    }
+
+    /// Tells the time, after every edge before `now` was given. A byte whose stop bit is half over goes to `sink`.
+    #[inline(always)]
+    pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
+        if let Some(received) = self.take_time(now) {
+            sink(received);
+        }
+    }
+
+    /// Tells that edges were lost: the frame under way is given up, the next falling edge begins a new one.
+    #[inline(always)]
+    pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
+        self.forget();
+        sink(Received::Overrun);
+    }
+
+    pub(crate) fn forget(&mut self) {
+        self.line = None;
+        self.pending = None;
+        self.back = None;
+        self.phase = Phase::Idle;
+    }
+
+    pub(crate) fn take_edge(&mut self, edge: Edge) -> Option<Received> {
         let before = *self.line.get_or_insert(edge.level.inverted());
         let newest = match (self.pending, self.back) {
             (Some(pending), None) => pending.level,
@@ -79,46 +111,38 @@ impl Decoder {
         };
         if edge.level == newest {
             // Two edges came so close that the interrupt saw only the level after both.
-            return;
+            return None;
         }
         match (self.pending, self.back.take()) {
             (Some(pending), None) if since(pending.at, edge.at) < self.noise => {
                 self.back = Some(edge.at);
-                return;
+                return None;
             }
-            (Some(pending), None) => self.believe(pending, sink),
+            (Some(pending), None) => self.believe(pending),
             // The line went there, back, and there again: the shorter of the two pulses was noise.
-            (Some(pending), Some(back)) if since(back, edge.at) < since(pending.at, back) => return,
+            (Some(pending), Some(back)) if since(back, edge.at) < since(pending.at, back) => return None,
             _ => {}
         }
-        self.finish_before(edge.at, sink);
         self.pending = Some(edge);
+        self.finish_before(edge.at)
     }
 
-    /// Tells the time, after every edge before `now` was given. A byte whose stop bit is half over goes to `sink`.
-    pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
+    pub(crate) fn take_time(&mut self, now: u32) -> Option<Received> {
         if let Some(pending) = self.pending {
             let newest = self.back.unwrap_or(pending.at);
             if since(newest, now) < self.noise {
-                return;
+                return None;
             }
             self.pending = None;
             if self.back.take().is_none() {
-                self.believe(pending, sink);
+                self.believe(pending);
             }
         }
-        self.finish_before(now, sink);
+        self.finish_before(now)
     }
 
-    /// Tells that edges were lost: the frame under way is given up, the next falling edge begins a new one.
-    pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
-        *self = Self::new(self.bit);
-        sink(Received::Overrun);
-    }
-
-    fn believe(&mut self, edge: Edge, sink: &mut impl FnMut(Received)) {
-        self.finish_before(edge.at, sink);
-        let before = edge.level.inverted();
+    /// Takes an edge for true. A frame that ends before it has been ended when the edge came.
+    fn believe(&mut self, edge: Edge) {
         self.line = Some(edge.level);
         match (self.phase, edge.level) {
             (Phase::Idle, Level::Low) => {
@@ -139,35 +163,33 @@ impl Decoder {
                 level,
             ) => {
                 let boundary = position + self.bits_between(anchor, edge.at);
-                self.phase = if boundary == 0 && level == Level::High {
+                if boundary == 0 && level == Level::High {
                     // A start bit of less than half a bit is none.
-                    Phase::Idle
-                } else if boundary == position {
-                    self.phase
-                } else {
-                    Phase::Frame {
+                    self.phase = Phase::Idle;
+                } else if boundary != position {
+                    self.phase = Phase::Frame {
                         anchor: edge.at,
                         position: boundary,
-                        bits: fill(bits, position..boundary, before),
-                    }
-                };
+                        bits: fill(bits, position..boundary, level.inverted()),
+                    };
+                }
             }
         }
     }
 
     /// Ends the frame under way when the middle of its stop bit lies at or before `now`.
-    fn finish_before(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
+    fn finish_before(&mut self, now: u32) -> Option<Received> {
         let Phase::Frame {
             anchor,
             position,
             bits,
         } = self.phase
         else {
-            return;
+            return None;
         };
         let halves = STOP_MIDDLE_HALVES.saturating_sub(2 * position);
         if since(anchor, now) < (self.bit.parts().get() * halves) >> 9 {
-            return;
+            return None;
         }
         let level = self.line.unwrap_or(Level::Low);
         let bits = fill(bits, position..STOP + 1, level);
@@ -180,14 +202,14 @@ impl Decoder {
             (Received::FramingError, Phase::AwaitHigh)
         };
         self.phase = phase;
-        sink(received);
+        Some(received)
     }
 
     /// Whole bits, rounded, at most ten. The caller has ended frames that are over, so more cannot be asked for.
     fn bits_between(&self, from: u32, to: u32) -> u32 {
-        let parts = since(from, to).min(u32::MAX >> 9) << 8;
-        let bit = self.bit.parts();
-        ((parts + bit.get() / 2) / bit).min(STOP + 1)
+        let counts = since(from, to) + (self.bit.parts().get() >> 9);
+        let bits = (u64::from(counts) * u64::from(self.bits_per_count)) >> 32;
+        (bits as u32).min(STOP + 1)
     }
 }
 

@@ -45,13 +45,6 @@ pub struct Receiver {
     doubt: u8,
 }
 
-/// What the decoder is told.
-#[derive(Clone, Copy, Debug)]
-enum Input {
-    Edge(Edge),
-    Now(u32),
-}
-
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     baud: Baud,
@@ -96,51 +89,75 @@ impl Receiver {
         }
     }
 
-    /// Takes the next edge. Bytes that end before it go to `sink`, in their order. The `U` from which a rate is learnt is
-    /// not among them.
+    /// Takes the next edge. A byte that ends before it goes to `sink`. The `U` from which a rate is learnt does not.
+    #[inline(always)]
     pub fn edge(&mut self, edge: Edge, sink: &mut impl FnMut(Received)) {
-        self.decode(Input::Edge(edge), sink);
-        if let Some(baud) = self.meter.edge(edge) {
-            self.consider(baud);
+        if let Some(received) = self.take_edge(edge) {
+            sink(received);
         }
-        self.settle();
     }
 
     /// Tells the time, after every edge before `now` was given; see [`Decoder::poll`].
+    #[inline(always)]
     pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
-        self.decode(Input::Now(now), sink);
-        self.settle();
-    }
-
-    /// Tells that edges were lost. It says nothing about the rate.
-    pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
-        self.meter.restart();
-        match &mut self.current {
-            Some((_, decoder)) => decoder.overrun(sink),
-            None => sink(Received::Overrun),
+        if let Some(received) = self.take_time(now) {
+            sink(received);
         }
     }
 
-    fn decode(&mut self, input: Input, sink: &mut impl FnMut(Received)) {
-        let Some((_, decoder)) = &mut self.current else {
-            return;
+    /// Tells that edges were lost. It says nothing about the rate.
+    #[inline(always)]
+    pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
+        self.forget();
+        sink(Received::Overrun);
+    }
+
+    // What follows is compiled here, with this crate's optimisation, and not in the program that calls it.
+
+    fn take_edge(&mut self, edge: Edge) -> Option<Received> {
+        let received = match &mut self.current {
+            Some((_, decoder)) => decoder.take_edge(edge),
+            None => None,
         };
-        let (doubt, candidate) = (&mut self.doubt, &mut self.candidate);
-        let mut judged = |received| {
-            match received {
-                Received::Byte(_) => {
-                    *doubt = doubt.saturating_sub(DOUBT_BYTE);
-                    *candidate = candidate.and_then(Candidate::after_good_byte);
-                }
-                // At a sixth of the rate or less, a low bit or two is a break.
-                Received::FramingError | Received::Break => *doubt = (*doubt + DOUBT_ERROR).min(DOUBT_MAX),
-                Received::Overrun => {}
+        self.judge(received);
+        if let Some(baud) = self.meter.edge(edge) {
+            self.consider(baud);
+        }
+        received
+    }
+
+    fn take_time(&mut self, now: u32) -> Option<Received> {
+        let received = match &mut self.current {
+            Some((_, decoder)) => decoder.take_time(now),
+            None => None,
+        };
+        self.judge(received);
+        received
+    }
+
+    fn forget(&mut self) {
+        self.meter.restart();
+        if let Some((_, decoder)) = &mut self.current {
+            decoder.forget();
+        }
+    }
+
+    fn judge(&mut self, received: Option<Received>) {
+        match received {
+            None | Some(Received::Overrun) => {}
+            Some(Received::Byte(_)) => {
+                self.doubt = self.doubt.saturating_sub(DOUBT_BYTE);
+                self.candidate = self.candidate.and_then(Candidate::after_good_byte);
             }
-            sink(received);
-        };
-        match input {
-            Input::Edge(edge) => decoder.edge(edge, &mut judged),
-            Input::Now(now) => decoder.poll(now, &mut judged),
+            // At a sixth of the rate or less, a low bit or two is a break.
+            Some(Received::FramingError | Received::Break) => {
+                self.doubt = (self.doubt + DOUBT_ERROR).min(DOUBT_MAX);
+                if let Some(candidate) = self.candidate
+                    && self.doubt >= DOUBT_SWITCH
+                {
+                    self.switch(candidate.baud);
+                }
+            }
         }
     }
 
@@ -156,14 +173,6 @@ impl Receiver {
             self.switch(baud);
         } else {
             self.candidate = Some(Candidate { baud, good_bytes: 0 });
-        }
-    }
-
-    fn settle(&mut self) {
-        if let Some(candidate) = self.candidate
-            && self.doubt >= DOUBT_SWITCH
-        {
-            self.switch(candidate.baud);
         }
     }
 

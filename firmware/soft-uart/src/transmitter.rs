@@ -51,17 +51,17 @@ pub struct Transmitter {
     bit: BitTime,
     /// Most bits in one run.
     run_bits_max: u32,
-    /// Bits not sent yet, next one lowest, with a sentinel bit above the last. 1: none.
+    /// Bits not sent yet, next one lowest.
     frame: u32,
+    /// How many of them.
+    left: u32,
     /// Parts of a count that earlier runs left over.
     parts: u32,
     due: Due,
 }
 
-/// No bits left.
-const EMPTY: u32 = 1;
-/// The stop bit, and above it the sentinel.
-const STOP_AND_SENTINEL: u32 = 0b11 << 9;
+const FRAME_BITS: u32 = 10;
+const STOP_BIT: u32 = 1 << 9;
 
 impl Transmitter {
     /// A transmitter with nothing to send. `bit` is in counts of the timer whose interrupt drives it.
@@ -70,7 +70,8 @@ impl Transmitter {
         Self {
             bit,
             run_bits_max: run_bits_max(bit),
-            frame: EMPTY,
+            frame: 0,
+            left: 0,
             parts: 0,
             due: Due::Idle,
         }
@@ -86,23 +87,23 @@ impl Transmitter {
     /// Makes the next [`Self::due`] ready. `next_byte` is asked when the byte before has been handed out whole.
     #[inline]
     pub fn prepare(&mut self, next_byte: impl FnOnce() -> Option<u8>) {
-        if self.frame == EMPTY {
-            match next_byte() {
-                Some(byte) => self.frame = STOP_AND_SENTINEL | (u32::from(byte) << 1),
-                None => {
-                    self.due = Due::Idle;
-                    return;
-                }
-            }
+        if self.left == 0 {
+            let Some(byte) = next_byte() else {
+                self.due = Due::Idle;
+                return;
+            };
+            self.frame = STOP_BIT | (u32::from(byte) << 1);
+            self.left = FRAME_BITS;
         }
         let level = Level::of_bit(self.frame);
-        // The sentinel is high, so it must not be counted to the run of a high level.
-        let equal = match level {
-            Level::Low => self.frame.trailing_zeros(),
-            Level::High => self.frame.trailing_ones().min(31 - self.frame.leading_zeros()),
+        // Ones where the level is another one.
+        let other = match level {
+            Level::Low => self.frame,
+            Level::High => !self.frame,
         };
-        let equal = equal.min(self.run_bits_max);
+        let equal = other.trailing_zeros().min(self.left).min(self.run_bits_max);
         self.frame >>= equal;
+        self.left -= equal;
         let parts = equal * self.bit.parts().get() + self.parts;
         self.parts = parts & 0xFF;
         self.due = Due::Run {
