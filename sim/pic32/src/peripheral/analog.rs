@@ -1,6 +1,6 @@
 //! The 10-bit converter: sampling, converting, scanning, alternating and its buffer.
 
-use super::rate::{NEVER, Now, Rate};
+use super::rate::{NEVER, Now, Rate, Span};
 
 const ON: u32 = 1 << 15;
 const STOP_AFTER_SEQUENCE: u32 = 1 << 4;
@@ -15,10 +15,9 @@ const INTERNAL_CLOCK: u32 = 1 << 15;
 /// A conversion takes this many TAD; general knowledge of the family.
 const CONVERSION_TAD: u64 = 12;
 /// TAD of the internal clock: about 250 ns by general knowledge.
-const INTERNAL_TAD_CYCLES: u64 = 20;
-/// The shortest TAD in picoseconds; general knowledge of the family.
-const SHORTEST_TAD_PS: u64 = 65_000;
-const PS_PER_CYCLE: u64 = 12_500;
+const INTERNAL_HZ: u64 = 4_000_000;
+/// The fastest conversion clock: TAD is at least 65 ns by general knowledge of the family.
+const FASTEST_HZ: u64 = 1_000_000_000 / 65;
 
 /// What ends sampling (SSRC).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,14 +37,25 @@ pub(crate) enum Trigger {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Idle,
-    /// `ends` is [`NEVER`] until the trigger comes.
-    Sampling {
-        ends: u64,
-    },
+    /// Until the trigger comes nothing says when it ends.
+    Sampling(Option<Wait>),
     Converting {
         value: u16,
-        ends: u64,
+        wait: Wait,
     },
+}
+
+/// So many TAD from some moment on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Wait {
+    span: Span,
+    tads: u64,
+}
+
+impl Wait {
+    fn ends(&self) -> u64 {
+        self.span.cycle_of(self.tads)
+    }
 }
 
 /// What the converter wants at a cycle that has come.
@@ -119,20 +129,36 @@ impl Analog {
 
     /// Whether TAD is shorter than the converter can do.
     pub(crate) fn is_too_fast(&self, peripheral: Rate) -> bool {
-        self.control[0] & ON != 0 && self.tad(peripheral, 1) * PS_PER_CYCLE < SHORTEST_TAD_PS
+        self.control[0] & ON != 0 && self.clock(peripheral).hz() > FASTEST_HZ
     }
 
-    fn tad(&self, peripheral: Rate, count: u64) -> u64 {
+    /// One count for each TAD.
+    fn clock(&self, peripheral: Rate) -> Rate {
         if self.control[2] & INTERNAL_CLOCK != 0 {
-            return INTERNAL_TAD_CYCLES * count;
+            return Rate::from_hz(INTERNAL_HZ);
         }
-        peripheral.cycles_for(2 * (u64::from(self.control[2] & 0xFF) + 1) * count)
+        peripheral.divided(2 * (u64::from(self.control[2] & 0xFF) + 1))
+    }
+
+    fn wait(&self, tads: u64, now: Now) -> Wait {
+        Wait {
+            span: Span::new(now.cycle, self.clock(now.peripheral)),
+            tads,
+        }
+    }
+
+    /// The peripheral clock is another one from now on.
+    pub(crate) fn change_clock(&mut self, now: Now) {
+        let rate = self.clock(now.peripheral);
+        if let State::Sampling(Some(wait)) | State::Converting { wait, .. } = &mut self.state {
+            wait.span.change_rate(now.cycle, rate);
+        }
     }
 
     pub(crate) fn next_event(&self) -> u64 {
         match self.state {
-            State::Idle => NEVER,
-            State::Sampling { ends } | State::Converting { ends, .. } => ends,
+            State::Idle | State::Sampling(None) => NEVER,
+            State::Sampling(Some(wait)) | State::Converting { wait, .. } => wait.ends(),
         }
     }
 
@@ -176,7 +202,7 @@ impl Analog {
         match self.state {
             State::Idle if value & (SAMPLING | AUTO_SAMPLE) != 0 => self.begin_sample(now),
             State::Sampling { .. } if before & SAMPLING != 0 && value & SAMPLING == 0 => {
-                self.state = State::Sampling { ends: now.cycle };
+                self.state = State::Sampling(Some(self.wait(0, now)));
             }
             _ => {}
         }
@@ -185,11 +211,9 @@ impl Analog {
     fn begin_sample(&mut self, now: Now) {
         self.channel = self.choose_channel();
         self.control[0] |= SAMPLING;
-        let ends = match self.trigger_source() {
-            Trigger::Auto => now.cycle + self.tad(now.peripheral, u64::from(self.control[2] >> 8 & 0x1F)),
-            _ => NEVER,
-        };
-        self.state = State::Sampling { ends };
+        let automatic = self.trigger_source() == Trigger::Auto;
+        let tads = u64::from(self.control[2] >> 8 & 0x1F);
+        self.state = State::Sampling(automatic.then(|| self.wait(tads, now)));
     }
 
     /// MUX A or, when they alternate, MUX B at every other sample; MUX A goes through the scan list if it scans.
@@ -210,28 +234,27 @@ impl Analog {
     }
 
     /// The event of this trigger has happened.
-    pub(crate) fn trigger(&mut self, trigger: Trigger, cycle: u64) {
-        if self.state == (State::Sampling { ends: NEVER }) && self.trigger_source() == trigger {
-            self.state = State::Sampling { ends: cycle };
+    pub(crate) fn trigger(&mut self, trigger: Trigger, now: Now) {
+        if self.state == State::Sampling(None) && self.trigger_source() == trigger {
+            self.state = State::Sampling(Some(self.wait(0, now)));
         }
     }
 
     /// What is to be done now that [`Analog::next_event`] has come.
     pub(crate) fn due(&self, cycle: u64) -> Due {
         match self.state {
-            State::Sampling { ends } if ends <= cycle => Due::Hold(self.channel),
-            State::Converting { ends, .. } if ends <= cycle => Due::Result,
+            State::Sampling(Some(wait)) if wait.ends() <= cycle => Due::Hold(self.channel),
+            State::Converting { wait, .. } if wait.ends() <= cycle => Due::Result,
             _ => Due::Nothing,
         }
     }
 
     /// Sampling ends with this level, 0..=1023.
     pub(crate) fn hold(&mut self, value: u16, now: Now) {
-        let ends = now.cycle + self.tad(now.peripheral, CONVERSION_TAD);
         self.control[0] &= !(SAMPLING | DONE);
         self.state = State::Converting {
             value: value.min(1023),
-            ends,
+            wait: self.wait(CONVERSION_TAD, now),
         };
     }
 

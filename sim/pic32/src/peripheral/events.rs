@@ -230,7 +230,7 @@ impl Chip {
     }
 
     pub(super) fn trigger_analog(&mut self, trigger: Trigger, cycle: u64) {
-        self.analog.trigger(trigger, cycle);
+        self.analog.trigger(trigger, self.now(cycle));
         self.schedule.set(Slot::Analog, self.analog.next_event());
     }
 

@@ -134,6 +134,7 @@ impl Chip {
 
     /// Resets all registers. What the outside does, what was recorded and how long pins were high stay.
     pub(crate) fn reset(&mut self, source: ResetSource, cycle: u64, configuration: [u8; 16]) {
+        self.record.place.cycle = cycle;
         self.advance_outputs(cycle);
         self.clock.set_configuration(Configuration::of(configuration));
         self.interrupts = Interrupts::new();
@@ -249,7 +250,7 @@ impl Chip {
         self.system.causes()
     }
 
-    /// The watchdog ended WAIT instead of resetting.
+    /// The watchdog ended WAIT instead of resetting: a non-maskable interrupt by general knowledge of the family.
     pub(crate) fn bark_at_idle(&mut self, cycle: u64) {
         let state = if self.clock.sleeps() {
             system::SLEEP_BIT
@@ -276,6 +277,7 @@ impl Chip {
 
     /// The crystal stops.
     pub(crate) fn fail_crystal(&mut self, cycle: u64) {
+        self.record.place.cycle = cycle;
         self.advance_outputs(cycle);
         let change = self.clock.fail_crystal();
         self.clock_changed(change, cycle);
@@ -301,8 +303,15 @@ impl Chip {
             Change::Rates => {}
         }
         self.advance_timers(cycle);
-        self.timers.change_clock(self.now(cycle));
+        let now = self.now(cycle);
+        self.timers.change_clock(now);
         self.settle_timers(cycle);
+        self.analog.change_clock(now);
+        self.schedule.set(Slot::Analog, self.analog.next_event());
+        for number in 0..2 {
+            self.serials[usize::from(number)].change_clock(now);
+            self.settle_serial(number);
+        }
         self.check_clock();
         self.order(Order::Clock);
     }

@@ -83,6 +83,39 @@ pub(crate) struct Now {
     pub(crate) peripheral: Rate,
 }
 
+/// Counting that began at some moment and goes on through changes of its clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Span {
+    since: u64,
+    /// Counts that were complete then.
+    done: u64,
+    rate: Rate,
+}
+
+impl Span {
+    pub(crate) fn new(cycle: u64, rate: Rate) -> Span {
+        Span {
+            since: cycle,
+            done: 0,
+            rate,
+        }
+    }
+
+    /// The cycle at which so many counts are complete, or when the clock changed last if they were complete before.
+    pub(crate) fn cycle_of(&self, counts: u64) -> u64 {
+        match counts.saturating_sub(self.done) {
+            0 => self.since,
+            left => self.since.saturating_add(self.rate.cycles_for(left)),
+        }
+    }
+
+    /// The clock is another one from this cycle on.
+    pub(crate) fn change_rate(&mut self, cycle: u64, rate: Rate) {
+        self.done += self.rate.counts_in(cycle.saturating_sub(self.since));
+        (self.since, self.rate) = (cycle, rate);
+    }
+}
+
 /// `value * factor / divisor`, without overflow between.
 #[expect(
     clippy::cast_possible_truncation,

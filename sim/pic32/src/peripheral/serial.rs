@@ -1,6 +1,6 @@
 //! UART 1 and 2 (here 0 and 1): queues, bit times, framing, both as levels on their pins.
 
-use super::rate::{NEVER, Now, Rate};
+use super::rate::{NEVER, Now, Span};
 use crate::pins::{Level, Pin, Port, known};
 use std::collections::VecDeque;
 
@@ -47,7 +47,9 @@ pub enum Sent {
 /// A frame on its way out.
 #[derive(Clone, Copy, Debug)]
 struct Shift {
-    begun: u64,
+    /// Counts clocks of the peripheral bus.
+    span: Span,
+    bit_clocks: u64,
     /// Levels of its bits, the start bit in bit 0.
     levels: u16,
     /// How many bits.
@@ -55,7 +57,6 @@ struct Shift {
     /// The bit that is on the line.
     bit: u8,
     sent: Sent,
-    rate: Rate,
 }
 
 impl Shift {
@@ -72,15 +73,16 @@ impl Shift {
     }
 
     fn cycle_of(&self, bit: u8) -> u64 {
-        self.begun.saturating_add(self.rate.cycles_for(u64::from(bit)))
+        self.span.cycle_of(u64::from(bit) * self.bit_clocks)
     }
 }
 
 /// A frame on its way in.
 #[derive(Clone, Debug)]
 struct Arrival {
-    begun: u64,
-    rate: Rate,
+    /// Counts clocks of the peripheral bus.
+    span: Span,
+    bit_clocks: u64,
     edges: Vec<(u64, bool)>,
     confirmed: bool,
 }
@@ -88,8 +90,7 @@ struct Arrival {
 impl Arrival {
     /// Middle of a bit, 0 for the start bit.
     fn middle(&self, bit: u64) -> u64 {
-        self.begun
-            .saturating_add(self.rate.cycles_for(2 * bit + 1).div_ceil(2))
+        self.span.cycle_of((2 * bit + 1) * self.bit_clocks / 2)
     }
 
     fn level_at(&self, cycle: u64) -> bool {
@@ -189,9 +190,18 @@ impl Serial {
         self.is_on()
     }
 
-    fn bit_rate(&self, peripheral: Rate) -> Rate {
+    /// Clocks of the peripheral bus that a bit takes.
+    fn bit_clocks(&self) -> u64 {
         let clocks = if self.mode & FAST != 0 { 4 } else { 16 };
-        peripheral.divided(clocks * (u64::from(self.divider) + 1))
+        clocks * (u64::from(self.divider) + 1)
+    }
+
+    /// The peripheral clock is another one from now on.
+    pub(crate) fn change_clock(&mut self, now: Now) {
+        let spans = self.shift.iter_mut().map(|shift| &mut shift.span);
+        for span in spans.chain(self.arrival.iter_mut().map(|arrival| &mut arrival.span)) {
+            span.change_rate(now.cycle, now.peripheral);
+        }
     }
 
     /// Data bits and whether there is a parity bit.
@@ -246,14 +256,14 @@ impl Serial {
             (levels, length, sent) = (1 << 13, 14, Sent::Break);
             self.status &= !BREAK;
         }
-        let rate = self.bit_rate(now.peripheral);
+        let bit_clocks = self.bit_clocks();
         self.shift = Some(Shift {
-            begun: now.cycle,
+            span: Span::new(now.cycle, now.peripheral),
+            bit_clocks,
             levels,
             length,
             bit: 0,
             sent,
-            rate,
         });
     }
 
@@ -281,10 +291,10 @@ impl Serial {
         match &mut self.arrival {
             Some(arrival) => arrival.edges.push((now.cycle, high)),
             None if begins => {
-                let rate = self.bit_rate(now.peripheral);
+                let bit_clocks = self.bit_clocks();
                 self.arrival = Some(Arrival {
-                    begun: now.cycle,
-                    rate,
+                    span: Span::new(now.cycle, now.peripheral),
+                    bit_clocks,
                     edges: vec![(now.cycle, false)],
                     confirmed: false,
                 });

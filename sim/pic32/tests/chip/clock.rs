@@ -198,3 +198,35 @@ fn with_the_monitor_a_reset_starts_on_the_internal_oscillator() {
     assert!(turns_in(&mut machine, MS) > 100);
     assert_eq!(machine.read_register(OSCCON) >> 12 & 7, 0);
 }
+
+#[test]
+fn bytes_and_samples_under_way_stand_still_and_go_on_slowly() {
+    let mut machine = Program::new(&WAIT_FOREVER).devcfg1(DEVCFG1_MONITOR).machine();
+    // UART1 at 696 cycles a bit; a sample of 31 TAD and a conversion of 12, of 32 cycles each.
+    for (address, value) in [
+        (0xBF80_6040, 173),
+        (0xBF80_6000, 0x8008),
+        (0xBF80_6010, 1 << 10),
+        (0xBF80_6020, 0x41),
+    ] {
+        machine.write_register(address, value);
+    }
+    for (address, value) in [
+        (0xBF80_9020, 31 << 8 | 15),
+        (0xBF80_9000, 0x80E0),
+        (0xBF80_9008, 2),
+    ] {
+        machine.write_register(address, value);
+    }
+    run(&mut machine, 32 * 40);
+    let (dead, stopped) = (160_000, 32 * 40);
+    machine.fail_oscillator();
+    let converted = stopped + dead + 10 * 32 * 3;
+    run(&mut machine, converted - 20);
+    assert_eq!(machine.read_register(IFS1) & 2, 0);
+    run(&mut machine, converted);
+    assert_eq!(machine.read_register(IFS1) & 2, 2);
+    run(&mut machine, 400_000);
+    let sent = machine.take_sent(pic32::machine::Uart::One);
+    assert_eq!(sent[0].0, stopped + dead + 10 * (6_960 - stopped));
+}
