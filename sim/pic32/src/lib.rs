@@ -11,6 +11,7 @@
 
 pub mod board;
 pub mod cpu;
+pub mod gdb;
 pub mod image;
 pub mod machine;
 pub mod memory;

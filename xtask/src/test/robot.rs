@@ -30,6 +30,7 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 /// The emulated chip beside qemu-user, and with the programs that are written for it.
 pub(super) fn emulator(_long: bool) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
+    system::need("gdb-multiarch", &["gdb-multiarch"])?;
     let programs = build_others(
         "the emulator's proof",
         &["--manifest-path", "sim/pic32/proof/Cargo.toml"],

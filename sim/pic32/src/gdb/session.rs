@@ -1,0 +1,129 @@
+//! A conversation with a debugger.
+
+use super::commands::{Answer, answer};
+use super::packet::{Event, Framer, framed};
+use super::{Stop, Target};
+
+/// The state of the conversation.
+#[derive(Clone, Debug)]
+pub struct Session {
+    framer: Framer,
+    output: Vec<u8>,
+    /// The last packet, in case it was not understood.
+    last: Vec<u8>,
+    is_running: bool,
+    is_over: bool,
+    acknowledges: bool,
+    stop: Stop,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Session {
+    /// A session in which the program stands.
+    pub fn new() -> Self {
+        Self {
+            framer: Framer::default(),
+            output: Vec::new(),
+            last: Vec::new(),
+            is_running: false,
+            is_over: false,
+            acknowledges: true,
+            stop: Stop::Stepped,
+        }
+    }
+
+    /// Takes bytes of the debugger and does what they ask.
+    pub fn receive(&mut self, bytes: &[u8], target: &mut dyn Target) {
+        for byte in bytes {
+            if let Some(event) = self.framer.take(*byte) {
+                self.handle(event, target);
+            }
+        }
+    }
+
+    /// Whether the program runs: then [`Self::run`] wants to be called again and again.
+    pub fn is_running(&self) -> bool {
+        self.is_running
+    }
+
+    /// Whether the debugger has left.
+    pub fn is_over(&self) -> bool {
+        self.is_over
+    }
+
+    /// Lets the program run for a moment.
+    pub fn run(&mut self, target: &mut dyn Target) {
+        if self.is_running
+            && let Some(stop) = target.run()
+        {
+            self.stopped(stop);
+        }
+    }
+
+    /// Bytes for the debugger since the last call.
+    pub fn take_output(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.output)
+    }
+
+    fn handle(&mut self, event: Event, target: &mut dyn Target) {
+        match event {
+            Event::Interrupt if self.is_running => self.stopped(Stop::Interrupted),
+            // It stands already.
+            Event::Interrupt => {}
+            Event::Refused => self.output.extend_from_slice(&self.last),
+            Event::Damaged => self.output.push(b'-'),
+            Event::Packet(packet) => {
+                if self.acknowledges {
+                    self.output.push(b'+');
+                }
+                self.command(&packet, target);
+            }
+        }
+    }
+
+    fn command(&mut self, packet: &[u8], target: &mut dyn Target) {
+        match answer(packet, target) {
+            Answer::Text(text) => self.send(text.as_bytes()),
+            Answer::Why => self.send(told(self.stop).as_bytes()),
+            Answer::Run => self.is_running = true,
+            Answer::Stop(stop) => self.stopped(stop),
+            Answer::WithoutAcknowledgement => {
+                self.send(b"OK");
+                self.acknowledges = false;
+            }
+            Answer::Leave => {
+                self.send(b"OK");
+                self.is_over = true;
+            }
+            Answer::Kill => self.is_over = true,
+        }
+    }
+
+    fn stopped(&mut self, stop: Stop) {
+        self.is_running = false;
+        self.stop = stop;
+        self.send(told(stop).as_bytes());
+    }
+
+    fn send(&mut self, text: &[u8]) {
+        self.last = framed(text);
+        self.output.extend_from_slice(&self.last);
+    }
+}
+
+/// A stop as a signal of POSIX, which is how the protocol tells it.
+fn told(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Stepped => "T05thread:1;",
+        Stop::Breakpoint => "T05thread:1;swbreak:;",
+        Stop::Interrupted => "T02thread:1;",
+        Stop::BadAddress => "T0bthread:1;",
+        Stop::BadInstruction => "T04thread:1;",
+        Stop::Trapped => "T05thread:1;",
+    }
+}
