@@ -21,10 +21,10 @@ pub enum Received {
     Overrun,
 }
 
-/// Bits of a frame.
+/// Position of the stop bit.
 const STOP: u32 = 9;
-/// The middle of the stop bit in half bits from the start of the frame. Here a frame ends.
-const STOP_MIDDLE_HALVES: u32 = 19;
+/// Boundaries of a frame, the one behind the stop bit included.
+const BOUNDARIES: usize = 11;
 /// A pulse shorter than this share of a bit is noise: 2/5. A true pulse of one bit whose first edge was noticed a quarter
 /// of a bit late, from a sender 2.5 % fast, still has 0.72 bits.
 const NOISE_NUMERATOR: u32 = 2;
@@ -36,25 +36,48 @@ enum Phase {
     Idle,
     /// After a wrong stop bit: only a line that became high again can be idle.
     AwaitHigh,
-    /// `bits` holds the bits before `position`, which is the boundary of the anchor.
-    Frame { anchor: u32, position: u32, bits: u32 },
+    Frame(Frame),
+}
+
+/// A frame under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Frame {
+    /// When the last edge was.
+    anchor: u32,
+    /// Which boundary it was at.
+    position: u32,
+    /// Bit n is the level at position n if no edge follows. An edge inverts all bits from its boundary on.
+    bits: u32,
+    /// The middle of the stop bit, reckoned from the anchor. Here the frame ends.
+    end: u32,
+}
+
+/// What is known of the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signal {
+    /// Nothing: before the first edge, and after edges were lost.
+    Unknown,
+    /// Its level; all edges so far were believed.
+    Level(Level),
+    /// This edge came. It is believed once it has stood long enough.
+    Edge(Edge),
+    /// This edge came, and at this moment, soon after it, the line went back. One of the two pulses around that moment is
+    /// noise; what comes next shows which.
+    Back(Edge, u32),
 }
 
 /// Decodes frames at one rate. [`crate::Receiver`] adds finding the rate.
 #[derive(Clone, Debug)]
 pub struct Decoder {
-    bit: BitTime,
+    /// Half a bit, in counts.
+    half: u32,
     /// 2^40 by the bit time's parts: counts times this, by 2^32, are bits.
     bits_per_count: u32,
     /// Pulses shorter than this are noise, in counts.
     noise: u32,
-    /// Since the last edge that was believed; `None` before the first and after edges were lost.
-    line: Option<Level>,
-    /// An edge that is believed once it has stood long enough.
-    pending: Option<Edge>,
-    /// When the line went back soon after the pending edge. One of the two pulses around this moment is noise; what comes
-    /// next shows which.
-    back: Option<u32>,
+    /// From each boundary to the middle of the stop bit, in counts.
+    ends: [u32; BOUNDARIES],
+    signal: Signal,
     phase: Phase,
 }
 
@@ -62,13 +85,14 @@ impl Decoder {
     /// A decoder for bits of this length, in counts of the counter that stamps the edges.
     #[must_use]
     pub fn new(bit: BitTime) -> Self {
+        let parts = bit.parts().get();
+        let halves = |boundary: usize| (2 * STOP + 1).saturating_sub(2 * boundary as u32);
         Self {
-            bit,
-            bits_per_count: ((1_u64 << 40) / u64::from(bit.parts().get())).min(u64::from(u32::MAX)) as u32,
+            half: parts >> 9,
+            bits_per_count: ((1_u64 << 40) / u64::from(parts)).min(u64::from(u32::MAX)) as u32,
             noise: bit.counts() * NOISE_NUMERATOR / NOISE_DENOMINATOR,
-            line: None,
-            pending: None,
-            back: None,
+            ends: core::array::from_fn(|boundary| (parts * halves(boundary)) >> 9),
+            signal: Signal::Unknown,
             phase: Phase::Idle,
         }
     }
@@ -97,104 +121,109 @@ impl Decoder {
     }
 
     pub(crate) fn forget(&mut self) {
-        self.line = None;
-        self.pending = None;
-        self.back = None;
+        self.signal = Signal::Unknown;
         self.phase = Phase::Idle;
     }
 
     pub(crate) fn take_edge(&mut self, edge: Edge) -> Option<Received> {
-        let before = *self.line.get_or_insert(edge.level.inverted());
-        let newest = match (self.pending, self.back) {
-            (Some(pending), None) => pending.level,
-            _ => before,
-        };
-        if edge.level == newest {
-            // Two edges came so close that the interrupt saw only the level after both.
-            return None;
-        }
-        match (self.pending, self.back.take()) {
-            (Some(pending), None) if since(pending.at, edge.at) < self.noise => {
-                self.back = Some(edge.at);
+        if let Signal::Edge(pending) = self.signal {
+            if edge.level == pending.level {
+                // Two edges came so close that the interrupt saw only the level after both.
                 return None;
             }
-            (Some(pending), None) => self.believe(pending),
-            // The line went there, back, and there again: the shorter of the two pulses was noise.
-            (Some(pending), Some(back)) if since(back, edge.at) < since(pending.at, back) => return None,
-            _ => {}
+            if since(pending.at, edge.at) < self.noise {
+                self.signal = Signal::Back(pending, edge.at);
+                return None;
+            }
+            self.believe(pending);
+        } else if !self.is_news(edge) {
+            return None;
         }
-        self.pending = Some(edge);
+        self.signal = Signal::Edge(edge);
         self.finish_before(edge.at)
     }
 
-    pub(crate) fn take_time(&mut self, now: u32) -> Option<Received> {
-        if let Some(pending) = self.pending {
-            let newest = self.back.unwrap_or(pending.at);
-            if since(newest, now) < self.noise {
-                return None;
+    /// Whether the edge begins something when no edge is waiting to be believed, or a pulse to be judged.
+    fn is_news(&mut self, edge: Edge) -> bool {
+        match self.signal {
+            Signal::Unknown => true,
+            Signal::Level(level) | Signal::Edge(Edge { level, .. }) => edge.level != level,
+            Signal::Back(pending, _) if edge.level != pending.level => false,
+            // The line went there, back, and there again: the shorter of the two pulses was noise.
+            Signal::Back(pending, back) => {
+                let is_second_shorter = since(back, edge.at) < since(pending.at, back);
+                if is_second_shorter {
+                    self.signal = Signal::Edge(pending);
+                }
+                !is_second_shorter
             }
-            self.pending = None;
-            if self.back.take().is_none() {
+        }
+    }
+
+    pub(crate) fn take_time(&mut self, now: u32) -> Option<Received> {
+        match self.signal {
+            Signal::Edge(pending) => {
+                if since(pending.at, now) < self.noise {
+                    return None;
+                }
+                self.signal = Signal::Level(pending.level);
                 self.believe(pending);
             }
+            Signal::Back(pending, back) => {
+                if since(back, now) < self.noise {
+                    return None;
+                }
+                self.signal = Signal::Level(pending.level.inverted());
+            }
+            Signal::Unknown | Signal::Level(_) => {}
         }
         self.finish_before(now)
     }
 
     /// Takes an edge for true. A frame that ends before it has been ended when the edge came.
+    #[inline(always)]
     fn believe(&mut self, edge: Edge) {
-        self.line = Some(edge.level);
-        match (self.phase, edge.level) {
+        match (&mut self.phase, edge.level) {
+            (Phase::Frame(frame), level) => {
+                let counts = since(frame.anchor, edge.at) + self.half;
+                let bits = (u64::from(counts) * u64::from(self.bits_per_count)) >> 32;
+                let boundary = (frame.position + bits as u32).min(STOP + 1);
+                frame.bits ^= u32::MAX << boundary;
+                if boundary != frame.position {
+                    frame.position = boundary;
+                    frame.anchor = edge.at;
+                    let rest = self.ends.get(boundary as usize).copied().unwrap_or(0);
+                    frame.end = edge.at.wrapping_add(rest);
+                } else if boundary == 0 && level == Level::High {
+                    // A start bit of less than half a bit is none.
+                    self.phase = Phase::Idle;
+                }
+            }
             (Phase::Idle, Level::Low) => {
-                self.phase = Phase::Frame {
+                let [whole, ..] = self.ends;
+                self.phase = Phase::Frame(Frame {
                     anchor: edge.at,
                     position: 0,
                     bits: 0,
-                };
+                    end: edge.at.wrapping_add(whole),
+                });
             }
             (Phase::AwaitHigh, Level::High) => self.phase = Phase::Idle,
-            (Phase::Idle | Phase::AwaitHigh, _) => {}
-            (
-                Phase::Frame {
-                    anchor,
-                    position,
-                    bits,
-                },
-                level,
-            ) => {
-                let boundary = position + self.bits_between(anchor, edge.at);
-                if boundary == 0 && level == Level::High {
-                    // A start bit of less than half a bit is none.
-                    self.phase = Phase::Idle;
-                } else if boundary != position {
-                    self.phase = Phase::Frame {
-                        anchor: edge.at,
-                        position: boundary,
-                        bits: fill(bits, position..boundary, level.inverted()),
-                    };
-                }
-            }
+            (Phase::Idle, Level::High) | (Phase::AwaitHigh, Level::Low) => {}
         }
     }
 
-    /// Ends the frame under way when the middle of its stop bit lies at or before `now`.
+    /// Ends the frame under way when its end lies at or before `now`.
+    #[inline(always)]
     fn finish_before(&mut self, now: u32) -> Option<Received> {
-        let Phase::Frame {
-            anchor,
-            position,
-            bits,
-        } = self.phase
-        else {
+        let Phase::Frame(frame) = &self.phase else {
             return None;
         };
-        let halves = STOP_MIDDLE_HALVES.saturating_sub(2 * position);
-        if since(anchor, now) < (self.bit.parts().get() * halves) >> 9 {
+        if (now.wrapping_sub(frame.end) as i32) < 0 {
             return None;
         }
-        let level = self.line.unwrap_or(Level::Low);
-        let bits = fill(bits, position..STOP + 1, level);
-        let data = (bits >> 1) as u8;
-        let (received, phase) = if bits & (1 << STOP) != 0 {
+        let data = (frame.bits >> 1) as u8;
+        let (received, phase) = if frame.bits & (1 << STOP) != 0 {
             (Received::Byte(data), Phase::Idle)
         } else if data == 0 {
             (Received::Break, Phase::AwaitHigh)
@@ -204,26 +233,10 @@ impl Decoder {
         self.phase = phase;
         Some(received)
     }
-
-    /// Whole bits, rounded, at most ten. The caller has ended frames that are over, so more cannot be asked for.
-    fn bits_between(&self, from: u32, to: u32) -> u32 {
-        let counts = since(from, to) + (self.bit.parts().get() >> 9);
-        let bits = (u64::from(counts) * u64::from(self.bits_per_count)) >> 32;
-        (bits as u32).min(STOP + 1)
-    }
 }
 
 /// Counts from `from` to `to`; 0 when `to` is the earlier one.
 fn since(from: u32, to: u32) -> u32 {
     let counts = to.wrapping_sub(from);
     if counts > i32::MAX as u32 { 0 } else { counts }
-}
-
-/// Sets the bits of `range` in `bits` when the line was high.
-fn fill(bits: u32, range: core::ops::Range<u32>, level: Level) -> u32 {
-    let below = |boundary: u32| (1_u32 << boundary.min(STOP + 1)) - 1;
-    match level {
-        Level::Low => bits,
-        Level::High => bits | (below(range.end) & !below(range.start)),
-    }
 }

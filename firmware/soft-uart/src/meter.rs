@@ -24,6 +24,7 @@ pub struct RateMeter {
     /// Times of the last edges; `newest` is the place of the last one.
     times: [u32; PLACES],
     newest: usize,
+    last: u32,
     /// Between the last two edges, in counts.
     interval: u32,
     /// How many edges belong to a run of about equal intervals.
@@ -40,22 +41,20 @@ impl RateMeter {
             longest: 2 * bits.iter().map(|bit| bit.counts()).max().unwrap_or(0),
             times: [0; PLACES],
             newest: 0,
+            last: 0,
             interval: 0,
             run: 0,
         }
     }
 
     /// Takes an edge. Ten edges at the pace of a known rate, within 5 %, the first falling, give that rate.
+    #[inline]
     pub fn edge(&mut self, edge: Edge) -> Option<Baud> {
         self.extend(edge.at);
         if (self.run as usize) < EDGES || edge.level == Level::Low {
             return None;
         }
-        let rate = self.measure();
-        if rate.is_some() {
-            self.run = 0;
-        }
-        rate
+        self.measure()
     }
 
     /// Forgets the edges so far.
@@ -64,8 +63,8 @@ impl RateMeter {
     }
 
     fn extend(&mut self, at: u32) {
-        let last = self.times.get(self.newest).copied().unwrap_or(at);
-        let interval = at.wrapping_sub(last);
+        let interval = at.wrapping_sub(self.last);
+        self.last = at;
         self.newest = (self.newest + 1) % PLACES;
         if let Some(newest) = self.times.get_mut(self.newest) {
             *newest = at;
@@ -88,7 +87,9 @@ impl RateMeter {
         })
     }
 
-    fn measure(&self) -> Option<Baud> {
+    #[cold]
+    #[inline(never)]
+    fn measure(&mut self) -> Option<Baud> {
         let times = self.run();
         let [first, .., last] = times;
         let whole = last.wrapping_sub(first);
@@ -100,10 +101,14 @@ impl RateMeter {
             return None;
         }
         let parts = bit_parts(&times);
-        self.bits.iter().zip(Baud::ALL).find_map(|(bit, baud)| {
+        let rate = self.bits.iter().zip(Baud::ALL).find_map(|(bit, baud)| {
             let nominal = bit.parts().get();
             (parts.abs_diff(nominal) * TOLERANCE <= nominal).then_some(baud)
-        })
+        });
+        if rate.is_some() {
+            self.run = 0;
+        }
+        rate
     }
 }
 
@@ -123,6 +128,5 @@ fn bit_parts(times: &[u32; EDGES]) -> u32 {
 /// Whether one interval is less than twice the other. Two intervals of one bit each differ by 5:3 at most when the edge
 /// between them was noticed a quarter of a bit late.
 fn alike(one: u32, other: u32) -> bool {
-    let (short, long) = if one < other { (one, other) } else { (other, one) };
-    long < 2 * short
+    one < 2 * other && other < 2 * one
 }

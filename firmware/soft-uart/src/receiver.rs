@@ -119,7 +119,9 @@ impl Receiver {
             Some((_, decoder)) => decoder.take_edge(edge),
             None => None,
         };
-        self.judge(received);
+        if received.is_some() {
+            self.judge(received);
+        }
         if let Some(baud) = self.meter.edge(edge) {
             self.consider(baud);
         }
@@ -161,6 +163,7 @@ impl Receiver {
         }
     }
 
+    #[cold]
     fn consider(&mut self, baud: Baud) {
         let Some(present) = self.rate() else {
             self.switch(baud);

@@ -56,17 +56,18 @@ impl<const N: usize> EdgeRing<N> {
     }
 
     /// The oldest entry; called by one consumer only.
+    #[inline]
     pub fn pop(&self) -> Option<Queued> {
-        // Read first: while it is set the producer adds nothing, so an empty queue then means that all before the gap
-        // has been handed out.
-        let overrun = self.overrun.load(Ordering::Acquire);
         let tail = self.tail.load(Ordering::Relaxed);
         if self.head.load(Ordering::Acquire) == tail {
-            if overrun {
+            if !self.overrun.load(Ordering::Acquire) {
+                return None;
+            }
+            // While it is set the producer adds nothing. Empty also now: all before the gap has been handed out.
+            if self.head.load(Ordering::Acquire) == tail {
                 self.overrun.store(false, Ordering::Release);
                 return Some(Queued::Overrun);
             }
-            return None;
         }
         let word = self.slots.get(tail as usize & (N - 1))?.load(Ordering::Relaxed);
         self.tail.store(tail.wrapping_add(1), Ordering::Release);

@@ -51,15 +51,17 @@ pub struct Transmitter {
     bit: BitTime,
     /// Most bits in one run.
     run_bits_max: u32,
-    /// Bits not sent yet, next one lowest.
+    /// Bits not sent yet, next one lowest, and above the stop bit [`END`].
     frame: u32,
-    /// How many of them.
-    left: u32,
     /// Parts of a count that earlier runs left over.
     parts: u32,
-    due: Due,
+    /// Counts of the run that is due, 0 when none is.
+    counts: u32,
+    level: Level,
 }
 
+/// What stands above the last bit: a zero, which ends the run of the stop bit, and a one, which is always there.
+const END: u32 = 0b10;
 const FRAME_BITS: u32 = 10;
 const STOP_BIT: u32 = 1 << 9;
 
@@ -70,10 +72,10 @@ impl Transmitter {
         Self {
             bit,
             run_bits_max: run_bits_max(bit),
-            frame: 0,
-            left: 0,
+            frame: END,
             parts: 0,
-            due: Due::Idle,
+            counts: 0,
+            level: Level::High,
         }
     }
 
@@ -81,35 +83,37 @@ impl Transmitter {
     #[inline(always)]
     #[must_use]
     pub const fn due(&self) -> Due {
-        self.due
+        match self.counts {
+            0 => Due::Idle,
+            counts => Due::Run {
+                level: self.level,
+                counts,
+            },
+        }
     }
 
     /// Makes the next [`Self::due`] ready. `next_byte` is asked when the byte before has been handed out whole.
     #[inline]
     pub fn prepare(&mut self, next_byte: impl FnOnce() -> Option<u8>) {
-        if self.left == 0 {
+        let mut frame = self.frame;
+        if frame == END {
             let Some(byte) = next_byte() else {
-                self.due = Due::Idle;
+                self.counts = 0;
                 return;
             };
-            self.frame = STOP_BIT | (u32::from(byte) << 1);
-            self.left = FRAME_BITS;
+            frame = (END << FRAME_BITS) | STOP_BIT | (u32::from(byte) << 1);
         }
-        let level = Level::of_bit(self.frame);
-        // Ones where the level is another one.
-        let other = match level {
-            Level::Low => self.frame,
-            Level::High => !self.frame,
-        };
-        let equal = other.trailing_zeros().min(self.left).min(self.run_bits_max);
-        self.frame >>= equal;
-        self.left -= equal;
-        let parts = equal * self.bit.parts().get() + self.parts;
+        self.level = Level::of_bit(frame);
+        // All ones for a high level: then the ones are where the level is another one.
+        let same = (frame & 1).wrapping_neg();
+        let equal = (frame ^ same).trailing_zeros().min(self.run_bits_max);
+        self.frame = frame >> equal;
+        // At most ten bits of 2^24 parts, and 255.
+        let parts = equal
+            .wrapping_mul(self.bit.parts().get())
+            .wrapping_add(self.parts);
         self.parts = parts & 0xFF;
-        self.due = Due::Run {
-            level,
-            counts: parts >> 8,
-        };
+        self.counts = parts >> 8;
     }
 
     /// Changes the rate. Call it while nothing is sent; a byte under way would be torn.

@@ -5,7 +5,7 @@ use crate::cpu;
 use core::cell::UnsafeCell;
 use core::fmt;
 use core::marker::PhantomData;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::{AtomicBool, Ordering, compiler_fence};
 
 /// Shows that the handler of vector `V` runs. There is one at a time.
 pub struct Context<V: Handled> {
@@ -85,7 +85,8 @@ impl<V: Handled, T> HandlerCell<V, T> {
             }
             // SAFETY: interrupts are off and the cell was empty, so there is no reference into it.
             unsafe { *self.value.get() = Some(value) };
-            self.full.store(true, Ordering::Release);
+            compiler_fence(Ordering::Release);
+            self.full.store(true, Ordering::Relaxed);
             Ok(())
         })
     }
@@ -93,7 +94,10 @@ impl<V: Handled, T> HandlerCell<V, T> {
     /// What was given; `None` when nothing was.
     #[inline(always)]
     pub fn get<'a>(&'a self, _context: &'a mut Context<V>) -> Option<&'a mut T> {
-        if !self.full.load(Ordering::Acquire) {
+        // One core: the order that the handler sees is that of the program, so the compiler alone must keep it.
+        let full = self.full.load(Ordering::Relaxed);
+        compiler_fence(Ordering::Acquire);
+        if !full {
             return None;
         }
         // SAFETY: see `Sync`; the borrow of the context keeps a second reference from being made meanwhile.
