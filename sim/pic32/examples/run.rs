@@ -3,7 +3,7 @@
 //!
 //! The file is an ELF, or an Intel HEX if its name ends in `.hex`. `--set RC13=1` drives an input from the begin on,
 //! `--adc 3=512` gives an analog input counts, `--uart1 TEXT` and `--uart2 TEXT` send characters at 115200 baud after a
-//! tenth of the time.
+//! tenth of the time. `--line RC13=230400` sends characters on a pin all the time, for firmware that receives by software.
 
 use pic32::image::Image;
 use pic32::machine::{Halt, LineRate, Machine, Outputs, Surroundings, Uart};
@@ -28,6 +28,7 @@ struct Options {
     inputs: Vec<(Pin, Level)>,
     counts: Counts,
     characters: [String; 2],
+    line: Option<(Pin, LineRate)>,
 }
 
 /// Analog inputs that do not change.
@@ -78,6 +79,7 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, Box<dyn Err
         inputs: Vec::new(),
         counts: Counts([0; 16]),
         characters: [String::new(), String::new()],
+        line: None,
     };
     while let Some(word) = words.next() {
         if !word.starts_with("--") {
@@ -104,6 +106,10 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, Box<dyn Err
                     .0
                     .get_mut(channel)
                     .ok_or("analog inputs are 0 to 15")? = pair()?.1.parse()?;
+            }
+            "--line" => {
+                let baud = pair()?.1.parse()?;
+                options.line = Some((pair()?.0.parse()?, LineRate { baud }));
             }
             "--uart1" => options.characters[0] = value,
             "--uart2" => options.characters[1] = value,
@@ -135,7 +141,15 @@ fn run(machine: &mut Machine, options: &mut Options) -> Result<Vec<(Pin, usize)>
     for (uart, text) in [Uart::One, Uart::Two].into_iter().zip(&options.characters) {
         machine.send_to_uart(uart, text.as_bytes(), (begin, rate));
     }
+    let mut line_end = 0;
     for ms in 1..=options.ms {
+        if let Some((pin, rate)) = options.line {
+            while line_end < (ms + 1) * CYCLES_PER_MS {
+                // The multiplier visits all 256 characters.
+                let character = (line_end.wrapping_mul(167) >> 3) as u8;
+                line_end = machine.send_characters(pin, &[character], (line_end, rate));
+            }
+        }
         if machine.run_until(ms * CYCLES_PER_MS, &mut options.counts) != Halt::Reached {
             break;
         }
@@ -176,7 +190,11 @@ fn tell_serial(machine: &mut Machine) {
         let bytes: Vec<u8> = characters.collect();
         if !sent.is_empty() {
             let begin = &bytes[..bytes.len().min(SHOWN)];
-            println!("{name}      sent {} characters: {:?}", bytes.len(), String::from_utf8_lossy(begin));
+            println!(
+                "{name}      sent {} characters: {:?}",
+                bytes.len(),
+                String::from_utf8_lossy(begin)
+            );
         }
     }
 }

@@ -87,9 +87,14 @@ impl Machine {
         self.chip.take_edges(pin, self.cycle)
     }
 
-    /// The outside sends characters to a UART, one after the other without a pause, as levels on its receive pin; the first
-    /// start bit begins at `cycle`, or now if that is past. Returns the cycle at which the last stop bit ends.
-    pub fn send_to_uart(&mut self, uart: Uart, characters: &[u8], (cycle, rate): (u64, LineRate)) -> u64 {
+    /// The outside sends characters to a UART on its receive pin, as [`Machine::send_characters`] does.
+    pub fn send_to_uart(&mut self, uart: Uart, characters: &[u8], begin: (u64, LineRate)) -> u64 {
+        self.send_characters(uart.receive_pin(), characters, begin)
+    }
+
+    /// The outside sends characters as levels on a pin, one after the other without a pause; the first start bit begins at
+    /// `cycle`, or now if that is past. Returns the cycle at which the last stop bit ends.
+    pub fn send_characters(&mut self, pin: Pin, characters: &[u8], (cycle, rate): (u64, LineRate)) -> u64 {
         let begin = cycle.max(self.cycle);
         let bit_begin = |bit: u64| begin + bit * CYCLES_PER_S / u64::from(rate.baud.max(1));
         let mut bit = 0;
@@ -97,11 +102,7 @@ impl Machine {
             // Start bit 0, eight data bits, stop bit 1.
             let levels = 0x200 | u16::from(character) << 1;
             for number in 0..10 {
-                self.schedule_input(
-                    bit_begin(bit),
-                    uart.receive_pin(),
-                    Level::of(levels >> number & 1 != 0),
-                );
+                self.schedule_input(bit_begin(bit), pin, Level::of(levels >> number & 1 != 0));
                 bit += 1;
             }
         }

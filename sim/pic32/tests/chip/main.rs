@@ -8,6 +8,7 @@ mod flash;
 mod interrupts;
 mod pins;
 mod program;
+mod random;
 mod reset;
 mod serial;
 mod timers;
