@@ -87,8 +87,8 @@ impl Monitor {
         self.standing.reset();
     }
 
-    /// The firmware's millisecond clock begins to count at `now_ms`: a firmware that checks its memories first starts it
-    /// later than the reset. The age of what it is told is counted by it.
+    /// The firmware's millisecond clock begins to count at `now_ms` at the latest: a firmware that checks its memories first
+    /// may start it later than the reset. The age of what it is told is counted by it.
     pub fn clock_started(&mut self, now_ms: u64) {
         self.permission.clock_started(now_ms);
     }

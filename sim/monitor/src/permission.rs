@@ -13,7 +13,7 @@ const CLEANERS_GRACE_MS: u64 = 2_000;
 /// `stop` and a late packet of the same millisecond.
 const STOP_GRACE_MS: u64 = 20;
 /// S3: the host's view may be this old, with the length of a packet on the line.
-const FRESH_MS: u32 = 400 + 20;
+const FRESH_MS: i32 = 400 + 20;
 /// A session ends after this silence, and hand mode begins.
 const SILENCE_MS: u64 = 2_000;
 /// The longest lease in hand mode.
@@ -46,7 +46,8 @@ pub(crate) struct Permission {
     session: u16,
     /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
     sealed_ms: Option<u64>,
-    /// When the firmware's clock began to count.
+    reset_ms: u64,
+    /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
     arming: Arming,
     /// What a refused `arm` falls back to.
@@ -121,8 +122,9 @@ impl Permission {
     /// S3: not older than 400 ms, and newer than the newest motion of this session.
     fn is_fresh(&mut self, now_ms: u64, mark: super::said::Mark) -> bool {
         if let Some(tick) = mark.tick {
-            let age = (now_ms.saturating_sub(self.clock_ms) as u32).wrapping_sub(tick);
-            if age > FRESH_MS {
+            let age = |since_ms| (now_ms.saturating_sub(since_ms) as u32).wrapping_sub(tick) as i32;
+            // Neither older than the youngest it can be, nor younger than the oldest.
+            if age(self.clock_ms) > FRESH_MS || age(self.reset_ms) < 0 {
                 return false;
             }
         }
@@ -161,6 +163,7 @@ impl Permission {
     pub(crate) fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.session = 0;
         self.sealed_ms = None;
+        self.reset_ms = now_ms;
         self.clock_ms = now_ms;
         self.arming = Arming::default();
         self.before = Arming::default();
