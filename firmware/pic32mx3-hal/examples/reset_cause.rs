@@ -1,5 +1,5 @@
 //! Says on UART 1 (RF3, 115200 baud) why the chip started, then lets itself be reset in another way: by an interrupt that
-//! nobody handles, by the watchdog while the program runs, by the watchdog while it sleeps, by software.
+//! nobody handles, by the watchdog while the program runs, by the watchdog while it sleeps, by software, by a bus error.
 //!
 //! Each line is: number of the start, bits of RCON in hexadecimal, and what broke before, if something did.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
@@ -74,6 +74,7 @@ fn main() -> ! {
             }
         }
         3 => reset::software_reset(),
+        4 => read_where_nothing_is(),
         _ => {}
     }
     loop {
@@ -81,6 +82,12 @@ fn main() -> ! {
     }
 }
 entry!(main);
+
+fn read_where_nothing_is() {
+    let nothing = core::ptr::with_exposed_provenance::<u32>(0x8010_0000);
+    // SAFETY: it is not safe: the bus answers with an error, which is what this shows. No memory is there to be damaged.
+    unsafe { nothing.read_volatile() };
+}
 
 fn request_what_nobody_handles() {
     interrupt::set_priority(Vector::CoreSoftware1, Priority::Level1, SubPriority::Sub0).ok();

@@ -202,10 +202,13 @@ fn each_reset_is_reported_by_the_start_after_it() {
     run(&mut machine, 1_000 * MS);
     let said = text(&mut machine, Uart::One);
     // Power-on and brown-out; software, after an interrupt that nobody handles; watchdog; watchdog in Idle, which wakes the
-    // program by a non-maskable interrupt, and the software reset by which that ends; software.
-    assert_eq!(said, "0 3\n1 40 UnhandledInterrupt\n2 10\n3 54\n4 40\n");
+    // program by a non-maskable interrupt, and the software reset by which that ends; software; software, after a bus error.
+    assert_eq!(
+        said,
+        "0 3\n1 40 UnhandledInterrupt\n2 10\n3 54\n4 40\n5 40 BusErrorOfData\n"
+    );
     let resets: Vec<u64> = machine.resets().iter().map(|reset| reset.cycle).collect();
-    assert_eq!(resets.len(), 4, "{resets:?}");
+    assert_eq!(resets.len(), 5, "{resets:?}");
     // The watchdog's clock is not exact.
     for watchdog in [1, 2] {
         let after = resets[watchdog] - resets[watchdog - 1];
@@ -258,6 +261,118 @@ fn no_wake_up_is_lost() {
     let pulses = edges.chunks_exact(2).map(|pulse| pulse[1].0 - pulse[0].0);
     let longest = pulses.max().expect("there are pulses");
     assert!(longest < 300, "the word waited {longest} cycles");
+    assert_clean(&machine);
+}
+
+#[test]
+fn captured_times_are_those_of_the_edges() {
+    let Some(image) = image("capture") else { return };
+    let mut machine = Machine::new(&image);
+    run(&mut machine, 2 * MS);
+    let mut at = 3 * MS;
+    let mut expected = Vec::new();
+    for period_us in [1_250_u64, 2_000, 40_000, 1_600, 100_000] {
+        let pulse = |machine: &mut Machine, begin: u64| {
+            machine.schedule_input(begin, pin("RD8"), Level::High);
+            machine.schedule_input(begin + 20_000, pin("RD8"), Level::Low);
+        };
+        pulse(&mut machine, at);
+        pulse(&mut machine, at + period_us * 80);
+        expected.push(period_us);
+        at += (period_us + 5_000) * 80;
+    }
+    run(&mut machine, at + 5 * MS);
+    let said = text(&mut machine, Uart::One);
+    let times: Vec<(u64, u64)> = said
+        .lines()
+        .map(|line| line.split_once(' ').expect("two numbers"))
+        .map(|(short, long)| (short.parse().expect("a number"), long.parse().expect("a number")))
+        .collect();
+    assert_eq!(times.len(), 10, "{said}");
+    // Of each pair the second edge tells the period. A count is 0.8 us, and the handler reads the long timer a little later.
+    for (period_us, (short, long)) in expected.iter().zip(times.iter().skip(1).step_by(2)) {
+        assert!(long.abs_diff(*period_us) <= 3, "{long} instead of {period_us}");
+        let turned = period_us % 52_428;
+        assert!(short.abs_diff(turned) <= 2, "{short} instead of {turned}");
+    }
+    let now = machine.cycle();
+    for (after, level) in [(1, Level::High), (2, Level::Low), (3, Level::High)] {
+        machine.schedule_input(now + after * MS, pin("RE8"), level);
+    }
+    run(&mut machine, now + 5 * MS);
+    assert_eq!(text(&mut machine, Uart::One), "x\n");
+    assert_clean(&machine);
+}
+
+#[test]
+fn a_dead_crystal_takes_the_pulses_off() {
+    let Some(image) = image("clock_failure") else {
+        return;
+    };
+    let mut machine = Machine::new(&image);
+    let motor = pin("RD0");
+    run(&mut machine, 10 * MS);
+    let before = machine.high_cycles(motor);
+    run(&mut machine, 20 * MS);
+    assert_eq!(machine.high_cycles(motor) - before, 10 * MS / 4);
+    machine.fail_oscillator();
+    // The monitor takes some milliseconds to see it, and the handler runs at a tenth of the speed.
+    run(&mut machine, 25 * MS);
+    let stopped = machine.high_cycles(motor);
+    assert!(machine.level(pin("RG7")).is_high() && machine.level(pin("RG8")).is_high());
+    run(&mut machine, 100 * MS);
+    assert_eq!(machine.high_cycles(motor), stopped);
+    assert_eq!(machine.reset_count(), 0);
+    assert_clean(&machine);
+}
+
+fn crc_32c(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| (crc >> 1) ^ (0x82F6_3B78 & (crc & 1).wrapping_neg());
+    !bytes
+        .iter()
+        .fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+}
+
+#[test]
+fn ram_is_tested_in_place_and_the_image_knows_its_bytes() {
+    let Some(image) = image("self_test") else { return };
+    let mut machine = Machine::new(&image);
+    run(&mut machine, 400 * MS);
+    let said = text(&mut machine, Uart::One);
+    let words: Vec<&str> = said.split_whitespace().collect();
+    let [
+        tested,
+        bad,
+        program,
+        program_crc,
+        boot,
+        boot_crc,
+        seal,
+        check,
+        stack,
+    ] = words[..]
+    else {
+        panic!("{said}")
+    };
+    assert_eq!((tested, bad), ("8192", "0"));
+    let part = |bytes: &[u8], length: &str| {
+        let length: usize = length.parse().expect("a length");
+        assert!(length > 1_000, "{length} bytes");
+        format!("{:08x}", crc_32c(&bytes[..length]))
+    };
+    assert_eq!(program_crc, part(image.flash(), program));
+    assert_eq!(boot_crc, part(image.boot(), boot));
+    assert_eq!((seal, check), ("5ea15ea1", "ffffffff"));
+    let deepest = machine.deepest_stack().expect("functions were called");
+    let stack: u32 = stack.parse().expect("bytes");
+    // The paint shows what was written, the stack pointer what could have been.
+    let reached = 0x8000_8000 - deepest;
+    assert!(stack <= reached && stack + 200 > reached, "{stack} of {reached}");
+    assert_eq!(
+        machine.high_cycles(pin("RG8")),
+        0,
+        "a test changed somebody's word"
+    );
     assert_clean(&machine);
 }
 

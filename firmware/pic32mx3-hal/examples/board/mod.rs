@@ -7,6 +7,7 @@ use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
 pub(crate) const CONFIGURATION: Configuration = Configuration::new()
     .primary_oscillator(PrimaryOscillator::HighSpeed, 8_000_000)
     .pll_to_80_mhz()
+    .clock_monitor(true)
     .watchdog_period_ms(128);
 configuration!(CONFIGURATION);
 
