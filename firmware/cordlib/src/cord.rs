@@ -7,8 +7,8 @@ use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{
-    Board, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive,
-    WheelMotors,
+    Board, BumperSwitches, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog,
+    WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
@@ -62,6 +62,8 @@ pub struct Cord<P: Parts> {
     applied: (WheelDrive, WheelDrive),
     /// Outputs are told to the board again, changed or not.
     renew: bool,
+    /// There was a pass.
+    stepped: bool,
 }
 
 impl<P: Parts> Cord<P> {
@@ -104,6 +106,7 @@ impl<P: Parts> Cord<P> {
             watch: Watch::starting_at(now),
             applied: (WheelDrive::Brake, WheelDrive::Brake),
             renew: false,
+            stepped: false,
             board,
             parameters,
             session,
@@ -115,7 +118,17 @@ impl<P: Parts> Cord<P> {
     /// One pass of the main loop: senses, reflexes, commands, motion, outputs, telemetry, in this order. Call it as often
     /// as the board can, at least every 5 ms for the reaction times of SAFETY.md; a simulator calls it once for each
     /// simulated millisecond.
+    ///
+    /// Time is counted in milliseconds, so a pass within the millisecond of the last one takes in what the link has received
+    /// and is over, unless a bumper or a wheel drop switch has changed: that is not left to the next millisecond.
     pub fn step(&mut self) {
+        if self.is_within_last_millisecond() {
+            let now = self.senses.now;
+            self.take_bytes(now);
+            self.reporter.count_pass();
+            return;
+        }
+        self.stepped = true;
         self.senses = Senses::read(&mut self.board, &mut self.floor, &self.fitted);
         let now = self.senses.now;
         self.clock.advance(now);
@@ -142,8 +155,22 @@ impl<P: Parts> Cord<P> {
         self.react(&findings, now);
     }
 
-    /// Takes bytes from the link and carries out what they say.
+    fn is_within_last_millisecond(&mut self) -> bool {
+        self.stepped
+            && self.board.clock.tick() == self.senses.now
+            && self.board.bumpers.pressed() == self.senses.bumpers
+            && self.board.wheel_drops.hanging() == self.senses.wheel_drops
+    }
+
+    /// Takes bytes from the link and carries out what they say, then what the session itself has to say.
     fn listen(&mut self, now: Tick) {
+        self.take_bytes(now);
+        if let Some(event) = self.session.poll(now) {
+            self.dispatch(&event, now);
+        }
+    }
+
+    fn take_bytes(&mut self, now: Tick) {
         for _ in 0..BYTES_PER_PASS {
             let event = match self.board.link.receive() {
                 None => break,
@@ -163,9 +190,6 @@ impl<P: Parts> Cord<P> {
             if let Some(event) = event {
                 self.dispatch(&event, now);
             }
-        }
-        if let Some(event) = self.session.poll(now) {
-            self.dispatch(&event, now);
         }
     }
 
