@@ -172,22 +172,21 @@ impl Machine {
         }
     }
 
-    /// Executes one instruction, with its delay slot if it has one; in WAIT one cycle passes.
+    /// Executes one instruction, with its delay slot if it has one; in WAIT, or while the core stands still, one cycle passes.
     pub fn step(&mut self, surroundings: &mut dyn Surroundings) -> Halt {
         loop {
-            let before = self.cpu.cycle();
             self.settle(surroundings);
-            let halt = self.advance_by(|cpu, memory, view| cpu.step(memory, view));
-            let halt = if self.clock.is_stopped() {
+            let before = self.cycle;
+            let halt = if self.clock.is_stopped() || self.stalled_until > self.cycle {
                 self.advance(self.cycle + 1)
             } else {
-                halt
+                self.advance_by(|cpu, memory, view| cpu.step(memory, view))
             };
             self.settle(surroundings);
             if let Some(halt) = halt {
                 return halt;
             }
-            if self.cpu.cycle() != before || self.clock.is_stopped() {
+            if self.cycle != before {
                 return Halt::Reached;
             }
         }

@@ -5,6 +5,7 @@ mod analog;
 mod clock;
 mod compare;
 mod flash;
+mod halts;
 mod interrupts;
 mod pins;
 mod program;
