@@ -76,12 +76,15 @@ impl Robot {
             if !cfg!(feature = "free-running") {
                 tick::wait();
             }
-            tick::seen();
-            self.pass();
+            if tick::take_news() {
+                self.millisecond();
+            } else {
+                self.cord.step();
+            }
         }
     }
 
-    fn pass(&mut self) {
+    fn millisecond(&mut self) {
         if let Some(fault) = self.checks.service() {
             self.cord.hardware_fault(fault);
         }

@@ -84,15 +84,19 @@ pub fn ticks() -> u32 {
     TICKS.load(Ordering::Relaxed)
 }
 
-/// Sleeps until the next millisecond has been counted, unless one has already that [`seen`] was not called for. Other
-/// interrupts are served meanwhile.
+/// Sleeps until a millisecond has been counted that [`take_news`] has not told of. Other interrupts are served meanwhile.
 pub fn wait() {
     while NEWS.load(Ordering::Acquire) == 0 {
         cpu::sleep_while_zero(&NEWS);
     }
 }
 
-/// The main loop begins a pass.
-pub fn seen() {
-    NEWS.store(0, Ordering::Relaxed);
+/// Whether a millisecond has been counted since this was asked last.
+pub fn take_news() -> bool {
+    let news = NEWS.load(Ordering::Acquire) != 0;
+    // One that is counted just before this line is seen, too: the clock is read after it.
+    if news {
+        NEWS.store(0, Ordering::Relaxed);
+    }
+    news
 }
