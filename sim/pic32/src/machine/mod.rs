@@ -5,8 +5,7 @@
 //! through [`Surroundings`] at the very moment at which the converter samples. A machine can be cloned at any time; clones
 //! share flash until one of them writes to it.
 //!
-//! Not modelled: how long a reset and the start of an oscillator take (the first instruction follows at once), Sleep (the
-//! core idles), and the blocks of [`Unmodelled`](crate::peripheral::Unmodelled).
+//! What of the chip is modelled and what is not, see [`crate::peripheral`].
 
 mod accounting;
 mod core_clock;

@@ -1,7 +1,22 @@
 //! Everything of the chip except core and memories: the special function registers and what stands behind them.
 //!
-//! Nothing is polled. Each part says at which cycle it wants to be called next ([`schedule`]); what can be worked out when
+//! Nothing is polled. Each part says at which cycle it wants to be called next (`schedule.rs`); what can be worked out when
 //! it is asked for (timer counts, PWM) has no events at all.
+//!
+//! | part | what is modelled | what is doubtful or left out |
+//! | --- | --- | --- |
+//! | interrupts | priorities, sub-priorities, natural order, level-type sources, one or many vectors, shadow set | the proximity timer only stores |
+//! | clock | all oscillators, PLL, PBDIV, switching, the monitor, SYSKEY | 2 ms until the monitor acts, 10 us for a switch: no source has them; start-up takes no time |
+//! | watchdog, resets | WDTPS, feeding, RCON, software reset; out of Idle a non-maskable interrupt | LPRC is 32 kHz exactly |
+//! | flash | keys, word, row, page and all, protection, the core's wait | durations are the longest that are told |
+//! | ports | bits of the 100-pin part, TRIS, LAT, PORT, ODC, pull-ups, analog pins, JTAG, trace and crystal | inputs are seen at once |
+//! | change notice | mismatch against the last reading of the port, as a level | edges of PWM are not seen by it |
+//! | timers | prescalers, pairs, gate, external clock, period + 1 | PR = 0 stands still |
+//! | output compare | all modes; duty taken over at the match; exact high time | the fault input; the first period after switching on |
+//! | input capture | all modes, queue of 4, overflow | interrupts in Sleep |
+//! | analog converter | all triggers, scan, alternation, halves, CLRASAM, all forms, TAD | other references, the negative input |
+//! | UART | queues of 4, parity, 9 bits, break, framing, overrun, loopback, as levels on pins | flow control, infrared, wake-up, hardware auto-baud |
+//! | SPI, I2C, PMP, RTCC, DMA, comparators | registers keep what is written | everything else; switching one on is recorded |
 
 mod access;
 mod analog;
