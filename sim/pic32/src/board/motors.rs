@@ -32,7 +32,7 @@ impl Motor {
     ];
 }
 
-/// A stretch of time in which a motor was driven without a pause of more than [`PAUSE`] cycles.
+/// A stretch of time in which a motor was driven without a pause of more than `PAUSE` cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Drive {
     /// Cycle of the first pulse.
