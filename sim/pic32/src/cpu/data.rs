@@ -2,7 +2,7 @@
 
 use super::exception::{ExceptionCode, Fault};
 use super::open::{merge_left, merge_right, split_left, split_right};
-use super::operation::Operation;
+use super::operation::{Loaded, Operation};
 use super::{Access, Bus, Cpu, Width};
 use crate::memory::Memory;
 
@@ -34,32 +34,61 @@ impl Cpu {
     ) -> Result<(), Fault> {
         let mut port = Port { memory, bus };
         let (rt, value) = match operation {
-            Operation::Lb { rt, base, offset, .. } => {
-                let byte = self.load(&mut port, self.sum(base, offset), Width::Byte)?;
+            Operation::Lb {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => {
+                let byte = self.load(&mut port, self.registers.sum(base, offset), Width::Byte)?;
                 (rt, i32::from(byte as i8).cast_unsigned())
             }
-            Operation::Lbu { rt, base, offset, .. } => (
+            Operation::Lbu {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => (
                 rt,
-                self.load(&mut port, self.sum(base, offset), Width::Byte)? & 0xFF,
+                self.load(&mut port, self.registers.sum(base, offset), Width::Byte)? & 0xFF,
             ),
-            Operation::Lh { rt, base, offset, .. } => {
-                let half = self.load(&mut port, self.sum(base, offset), Width::Half)?;
+            Operation::Lh {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => {
+                let half = self.load(&mut port, self.registers.sum(base, offset), Width::Half)?;
                 (rt, i32::from(half as i16).cast_unsigned())
             }
-            Operation::Lhu { rt, base, offset, .. } => (
+            Operation::Lhu {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => (
                 rt,
-                self.load(&mut port, self.sum(base, offset), Width::Half)? & 0xFFFF,
+                self.load(&mut port, self.registers.sum(base, offset), Width::Half)? & 0xFFFF,
             ),
-            Operation::Lw { rt, base, offset, .. } => {
-                (rt, self.load(&mut port, self.sum(base, offset), Width::Word)?)
-            }
-            Operation::Lwl { rt, base, offset, .. } => {
-                let address = self.sum(base, offset);
+            Operation::Lw {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => (
+                rt,
+                self.load(&mut port, self.registers.sum(base, offset), Width::Word)?,
+            ),
+            Operation::Lwl {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => {
+                let address = self.registers.sum(base, offset);
                 let word = self.load(&mut port, address & !3, Width::Word)?;
                 (rt, merge_left(address, word, self.registers.before(rt)))
             }
-            Operation::Lwr { rt, base, offset, .. } => {
-                let address = self.sum(base, offset);
+            Operation::Lwr {
+                to: Loaded { rt, .. },
+                base,
+                offset,
+            } => {
+                let address = self.registers.sum(base, offset);
                 let word = self.load(&mut port, address & !3, Width::Word)?;
                 (rt, merge_right(address, word, self.registers.before(rt)))
             }
@@ -73,18 +102,18 @@ impl Cpu {
         match operation {
             Operation::Sb { rt, base, offset } => {
                 let value = self.registers.get(rt) & 0xFF;
-                self.store(port, (self.sum(base, offset), Width::Byte), value)
+                self.store(port, (self.registers.sum(base, offset), Width::Byte), value)
             }
             Operation::Sh { rt, base, offset } => {
                 let value = self.registers.get(rt) & 0xFFFF;
-                self.store(port, (self.sum(base, offset), Width::Half), value)
+                self.store(port, (self.registers.sum(base, offset), Width::Half), value)
             }
             Operation::Sw { rt, base, offset } => {
                 let value = self.registers.get(rt);
-                self.store(port, (self.sum(base, offset), Width::Word), value)
+                self.store(port, (self.registers.sum(base, offset), Width::Word), value)
             }
             Operation::Swl { rt, base, offset } => {
-                let (address, value) = (self.sum(base, offset), self.registers.get(rt));
+                let (address, value) = (self.registers.sum(base, offset), self.registers.get(rt));
                 let word = self.load_for_store(port, address)?;
                 self.store(
                     port,
@@ -93,7 +122,7 @@ impl Cpu {
                 )
             }
             Operation::Swr { rt, base, offset } => {
-                let (address, value) = (self.sum(base, offset), self.registers.get(rt));
+                let (address, value) = (self.registers.sum(base, offset), self.registers.get(rt));
                 let word = self.load_for_store(port, address)?;
                 self.store(
                     port,
@@ -104,10 +133,6 @@ impl Cpu {
             // Only loads and stores come here.
             _ => Err(Fault::plain(ExceptionCode::Reserved)),
         }
-    }
-
-    fn sum(&self, base: super::registers::Source, offset: u32) -> u32 {
-        self.registers.get(base).wrapping_add(offset)
     }
 
     /// The word around an address, for a store of a part of it.

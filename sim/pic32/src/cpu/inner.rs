@@ -7,7 +7,6 @@
 use super::Cpu;
 use super::operation::Operation;
 use super::prefetch::line_of;
-use super::registers::Target;
 use crate::memory::Open;
 
 /// Code that is executed without a break, and what its fetches cost.
@@ -54,13 +53,13 @@ impl Region {
 
     /// The index of a jump's target.
     #[inline(always)]
-    fn jump(self, target: u32) -> usize {
+    pub(super) fn jump(self, target: u32) -> usize {
         self.index(self.base & 0xF000_0000 | target)
     }
 
     /// The address after the delay slot of the instruction at `index`.
     #[inline(always)]
-    fn link(self, index: usize) -> u32 {
+    pub(super) fn link(self, index: usize) -> u32 {
         self.base.wrapping_add(index as u32 * 4).wrapping_add(8)
     }
 }
@@ -114,22 +113,43 @@ impl Frame {
     }
 }
 
-/// What became of an instruction in one of the groups below.
+/// What the loop has to do after an instruction.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Outcome<T> {
-    /// It is of another group.
-    Other,
-    /// It is of this group but cannot be done here.
+pub(super) enum After {
+    /// To go on.
+    Next,
+    /// To wait for some cycles.
+    Wait(u64),
+    /// To go on; the next instruction is a delay slot.
+    Slot,
+    /// To go to this index after the delay slot.
+    Jump(usize),
+    /// To leave: it was not done.
     Refused,
-    /// It was done.
-    Done(T),
+}
+
+/// What instructions work on besides the core.
+#[derive(Debug)]
+pub(super) struct Scene<'a> {
+    pub(super) memory: Open<'a>,
+    pub(super) region: Region,
+    /// Index of the instruction.
+    pub(super) at: usize,
+    /// The cycle at which it ends if it need not wait.
+    pub(super) end: u64,
 }
 
 impl Cpu {
     /// Executes from the current instruction on, up to the first one that does not begin before `limit`.
-    pub(super) fn run_region(&mut self, mut memory: Open<'_>, region: Region, limit: u64) -> Leave {
+    pub(super) fn run_region(&mut self, memory: Open<'_>, region: Region, limit: u64) -> Leave {
         let code = memory.code;
         let mut frame = Frame::new(self, region);
+        let mut scene = Scene {
+            memory,
+            region,
+            at: 0,
+            end: 0,
+        };
         let leave = loop {
             if frame.cycle >= limit {
                 break Leave::Limit;
@@ -137,31 +157,15 @@ impl Cpu {
             let Some(operation) = code.get(frame.index) else {
                 break Leave::Outside;
             };
-            let at = frame.advance(region.fetch);
-            // The order matters for nothing but speed: all of it becomes one jump table.
-            if let Outcome::Done(()) = self.compute(operation) {
-                continue;
-            }
-            match self.access(operation, &mut memory, region) {
-                Outcome::Done(wait) => {
-                    frame.cycle += wait;
-                    continue;
-                }
-                Outcome::Refused => {
-                    frame.undo(at, region.fetch);
-                    break Leave::Uncommon(*operation);
-                }
-                Outcome::Other => {}
-            }
-            if let Outcome::Done(end) = self.multiply(operation, frame.cycle) {
-                frame.cycle = end;
-                continue;
-            }
-            match self.branch(operation, at, region) {
-                Outcome::Done(target) => self.follow(&mut frame, region, target),
-                Outcome::Refused => frame.slot = frame.cycle,
-                Outcome::Other => {
-                    frame.undo(at, region.fetch);
+            scene.at = frame.advance(region.fetch);
+            scene.end = frame.cycle;
+            match self.perform(operation, &mut scene) {
+                After::Next => {}
+                After::Wait(cycles) => frame.cycle += cycles,
+                After::Slot => frame.slot = frame.cycle,
+                After::Jump(target) => self.follow(&mut frame, region, target),
+                After::Refused => {
+                    frame.undo(scene.at, region.fetch);
                     break Leave::Uncommon(*operation);
                 }
             }
@@ -199,39 +203,4 @@ impl Cpu {
         frame.next = target;
         frame.slot = frame.cycle;
     }
-
-    /// Branches and jumps, which give the index of their target; refused is what is not taken.
-    #[inline(always)]
-    fn branch(&mut self, operation: &Operation, at: usize, region: Region) -> Outcome<usize> {
-        let r = &mut self.registers;
-        let (is_taken, words) = match *operation {
-            Operation::Beq { rs, rt, words } => (r.get(rs) == r.get(rt), words),
-            Operation::Bne { rs, rt, words } => (r.get(rs) != r.get(rt), words),
-            Operation::Blez { rs, words } => (signed(r.get(rs)) <= 0, words),
-            Operation::Bgtz { rs, words } => (signed(r.get(rs)) > 0, words),
-            Operation::Bltz { rs, words } => (signed(r.get(rs)) < 0, words),
-            Operation::Bgez { rs, words } => (signed(r.get(rs)) >= 0, words),
-            Operation::J { target } => return Outcome::Done(region.jump(target)),
-            Operation::Jal { target } => {
-                r.set(Target::new(31), region.link(at));
-                return Outcome::Done(region.jump(target));
-            }
-            Operation::Jr { rs } => return Outcome::Done(region.index(r.get(rs))),
-            Operation::Jalr { rd, rs } => {
-                let target = r.get(rs);
-                r.set(rd, region.link(at));
-                return Outcome::Done(region.index(target));
-            }
-            _ => return Outcome::Other,
-        };
-        match is_taken {
-            true => Outcome::Done(at.wrapping_add_signed(words as isize)),
-            false => Outcome::Refused,
-        }
-    }
-}
-
-#[inline(always)]
-fn signed(value: u32) -> i32 {
-    value.cast_signed()
 }

@@ -20,7 +20,6 @@
 //! **How it works.** Flash is decoded once ([`crate::memory`]). The inner loop (`inner.rs`) runs decoded code without any call;
 //! it is left for uncommon instructions, for registers of the chip, and when the next event is due.
 
-mod arithmetic;
 mod bus;
 mod data;
 pub(crate) mod decode;
@@ -29,12 +28,12 @@ mod inner;
 mod multiplier;
 mod open;
 pub(crate) mod operation;
+mod perform;
 mod prefetch;
 mod registers;
 mod run;
 mod system;
 mod timer;
-mod transfer;
 mod uncommon;
 
 pub use bus::{Access, Bus, BusFault, Width};

@@ -26,16 +26,20 @@ impl Multiplier {
         self.value = value;
     }
 
-    /// HI, and the cycle at which the instruction that reads it ends when it would end at `cycle` without waiting.
     #[inline(always)]
-    pub(crate) fn high(&self, cycle: u64) -> (u32, u64) {
-        ((self.value >> 32) as u32, cycle.max(self.ready))
+    pub(crate) const fn high(&self) -> u32 {
+        (self.value >> 32) as u32
     }
 
-    /// LO, like [`Self::high`].
     #[inline(always)]
-    pub(crate) fn low(&self, cycle: u64) -> (u32, u64) {
-        (self.value as u32, cycle.max(self.ready))
+    pub(crate) const fn low(&self) -> u32 {
+        self.value as u32
+    }
+
+    /// Cycles that an instruction which would end at `end` has to wait for the unit.
+    #[inline(always)]
+    pub(crate) const fn wait(&self, end: u64) -> u64 {
+        self.ready.saturating_sub(end)
     }
 
     #[inline(always)]
@@ -48,9 +52,9 @@ impl Multiplier {
         self.value = self.value >> 32 << 32 | u64::from(value);
     }
 
-    /// Does a multiplication that ends at `cycle` when the unit is free; the cycle at which it ends.
+    /// Does a multiplication that ends at `end` when the unit is free; gives the cycles for which it has to wait.
     #[inline(always)]
-    pub(crate) fn multiply(&mut self, kind: Multiply, (left, right): (u32, u32), cycle: u64) -> u64 {
+    pub(crate) fn multiply(&mut self, kind: Multiply, (left, right): (u32, u32), end: u64) -> u64 {
         let signed = || (widened(left) * widened(right)).cast_unsigned();
         let unsigned = || u64::from(left) * u64::from(right);
         self.value = match kind {
@@ -61,39 +65,43 @@ impl Multiplier {
             Multiply::Msub => self.value.wrapping_sub(signed()),
             Multiply::Msubu => self.value.wrapping_sub(unsigned()),
         };
-        let end = cycle.max(self.ready);
-        self.ready = end + latency(right);
-        end
+        self.begin(end, latency(right))
     }
 
     /// Divides signed numbers. What a division by zero leaves is not defined by the architecture; here it is as if one had
     /// divided by one, and the compiler traps before.
-    pub(crate) fn divide(&mut self, (left, right): (u32, u32), cycle: u64) -> u64 {
+    pub(crate) fn divide(&mut self, (left, right): (u32, u32), end: u64) -> u64 {
         let (dividend, divisor) = (left.cast_signed(), right.cast_signed());
         let divisor = if divisor == 0 { 1 } else { divisor };
         let quotient = dividend.wrapping_div(divisor).cast_unsigned();
         let remainder = dividend.wrapping_rem(divisor).cast_unsigned();
         self.divided(quotient, remainder);
-        self.divide_time(dividend.unsigned_abs(), cycle)
+        self.begin(end, divide_latency(dividend.unsigned_abs()))
     }
 
     /// Divides unsigned numbers, by zero like [`Self::divide`].
-    pub(crate) fn divide_unsigned(&mut self, (left, right): (u32, u32), cycle: u64) -> u64 {
+    pub(crate) fn divide_unsigned(&mut self, (left, right): (u32, u32), end: u64) -> u64 {
         let divisor = right.max(1);
         self.divided(left / divisor, left % divisor);
-        self.divide_time(left, cycle)
+        self.begin(end, divide_latency(left))
     }
 
     fn divided(&mut self, quotient: u32, remainder: u32) {
         self.value = u64::from(remainder) << 32 | u64::from(quotient);
     }
 
-    fn divide_time(&mut self, dividend: u32, cycle: u64) -> u64 {
-        let end = cycle.max(self.ready);
-        let bytes = (dividend | 1).ilog2() / 8;
-        self.ready = end + DIVIDE_LATENCY[bytes as usize % DIVIDE_LATENCY.len()];
-        end
+    /// An operation that would end at `end`, whose result takes `latency` cycles; gives the cycles for which it has to wait.
+    #[inline(always)]
+    fn begin(&mut self, end: u64, latency: u64) -> u64 {
+        let wait = self.wait(end);
+        self.ready = end + wait + latency;
+        wait
     }
+}
+
+fn divide_latency(dividend: u32) -> u64 {
+    let bytes = (dividend | 1).ilog2() / 8;
+    DIVIDE_LATENCY[bytes as usize % DIVIDE_LATENCY.len()]
 }
 
 /// The product for a general register, and the cycles that `mul` takes beyond its one.

@@ -63,11 +63,18 @@ impl Open<'_> {
         Some((u32::from_le_bytes(bytes), is_flash))
     }
 
-    /// What `lwl` or `lwr` make of the word around an address.
+    /// What `lwl` makes of a register and the word around an address.
     #[inline(always)]
-    pub(crate) fn load_merged(&self, address: u32, merge: impl FnOnce(u32) -> u32) -> Option<(u32, bool)> {
+    pub(crate) fn load_left(&self, address: u32, before: u32) -> Option<(u32, bool)> {
         let (word, is_flash) = self.load_u32(address & !3)?;
-        Some((merge(word), is_flash))
+        Some((merge_left(address, word, before), is_flash))
+    }
+
+    /// What `lwr` makes of them.
+    #[inline(always)]
+    pub(crate) fn load_right(&self, address: u32, before: u32) -> Option<(u32, bool)> {
+        let (word, is_flash) = self.load_u32(address & !3)?;
+        Some((merge_right(address, word, before), is_flash))
     }
 
     /// Puts bytes at an aligned address in RAM.
@@ -78,13 +85,27 @@ impl Open<'_> {
         Some(())
     }
 
-    /// Replaces the word of RAM around an address.
+    /// What `swl` does to the word around an address.
     #[inline(always)]
-    pub(crate) fn change_word(&mut self, address: u32, change: impl FnOnce(u32) -> u32) -> Option<()> {
-        let start = in_ram(address & !3, 3)?;
-        let place = self.ram.get_mut(start..)?.first_chunk_mut()?;
-        *place = change(u32::from_le_bytes(*place)).to_le_bytes();
+    pub(crate) fn store_left(&mut self, address: u32, value: u32) -> Option<()> {
+        let place = self.word(address)?;
+        *place = split_left(address, u32::from_le_bytes(*place), value).to_le_bytes();
         Some(())
+    }
+
+    /// What `swr` does to it.
+    #[inline(always)]
+    pub(crate) fn store_right(&mut self, address: u32, value: u32) -> Option<()> {
+        let place = self.word(address)?;
+        *place = split_right(address, u32::from_le_bytes(*place), value).to_le_bytes();
+        Some(())
+    }
+
+    /// The word of RAM around an address.
+    #[inline(always)]
+    fn word(&mut self, address: u32) -> Option<&mut [u8; 4]> {
+        let start = in_ram(address & !3, 3)?;
+        self.ram.get_mut(start..)?.first_chunk_mut()
     }
 }
 

@@ -55,14 +55,13 @@ pub(crate) enum Operation {
     Mflo { rd: Target },
     Mthi { rs: Source },
     Mtlo { rs: Source },
-    /// `stall` is 1 when the next instruction in memory needs what is loaded.
-    Lb { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lbu { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lh { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lhu { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lw { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lwl { rt: Target, base: Source, stall: u8, offset: u32 },
-    Lwr { rt: Target, base: Source, stall: u8, offset: u32 },
+    Lb { to: Loaded, base: Source, offset: u32 },
+    Lbu { to: Loaded, base: Source, offset: u32 },
+    Lh { to: Loaded, base: Source, offset: u32 },
+    Lhu { to: Loaded, base: Source, offset: u32 },
+    Lw { to: Loaded, base: Source, offset: u32 },
+    Lwl { to: Loaded, base: Source, offset: u32 },
+    Lwr { to: Loaded, base: Source, offset: u32 },
     Sb { rt: Source, base: Source, offset: u32 },
     Sh { rt: Source, base: Source, offset: u32 },
     Sw { rt: Source, base: Source, offset: u32 },
@@ -81,6 +80,15 @@ pub(crate) enum Operation {
     Jr { rs: Source },
     Jalr { rd: Target, rs: Source },
     Uncommon(Uncommon),
+}
+
+/// Where a load puts what it loads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Loaded {
+    /// The register.
+    pub(crate) rt: Target,
+    /// Cycles for which the next instruction waits: 1 when it needs what is loaded.
+    pub(crate) stall: u8,
 }
 
 /// Multiplications into HI and LO.

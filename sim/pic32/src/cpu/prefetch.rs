@@ -6,23 +6,39 @@
 //! register CHELRU); lines locked by software and the lines for data (CHECON.DCSZ) are not modelled: each load from flash
 //! waits.
 
+use std::fmt;
+
 /// Lines of the unit.
 const LINES: usize = 16;
 /// Words of a line, as a power of two.
 const WORDS_LOG2: u32 = 2;
+/// Lines that flash has, program flash first; a power of two.
+const FLASH_LINES: usize = 1 << 15;
+/// Lines in a word of the set.
+const WORD_LINES: usize = 64;
+
 /// A line that no code has.
-const EMPTY: u16 = u16::MAX;
+const EMPTY: u16 = FLASH_LINES as u16 - 1;
 
 /// Which lines of flash the unit holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub(crate) struct PrefetchUnit {
+    /// The lines in the order in which they came.
     lines: [u16; LINES],
     oldest: u8,
+    /// The same lines as a set, so that one look tells whether a line is there.
+    held: [u64; FLASH_LINES / WORD_LINES],
+}
+
+impl fmt::Debug for PrefetchUnit {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_list().entries(self.lines).finish()
+    }
 }
 
 /// The line of the word at `index` of a flash whose first line is `first`.
 pub(crate) const fn line_of(first: u16, index: usize) -> u16 {
-    first.wrapping_add((index >> WORDS_LOG2) as u16)
+    first.wrapping_add((index >> WORDS_LOG2) as u16) % FLASH_LINES as u16
 }
 
 impl PrefetchUnit {
@@ -30,6 +46,7 @@ impl PrefetchUnit {
         Self {
             lines: [EMPTY; LINES],
             oldest: 0,
+            held: [0; FLASH_LINES / WORD_LINES],
         }
     }
 
@@ -46,18 +63,25 @@ impl PrefetchUnit {
 
     /// Whether the line is missing; then it takes the place of the oldest.
     #[inline(always)]
-    pub(crate) fn misses(&mut self, wanted: u16) -> bool {
-        // Without an early end the compiler compares all at once.
-        let is_there = self
-            .lines
-            .iter()
-            .fold(false, |found, line| found | (*line == wanted));
-        if !is_there {
-            self.lines[usize::from(self.oldest) % LINES] = wanted;
+    pub(crate) fn misses(&mut self, line: u16) -> bool {
+        let (word, bit) = place(line);
+        let is_missing = self.held[word] & bit == 0;
+        if is_missing {
+            self.held[word] |= bit;
+            let newest = &mut self.lines[usize::from(self.oldest) % LINES];
+            let (word, bit) = place(std::mem::replace(newest, line));
+            self.held[word] &= !bit;
             self.oldest = self.oldest.wrapping_add(1);
         }
-        !is_there
+        is_missing
     }
+}
+
+/// Where a line is in the set.
+#[inline(always)]
+const fn place(line: u16) -> (usize, u64) {
+    let line = line as usize % FLASH_LINES;
+    (line / WORD_LINES, 1 << (line % WORD_LINES))
 }
 
 #[cfg(test)]

@@ -53,6 +53,18 @@ impl Registers {
         self.0[usize::from(register.0)]
     }
 
+    /// What a register holds, as a signed number.
+    #[inline(always)]
+    pub(crate) fn signed(&self, register: Source) -> i32 {
+        self.get(register).cast_signed()
+    }
+
+    /// What a register holds plus a number: how addresses are made.
+    #[inline(always)]
+    pub(crate) fn sum(&self, register: Source, offset: u32) -> u32 {
+        self.get(register).wrapping_add(offset)
+    }
+
     /// What a register holds that is about to be written.
     #[inline(always)]
     pub(crate) fn before(&self, register: Target) -> u32 {

@@ -7,7 +7,7 @@ use super::{Bus, Cpu, Exit, Taken};
 use crate::memory::{Code, Memory};
 
 /// The lines of boot flash in the prefetch unit begin here; those of program flash at 0.
-const BOOT_LINES: u16 = 0x8000;
+const BOOT_LINES: u16 = 0x4000;
 
 impl Cpu {
     /// Executes until `until_cycle`, the horizon of the bus, a match of the core timer, a breakpoint or an exception;

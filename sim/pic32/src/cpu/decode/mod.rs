@@ -9,7 +9,7 @@ mod system;
 mod uses;
 
 use super::STACK_POINTER;
-use super::operation::{Condition, Operation, Uncommon};
+use super::operation::{Condition, Loaded, Operation, Uncommon};
 use super::registers::{Source, Target};
 
 /// The fields of an instruction word.
@@ -64,12 +64,12 @@ impl Fields {
 /// loads. In a delay slot the next instruction is not known, and no stall is counted.
 pub(crate) fn decode_at(word: impl Fn(usize) -> Option<u32>, index: usize) -> Operation {
     let mut operation = word(index).map_or(Operation::Uncommon(Uncommon::Reserved), decode);
-    if let Some((target, stall)) = uses::loaded(&mut operation) {
+    if let Some(loaded) = uses::loaded(&mut operation) {
         let before = index.checked_sub(1).and_then(&word).map(decode);
         let after = word(index + 1).map(decode);
         let in_slot = before.is_some_and(uses::has_delay_slot);
-        let needed = after.is_some_and(|after| uses::reads(after, target));
-        *stall = u8::from(needed && !in_slot);
+        let needed = after.is_some_and(|after| uses::reads(after, loaded.rt));
+        loaded.stall = u8::from(needed && !in_slot);
     }
     operation
 }
@@ -193,50 +193,19 @@ fn add_immediate(fields: Fields) -> Operation {
 }
 
 fn load(fields: Fields) -> Operation {
-    let (rt, base, offset, stall) = (fields.rt_target(), fields.rs(), fields.extended(), 0);
+    let (base, offset) = (fields.rs(), fields.extended());
+    let to = Loaded {
+        rt: fields.rt_target(),
+        stall: 0,
+    };
     match fields.0 >> 26 {
-        0x20 => Operation::Lb {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        0x21 => Operation::Lh {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        0x22 => Operation::Lwl {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        0x23 => Operation::Lw {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        0x24 => Operation::Lbu {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        0x25 => Operation::Lhu {
-            rt,
-            base,
-            stall,
-            offset,
-        },
-        _ => Operation::Lwr {
-            rt,
-            base,
-            stall,
-            offset,
-        },
+        0x20 => Operation::Lb { to, base, offset },
+        0x21 => Operation::Lh { to, base, offset },
+        0x22 => Operation::Lwl { to, base, offset },
+        0x23 => Operation::Lw { to, base, offset },
+        0x24 => Operation::Lbu { to, base, offset },
+        0x25 => Operation::Lhu { to, base, offset },
+        _ => Operation::Lwr { to, base, offset },
     }
 }
 

@@ -1,19 +1,19 @@
 //! Which registers an instruction reads: a load stalls when the next instruction needs what it loads.
 
 use crate::cpu::STACK_POINTER;
-use crate::cpu::operation::{Operation, Uncommon};
+use crate::cpu::operation::{Loaded, Operation, Uncommon};
 use crate::cpu::registers::{Source, Target};
 
-/// The register that a load fills, and where it notes its stall.
-pub(super) fn loaded(operation: &mut Operation) -> Option<(Target, &mut u8)> {
+/// Where a load puts what it loads.
+pub(super) fn loaded(operation: &mut Operation) -> Option<&mut Loaded> {
     match operation {
-        Operation::Lb { rt, stall, .. }
-        | Operation::Lbu { rt, stall, .. }
-        | Operation::Lh { rt, stall, .. }
-        | Operation::Lhu { rt, stall, .. }
-        | Operation::Lw { rt, stall, .. }
-        | Operation::Lwl { rt, stall, .. }
-        | Operation::Lwr { rt, stall, .. } => Some((*rt, stall)),
+        Operation::Lb { to, .. }
+        | Operation::Lbu { to, .. }
+        | Operation::Lh { to, .. }
+        | Operation::Lhu { to, .. }
+        | Operation::Lw { to, .. }
+        | Operation::Lwl { to, .. }
+        | Operation::Lwr { to, .. } => Some(to),
         _ => None,
     }
 }
