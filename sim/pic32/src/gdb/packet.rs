@@ -170,7 +170,7 @@ mod tests {
     fn escapes_come_back() {
         let text = b"a$b#c}d*e";
         let packet = framed(text);
-        let [Event::Packet(inside)] = events(&packet).try_into().unwrap() else {
+        let [Event::Packet(inside)] = <[Event; 1]>::try_from(events(&packet)).unwrap() else {
             panic!("{}", packet.escape_ascii());
         };
         assert_eq!(unescaped(&inside), text);
