@@ -111,6 +111,8 @@ pub(crate) struct Interrupts {
     at_level: [u64; 8],
     at_sub_level: [u64; 4],
     raised_at: [u64; 64],
+    /// When each line was asserted or released last.
+    asserted_at: [u64; 64],
     proximity: u32,
     best: Option<Pending>,
 }
@@ -133,6 +135,7 @@ impl Interrupts {
             at_level: [0; 8],
             at_sub_level: [0; 4],
             raised_at: [0; 64],
+            asserted_at: [0; 64],
             proximity: 0,
             best: None,
         };
@@ -154,19 +157,32 @@ impl Interrupts {
         };
         if lines != self.lines {
             self.lines = lines;
+            self.asserted_at[irq.0 as usize] = cycle;
             self.set_flags(self.flags, cycle);
         }
     }
 
     fn set_flags(&mut self, flags: u64, cycle: u64) {
         let after = (flags | self.lines) & PRESENT;
-        let mut new = after & !self.flags;
+        let new = after & !self.flags;
+        // Cleared, but asserted again while the flag was still set: that is what the next handler is late for.
+        let held = self.flags & !flags & self.lines;
         self.flags = after;
-        while new != 0 {
-            self.raised_at[new.trailing_zeros() as usize] = cycle;
-            new &= new - 1;
+        for irq in numbers(new) {
+            self.raised_at[irq] = cycle;
+        }
+        for irq in numbers(held) {
+            self.raised_at[irq] = self.asserted_at[irq];
         }
         self.choose();
+    }
+
+    /// A source that was off is late from now on only, however old its flag is.
+    fn set_enables(&mut self, enables: u64, cycle: u64) {
+        for irq in numbers(enables & !self.enables & self.flags) {
+            self.raised_at[irq] = cycle;
+        }
+        self.enables = enables & PRESENT;
     }
 
     fn choose(&mut self) {
@@ -241,14 +257,10 @@ impl Interrupts {
 
     /// When the oldest pending and enabled source of this vector raised its flag.
     pub(crate) fn raised_at(&self, vector: u8) -> Option<u64> {
-        let mut rest = self.flags & self.enables & SOURCES.get(usize::from(vector)).copied().unwrap_or(0);
-        let mut oldest = None;
-        while rest != 0 {
-            let raised = self.raised_at[rest.trailing_zeros() as usize];
-            oldest = Some(oldest.map_or(raised, |oldest: u64| oldest.min(raised)));
-            rest &= rest - 1;
-        }
-        oldest
+        let sources = SOURCES.get(usize::from(vector)).copied().unwrap_or(0);
+        numbers(self.flags & self.enables & sources)
+            .map(|irq| self.raised_at[irq])
+            .min()
     }
 
     /// Reads the register `word` of the block (its address / 16).
@@ -276,8 +288,8 @@ impl Interrupts {
             2 => self.proximity = value,
             3 => self.set_flags(with_low_half(self.flags, value), cycle),
             4 => self.set_flags(with_high_half(self.flags, value), cycle),
-            6 => self.enables = with_low_half(self.enables, value) & PRESENT,
-            7 => self.enables = with_high_half(self.enables, value) & PRESENT,
+            6 => self.set_enables(with_low_half(self.enables, value), cycle),
+            7 => self.set_enables(with_high_half(self.enables, value), cycle),
             9..=18 | 20 => {
                 self.priorities[usize::from(word - 9)] = value & PRIORITY_WRITABLE;
                 self.sort_by_priority();
@@ -287,6 +299,18 @@ impl Interrupts {
         self.choose();
         true
     }
+}
+
+/// The numbers of the set bits, ascending.
+fn numbers(mask: u64) -> impl Iterator<Item = usize> {
+    let mut rest = mask;
+    std::iter::from_fn(move || {
+        let number = rest.trailing_zeros() as usize;
+        (rest != 0).then(|| {
+            rest &= rest - 1;
+            number
+        })
+    })
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
@@ -384,6 +408,24 @@ mod tests {
         assert_eq!(interrupts.read(IFS1), Some(1));
         interrupts.write(IFS1, 0, 4);
         assert_eq!(interrupts.read(IFS1), Some(0));
+    }
+
+    #[test]
+    fn lateness_counts_from_the_newest_cause() {
+        let mut interrupts = all_enabled();
+        interrupts.write(IPC0 + 6, 6 << 18, 0);
+        interrupts.set_line(Irq::CHANGE_NOTICE, true, 100);
+        // The handler reads the port, then the pin changes again, then the handler clears the flag.
+        interrupts.set_line(Irq::CHANGE_NOTICE, false, 110);
+        interrupts.set_line(Irq::CHANGE_NOTICE, true, 115);
+        assert_eq!(interrupts.raised_at(26), Some(100));
+        interrupts.write(IFS1, 0, 120);
+        assert_eq!(interrupts.raised_at(26), Some(115));
+        // A flag that was old when its source was switched on.
+        interrupts.raise(Irq::timer(1), 200);
+        interrupts.write(IEC0, 0, 300);
+        interrupts.write(IEC0, 1 << 8, 400);
+        assert_eq!(interrupts.raised_at(8), Some(400));
     }
 
     #[test]
