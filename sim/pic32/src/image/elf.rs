@@ -22,6 +22,8 @@ const MIPS32: u32 = 0x5000_0000;
 const MIPS32_R2: u32 = 0x7000_0000;
 /// Flags of MIPS16e and microMIPS code.
 const FLAGS_COMPRESSED: u32 = 0x0600_0000;
+/// What linker scripts call the first stack pointer: ours, and that of the maker's compiler.
+const STACK_SYMBOLS: [&str; 2] = ["__stack_top", "_stack"];
 const PART_SECTION: &[u8] = b".librervac.part";
 
 /// Reads a whole file.
@@ -50,7 +52,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, ImageError> {
         return Err(ImageError::Empty);
     }
     image.symbols = file.symbols(&sections)?;
+    check_stack(&image.symbols)?;
     Ok(image)
+}
+
+/// A program for a part with more memory can be as small as one for this part; its stack tells.
+fn check_stack(symbols: &[Symbol]) -> Result<(), ImageError> {
+    let is_outside = |symbol: &&Symbol| {
+        let top = physical(symbol.address);
+        STACK_SYMBOLS.contains(&symbol.name.as_str()) && top.is_none_or(|top| top > RAM_BYTES as u32)
+    };
+    match symbols.iter().find(is_outside) {
+        None => Ok(()),
+        Some(symbol) => Err(ImageError::StackOutside {
+            symbol: symbol.name.clone(),
+            address: symbol.address,
+        }),
+    }
 }
 
 impl Image {
@@ -299,11 +317,15 @@ mod tests {
 
     /// A small program: header, segments, contents, names, symbols, sections.
     fn program(segments: &[[u32; 4]], part: &str) -> Vec<u8> {
-        let names = b"\0.librervac.part\0main\0level\0";
+        with_stack(segments, part, 0x8000_8000)
+    }
+
+    fn with_stack(segments: &[[u32; 4]], part: &str, stack: u32) -> Vec<u8> {
+        let names = b"\0.librervac.part\0main\0level\0_stack\0";
         let part = [part.as_bytes(), &[0]].concat();
         let table = 52;
         let contents = table + 32 * segments.len();
-        let sections = contents + 16 + names.len() + part.len() + 48;
+        let sections = contents + 16 + names.len() + part.len() + 64;
         let mut file = vec![0x7F, b'E', b'L', b'F', 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
         halves(&mut file, &[2, 8]);
         words(
@@ -333,6 +355,7 @@ mod tests {
         words(&mut file, &[0, 0, 0, 0]);
         words(&mut file, &[17, 0x9D00_0000, 8, 2 | 5 << 16]);
         words(&mut file, &[22, 0x8000_0000, 4, 1 | 5 << 16]);
+        words(&mut file, &[28, stack, 0, 5 << 16]);
         words(&mut file, &[0; 10]);
         words(
             &mut file,
@@ -344,7 +367,7 @@ mod tests {
         );
         words(
             &mut file,
-            &[0, 2, 0, 0, part_start + part.len() as u32, 48, 1, 0, 4, 16],
+            &[0, 2, 0, 0, part_start + part.len() as u32, 64, 1, 0, 4, 16],
         );
         file
     }
@@ -401,6 +424,20 @@ mod tests {
         let other = "PIC32MX460F512L";
         let refused = Image::from_elf(&program(&SEGMENTS, other));
         assert_eq!(refused, Err(ImageError::WrongPart(other.to_owned())));
+    }
+
+    #[test]
+    fn a_stack_beyond_ram_is_another_parts() {
+        let with = |stack| Image::from_elf(&with_stack(&SEGMENTS, super::PART, stack));
+        assert!(
+            [0x8000_8000, 0xA000_7FF8]
+                .into_iter()
+                .all(|stack| with(stack).is_ok())
+        );
+        for address in [0x8000_8004, 0x8002_0000, 0xA001_0000, 0x7FFF_F000] {
+            let symbol = "_stack".to_owned();
+            assert_eq!(with(address), Err(ImageError::StackOutside { symbol, address }));
+        }
     }
 
     #[test]

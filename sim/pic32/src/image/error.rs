@@ -81,6 +81,17 @@ pub enum ImageError {
         /// How many bytes.
         length: u32,
     },
+    /// A stack that this part has no memory for.
+    #[error(
+        "the program's stack begins at {address:#010x} (symbol {symbol}), but the RAM of the {PART} ends at 80008000: \
+         it was linked for another part, link it for this one"
+    )]
+    StackOutside {
+        /// The symbol that says so.
+        symbol: String,
+        /// The stack pointer that the program begins with.
+        address: u32,
+    },
     /// There is nothing to program.
     #[error("the file has nothing to program into flash")]
     Empty,
