@@ -1,7 +1,8 @@
 //! Handlers of six levels interrupt each other and the main program, all of them multiply, divide and call functions; nobody
 //! may notice. The main program repeats a calculation: RG7 changes when it comes out as the first time, RG8 goes high when
-//! it does not. Each timer's handler changes a pin of port E.
+//! it does not, or when a register that functions may change was changed. Each timer's handler changes a pin of port E.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
+#![cfg_attr(target_arch = "mips", feature(asm_experimental_arch))]
 
 mod board;
 
@@ -38,6 +39,84 @@ fn calculate(seed: u32) -> u32 {
     words.iter().fold(0, |sum, word| sum.rotate_left(3) ^ word)
 }
 
+// Fills every register that a function may change, lets time pass, and tells which bits are different then: 0 for none.
+#[cfg(target_arch = "mips")]
+core::arch::global_asm!(
+    ".set push",
+    ".set noat",
+    ".set noreorder",
+    ".globl changed_registers",
+    "changed_registers:",
+    "addiu $sp, $sp, -16",
+    "sw $s0, 0($sp)",
+    "sw $s1, 4($sp)",
+    "sw $ra, 8($sp)",
+    "li $s0, 0x12345678",
+    "mthi $s0",
+    "addiu $s0, $s0, 1",
+    "mtlo $s0",
+    ".irp number, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 31",
+    "lui $\\number, 0x5A00 + \\number",
+    ".endr",
+    ".rept 200",
+    "nop",
+    ".endr",
+    "mfhi $s1",
+    "subu $s1, $s0, $s1",
+    "addiu $s1, $s1, -1",
+    ".irp number, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 31",
+    "lui $s0, 0x5A00 + \\number",
+    "xor $s0, $s0, $\\number",
+    "or $s1, $s1, $s0",
+    ".endr",
+    "li $s0, 0x12345679",
+    "mflo $v0",
+    "xor $s0, $s0, $v0",
+    "or $v0, $s1, $s0",
+    "lw $s0, 0($sp)",
+    "lw $s1, 4($sp)",
+    "lw $ra, 8($sp)",
+    "jr $ra",
+    "addiu $sp, $sp, 16",
+    // Changes all of them but the one to return by.
+    ".globl change_registers",
+    "change_registers:",
+    ".irp number, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25",
+    "mfc0 $\\number, $9",
+    ".endr",
+    "mthi $t0",
+    "jr $ra",
+    "mtlo $t1",
+    ".set pop",
+);
+
+#[cfg(target_arch = "mips")]
+fn registers_survive() -> bool {
+    unsafe extern "C" {
+        fn changed_registers() -> u32;
+    }
+    // SAFETY: it keeps to the calling convention.
+    unsafe { changed_registers() == 0 }
+}
+
+#[cfg(target_arch = "mips")]
+fn change_registers() {
+    unsafe extern "C" {
+        #[link_name = "change_registers"]
+        fn change();
+    }
+    // SAFETY: it keeps to the calling convention.
+    unsafe { change() }
+}
+
+#[cfg(not(target_arch = "mips"))]
+fn change_registers() {}
+
+#[cfg(not(target_arch = "mips"))]
+fn registers_survive() -> bool {
+    true
+}
+
 macro_rules! handlers {
     ($($vector:ident $source:ident $cell:ident $handler:ident $bit:literal;)*) => {
         $(
@@ -52,6 +131,7 @@ macro_rules! handlers {
                     }
                     work.number = work.number.wrapping_add(1);
                 }
+                change_registers();
                 Port::E.invert(1 << $bit);
                 Source::$source.clear();
             }
@@ -109,7 +189,7 @@ fn main() -> ! {
     sources.into_iter().for_each(Source::enable);
     interrupt::start();
     loop {
-        if calculate(black_box(1)) == expected {
+        if calculate(black_box(1)) == expected && registers_survive() {
             good.toggle();
         } else {
             Port::G.set(1 << 8);

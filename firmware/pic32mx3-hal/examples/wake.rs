@@ -5,6 +5,7 @@
 
 mod board;
 
+use core::hint::black_box;
 use core::sync::atomic::{AtomicU32, Ordering};
 use pic32mx3_hal::gpio::Port;
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
@@ -33,7 +34,7 @@ fn main() -> ! {
     peripherals.timer2.start(Prescaler::By1, 4_000);
     Source::Timer2.enable();
     interrupt::start();
-    let mut work_counts = 0;
+    let mut random = 1_u32;
     loop {
         while WORD.load(Ordering::Acquire) == 0 {
             cpu::sleep_while_zero(&WORD);
@@ -41,8 +42,13 @@ fn main() -> ! {
         WORD.store(0, Ordering::Relaxed);
         Port::G.clear(LAMP);
         let begun = core_timer::count();
-        work_counts = 1_900 + (work_counts + 1) % 90;
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let work_counts = 1_850 + (random >> 16) % 140;
         while core_timer::count().wrapping_sub(begun) < work_counts {}
+        // Single cycles, which the loop above is too coarse for.
+        for _ in 0..(random >> 8) % 8 {
+            black_box(());
+        }
     }
 }
 entry!(main);

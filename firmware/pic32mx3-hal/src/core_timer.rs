@@ -169,7 +169,8 @@ impl DelayNs for Delay {
 
 #[cfg(test)]
 mod tests {
-    use super::{half_turns_at, join};
+    use super::{CoreTimer, half_turns_at, join};
+    use crate::cpu;
 
     /// The long count never goes back and is never wrong by a turn, whether the half turn was noted before or after the
     /// reading of the counter.
@@ -191,5 +192,33 @@ mod tests {
                 "{known} {count:#x}"
             );
         }
+    }
+    /// However late the handler comes, also over the end of the counter: all periods that ended are counted once, and the
+    /// next match lies ahead.
+    #[test]
+    fn late_ticks_are_counted_and_skipped() {
+        const PERIOD: u32 = 40_000;
+        let start = u32::MAX - 100_000;
+        cpu::set_count(start);
+        let mut ticker = CoreTimer::new().into_ticker(PERIOD);
+        let first = cpu::compare();
+        assert!(first.wrapping_sub(start) - PERIOD < 10);
+        let mut ended = 0;
+        for (after, expected) in [
+            (PERIOD - 1_000, 0),
+            (PERIOD + 10, 1),
+            (2 * PERIOD + 39_000, 1),
+            (3 * PERIOD + 5, 1),
+            (10 * PERIOD + 20_000, 7),
+            (1_000_000_000, 24_990),
+        ] {
+            cpu::set_count(start.wrapping_add(after));
+            let more = ticker.advance();
+            assert_eq!(more, expected, "{after} counts after the start");
+            ended += more;
+            let ahead = cpu::compare().wrapping_sub(start.wrapping_add(after));
+            assert!((1..=PERIOD + 20).contains(&ahead), "{ahead} counts ahead");
+        }
+        assert_eq!(cpu::compare(), first.wrapping_add(ended * PERIOD));
     }
 }

@@ -155,6 +155,9 @@ mod read {
     }
 }
 
+#[cfg(all(test, not(target_arch = "mips")))]
+pub(crate) use read::{compare, set_count};
+
 #[cfg(not(target_arch = "mips"))]
 mod read {
     use core::sync::atomic::{AtomicU32, Ordering};
@@ -169,6 +172,16 @@ mod read {
 
     pub(super) fn set_compare(value: u32) {
         COMPARE.store(value, Ordering::SeqCst);
+    }
+
+    #[cfg(test)]
+    pub(crate) fn set_count(value: u32) {
+        COUNT.store(value, Ordering::SeqCst);
+    }
+
+    #[cfg(test)]
+    pub(crate) fn compare() -> u32 {
+        COMPARE.load(Ordering::SeqCst)
     }
 
     pub(super) fn status() -> u32 {
