@@ -36,9 +36,9 @@
 //! # What is where
 //! | subject | module | section of the chip's reference |
 //! | --- | --- | --- |
-//! | configuration words, clocks | [`configuration`], [`clock`] | 3, 6 |
+//! | configuration words, clocks | [`mod@configuration`], [`clock`] | 3, 6 |
 //! | pins | [`gpio`], [`change_notice`], [`external`] | 8, 9, 5 |
-//! | interrupts, their handlers and what those own | [`interrupt`] | 5 |
+//! | interrupts, their handlers and what those own | [`mod@interrupt`] | 5 |
 //! | time | [`core_timer`], [`timer`] | 5, 10 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
 //! | ADC | [`adc`] | 13 |
