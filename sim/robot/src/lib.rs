@@ -7,6 +7,7 @@
 #![deny(missing_docs)]
 
 pub mod board;
+pub mod charging;
 mod line;
 mod parameters;
 mod robot;

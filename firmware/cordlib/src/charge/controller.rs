@@ -200,9 +200,8 @@ impl<S: Stops> ChargeController<S> {
             && context.motors == Motors::Idle;
         if !ready {
             self.regulator.restart();
-            self.charge.pause();
         } else {
-            self.charge.flow(elapsed_ms);
+            self.charge.want(elapsed_ms);
             if let Some(means) = beats.of(Window::Envelope) {
                 let current_ma = self.zero.correct(means).current_ma;
                 self.regulator
@@ -214,8 +213,14 @@ impl<S: Stops> ChargeController<S> {
         }
         let view = self.view(context);
         let drive = self.guard.permit(self.regulator.drive(), &view, elapsed_ms);
-        if drive == ChargeDrive::Off && self.regulator.drive() != ChargeDrive::Off {
-            self.regulator.restart();
+        if drive == ChargeDrive::Off {
+            self.charge.pause();
+            self.watch.interrupt();
+            if self.regulator.drive() != ChargeDrive::Off {
+                self.regulator.restart();
+            }
+        } else {
+            self.charge.flow();
         }
         let request = if wanted && context.docked {
             DockRequest::Current

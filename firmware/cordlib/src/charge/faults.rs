@@ -19,9 +19,9 @@ const OVER_MS: u32 = 80;
 const LEAK_MA: i32 = 150;
 const SETTLE_MS: u32 = 200;
 const LEAK_MS: u32 = 900;
-/// Current shown at rest, too small for a shorted switch: the sensor's zero is wrong.
-const ZERO_MA: i32 = 60;
-const ZERO_MS: u32 = 10_000;
+/// Current shown at rest, too small for a shorted switch: the sensor's zero is wrong. A converter without dither may be
+/// wrong by a whole count of 108 mA.
+pub(super) const ZERO_MA: i32 = 120;
 /// Less than this is no current.
 const NO_CURRENT_MA: i32 = 50;
 const NO_CURRENT_MS: u32 = 5_000;
@@ -42,7 +42,6 @@ const FORGIVE_MS: u32 = 60_000;
 pub(super) struct FaultWatch {
     over_ms: u32,
     leak_ms: u32,
-    zero_ms: u32,
     no_current_ms: u32,
     no_current_tries: u8,
     frozen_ms: u32,
@@ -64,6 +63,11 @@ impl FaultWatch {
             self.forgive_ms = 0;
             self.interruptions = self.interruptions.saturating_sub(1);
         }
+    }
+
+    /// The switch was opened: the voltage falls by what the current made, which is no jump.
+    pub(super) const fn interrupt(&mut self) {
+        self.second_mv = None;
     }
 
     /// Off the dock nothing can be wrong with the charger. How often the contacts came and went is kept.
@@ -103,6 +107,7 @@ impl<S: Stops> ChargeController<S> {
             .or_else(|| self.find_in_envelope(beats))
             .or_else(|| self.find_in_tenth(beats))
             .or_else(|| self.find_in_second(beats))
+            .or_else(|| self.find_wrong_zero(beats))
     }
 
     /// Current flows though the switch is off.
@@ -157,15 +162,17 @@ impl<S: Stops> ChargeController<S> {
         if flows && before_mv.is_some_and(|mv| self.scale.is_jump(mv, means.pack_mv)) {
             return Some(ChargeFault::VoltageJump);
         }
-        self.find_wrong_zero(&means)
-            .or_else(|| self.find_no_current(&means))
+        self.find_no_current(&means)
     }
 
-    fn find_wrong_zero(&mut self, means: &Means) -> Option<ChargeFault> {
+    /// Ten seconds of rest show current where there is none.
+    fn find_wrong_zero(&mut self, beats: &Beats) -> Option<ChargeFault> {
+        let means = self.zero.correct(beats.of(Window::TenSeconds)?);
         let needed = self.phase == ChargePhase::Idle && means.pack_mv < self.scale.recharge_mv();
-        let resting = needed && self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS);
-        let wrong = resting && (means.current_ma.saturating_abs() >= ZERO_MA || self.zero.is_broken());
-        lasts(&mut self.watch.zero_ms, wrong, means.elapsed_ms, ZERO_MS).then_some(ChargeFault::CurrentZero)
+        let rested = self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS);
+        let docked = self.docked_ms >= means.elapsed_ms;
+        let wrong = means.current_ma.saturating_abs() >= ZERO_MA || self.zero.is_broken();
+        (needed && rested && docked && wrong).then_some(ChargeFault::CurrentZero)
     }
 
     /// A dock that gives nothing is asked again after a pause; the third time it is a fault.

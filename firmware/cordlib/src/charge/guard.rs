@@ -11,12 +11,10 @@ pub(super) const AGE_MAX_MS: u32 = 200;
 /// keeps.
 const COLDEST_CC: i32 = -100;
 const HOTTEST_CC: i32 = 5_100;
-/// No current after 3.6 hours of it, whatever the reason, until there was a rest.
-const FLOW_MAX_MS: u32 = 12_960_000;
-/// A rest that forgets how long current flowed.
-const REST_MS: u32 = 1_800_000;
-/// Current that flowed is forgotten four times slower than it was gathered: it is counted in quarters.
-const QUARTERS: u32 = 4;
+/// No current after this much of it, a little less than 3.6 hours, whatever the reason, until there was a rest.
+const FLOW_MAX_MS: u32 = 12_900_000;
+/// A rest that forgets how long current flowed: half an hour, and one minute more.
+pub(super) const REST_MS: u32 = 1_860_000;
 
 /// What the gate looks at.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +33,7 @@ pub(super) struct View {
 /// The gate's own clock.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Guard {
-    flow_quarters: u32,
+    flow_ms: u32,
     off_ms: u32,
 }
 
@@ -60,23 +58,19 @@ impl Guard {
                 .temperature_cc
                 .is_some_and(|cc| (COLDEST_CC..=HOTTEST_CC).contains(&cc))
             && view.pack_mv.is_some_and(|mv| (least_mv..=most_mv).contains(&mv))
-            && self.flow_quarters <= FLOW_MAX_MS.saturating_mul(QUARTERS)
+            && self.flow_ms <= FLOW_MAX_MS
     }
 
     fn count(&mut self, drive: ChargeDrive, elapsed_ms: u32) {
         if drive != ChargeDrive::Off {
             self.off_ms = 0;
-            self.flow_quarters = self
-                .flow_quarters
-                .saturating_add(elapsed_ms.saturating_mul(QUARTERS));
+            self.flow_ms = self.flow_ms.saturating_add(elapsed_ms);
             return;
         }
         self.off_ms = self.off_ms.saturating_add(elapsed_ms);
-        self.flow_quarters = if self.off_ms >= REST_MS {
-            0
-        } else {
-            self.flow_quarters.saturating_sub(elapsed_ms)
-        };
+        if self.off_ms >= REST_MS {
+            self.flow_ms = 0;
+        }
     }
 }
 
@@ -161,15 +155,11 @@ mod tests {
             (FLOW_MAX_MS..FLOW_MAX_MS + 3_000).contains(&flowed_ms),
             "{flowed_ms}"
         );
-        for _ in 0..1_700 {
+        for _ in 0..1_800 {
             guard.permit(ChargeDrive::Off, &GOOD, 1_000);
         }
-        let mut more_ms = 0;
-        while guard.permit(wish, &GOOD, 1_000) != ChargeDrive::Off {
-            more_ms += 1_000;
-        }
-        assert!(more_ms < 500_000, "a short rest gives little back: {more_ms}");
-        for _ in 0..1_801 {
+        assert_eq!(guard.permit(wish, &GOOD, 1_000), ChargeDrive::Off);
+        for _ in 0..1_861 {
             guard.permit(ChargeDrive::Off, &GOOD, 1_000);
         }
         assert_eq!(guard.permit(wish, &GOOD, 1_000), wish);

@@ -3,6 +3,8 @@
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::controller::{ChargeContext, ChargeController};
+use super::faults::ZERO_MA;
+use super::guard;
 use super::meter::{Beats, Means, Window};
 use super::scale::PackScale;
 use super::stops::{Detectors, Progress, Stops, TIME_MS};
@@ -15,18 +17,16 @@ const COOL_CC: i32 = 500;
 const WARMEST_CC: i32 = 4_000;
 /// Play of the window, so that current does not come and go at its edge.
 const PLAY_CC: i32 = 100;
-/// Current shown at rest beyond which the sensor is not believed.
-const ZERO_MA: i32 = 60;
 const PRECHARGE_MS: u32 = 3_600_000;
 const TOP_OFF_MS: u32 = 1_800_000;
 /// Temperature at which a full pack gets no more current.
 const TOP_OFF_MAX_CC: i32 = 4_500;
 /// A charge that was interrupted for longer is over: what was counted of it is forgotten.
-const AWAY_MS: u32 = 600_000;
+const AWAY_MS: u32 = guard::REST_MS;
 /// An interruption of the current that makes slopes meaningless.
 const PAUSE_MS: u32 = 10_000;
-/// Rest after a charge before the voltage tells how full the pack is.
-const REST_MS: u32 = 600_000;
+/// Rest after a charge before the voltage tells how full the pack is, and before the gate lets another one through.
+const REST_MS: u32 = guard::REST_MS;
 /// Rest after a charge that ran out of time.
 const LONG_REST_MS: u32 = 3_600_000;
 /// A full pack is not charged again before this, and after twice the time whenever it turned out to be full still.
@@ -66,11 +66,15 @@ impl Charge {
         self.flowing = false;
     }
 
-    /// Current may flow.
-    pub(super) const fn flow(&mut self, elapsed_ms: u32) {
-        self.flowing = true;
+    /// Current is wanted, and everything is ready for it.
+    pub(super) const fn want(&mut self, elapsed_ms: u32) {
         self.flowed_ms = self.flowed_ms.saturating_add(elapsed_ms);
         self.phase_ms = self.phase_ms.saturating_add(elapsed_ms);
+    }
+
+    /// The switch is driven.
+    pub(super) const fn flow(&mut self) {
+        self.flowing = true;
         self.paused_ms = 0;
     }
 
@@ -99,7 +103,7 @@ impl Charge {
         self.start_cc = None;
     }
 
-    /// Whether current was wanted and could flow in the last pass.
+    /// Whether the switch was driven in the last pass.
     pub(super) const fn flows(&self) -> bool {
         self.flowing
     }
@@ -127,6 +131,8 @@ pub(super) struct Pulse {
     on: bool,
     ms: u32,
     from_mas: u32,
+    /// The pack cools down before the first one.
+    cool_ms: u32,
 }
 
 /// When the next charge may begin.
@@ -332,7 +338,10 @@ impl<S: Stops> ChargeController<S> {
         };
         self.rest.wait(self.rest.recharge_ms);
         self.charge.finish();
-        self.pulse = Pulse::default();
+        self.pulse = Pulse {
+            cool_ms: REST_MS,
+            ..Pulse::default()
+        };
         self.full = true;
         self.gauge.fill();
         self.phase = ChargePhase::Maintain;
@@ -340,14 +349,16 @@ impl<S: Stops> ChargeController<S> {
 
     fn maintain(&mut self, means: &Means) {
         self.pulse.ms = self.pulse.ms.saturating_add(means.elapsed_ms);
+        self.pulse.cool_ms = self.pulse.cool_ms.saturating_sub(means.elapsed_ms);
         let rested = !self.pulse.on && self.pulse.ms >= PULSE_REST_MS;
         let empty = rested && means.pack_mv < self.scale.recharge_mv() && self.rest.left_ms == 0;
         if empty || self.rest.wanted {
-            self.rest.left_ms = 0;
+            // The gate wants a rest between the last pulse and the charge.
+            self.rest.wait(if self.rest.wanted { 0 } else { REST_MS });
             self.phase = ChargePhase::Idle;
             return;
         }
-        if self.history.may_maintain() {
+        if self.pulse.cool_ms == 0 && self.pack.drain_ma > 0 && self.history.may_maintain() {
             self.history.note_maintained(means.elapsed_ms);
         }
         let drain_mas = u32::from(self.pack.drain_ma).saturating_mul(PULSE_PERIOD_MS / 1_000);
@@ -359,11 +370,12 @@ impl<S: Stops> ChargeController<S> {
         if self.pulse.on && over {
             self.pulse.on = false;
         } else if !self.pulse.on && self.pulse.ms >= PULSE_PERIOD_MS {
-            let due = in_window && drain_mas > 0 && self.history.may_maintain();
+            let due = in_window && drain_mas > 0 && self.pulse.cool_ms == 0 && self.history.may_maintain();
             self.pulse = Pulse {
                 on: due,
                 ms: 0,
                 from_mas: self.charge.charged_mas,
+                cool_ms: self.pulse.cool_ms,
             };
         }
     }

@@ -3,6 +3,8 @@
 use heapless::Deque;
 use rvac_protocol::message::ChargeEnd;
 
+use crate::limit::within;
+
 use super::meter::Means;
 use super::scale::PackScale;
 
@@ -22,9 +24,11 @@ impl Stops for AllStops {
     }
 }
 
-/// Temperature rise over three minutes that ends a charge: 0.9 degrees a minute. HHR450A, the maker's value for 0.44 C, is
-/// 1.0; the general advice begins at 0.8.
-const SLOPE_CC: i32 = 270;
+/// Temperature rise over three minutes that ends a charge at the full current: 0.8 degrees a minute, the lower end of what
+/// makers advise, since half the capacity an hour heats a pack slowly. A weaker supply heats it less: the limit falls with
+/// the current, to half a degree a minute.
+const SLOPE_CC: i32 = 240;
+const SLOPE_LEAST_CC: i32 = 150;
 /// Windows of 10 s in three minutes.
 const SLOPE_WINDOWS: usize = 18;
 /// The slope means nothing in the first minutes.
@@ -113,7 +117,7 @@ impl Detectors {
         progress: &Progress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
-        let slope = self.sees_slope(means.temperature_cc, progress);
+        let slope = self.sees_slope(means, progress);
         self.smooth_voltage(means);
         let drop = self.sees_drop(means.current_ma, progress);
         let plateau = self.sees_plateau(progress);
@@ -127,8 +131,8 @@ impl Detectors {
             .find_map(|(end, is_found)| (is_found && stops.applies(end)).then_some(end))
     }
 
-    fn sees_slope(&mut self, temperature_cc: Option<i32>, progress: &Progress) -> bool {
-        let Some(newest_cc) = temperature_cc else {
+    fn sees_slope(&mut self, means: &Means, progress: &Progress) -> bool {
+        let Some(newest_cc) = means.temperature_cc else {
             self.temperatures_cc.clear();
             return false;
         };
@@ -138,10 +142,15 @@ impl Detectors {
         // There is room: the oldest has just left.
         self.temperatures_cc.push_back(newest_cc).ok();
         let spans_three_minutes = self.temperatures_cc.is_full();
+        let limit_cc = within(
+            means.current_ma.saturating_mul(SLOPE_CC) / progress.scale.full_ma().max(1),
+            SLOPE_LEAST_CC,
+            SLOPE_CC,
+        );
         let oldest_cc = self.temperatures_cc.front().copied().unwrap_or(newest_cc);
         spans_three_minutes
             && progress.phase_ms >= SLOPE_HOLD_OFF_MS
-            && newest_cc.saturating_sub(oldest_cc) >= SLOPE_CC
+            && newest_cc.saturating_sub(oldest_cc) >= limit_cc
     }
 
     fn smooth_voltage(&mut self, means: &Means) {

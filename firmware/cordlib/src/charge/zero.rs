@@ -5,10 +5,8 @@ use super::meter::Means;
 
 /// A larger zero is a broken sensor, in mA.
 const ZERO_MAX_MA: i32 = 400;
-/// Seconds off the dock until the zero is believed.
-const LEARN_S: u8 = 3;
 /// Weight of a new second is one in this many.
-const SMOOTHING: i32 = 8;
+const SMOOTHING: i32 = 32;
 /// Kept in parts of a milliampere.
 const FINE: i32 = 16;
 
@@ -17,7 +15,7 @@ const FINE: i32 = 16;
 pub(super) struct Zero {
     offset: i32,
     at_mv: i32,
-    seconds: u8,
+    seconds: i32,
     broken: bool,
 }
 
@@ -29,13 +27,10 @@ impl Zero {
             return;
         }
         let fine = means.current_ma.saturating_mul(FINE);
-        self.seconds = self.seconds.saturating_add(1).min(LEARN_S);
-        self.offset = if self.seconds < LEARN_S {
-            fine
-        } else {
-            self.offset
-                .saturating_add(fine.saturating_sub(self.offset) / SMOOTHING)
-        };
+        // The plain mean of the first seconds, then a running one.
+        self.seconds = self.seconds.saturating_add(1).min(SMOOTHING);
+        let change = fine.saturating_sub(self.offset) / self.seconds.max(1);
+        self.offset = self.offset.saturating_add(change);
         self.at_mv = means.pack_mv;
     }
 

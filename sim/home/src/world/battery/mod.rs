@@ -34,7 +34,7 @@ const REACTION_V: f64 = 0.03;
 /// Charge at which half of the current is stored, at 25 degrees and half the capacity an hour.
 const HALF_STORED: f64 = 1.0;
 /// How sharply that sets in.
-const STORING_WIDTH: f64 = 0.022;
+const STORING_WIDTH: f64 = 0.016;
 /// Hot cells take less: shift of the above for each degree above 30.
 const STORING_PER_K: f64 = -0.002_5;
 /// So do cells that are charged slowly: shift at no current.
@@ -154,7 +154,9 @@ impl Pack {
             return self.resting_v();
         }
         let warmth_k = self.temperature_c - REFERENCE_C;
-        let warmth_v = WARMTH_V_PER_K * warmth_k * libm::sqrt(rate / 0.5).min(1.5) * self.make.signs;
+        // What warmth takes is part of the polarization, and comes and goes as slowly.
+        let polarized = self.polarization_v / POLARIZATION_V;
+        let warmth_v = WARMTH_V_PER_K * warmth_k * polarized.min(1.5) * self.make.signs;
         let each_v = self.polarization_v + OXYGEN_V * oxygen * self.make.signs + warmth_v;
         self.resting_v() + each_v * f64::from(self.make.cells)
     }

@@ -1,0 +1,145 @@
+//! Many charges, added up.
+
+use std::collections::BTreeMap;
+
+use cordlib::charge::{AllStops, Stops};
+use rvac_protocol::message::ChargeEnd;
+
+use super::conditions::Conditions;
+use super::outcome::{Outcome, run};
+
+/// Which charges are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trial {
+    /// All stops, every kind of pack, weather and trouble.
+    Everything,
+    /// Only this stop, on sound packs without trouble: does it suffice alone?
+    Only(ChargeEnd),
+}
+
+/// The one stop that applies.
+#[derive(Clone, Copy, Debug)]
+struct Only(ChargeEnd);
+
+impl Stops for Only {
+    fn applies(&self, end: ChargeEnd) -> bool {
+        self.0 == end
+    }
+}
+
+impl Trial {
+    /// The outcome of one seed.
+    #[must_use]
+    pub fn run(self, seed: u64) -> Outcome {
+        match self {
+            Self::Everything => run(&Conditions::drawn(seed), AllStops),
+            Self::Only(end) => run(&Conditions::healthy(seed), Only(end)),
+        }
+    }
+}
+
+/// The sum of many outcomes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Charges.
+    pub charges: u32,
+    /// Charges of sound packs without trouble.
+    pub healthy: u32,
+    /// Of those, how many ended below 85 % or not at all.
+    pub healthy_short: u32,
+    /// Least charge of a sound pack at its end.
+    pub healthy_least: f64,
+    /// Charges in which a cell reached 55 degrees.
+    pub too_hot: u32,
+    /// Hottest cell of all, degrees Celsius, and its seed.
+    pub hottest: (f64, u64),
+    /// Longest time in which the switch was driven in one charge, hours, and its seed.
+    pub longest: (f64, u64),
+    /// Breaches of the rules, and the first seed with one.
+    pub violations: u32,
+    /// Seed of the first breach.
+    pub first_violation: Option<u64>,
+    /// How charges ended, by name: an end, a fault, or `never began`, `not ended`.
+    pub ends: BTreeMap<&'static str, u32>,
+    /// Sum of the errors of the estimate at the end of sound packs.
+    estimate_error: f64,
+}
+
+impl Tally {
+    /// Adds one outcome.
+    pub fn add(&mut self, outcome: &Outcome, healthy: bool) {
+        self.charges += 1;
+        let name = match (outcome.fault, outcome.end) {
+            (Some(fault), _) => fault.name(),
+            (None, Some(end)) => end.name(),
+            (None, None) if outcome.driven_h == 0.0 => "never began",
+            (None, None) => "not ended",
+        };
+        *self.ends.entry(name).or_default() += 1;
+        if healthy {
+            if self.healthy == 0 {
+                self.healthy_least = outcome.charge;
+            }
+            self.healthy += 1;
+            let short = outcome.charge < 0.85 || outcome.end.is_none();
+            self.healthy_short += u32::from(short);
+            self.healthy_least = self.healthy_least.min(outcome.charge);
+            self.estimate_error += (outcome.estimate - outcome.charge.min(1.0)).abs();
+        }
+        self.too_hot += u32::from(outcome.hottest_c >= 55.0);
+        if outcome.hottest_c > self.hottest.0 {
+            self.hottest = (outcome.hottest_c, outcome.seed);
+        }
+        if outcome.driven_h > self.longest.0 {
+            self.longest = (outcome.driven_h, outcome.seed);
+        }
+        self.violations += outcome.violations;
+        if outcome.violations > 0 && self.first_violation.is_none_or(|seed| outcome.seed < seed) {
+            self.first_violation = Some(outcome.seed);
+        }
+    }
+
+    /// Adds another tally.
+    pub fn merge(&mut self, other: &Self) {
+        let least = match (self.healthy, other.healthy) {
+            (0, _) => other.healthy_least,
+            (_, 0) => self.healthy_least,
+            _ => self.healthy_least.min(other.healthy_least),
+        };
+        self.charges += other.charges;
+        self.healthy += other.healthy;
+        self.healthy_short += other.healthy_short;
+        self.healthy_least = least;
+        self.too_hot += other.too_hot;
+        for (mine, theirs) in [
+            (&mut self.hottest, other.hottest),
+            (&mut self.longest, other.longest),
+        ] {
+            if theirs.0 > mine.0 {
+                *mine = theirs;
+            }
+        }
+        self.violations += other.violations;
+        self.first_violation = self
+            .first_violation
+            .into_iter()
+            .chain(other.first_violation)
+            .min();
+        for (name, count) in &other.ends {
+            *self.ends.entry(name).or_default() += count;
+        }
+        self.estimate_error += other.estimate_error;
+    }
+
+    /// Share of sound packs that ended at 85 % or more.
+    #[must_use]
+    pub fn healthy_share(&self) -> f64 {
+        1.0 - f64::from(self.healthy_short) / f64::from(self.healthy.max(1))
+    }
+
+    /// Mean error of the firmware's estimate of the charge, half an hour after the end, sound packs.
+    #[must_use]
+    pub fn estimate_error(&self) -> f64 {
+        self.estimate_error / f64::from(self.healthy.max(1))
+    }
+}
