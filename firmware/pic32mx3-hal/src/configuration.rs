@@ -35,6 +35,7 @@ pub struct Configuration {
     output_divider: OutputDivider,
     peripheral_divider: PeripheralDivider,
     secondary_oscillator: bool,
+    two_speed_start: bool,
     clock_monitor: bool,
     clock_switching: bool,
     watchdog_always: bool,
@@ -64,6 +65,7 @@ impl Configuration {
             output_divider: OutputDivider::By1,
             peripheral_divider: PeripheralDivider::By1,
             secondary_oscillator: false,
+            two_speed_start: true,
             clock_monitor: false,
             clock_switching: false,
             watchdog_always: false,
@@ -125,6 +127,15 @@ impl Configuration {
     #[must_use]
     pub const fn secondary_oscillator(mut self, on: bool) -> Self {
         self.secondary_oscillator = on;
+        self
+    }
+
+    /// Whether the program begins with the internal oscillator, ten times slower, until the crystal swings and the PLL is in
+    /// step ([`crate::clock::pll_is_locked`]). On in an erased chip. Off, the chip waits, and a dead crystal keeps it from
+    /// starting at all.
+    #[must_use]
+    pub const fn two_speed_start(mut self, on: bool) -> Self {
+        self.two_speed_start = on;
         self
     }
 
@@ -214,8 +225,7 @@ impl Configuration {
         let devcfg1 = DEVCFG1_UNUSED
             | self.source as u32
             | ((self.secondary_oscillator as u32) << 5)
-            // IESO: start with the internal oscillator and change when the crystal swings; harmless, as erased.
-            | (1 << 7)
+            | ((self.two_speed_start as u32) << 7)
             | ((self.primary as u32) << 8)
             // OSCIOFNC: no clock on RC15.
             | (1 << 10)
@@ -279,6 +289,7 @@ mod tests {
         assert_eq!(changed(ROBOT.watchdog_period_ms(128)), [0, 0, 0x0013_0000, 0]);
         assert_eq!(changed(ROBOT.watchdog_always()), [0, 0, 0x0080_0000, 0]);
         assert_eq!(changed(ROBOT.secondary_oscillator(true)), [0, 0, 0x20, 0]);
+        assert_eq!(changed(ROBOT.two_speed_start(false)), [0, 0, 0x80, 0]);
         assert_eq!(changed(ROBOT.programming_pair_1()), [0, 0, 0, 8]);
         assert_eq!(changed(ROBOT.user_id(0x1234)), [0xEDCB, 0, 0, 0]);
     }
