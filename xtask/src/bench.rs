@@ -1,6 +1,8 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
+use crate::firmware::{self, build::Options};
 use crate::{process, workspace};
+use anyhow::Context;
 use clap::ValueEnum;
 
 /// What to measure.
@@ -16,6 +18,8 @@ enum Subject {
     Sim,
     /// Size of cordlib's state.
     Cordlib,
+    /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
+    Firmware,
 }
 
 /// Arguments of `cargo xtask bench`.
@@ -39,12 +43,19 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if matches!(arguments.subject, Subject::Relay | Subject::Kill) {
         workspace::build(&["vthal", "rvac-sim"], workspace::Profile::Release)?;
     }
+    let firmware = match arguments.subject {
+        Subject::Firmware => Some(Firmwares::build()?),
+        _ => None,
+    };
     let mut command = workspace::cargo();
     command
         .args(["run", "--release", "--quiet", "--locked"])
         .args(program(arguments.subject))
         .arg("--");
     command.args(fixed(arguments.subject));
+    if let Some(firmware) = &firmware {
+        firmware.hand_over(&mut command);
+    }
     if arguments.json {
         command.arg("--json");
     }
@@ -53,6 +64,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     command.args(&arguments.rest);
     process::say(&process::name(&command));
+    if let (Some(firmware), true) = (&firmware, arguments.json) {
+        return firmware.join(&process::capture(&mut command)?);
+    }
     let status = command.status()?;
     if !status.success() {
         anyhow::bail!("the measurement ended with {status}");
@@ -60,13 +74,49 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// What is measured in the emulated chip: the robot's firmware, and the one whose main loop does not sleep.
+struct Firmwares {
+    usual: firmware::Files,
+    free_running: firmware::Files,
+}
+
+impl Firmwares {
+    fn build() -> anyhow::Result<Self> {
+        let board = firmware::board("sr8730")?;
+        let free_running = Options {
+            features: vec!["free-running".to_owned()],
+        };
+        Ok(Self {
+            usual: firmware::build(board, &Options::default(), None)?,
+            free_running: firmware::build(board, &free_running, None)?,
+        })
+    }
+
+    fn hand_over(&self, command: &mut std::process::Command) {
+        command.arg("--firmware").arg(&self.usual.elf);
+        command.arg("--free-running").arg(&self.free_running.elf);
+    }
+
+    /// Prints one object with what was measured in the chip and what the firmware takes of it.
+    fn join(&self, measured: &str) -> anyhow::Result<()> {
+        let mut object: serde_json::Value = serde_json::from_str(measured).context("what was measured")?;
+        let taken = firmware::report(&self.usual.elf)?;
+        for key in ["flash_bytes", "ram_static_bytes", "stack_worst_bytes"] {
+            object[key] = taken[key].clone();
+        }
+        process::print(&serde_json::to_string(&object)?);
+        Ok(())
+    }
+}
+
 fn program(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Link => &["--package", "rvac-channel", "--bin", "bench-link"],
         Subject::Relay => &["--package", "vthal", "--bin", "bench-relay"],
         Subject::Kill => &["--package", "vthal", "--bin", "bench-kill"],
-        Subject::Sim => &["--package", "rvac-sim"],
+        Subject::Sim => &["--package", "rvac-sim", "--bin", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
+        Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
 
@@ -83,7 +133,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
             "--minutes",
             "60",
         ],
-        Subject::Kill => &["--home", "homes/two-room-flat.toml"],
+        Subject::Kill | Subject::Firmware => &["--home", "homes/two-room-flat.toml"],
         Subject::Link | Subject::Relay | Subject::Cordlib => &[],
     }
 }
@@ -91,6 +141,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
 fn longer(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Kill => &["--kills", "200"],
+        Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],
     }

@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         features: arguments.features.clone(),
     };
     let linked = link(board, &Place::here(), &options)?;
-    let files = Files::write(board, &linked, record)?;
+    let files = Files::write(&stem(board, &options), &linked, record)?;
     let reproducible = match arguments.once {
         true => None,
         false => Some(link(board, &Place::elsewhere()?, &options)? == linked),
@@ -72,6 +72,12 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
 }
 
+/// What a firmware that was built takes, as the JSON object of `--json`.
+pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
+    let bytes = std::fs::read(elf).with_context(|| format!("cannot read {}", elf.display()))?;
+    Ok(serde_json::to_value(Report::of(&Elf::read(&bytes)?, None)?)?)
+}
+
 /// The firmware of this robot.
 pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
     BOARDS.iter().find(|board| board.name == robot).with_context(|| {
@@ -87,7 +93,17 @@ pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
 pub(crate) fn build(board: &Board, options: &Options, calibration: Option<&Path>) -> anyhow::Result<Files> {
     let record = calibration.map(|file| record_of(file, board)).transpose()?;
     let linked = link(board, &Place::here(), options)?;
-    Files::write(board, &linked, record)
+    Files::write(&stem(board, options), &linked, record)
+}
+
+/// Name of the files: `sr8730`, or with features `sr8730-link-sampled`.
+fn stem(board: &Board, options: &Options) -> String {
+    let mut features = options.features.clone();
+    features.sort();
+    std::iter::once(board.name.to_owned())
+        .chain(features)
+        .collect::<Vec<_>>()
+        .join("-")
 }
 
 /// Builds the firmware in a place; gives the bytes of the ELF file, sealed.
@@ -117,12 +133,12 @@ pub(crate) struct Files {
 }
 
 impl Files {
-    fn write(board: &Board, linked: &[u8], record: Option<Segment>) -> anyhow::Result<Self> {
+    fn write(stem: &str, linked: &[u8], record: Option<Segment>) -> anyhow::Result<Self> {
         let folder = workspace::target().join("firmware");
         std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
         let files = Self {
-            elf: folder.join(format!("{}.elf", board.name)),
-            hex: folder.join(format!("{}.hex", board.name)),
+            elf: folder.join(format!("{stem}.elf")),
+            hex: folder.join(format!("{stem}.hex")),
         };
         let mut segments = Elf::read(linked)?.segments;
         segments.extend(record);

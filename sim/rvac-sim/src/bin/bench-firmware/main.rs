@@ -1,0 +1,55 @@
+//! `bench-firmware`: what the robot's real firmware takes of its chip, in the emulator: the main loop's pace, interrupts, the
+//! serial line by software, the stack; and how fast the emulator is. `cargo xtask bench firmware` builds and runs it.
+#![forbid(unsafe_code)]
+
+mod desk;
+mod measure;
+mod report;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use measure::Plan;
+
+/// Measures a firmware in the emulated chip.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// The firmware, as ELF.
+    #[arg(long)]
+    firmware: PathBuf,
+    /// The same firmware built with a main loop that does not sleep (`--features free-running`).
+    #[arg(long)]
+    free_running: PathBuf,
+    /// Floor plan.
+    #[arg(long)]
+    home: PathBuf,
+    /// Simulated seconds at full load of the serial line, both ways, at 230,400 baud.
+    #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    flood_seconds: u64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let plan = Plan {
+        firmware: arguments.firmware,
+        free_running: arguments.free_running,
+        home: arguments.home,
+        flood_ms: arguments.flood_seconds * 1_000,
+    };
+    match measure::measure(&plan).and_then(|report| report.print(arguments.json).map(|()| report)) {
+        Ok(report) if report.faults().is_empty() => ExitCode::SUCCESS,
+        Ok(report) => complain(&report.faults().join("; ")),
+        Err(error) => complain(&format!("{error:#}")),
+    }
+}
+
+fn complain(what: &str) -> ExitCode {
+    // When even standard error is gone there is nobody left to tell.
+    writeln!(io::stderr(), "bench-firmware: {what}").ok();
+    ExitCode::FAILURE
+}
