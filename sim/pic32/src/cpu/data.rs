@@ -2,7 +2,7 @@
 
 use super::exception::{ExceptionCode, Fault};
 use super::open::{merge_left, merge_right, split_left, split_right};
-use super::operation::{Loaded, Operation};
+use super::operation::Operation;
 use super::{Access, Bus, Cpu, Width};
 use crate::memory::Memory;
 
@@ -33,68 +33,40 @@ impl Cpu {
         bus: &mut B,
     ) -> Result<(), Fault> {
         let mut port = Port { memory, bus };
-        let (rt, value) = match operation {
-            Operation::Lb {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => {
+        let (to, value) = match operation {
+            Operation::Lb { to, base, offset } => {
                 let byte = self.load(&mut port, self.registers.sum(base, offset), Width::Byte)?;
-                (rt, i32::from(byte as i8).cast_unsigned())
+                (to, i32::from(byte as i8).cast_unsigned())
             }
-            Operation::Lbu {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => (
-                rt,
+            Operation::Lbu { to, base, offset } => (
+                to,
                 self.load(&mut port, self.registers.sum(base, offset), Width::Byte)? & 0xFF,
             ),
-            Operation::Lh {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => {
+            Operation::Lh { to, base, offset } => {
                 let half = self.load(&mut port, self.registers.sum(base, offset), Width::Half)?;
-                (rt, i32::from(half as i16).cast_unsigned())
+                (to, i32::from(half as i16).cast_unsigned())
             }
-            Operation::Lhu {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => (
-                rt,
+            Operation::Lhu { to, base, offset } => (
+                to,
                 self.load(&mut port, self.registers.sum(base, offset), Width::Half)? & 0xFFFF,
             ),
-            Operation::Lw {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => (
-                rt,
+            Operation::Lw { to, base, offset } => (
+                to,
                 self.load(&mut port, self.registers.sum(base, offset), Width::Word)?,
             ),
-            Operation::Lwl {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => {
+            Operation::Lwl { to, base, offset } => {
                 let address = self.registers.sum(base, offset);
                 let word = self.load(&mut port, address & !3, Width::Word)?;
-                (rt, merge_left(address, word, self.registers.before(rt)))
+                (to, merge_left(address, word, self.registers.before(to.rt)))
             }
-            Operation::Lwr {
-                to: Loaded { rt, .. },
-                base,
-                offset,
-            } => {
+            Operation::Lwr { to, base, offset } => {
                 let address = self.registers.sum(base, offset);
                 let word = self.load(&mut port, address & !3, Width::Word)?;
-                (rt, merge_right(address, word, self.registers.before(rt)))
+                (to, merge_right(address, word, self.registers.before(to.rt)))
             }
             _ => return self.transfer_out(operation, &mut port),
         };
-        self.registers.set(rt, value);
+        self.registers.set(to.rt, value);
         Ok(())
     }
 
