@@ -45,6 +45,8 @@ pub struct Drive {
 
 /// A longer pause than two periods of the PWM ends a drive: the compare register is 0.
 const PAUSE: u64 = 8_000;
+/// A period of the PWM: for so long after its last pulse a motor still counts as driven.
+const PERIOD: u64 = 4_000;
 /// Drives that are kept of each motor.
 const KEPT: usize = 256;
 
@@ -219,10 +221,10 @@ pub enum Reaction {
 pub fn reaction(drives: &[Drive], event: u64) -> Reaction {
     let going = drives
         .iter()
-        .find(|drive| drive.from <= event && drive.until.is_none_or(|until| until > event));
+        .find(|drive| drive.from <= event && drive.until.is_none_or(|until| until + PERIOD > event));
     match going.map(|drive| drive.until) {
         None => Reaction::NotDriven,
-        Some(Some(until)) => Reaction::Stopped(until - event),
+        Some(Some(until)) => Reaction::Stopped(until.saturating_sub(event)),
         Some(None) => Reaction::StillDriven,
     }
 }
@@ -233,16 +235,17 @@ mod tests {
 
     #[test]
     fn a_reaction_is_the_time_from_the_event_to_the_end_of_the_drive() {
-        let drives = [(10, Some(50)), (100, Some(180)), (300, None)].map(|(from, until)| Drive {
+        let drives = [(10, Some(50)), (10_000, Some(18_000)), (30_000, None)].map(|(from, until)| Drive {
             from,
             until,
             forward: true,
         });
         for (event, wanted) in [
             (5, Reaction::NotDriven),
-            (60, Reaction::NotDriven),
-            (110, Reaction::Stopped(70)),
-            (400, Reaction::StillDriven),
+            (5_000, Reaction::NotDriven),
+            (60, Reaction::Stopped(0)),
+            (11_000, Reaction::Stopped(7_000)),
+            (40_000, Reaction::StillDriven),
         ] {
             assert_eq!(reaction(&drives, event), wanted);
         }

@@ -96,6 +96,10 @@ impl Program {
         self.at(0x1FC0_2FF8, &[value])
     }
 
+    pub(crate) fn image(&self) -> &Image {
+        &self.image
+    }
+
     pub(crate) fn machine(&self) -> Machine {
         Machine::new(&self.image)
     }
