@@ -1,0 +1,107 @@
+//! Every trial at many phases.
+
+use pic32::board::CYCLES_PER_MS;
+use serde::Serialize;
+
+use crate::stage::{Stage, StageError, Workshop};
+use crate::trial::{Outcome, Scene, Trial};
+
+/// Robots of each scene: each with another phase between its core and its surroundings.
+const CAST: u64 = 8;
+/// An event comes within so many milliseconds of the scene: more than all periods of the firmware.
+const SPREAD_MS: u64 = 100;
+
+/// What came of one trial at all its phases.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verdict {
+    /// Rule of SAFETY.md.
+    pub rule: &'static str,
+    /// What happened.
+    pub what: &'static str,
+    /// How often.
+    pub phases: usize,
+    /// Longest reaction, ms; `None` = at least once nothing followed while anybody looked.
+    pub worst_ms: Option<f64>,
+    /// Mean reaction, ms.
+    pub mean_ms: f64,
+    /// Limit, ms.
+    pub limit_ms: u64,
+    /// Times that it was too late, or the robot did not say what it had to.
+    pub broken: usize,
+    /// Breaches that the monitor saw, in all phases together.
+    pub violations: usize,
+}
+
+/// Robots in all scenes that the trials need.
+#[derive(Debug)]
+pub struct Theatre {
+    casts: Vec<(Scene, Vec<Stage>)>,
+}
+
+impl Theatre {
+    /// Brings robots into the scenes of `trials`.
+    ///
+    /// # Errors
+    /// When one does not get there.
+    pub fn open(workshop: &Workshop, trials: &[Trial], phases: usize) -> Result<Self, StageError> {
+        let size = CAST.min(phases as u64).max(1);
+        let wanted = |scene: &Scene| trials.iter().any(|trial| trial.scene == *scene);
+        let cast = |scene: Scene| -> Result<_, StageError> {
+            let stages = (0..size)
+                .map(|number| scene.set(workshop, number + 1, number * CYCLES_PER_MS / size))
+                .collect::<Result<_, _>>()?;
+            Ok((scene, stages))
+        };
+        let casts = Scene::ALL.into_iter().filter(wanted).map(cast);
+        Ok(Self {
+            casts: casts.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Lets a trial happen at `phases` moments that `seed` chooses.
+    #[must_use]
+    pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> Verdict {
+        let mut random = home::Pcg::new(seed, 0);
+        let stages = self
+            .casts
+            .iter()
+            .find(|(scene, _)| *scene == trial.scene)
+            .map_or(&[][..], |(_, stages)| stages.as_slice());
+        let outcomes: Vec<Outcome> = stages
+            .iter()
+            .cycle()
+            .take(phases)
+            .map(|stage| {
+                let phase = (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
+                trial.run(stage.clone(), phase)
+            })
+            .collect();
+        Verdict::of(trial, &outcomes)
+    }
+}
+
+impl Verdict {
+    fn of(trial: &Trial, outcomes: &[Outcome]) -> Self {
+        let reactions: Option<Vec<f64>> = outcomes.iter().map(|outcome| outcome.reaction_ms).collect();
+        let known: Vec<f64> = outcomes
+            .iter()
+            .filter_map(|outcome| outcome.reaction_ms)
+            .collect();
+        Self {
+            rule: trial.rule,
+            what: trial.what,
+            phases: outcomes.len(),
+            worst_ms: reactions.map(|all| all.into_iter().fold(0.0, f64::max)),
+            mean_ms: known.iter().sum::<f64>() / known.len().max(1) as f64,
+            limit_ms: trial.limit_ms,
+            broken: outcomes.iter().filter(|outcome| !trial.is_kept(outcome)).count(),
+            violations: outcomes.iter().map(|outcome| outcome.violations).sum(),
+        }
+    }
+
+    /// Whether the rule held at every phase.
+    #[must_use]
+    pub const fn is_kept(&self) -> bool {
+        self.phases > 0 && self.broken == 0 && self.violations == 0
+    }
+}
