@@ -2,44 +2,10 @@
 
 #[path = "../../fuzz/bodies.rs"]
 mod bodies;
-
-use serde_json::Value;
+#[path = "../../fuzz/golden.rs"]
+mod golden;
 
 const INPUTS: u32 = 40_000;
-
-/// Pieces of golden packets: texts, and bodies of binary packets.
-fn seeds() -> Vec<Vec<u8>> {
-    let mut seeds = Vec::new();
-    for file in ["commands", "reports", "refused", "tolerated", "framing"] {
-        let path = format!("{}/../vectors/{file}.json", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(&path).expect("the vectors are beside the crate");
-        let file: Value = serde_json::from_str(&text).expect("vectors are JSON");
-        for vector in file["vectors"].as_array().expect("a file of vectors") {
-            if let Some(line) = vector["line"].as_str() {
-                seeds.extend(
-                    line.split('\x1f')
-                        .map(|packet| packet.as_bytes()[..packet.len() - 9].to_vec()),
-                );
-            }
-            if let Some(text) = vector["text"].as_str() {
-                seeds.push(text.as_bytes().to_vec());
-            }
-            for key in ["binary_line_hex", "stream_hex"] {
-                if let Some(digits) = vector[key].as_str() {
-                    seeds.push(from_hex(digits));
-                }
-            }
-        }
-    }
-    seeds
-}
-
-fn from_hex(digits: &str) -> Vec<u8> {
-    (0..digits.len())
-        .step_by(2)
-        .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).expect("hexadecimal digits"))
-        .collect()
-}
 
 struct Random(u64);
 
@@ -74,7 +40,7 @@ impl Random {
 }
 
 fn check(inputs: u32, body: fn(&[u8])) {
-    let seeds = seeds();
+    let seeds = golden::pieces();
     let mut random = Random(1);
     for seed in &seeds {
         body(seed);
