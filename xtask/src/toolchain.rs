@@ -51,6 +51,10 @@ const PACKAGES: [&str; 5] = [
     "lld-19",
 ];
 
+/// Where Debian keeps them. Its main archive alone has an older compiler and not all of the packages.
+const SOURCE: &str = "on Debian 12 the packages are in its security archive: \
+                      deb http://deb.debian.org/debian-security bookworm-security main";
+
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_LIBRARY: &str = "/usr/lib/rustlib/src/rust/library";
@@ -86,7 +90,7 @@ pub(crate) fn choose(target: &'static Target) -> anyhow::Result<Toolchain> {
         ));
         system::install(&PACKAGES).with_context(|| {
             format!(
-                "a compiler for {} is needed; with rustup: {}",
+                "a compiler for {} is needed; with rustup: {}; {SOURCE}",
                 target.triple, target.remedy
             )
         })?;
