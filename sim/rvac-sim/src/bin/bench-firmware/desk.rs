@@ -37,6 +37,8 @@ const CIRCLE: Drive = Drive {
 /// Everything that a robot is made of, read once.
 #[derive(Debug)]
 pub(crate) struct Shop {
+    /// The firmware.
+    pub(crate) image: Image,
     blueprint: Blueprint,
     home: Arc<Home>,
     model: RobotModel,
@@ -51,7 +53,8 @@ impl Shop {
             Image::from_elf(&bytes).with_context(|| format!("the firmware {}", firmware.display()))?;
         let model = RobotModel::by_name("sr8730")?;
         Ok(Self {
-            blueprint: Blueprint::sr8730(image, &Record::Complete)?,
+            blueprint: Blueprint::sr8730(image.clone(), &Record::Complete)?,
+            image,
             home: Arc::new(Home::load(home, &model)?),
             model,
         })
@@ -78,6 +81,7 @@ impl Shop {
             info: None,
             heard_bytes: 0,
             sent_bytes: 0,
+            owed_bytes: 0.0,
         }
     }
 }
@@ -92,6 +96,8 @@ pub(crate) struct Desk {
     info: Option<Info>,
     heard_bytes: u64,
     sent_bytes: u64,
+    /// What the line could have taken and was not given yet, at full load.
+    owed_bytes: f64,
 }
 
 impl Desk {
@@ -169,8 +175,8 @@ impl Desk {
 
     /// Drives in circles for so long.
     pub(crate) fn circle_ms(&mut self, ms: u64) {
-        for at in 0..ms {
-            if at.is_multiple_of(RENEW_MS) {
+        for _ in 0..ms {
+            if self.robot.now_ms().is_multiple_of(RENEW_MS) {
                 self.send(Command::Drive(CIRCLE));
             }
             self.tick();
@@ -179,12 +185,11 @@ impl Desk {
 
     /// Fills both ways of the line for so long: commands at the line's rate, and state reports asked for without pause.
     pub(crate) fn flood_ms(&mut self, baud: u32, ms: u64) {
-        let mut owed = 0.0;
-        for at in 0..ms {
-            owed += f64::from(baud) / 10_000.0;
-            while owed > 0.0 {
+        for _ in 0..ms {
+            self.owed_bytes += f64::from(baud) / 10_000.0;
+            while self.owed_bytes > 0.0 {
                 let before = self.sent_bytes;
-                self.send(if at.is_multiple_of(4) {
+                self.send(if self.robot.now_ms().is_multiple_of(4) {
                     Command::State
                 } else {
                     Command::Drive(CIRCLE)
@@ -193,7 +198,7 @@ impl Desk {
                 if sent == 0 {
                     break;
                 }
-                owed -= sent as f64;
+                self.owed_bytes -= sent as f64;
             }
             self.tick();
         }

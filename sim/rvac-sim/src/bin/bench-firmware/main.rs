@@ -4,6 +4,7 @@
 
 mod desk;
 mod measure;
+mod profile;
 mod report;
 
 use std::io::{self, Write};
@@ -28,6 +29,9 @@ struct Arguments {
     /// Simulated seconds at full load of the serial line, both ways, at 230,400 baud.
     #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     flood_seconds: u64,
+    /// Only tell in which functions the chip's time goes: standing, driving, and at full load of the serial line.
+    #[arg(long, conflicts_with = "json")]
+    profile: bool,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -41,6 +45,12 @@ fn main() -> ExitCode {
         home: arguments.home,
         flood_ms: arguments.flood_seconds * 1_000,
     };
+    if arguments.profile {
+        return match measure::profile(&plan) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => complain(&format!("{error:#}")),
+        };
+    }
     match measure::measure(&plan).and_then(|report| report.print(arguments.json).map(|()| report)) {
         Ok(report) if report.faults().is_empty() => ExitCode::SUCCESS,
         Ok(report) => complain(&report.faults().join("; ")),

@@ -1,5 +1,6 @@
 //! The measurements, one after the other.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -9,6 +10,7 @@ use robot::{RobotSettings, SimulatedRobot};
 use std::sync::Arc;
 
 use crate::desk::{Desk, Shop};
+use crate::profile::Profile;
 use crate::report::{Line, Report, Vector};
 
 /// What is measured with what.
@@ -58,6 +60,33 @@ pub(crate) fn measure(plan: &Plan) -> anyhow::Result<Report> {
     }
     flood(&shop, plan.flood_ms, &mut report)?;
     Ok(report)
+}
+
+/// Milliseconds of each situation that are sampled once each.
+const PROFILE_MS: u64 = 10_000;
+
+/// What happens in a millisecond of a situation.
+type Pass = fn(&mut Desk);
+
+/// Prints in which functions the time goes.
+pub(crate) fn profile(plan: &Plan) -> anyhow::Result<()> {
+    let shop = Shop::open(&plan.firmware, &plan.home)?;
+    let situations: [(&str, Pass); 3] = [
+        ("standing", |desk| desk.pass_ms(1)),
+        ("driving", |desk| desk.circle_ms(1)),
+        ("full load of the serial line", |desk| desk.flood_ms(BAUD, 1)),
+    ];
+    for (name, pass) in situations {
+        let mut desk = shop.desk(BAUD);
+        desk.connect()?;
+        let mut profile = Profile::default();
+        for _ in 0..PROFILE_MS {
+            pass(&mut desk);
+            profile.sample(desk.machine(), &shop.image);
+        }
+        writeln!(io::stdout(), "{name}:\n{}", profile.text())?;
+    }
+    Ok(())
 }
 
 /// How often the main loop could pass in a second: standing without a host, and driving with 50 reports a second.
