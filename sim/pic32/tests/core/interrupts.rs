@@ -30,6 +30,7 @@ fn a_request_must_be_above_the_level_and_allowed() {
         (IE | level(3), 3, false),
         (IE | level(3), 4, true),
         (IE | level(7), 7, false),
+        (IE | level(32), 7, false),
         (IE | level(6), 7, true),
     ];
     for (status, requested, expected) in cases {
