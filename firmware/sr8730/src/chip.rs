@@ -45,6 +45,19 @@ fn on_panic(_: &PanicInfo<'_>) -> ! {
     robot::give_up(Trouble::Panic)
 }
 
+global_asm!(
+    ".set push",
+    ".set noreorder",
+    ".set noat",
+    ".set mips32r2",
+    ".set nomips16",
+    include_str!("link.S"),
+    ".set pop",
+    ".text",
+    edges = sym sr8730::board::link::EDGES,
+    runs = sym sr8730::board::link::RUNS,
+);
+
 // Before any variable has its value: the levels of all outputs, then a march over memory (S21). It runs in registers only,
 // because it overwrites all that it tests, the stack included; what a reset shall not clear is left out.
 //

@@ -120,9 +120,11 @@ fn handlers(elf: &Elf) -> Vec<u32> {
                 offset,
                 ..
             } = at(2)
-                && entry == Some(place)
+                && entry.is_some()
             {
                 found.insert(value.wrapping_add_signed(i32::from(offset)));
+                // A vector that is entered in a way of its own, before its handler or without it.
+                found.extend((entry != Some(place)).then_some(place));
             }
         }
     }

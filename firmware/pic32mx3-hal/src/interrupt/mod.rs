@@ -17,6 +17,12 @@
 //! [`interrupt!`](crate::interrupt!) makes a function the handler of a vector. Some sources share one, and then one level
 //! (the three of a UART). A vector without handler ends in the exception hook (see [`crate::exception`]) when it is taken.
 //! What a handler owns is given to it through a [`HandlerCell`].
+//!
+//! # Entries of one's own
+//! A vector of level 6 that is taken a hundred thousand times a second may be too dear with all registers saved. A program can
+//! define the symbol `__enter_` with the vector's name (`__enter_CHANGE_NOTICE`) in assembly: it is jumped to instead of the
+//! common entry, with the handler's address in k0, all interrupts held off, and must leave with ERET and every register but k0
+//! and k1 as it was, or jump on to `__interrupt_entry` with k0 as it was.
 
 mod cell;
 mod source;

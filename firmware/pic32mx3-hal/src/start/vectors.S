@@ -1,11 +1,19 @@
 # The vector table: EBase + 0x200 + 32 x vector (section 5; IntCtl.VS = 1). Each slot passes the handler's address in k0,
-# which compiled code never uses.
+# which compiled code never uses, and enters by a symbol of its own, which is __interrupt_entry unless the program has
+# another one (see interrupt/mod.rs).
 
     .macro slot handler
     .balign 32
     lui     $k0, %hi(\handler)
-    j       __interrupt_entry
+    j       __enter_\handler
     addiu   $k0, $k0, %lo(\handler)
+    .endm
+
+    .macro spare
+    .balign 32
+    lui     $k0, %hi(__unhandled_interrupt)
+    j       __interrupt_entry
+    addiu   $k0, $k0, %lo(__unhandled_interrupt)
     .endm
 
     .section .vectors.interrupts, "ax"
@@ -49,8 +57,8 @@
     slot DMA_1
     slot DMA_2
     slot DMA_3
-    slot __unhandled_interrupt
-    slot __unhandled_interrupt
-    slot __unhandled_interrupt
-    slot __unhandled_interrupt
+    spare
+    spare
+    spare
+    spare
     slot FLASH

@@ -1,0 +1,137 @@
+//! Edges of the link on their way from the interrupt, which is written in assembly, to the decoder.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use soft_uart::{Edge, Level, Queued};
+
+/// Edges that wait for the main loop: 2.2 ms of the densest pattern at 230,400 baud.
+pub const EDGES: usize = 512;
+
+/// The queue; the order of the fields is known to the interrupt.
+///
+/// When it is full the interrupt notes that and switches itself off: so a wire that oscillates takes no more time than 512
+/// edges in a millisecond. The main loop lets it come again when it has emptied the queue.
+#[derive(Debug)]
+#[repr(C)]
+pub struct EdgeQueue {
+    /// Pushed so far; written by the interrupt.
+    head: AtomicU32,
+    /// Taken so far; written by the main program.
+    tail: AtomicU32,
+    /// Level at the last edge, 0 or 1; written by the interrupt.
+    level: AtomicU32,
+    /// Not 0 when edges were lost; set by the interrupt, cleared by the main program.
+    lost: AtomicU32,
+    edges: [AtomicU32; EDGES],
+}
+
+impl EdgeQueue {
+    /// Empty, the line high.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            head: AtomicU32::new(0),
+            tail: AtomicU32::new(0),
+            level: AtomicU32::new(1),
+            lost: AtomicU32::new(0),
+            edges: [const { AtomicU32::new(0) }; EDGES],
+        }
+    }
+
+    /// The oldest entry. Tells of a gap when everything before it has been handed out.
+    pub fn pop(&self) -> Option<Queued> {
+        // Read first: while it is set the interrupt adds nothing.
+        let lost = self.lost.load(Ordering::Acquire) != 0;
+        let tail = self.tail.load(Ordering::Relaxed);
+        if self.head.load(Ordering::Acquire) == tail {
+            if lost {
+                self.lost.store(0, Ordering::Release);
+                return Some(Queued::Overrun);
+            }
+            return None;
+        }
+        let word = self.edges.get(tail as usize % EDGES)?.load(Ordering::Relaxed);
+        self.tail.store(tail.wrapping_add(1), Ordering::Release);
+        Some(Queued::Edge(Edge::unpacked(word)))
+    }
+
+    /// The level at the last edge.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        Level::of_bit(self.level.load(Ordering::Relaxed))
+    }
+
+    /// Notes the level before the interrupt is switched on, at the start and after a gap.
+    pub fn set_level(&self, level: Level) {
+        self.level
+            .store(u32::from(level == Level::High), Ordering::Relaxed);
+    }
+
+    /// Adds an edge as the interrupt does; false when it must switch itself off.
+    #[must_use]
+    pub fn push(&self, edge: Edge) -> bool {
+        self.set_level(edge.level);
+        let head = self.head.load(Ordering::Relaxed);
+        let full = head.wrapping_sub(self.tail.load(Ordering::Acquire)) >= EDGES as u32;
+        match self.edges.get(head as usize % EDGES) {
+            Some(place) if !full => {
+                place.store(edge.packed(), Ordering::Relaxed);
+                self.head.store(head.wrapping_add(1), Ordering::Release);
+                true
+            }
+            _ => {
+                self.lost.store(1, Ordering::Release);
+                false
+            }
+        }
+    }
+}
+
+impl Default for EdgeQueue {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{EDGES, EdgeQueue};
+    use soft_uart::{Edge, Level, Queued};
+
+    fn edge(number: u32) -> Edge {
+        Edge {
+            at: number * 100,
+            level: Level::of_bit(number),
+        }
+    }
+
+    #[test]
+    fn edges_come_out_in_their_order_across_the_end_of_the_queue() {
+        let queue = EdgeQueue::new();
+        for round in 0..20 {
+            for number in 0..100 {
+                assert!(queue.push(edge(round + number)));
+            }
+            assert_eq!(queue.level(), Level::of_bit(round + 99));
+            for number in 0..100 {
+                assert_eq!(queue.pop(), Some(Queued::Edge(edge(round + number))));
+            }
+            assert_eq!(queue.pop(), None);
+        }
+    }
+
+    #[test]
+    fn a_full_queue_tells_of_the_gap_behind_what_it_holds() {
+        let queue = EdgeQueue::new();
+        for number in 0..EDGES as u32 {
+            assert!(queue.push(edge(number)));
+        }
+        assert!(!queue.push(edge(7)));
+        for number in 0..EDGES as u32 {
+            assert_eq!(queue.pop(), Some(Queued::Edge(edge(number))));
+        }
+        assert_eq!(queue.pop(), Some(Queued::Overrun));
+        assert_eq!(queue.pop(), None);
+        assert!(queue.push(edge(9)));
+    }
+}
