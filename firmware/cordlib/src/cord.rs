@@ -99,7 +99,7 @@ impl<P: Parts> Cord<P> {
             heard: now,
             fitted,
             probing: Probing::starting_at(now),
-            leaving: Leaving::default(),
+            leaving: Leaving::starting_at(now),
             charger: ChargeController::new(parameters.pack),
             charge_output: ChargeOutput::default(),
             accepted: 0,

@@ -2,21 +2,27 @@
 //! The host is told at once. If it does nothing the robot warns with three beeps, waits two seconds and backs off by
 //! itself, a hand's breadth, at most three times.
 
-use rvac_protocol::message::{Beep, Command, LogLevel, Motor, MotorCommand, Move, Sequence};
-use rvac_units::{Frequency, Length, Ratio, Throttle, Tick};
+use rvac_protocol::message::{
+    Beep, Command, Drive, LogLevel, Motor, MotorCommand, MoveEnd, Refusal, Sequence,
+};
+use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
 
 use crate::board::Parts;
 use crate::cord::Cord;
-use crate::timing::Until;
+use crate::timing::{Held, Periodic, Until};
 
 const TRIES_MAX: u8 = 3;
 const WARNING_MS: u32 = 2_000;
-/// Until the next try, or until it is over.
-const TRY_MS: u32 = 4_000;
-const WAY: Length = Length(-150_000);
-/// Without encoders the way is measured by time: about a third of the speed, for a second.
+/// A try lasts no longer: 0.2 m. The same time passes before the next one.
+const TRY_MS: u32 = 2_000;
+const SPEED: Speed = Speed(-100_000);
+/// Without encoders the speed is not known: a duty that moves any robot, not fast.
 const BLIND_DUTY: i32 = -450_000;
-const BLIND_MS: u16 = 1_000;
+/// The wish is renewed at this pace and lives a little longer.
+const RENEW_MS: u32 = 100;
+const LEASE_MS: u16 = 150;
+/// The contacts must have been open for so long: some centimetres away from them.
+const OPEN_MS: u32 = 400;
 
 /// Where it stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,14 +34,26 @@ enum Stage {
 }
 
 /// The way off a dock that does not let go.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Leaving {
     stage: Stage,
     until: Until,
+    renew: Periodic,
+    open: Held,
     tries: u8,
 }
 
 impl Leaving {
+    pub(crate) fn starting_at(now: Tick) -> Self {
+        Self {
+            stage: Stage::Resting,
+            until: Until::NEVER,
+            renew: Periodic::starting_at(now),
+            open: Held::default(),
+            tries: 0,
+        }
+    }
+
     /// Whether the robot backs off now.
     pub(crate) fn is_backing(&self) -> bool {
         self.stage == Stage::Backing
@@ -45,7 +63,9 @@ impl Leaving {
 impl<P: Parts> Cord<P> {
     /// Backs off the dock if current flows that nothing else can stop.
     pub(crate) fn leave_shorted_dock(&mut self, now: Tick) {
-        let held = self.is_charger_shorted() && self.reflexes.dock.is_docked();
+        // A host that has armed the robot on the dock leads it off itself.
+        let led = self.reflexes.host.is_armed() && !self.leaving.is_backing();
+        let held = self.is_charger_shorted() && self.reflexes.dock.is_docked() && !led;
         let over = self.leaving.until.has_come(now);
         match self.leaving.stage {
             Stage::Resting if !held => self.leaving.tries = 0,
@@ -53,18 +73,30 @@ impl<P: Parts> Cord<P> {
                 self.warn(now);
             }
             Stage::Resting => {}
-            Stage::Warning if over && held => self.back_off(now),
+            Stage::Warning if over && held => self.begin_to_leave(now),
             Stage::Warning if over => self.leaving.stage = Stage::Resting,
             Stage::Warning => {}
-            // Off the contacts, or the try has failed: nothing goes on by itself.
-            Stage::Backing if over || !self.is_in_motion() => {
-                self.leaving.stage = Stage::Resting;
-                self.leaving.until = Until::at(now.after(TRY_MS));
-                self.reflexes.host.disarm();
-                self.reflexes.dock.stay();
-                self.stop_all(rvac_protocol::message::MoveEnd::Inhibited);
+            Stage::Backing => self.back_off(over, now),
+        }
+    }
+
+    /// Off the contacts, or when the try has failed, nothing goes on by itself.
+    fn back_off(&mut self, over: bool, now: Tick) {
+        let open = !self.senses.docked;
+        let away = self.leaving.open.for_at_least(open, now, OPEN_MS);
+        if !over && !away && self.leaving.renew.is_due(now, RENEW_MS) {
+            let answer = self.push_back(now);
+            if let Err(refusal) = answer {
+                self.journal
+                    .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
             }
-            Stage::Backing => {}
+        }
+        if over || away {
+            self.leaving.stage = Stage::Resting;
+            self.leaving.until = Until::at(now.after(TRY_MS));
+            self.reflexes.host.disarm();
+            self.reflexes.dock.stay();
+            self.stop_all(MoveEnd::Inhibited);
         }
     }
 
@@ -87,38 +119,45 @@ impl<P: Parts> Cord<P> {
     }
 
     /// Uses the ways of a command, so that the gate and every reflex hold.
-    fn back_off(&mut self, now: Tick) {
+    fn begin_to_leave(&mut self, now: Tick) {
         self.leaving.stage = Stage::Backing;
         self.leaving.until = Until::at(now.after(TRY_MS));
-        let sequence = Sequence(0);
+        self.leaving.renew = Periodic::starting_at(now);
+        self.leaving.open.restart();
         let undock = Command::Arm {
-            sequence,
+            sequence: Sequence(0),
             undock: true,
         };
-        let mut answer = self.carry_out(&undock, now);
-        if self.fitted.encoders {
-            let back = Command::Move(Move {
-                length: WAY,
-                radius: None,
-                sequence,
-                seen_tick: now,
-            });
-            answer = answer.and_then(|()| self.carry_out(&back, now));
-        } else {
-            for motor in [Motor::WheelLeft, Motor::WheelRight] {
-                let back = Command::Motor(MotorCommand {
-                    motor,
-                    throttle: Throttle::saturating_from_millionths(BLIND_DUTY),
-                    lease_ms: BLIND_MS,
-                    sequence,
-                    seen_tick: now,
-                });
-                answer = answer.and_then(|()| self.carry_out(&back, now));
-            }
-        }
-        if let Err(refusal) = answer {
+        if let Err(refusal) = self.carry_out(&undock, now) {
             self.journal
                 .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
         }
+    }
+
+    fn push_back(&mut self, now: Tick) -> Result<(), Refusal> {
+        let sequence = Sequence(0);
+        if self.fitted.encoders {
+            return self.carry_out(
+                &Command::Drive(Drive {
+                    speed: SPEED,
+                    turn: AngularSpeed::ZERO,
+                    lease_ms: LEASE_MS,
+                    sequence,
+                    seen_tick: now,
+                }),
+                now,
+            );
+        }
+        for motor in [Motor::WheelLeft, Motor::WheelRight] {
+            let back = MotorCommand {
+                motor,
+                throttle: Throttle::saturating_from_millionths(BLIND_DUTY),
+                lease_ms: LEASE_MS,
+                sequence,
+                seen_tick: now,
+            };
+            self.carry_out(&Command::Motor(back), now)?;
+        }
+        Ok(())
     }
 }

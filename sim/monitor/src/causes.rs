@@ -143,7 +143,7 @@ impl Standing {
         }
         self.counts = pins.counts;
         self.fallen = pins.fallen;
-        self.charge.update(&pins.charging, self.motors_run);
+        self.charge.update(&pins.charging, self.motors_run, 1);
         self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;
         self.cleaners_were_on = drives.cleaners_on();
     }

@@ -1,5 +1,7 @@
 //! The charger, judged by what is really so in the pack (S18).
 
+use crate::verdict;
+
 /// Charger and pack as they really are, faults of sensors left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Charging {
@@ -26,6 +28,10 @@ pub(crate) struct ChargeStanding {
     /// Driven in this charge, and not driven since.
     pub(crate) charged_ms: u32,
     rest_ms: u32,
+    /// Current flows though the switch is not driven.
+    leak_ms: u32,
+    /// Left of the time in which a robot may back off such a dock by itself.
+    leaving_ms: u32,
 }
 
 /// No pack may be charged hotter or colder than this, tenths of a degree. The firmware stops at 50 degrees and does not start
@@ -39,12 +45,24 @@ const CURRENT_MAX_MA: i32 = 1_400;
 /// A rest of half an hour ends a charge.
 const REST_MS: u32 = 30 * 60_000;
 
+/// Current through a switch that nobody drives.
+const LEAK_MA: i32 = 150;
+/// S18: after a second of it a robot may back off the dock by itself, three times with their pauses.
+const LEAK_MS: u32 = 1_000;
+const LEAVING_MS: u32 = 20_000;
+
 impl ChargeStanding {
-    pub(crate) fn update(&mut self, charging: &Charging, motors_run: bool) {
+    /// Whether a robot may leave the dock though nobody asked it to: nothing else ends the current.
+    pub(crate) const fn may_leave(&self) -> bool {
+        self.leaving_ms > 0
+    }
+
+    /// What is so for the next `elapsed_ms`.
+    pub(crate) fn update(&mut self, charging: &Charging, motors_run: bool, elapsed_ms: u32) {
         let driven = charging.driven;
         let stand = |standing_ms: &mut u32, cause: bool| {
             *standing_ms = if driven && cause {
-                standing_ms.saturating_add(1)
+                standing_ms.saturating_add(elapsed_ms)
             } else {
                 0
             };
@@ -56,13 +74,56 @@ impl ChargeStanding {
         stand(&mut self.voltage_ms, charging.pack_mv > VOLTAGE_MAX_MV);
         stand(&mut self.current_ms, charging.current_ma > CURRENT_MAX_MA);
         if driven {
-            self.charged_ms = self.charged_ms.saturating_add(1);
+            self.charged_ms = self.charged_ms.saturating_add(elapsed_ms);
             self.rest_ms = 0;
         } else {
-            self.rest_ms = self.rest_ms.saturating_add(1);
+            self.rest_ms = self.rest_ms.saturating_add(elapsed_ms);
             if self.rest_ms > REST_MS {
                 self.charged_ms = 0;
             }
         }
+        let leaks = !driven && charging.supplied && charging.current_ma > LEAK_MA;
+        self.leak_ms = if leaks {
+            self.leak_ms.saturating_add(elapsed_ms)
+        } else {
+            0
+        };
+        self.leaving_ms = if self.leak_ms >= LEAK_MS {
+            LEAVING_MS
+        } else {
+            self.leaving_ms.saturating_sub(elapsed_ms)
+        };
+    }
+}
+
+/// Judges a charger alone, in steps of any length: for campaigns of thousands of charges.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ChargeMonitor {
+    standing: ChargeStanding,
+    broken: u32,
+    count: u32,
+    longest_ms: u32,
+}
+
+impl ChargeMonitor {
+    /// Judges what was so for `elapsed_ms`, in which no motor ran.
+    pub fn judge(&mut self, charging: &Charging, elapsed_ms: u32) {
+        self.standing.update(charging, false, elapsed_ms);
+        self.longest_ms = self.longest_ms.max(self.standing.charged_ms);
+        let broken = verdict::broken_by_charger(&self.standing);
+        self.count += (broken & !self.broken).count_ones();
+        self.broken = broken;
+    }
+
+    /// Violations so far.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Longest time for which the switch was driven without a rest, ms.
+    #[must_use]
+    pub const fn longest_ms(&self) -> u32 {
+        self.longest_ms
     }
 }

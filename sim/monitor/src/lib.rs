@@ -21,7 +21,7 @@ mod verdict;
 mod wire;
 
 pub use causes::{Drives, Pins};
-pub use charging::Charging;
+pub use charging::{ChargeMonitor, Charging};
 pub use verdict::{Rule, Violation};
 
 use causes::Standing;

@@ -460,3 +460,24 @@ fn a_clock_that_starts_late_makes_no_command_old() {
     scene.host(&json);
     assert_eq!(scene.pass(300, FORWARD), []);
 }
+
+#[test]
+fn a_robot_may_back_off_a_dock_that_does_not_let_go_and_off_no_other() {
+    let leaking = Charging {
+        driven: false,
+        ..CHARGING
+    };
+    let mut scene = Scene::armed();
+    scene.monitor.reset(scene.now_ms, ResetCause::Watchdog);
+    scene.pins.docked = true;
+    scene.pins.charging = leaking;
+    scene.pass(900, OFF);
+    assert_ne!(scene.pass(50, BACKWARD), [], "not before a second of current");
+    let mut scene = Scene::armed();
+    scene.monitor.reset(scene.now_ms, ResetCause::Watchdog);
+    scene.pins.docked = true;
+    scene.pins.charging = leaking;
+    scene.pass(1_100, OFF);
+    assert_eq!(scene.pass(2_000, BACKWARD), []);
+    assert_ne!(scene.pass(50, FORWARD), [], "backwards only");
+}

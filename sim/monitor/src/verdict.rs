@@ -198,17 +198,19 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
     let cleaners = drives.cleaners_on();
     let any = wheels || cleaners;
     let forward = drives.forward();
+    // S18: off a dock whose current nothing else can stop, backwards only.
+    let leaving = standing.charge.may_leave() && !forward && !cleaners;
     let blocked = standing.bumper_ms > START_MS || standing.wheel_drop_ms > START_MS;
     let verdicts = [
         (
             Rule::WheelsWithoutLease,
-            wheels && !permission.covers_wheels(now_ms),
+            wheels && !permission.covers_wheels(now_ms) && !leaving,
         ),
         (
             Rule::CleanersWithoutLease,
             cleaners && !permission.covers_cleaners(now_ms),
         ),
-        (Rule::NotArmed, any && !permission.armed(now_ms)),
+        (Rule::NotArmed, any && !permission.armed(now_ms) && !leaving),
         (Rule::ResetLoop, any && permission.reset_loop()),
         (Rule::Bumper, forward && standing.bumper_ms > BUMPER_MS),
         (
@@ -232,14 +234,22 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
         ),
         (
             Rule::Docked,
-            wheels && standing.docked_ms > DOCKED_MS && !permission.may_undock(),
+            wheels && standing.docked_ms > DOCKED_MS && !permission.may_undock() && !leaving,
         ),
         (Rule::Button, any && permission.button_stop(now_ms, BUTTON_MS)),
         (Rule::CleanersStart, standing.cleaners_start && blocked),
     ];
+    bits(verdicts) | broken_by_charger(&standing.charge)
+}
+
+/// The rules that the charger breaks now, bit by rule.
+pub(crate) fn broken_by_charger(standing: &ChargeStanding) -> u32 {
+    bits(charger_verdicts(standing))
+}
+
+fn bits(verdicts: impl IntoIterator<Item = (Rule, bool)>) -> u32 {
     verdicts
         .into_iter()
-        .chain(charger_verdicts(&standing.charge))
         .filter(|(_, broken)| *broken)
         .fold(0, |bits, (rule, _)| bits | 1 << rule as u32)
 }

@@ -10,9 +10,11 @@ pub mod board;
 pub mod charging;
 mod line;
 mod parameters;
+mod power;
 mod robot;
 
 pub use line::Line;
 pub use parameters::parameters_for;
+pub use power::ChargeSwitch;
 pub use robot::{RobotSettings, SimulatedRobot};
 pub use rvac_channel::FaultRates;

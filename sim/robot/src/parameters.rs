@@ -1,6 +1,6 @@
 //! From the robot's description to the firmware's parameters.
 
-use cordlib::Parameters;
+use cordlib::{LoadParameters, PackParameters, Parameters};
 use home::RobotModel;
 use rvac_protocol::message::Limits;
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
@@ -22,5 +22,27 @@ pub fn parameters_for(model: &RobotModel) -> Parameters {
     parameters.wheel.speed_at_full = Speed::from_m_per_s(model.wheel_motor.free_speed_m_per_s);
     parameters.wheel.dead_band =
         Throttle::saturating_from_millionths((model.wheel_motor.dead_band_brake * 1e6) as i32);
+    parameters.pack = pack_of(model);
     parameters
+}
+
+/// The battery, and what its robot takes from it.
+fn pack_of(model: &RobotModel) -> PackParameters {
+    let milli = |value: f64| (value * 1e3) as u16;
+    let (battery, cleaners) = (&model.battery, &model.cleaners);
+    PackParameters {
+        cells: battery.cells,
+        capacity_mah: milli(battery.capacity_ah),
+        current_max_ma: milli(battery.charge_a),
+        resistance_mohm: milli(battery.resistance_ohm),
+        drain_ma: milli(battery.trickle_a),
+        loads: LoadParameters {
+            electronics_ma: milli(battery.electronics_a),
+            // A wheel at cruising speed takes a little more than one that turns freely.
+            wheel_ma: milli(model.wheel_motor.idle_current_a * 2.0),
+            brush_main_ma: milli(cleaners.main_a),
+            brush_sides_ma: milli(cleaners.sides_a),
+            vacuum_ma: milli(cleaners.vacuum_a),
+        },
+    }
 }

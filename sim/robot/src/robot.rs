@@ -1,18 +1,17 @@
 //! A robot whose firmware runs in a simulated home.
 
 use cordlib::Cord;
-use cordlib::board::{
-    ChargeDrive, ChargerReadings, CliffLevels, Emitters, Received, WheelCounts, WheelDrive,
-};
+use cordlib::board::{ChargeDrive, CliffLevels, DockRequest, Emitters, Received, WheelCounts, WheelDrive};
 use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
-use rvac_protocol::message::{Bumpers, Currents, Gyro, ResetCause, WheelDrops};
+use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
 use crate::line::Line;
 use crate::parameters::parameters_for;
+use crate::power::{self, ChargeSwitch};
 
 /// How a simulated robot is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +45,9 @@ pub struct SimulatedRobot {
     monitor: Monitor,
     bridges: Bridges,
     driven: [WheelDrive; 2],
+    charge_switch: ChargeSwitch,
+    /// Current that the switch lets through, ampere.
+    charge_a: f64,
     now_ms: u64,
     reset_ms: u64,
     resets: u32,
@@ -72,6 +74,8 @@ impl SimulatedRobot {
             monitor: Monitor::new(),
             bridges: settings.bridges,
             driven: [WheelDrive::Brake; 2],
+            charge_switch: ChargeSwitch::Sound,
+            charge_a: 0.0,
             now_ms: 0,
             reset_ms: 0,
             resets: 0,
@@ -90,6 +94,7 @@ impl SimulatedRobot {
     /// judgement. What reaches the host's receiver is appended to `to_host`.
     pub fn tick(&mut self, to_host: &mut Vec<u8>) {
         self.now_ms += 1;
+        self.charge_a = power::charge_a(self.charge_switch, &self.cord.board().charger, &self.world);
         self.world.step(&self.actuation());
         self.read_pins();
         self.receive();
@@ -116,8 +121,8 @@ impl SimulatedRobot {
             brush_sides: board.brush_sides.duty != Throttle::ZERO,
             vacuum: board.vacuum.duty != Throttle::ZERO,
             cliff_emitter: board.cliffs.emitters == Emitters::On,
-            dock_signal: false,
-            charge_a: None,
+            dock_signal: board.charger.request == DockRequest::Current,
+            charge_a: Some(self.charge_a),
         }
     }
 
@@ -148,7 +153,7 @@ impl SimulatedRobot {
             wheel_right: sensors.wheel_right_current,
             brush_main: sensors.brush_main_current,
         });
-        board.charger.readings = Some(charger_readings(sensors));
+        board.charger.readings = Some(power::readings(self.charge_a, &self.world));
         board.dock_contacts.closed = sensors.dock_contacts;
         board.dock_beams.symbols = sensors.dock_receivers;
         board.dust_box.inserted = sensors.dust_box;
@@ -265,6 +270,17 @@ impl SimulatedRobot {
         self.read_pins();
     }
 
+    /// What the firmware holds against motion, by its own word.
+    #[must_use]
+    pub fn inhibits(&self) -> Inhibits {
+        self.cord.inhibits()
+    }
+
+    /// Breaks or repairs the switch of the charger.
+    pub const fn set_charge_switch(&mut self, switch: ChargeSwitch) {
+        self.charge_switch = switch;
+    }
+
     /// Sets how often what goes wrong on the line, both ways.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         self.to_robot.set_rates(rates);
@@ -353,15 +369,4 @@ fn bridge(drive: WheelDrive) -> Bridge {
 fn cliff_levels(sensors: &Sensors) -> CliffLevels {
     let [left, middle, right, _] = sensors.cliff_levels.map(|level| u16::from(level) * 4);
     CliffLevels { left, middle, right }
-}
-
-fn charger_readings(sensors: &Sensors) -> ChargerReadings {
-    ChargerReadings {
-        pack_mv: sensors.battery_voltage.0,
-        input_mv: sensors.battery_voltage.0,
-        current_ma: sensors.battery_current.0,
-        temperature: Ok(sensors.battery_temperature),
-        age_ms: 0,
-        adapter: sensors.dock_contacts,
-    }
 }

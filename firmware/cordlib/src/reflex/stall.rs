@@ -9,7 +9,7 @@ use crate::timing::Held;
 pub(crate) const STALL_DUTY: i32 = 300_000;
 /// These rules look every 10 ms. A current is seen up to one period late, a standstill up to two, for the first period
 /// without a count may have begun with one.
-const OVER_CURRENT_MS: u32 = 90;
+const OVER_CURRENT_MS: u32 = 80;
 const STANDSTILL_MS: u32 = 270;
 
 /// Overload of one motor.

@@ -133,7 +133,7 @@ pub struct PackPins {
 
 impl Charger for PackPins {
     const PRESENT: bool = true;
-    const CHARGES: bool = false;
+    const CHARGES: bool = true;
 
     fn readings(&mut self) -> Option<ChargerReadings> {
         self.readings

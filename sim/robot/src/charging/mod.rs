@@ -9,7 +9,6 @@
 mod bench;
 mod conditions;
 mod converter;
-mod judge;
 mod outcome;
 mod tally;
 

@@ -2,11 +2,11 @@
 
 use cordlib::board::ChargeDrive;
 use cordlib::charge::Stops;
+use monitor::{ChargeMonitor, Charging};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::bench::{Bench, STEP_MS};
 use super::conditions::Conditions;
-use super::judge::{Judge, Scene};
 
 /// A charge is watched for this long at most, ms.
 const WATCH_MS: u32 = 5 * 3_600_000;
@@ -42,7 +42,7 @@ pub struct Outcome {
 #[must_use]
 pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
     let mut bench = Bench::new(conditions, stops);
-    let mut judge = Judge::default();
+    let mut monitor = ChargeMonitor::default();
     let mut outcome = Outcome {
         seed: conditions.seed,
         end: None,
@@ -60,14 +60,15 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
         bench.step();
         now_ms += STEP_MS;
         let driven = bench.output().drive != ChargeDrive::Off;
-        let scene = Scene {
+        let hottest_c = bench.pack().hottest_c();
+        let charging = Charging {
             driven,
             supplied: bench.is_supplied(),
-            hottest_c: bench.pack().hottest_c(),
-            pack_v: bench.pack().terminal_v(bench.current_a()),
-            current_a: bench.current_a(),
+            current_ma: (bench.current_a() * 1e3) as i32,
+            pack_mv: (bench.pack().terminal_v(bench.current_a()) * 1e3) as i32,
+            temperature_dc: (hottest_c * 10.0) as i32,
         };
-        judge.look(&scene, STEP_MS);
+        monitor.judge(&charging, STEP_MS);
         begun |= driven;
         let phase = bench.charger().status().phase;
         let charging = matches!(
@@ -85,7 +86,7 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
             break;
         }
         if bench.current_a() > 0.0 || after_ms > 0 {
-            outcome.hottest_c = outcome.hottest_c.max(scene.hottest_c);
+            outcome.hottest_c = outcome.hottest_c.max(hottest_c);
         }
         outcome.driven_h += f64::from(u8::from(driven && charging)) * f64::from(STEP_MS) / 3_600_000.0;
     }
@@ -93,7 +94,7 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
     Outcome {
         end: status.end.filter(|_| status.fault.is_none()),
         fault: status.fault,
-        violations: judge.violations,
+        violations: monitor.count(),
         estimate: bench.charger().charge_left().as_f64(),
         ..outcome
     }

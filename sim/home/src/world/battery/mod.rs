@@ -121,7 +121,10 @@ impl Pack {
         self.polarization_v += (goal_v - self.polarization_v) * (dt_s / POLARIZATION_S).min(1.0);
         self.emf_v = self.charging_v(rate, oxygen);
         let odd_w = self.step_odd(current_a, rate, dt_s);
-        self.warm(current_a - stored_a, stored_a, odd_w, dt_s);
+        let heat_w = self.heat_w(current_a - stored_a, stored_a) + odd_w;
+        self.temperature_c += heat_w * dt_s / self.make.heat_j_per_k;
+        let lag = (dt_s / self.make.sensor_lag_s.max(dt_s)).min(1.0);
+        self.sensor_c += (self.temperature_c - self.sensor_c) * lag;
     }
 
     /// Current in parts of the capacity an hour, while it charges.
@@ -186,17 +189,15 @@ impl Pack {
         flow_w
     }
 
-    fn warm(&mut self, wasted_a: f64, stored_a: f64, odd_w: f64, dt_s: f64) {
+    /// Heat of the cells that are alike, less what leaves the pack, watt.
+    fn heat_w(&self, wasted_a: f64, stored_a: f64) -> f64 {
         let others = f64::from(self.make.cells) - f64::from(u8::from(self.make.odd.is_some()));
         let oxygen_w = wasted_a.max(0.0) * others * (cell_v(self.charge) + self.polarization_v);
         let reaction_w = stored_a.max(0.0) * others * REACTION_V;
         let joule_w = self.current_a * self.current_a * self.make.resistance_ohm
             + self.current_a.max(0.0) * self.polarization_v * others;
         let cooling_w = (self.temperature_c - self.ambient_c) * self.make.cooling_w_per_k;
-        let sum_w = oxygen_w + reaction_w + joule_w + odd_w - cooling_w;
-        self.temperature_c += sum_w * dt_s / self.make.heat_j_per_k;
-        let lag = (dt_s / self.make.sensor_lag_s.max(dt_s)).min(1.0);
-        self.sensor_c += (self.temperature_c - self.sensor_c) * lag;
+        oxygen_w + reaction_w + joule_w - cooling_w
     }
 
     /// Voltage at the terminals with this current at this moment, into the pack positive.
