@@ -1,6 +1,7 @@
 //! Every trial at many phases.
 
 use pic32::board::CYCLES_PER_MS;
+use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
 use crate::stage::{Stage, StageError, Workshop};
@@ -30,6 +31,8 @@ pub struct Verdict {
     pub broken: usize,
     /// Breaches that the monitor saw, in all phases together.
     pub violations: usize,
+    /// What the robot said at the end of the first broken one.
+    pub said: Vec<&'static str>,
 }
 
 /// Robots in all scenes that the trials need.
@@ -96,6 +99,11 @@ impl Verdict {
             limit_ms: trial.limit_ms,
             broken: outcomes.iter().filter(|outcome| !trial.is_kept(outcome)).count(),
             violations: outcomes.iter().map(|outcome| outcome.violations).sum(),
+            said: outcomes
+                .iter()
+                .find(|outcome| !trial.is_kept(outcome))
+                .map(|outcome| outcome.inhibits.iter().map(Inhibit::name).collect())
+                .unwrap_or_default(),
         }
     }
 

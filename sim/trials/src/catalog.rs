@@ -3,7 +3,7 @@
 use home::{SensorFault, SensorId};
 use pic32::board::{CYCLES_PER_MS, Contact, Hold};
 use rvac_channel::FaultRates;
-use rvac_protocol::message::{Command, Inhibit, ResetCause};
+use rvac_protocol::message::{Inhibit, ResetCause};
 use rvac_units::Throttle;
 
 use crate::stage::Stage;
@@ -23,20 +23,23 @@ const STUCK: u16 = 600;
 const PACK_WEAK: u16 = 350;
 const PACK_EMPTY: u16 = 313;
 const PACK_LOW: u16 = 387;
-/// Counts of the thermistor: 62 °C, not plugged in, shorted (sr8730: ADC 621 at 60 °C, above 880 open).
+/// Counts of the thermistor: 25 °C, 62 °C, not plugged in, shorted (sr8730: ADC 621 at 60 °C, above 880 open).
+const WARM: u16 = 790;
 const HOT: u16 = 610;
+const HEATING_MS: u64 = 9_250;
 const OPEN: u16 = 1_000;
 const SHORTED: u16 = 20;
 /// A report comes every 20 ms and takes some to cross the line: what the robot says is known so much later.
-const REPORT_MS: u64 = 25;
+const REPORT_MS: u64 = 40;
 
 /// INTC and ADC registers that a fault may hit (pic32mx360.md sections 5 and 13): CLR addresses.
 const IEC0_CLEAR: u32 = 0xBF88_1064;
-const AD1CON1_CLEAR: u32 = 0xBF80_9004;
+const IEC1_CLEAR: u32 = 0xBF88_1074;
 const CORE_TIMER_ENABLE: u32 = 1;
-const ADC_ON: u32 = 1 << 15;
+const CONVERTER_ENABLE: u32 = 1 << 1;
 /// Where a runaway program loops: free flash before the calibration page.
 const LOOP: u32 = 0x9D03_E000;
+const LOOP_PHYSICAL: u32 = 0x1D03_E000;
 /// `di`, `ehb`, `b .`, `nop`.
 const DEAF_LOOP: [u32; 4] = [0x4160_6000, 0x0000_00C0, 0x1000_FFFF, 0];
 
@@ -52,13 +55,22 @@ fn fault(stage: &mut Stage, sensor: SensorId, fault: SensorFault) {
     stage.robot_mut().world_mut().set_fault(sensor, Some(fault));
 }
 
+/// The pack warms from 25 to 62 °C at 4 °C/s: faster would be no temperature but a broken sensor.
+fn heat_up(stage: &mut Stage, _: u64) {
+    for counts in (HOT..WARM).rev() {
+        let now = stage.robot().cycle();
+        read(stage, THERMISTOR, counts, now);
+        stage.run(HEATING_MS / u64::from(WARM - HOT));
+    }
+}
+
 /// The program counter lands in an endless loop, with interrupts (from its third word) or without.
 fn hang(stage: &mut Stage, first: u32) {
     let machine = stage.robot_mut().machine_mut();
     let bytes: Vec<u8> = DEAF_LOOP.iter().flat_map(|word| word.to_le_bytes()).collect();
-    // The page is in the part's flash, so it takes the write.
-    machine.memory_mut().write(LOOP, &bytes).ok();
-    machine.cpu_mut().set_pc(LOOP + 4 * first);
+    if machine.memory_mut().write(LOOP_PHYSICAL, &bytes).is_ok() {
+        machine.cpu_mut().set_pc(LOOP + 4 * first);
+    }
 }
 
 const fn trial(
@@ -187,13 +199,13 @@ fn hangs() -> [Trial; 5] {
             (Aim::AllOff, 256),
         ),
         trial(
-            ("S5", "the converter is off"),
+            ("S5", "the converter's interrupt is off"),
             Scene::Cleaning,
             |stage, _| {
                 stage
                     .robot_mut()
                     .machine_mut()
-                    .write_register(AD1CON1_CLEAR, ADC_ON)
+                    .write_register(IEC1_CLEAR, CONVERTER_ENABLE)
             },
             (Aim::AllOff, 256),
         ),
@@ -292,13 +304,10 @@ fn motors() -> [Trial; 5] {
             (Aim::WheelsOff, 300),
         ),
         trial(
-            ("S12", "bridges go on after the stop"),
+            ("S12", "bridges go on after a bumper's brake"),
             Scene::DeafBridges,
-            |stage, _| {
-                stage.drive(None);
-                stage.say(Command::Stop);
-            },
-            (Aim::Says(Inhibit::Runaway), 250 + REPORT_MS),
+            |stage, cycle| hold(stage, Contact::BumperLeft, cycle),
+            (Aim::SaysBroken(Inhibit::Runaway), 250 + REPORT_MS),
         ),
         trial(
             ("S13", "an encoder counts backward"),
@@ -342,20 +351,20 @@ fn battery() -> [Trial; 6] {
         trial(
             ("S17", "pack above 60 °C"),
             Scene::Cleaning,
-            |stage, cycle| read(stage, THERMISTOR, HOT, cycle),
-            (Aim::AllOffSaying(Inhibit::BatteryOverheated), 1_000),
+            heat_up,
+            (Aim::AllOffSaying(Inhibit::BatteryOverheated), HEATING_MS + 1_000),
         ),
         trial(
             ("S17", "thermistor unplugged"),
             Scene::Standing,
             |stage, cycle| read(stage, THERMISTOR, OPEN, cycle),
-            (Aim::Says(Inhibit::Thermistor), 1_000 + REPORT_MS),
+            (Aim::Says(Inhibit::Thermistor), 2_000 + REPORT_MS),
         ),
         trial(
             ("S17", "thermistor shorted"),
             Scene::Standing,
             |stage, cycle| read(stage, THERMISTOR, SHORTED, cycle),
-            (Aim::Says(Inhibit::Thermistor), 1_000 + REPORT_MS),
+            (Aim::Says(Inhibit::Thermistor), 2_000 + REPORT_MS),
         ),
     ]
 }

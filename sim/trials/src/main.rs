@@ -120,8 +120,11 @@ fn print(out: &mut impl Write, verdict: &Verdict) -> io::Result<()> {
         String::new()
     } else {
         format!(
-            "  BROKEN {} of {} times, {} breaches",
-            verdict.broken, verdict.phases, verdict.violations
+            "  BROKEN {} of {} times, {} breaches; said: {}",
+            verdict.broken,
+            verdict.phases,
+            verdict.violations,
+            verdict.said.join(", ")
         )
     };
     writeln!(

@@ -1,7 +1,7 @@
 //! One fault at one moment, and what must follow.
 
 use pic32::board::{CYCLES_PER_MS, Motor};
-use rvac_protocol::message::Inhibit;
+use rvac_protocol::message::{Inhibit, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
 
 use crate::stage::{Stage, StageError, Workshop};
@@ -82,6 +82,8 @@ pub enum Aim {
     AllOff,
     /// The robot says this in time.
     Says(Inhibit),
+    /// The machine itself is broken, so that motors run on whatever the firmware does; it says this in time.
+    SaysBroken(Inhibit),
     /// All motors are off in time and stay off, and at the end the robot says this.
     AllOffSaying(Inhibit),
     /// The wheels are off in time and stay off, and at the end the robot says this.
@@ -93,16 +95,17 @@ impl Aim {
         match self {
             Self::WheelsOff | Self::WheelsOffSaying(_) => &[Motor::WheelLeft, Motor::WheelRight],
             Self::AllOff | Self::AllOffSaying(_) => &Motor::ALL,
-            Self::Lawful | Self::Says(_) => &[],
+            Self::Lawful | Self::Says(_) | Self::SaysBroken(_) => &[],
         }
     }
 
     const fn said(self) -> Option<Inhibit> {
         match self {
             Self::Lawful | Self::WheelsOff | Self::AllOff => None,
-            Self::Says(inhibit) | Self::AllOffSaying(inhibit) | Self::WheelsOffSaying(inhibit) => {
-                Some(inhibit)
-            }
+            Self::Says(inhibit)
+            | Self::SaysBroken(inhibit)
+            | Self::AllOffSaying(inhibit)
+            | Self::WheelsOffSaying(inhibit) => Some(inhibit),
         }
     }
 }
@@ -134,6 +137,8 @@ pub struct Outcome {
     pub violations: usize,
     /// The robot did not say at the end what it had to say.
     pub unsaid: bool,
+    /// What it said at the end.
+    pub inhibits: Inhibits,
 }
 
 impl Trial {
@@ -156,13 +161,18 @@ impl Trial {
             }
         }
         let reaction_ms = match self.aim {
-            Aim::Says(_) => said_ms,
+            Aim::Says(_) | Aim::SaysBroken(_) => said_ms,
+            Aim::Lawful => Some(0.0),
             _ => off_ms(&stage, self.aim.motors(), cycle),
         };
         Outcome {
             reaction_ms,
-            violations: (stage.robot().monitor().count() - before) as usize,
+            violations: match self.aim {
+                Aim::SaysBroken(_) => 0,
+                _ => (stage.robot().monitor().count() - before) as usize,
+            },
             unsaid: self.aim.said().is_some() && said_ms.is_none(),
+            inhibits: stage.inhibits(),
         }
     }
 

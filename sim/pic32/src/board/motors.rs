@@ -58,7 +58,9 @@ struct One {
     high_cycles: u64,
     /// Share of the last millisecond in which it was driven, 0..=1.
     duty: f64,
-    /// What a deaf bridge goes on with.
+    /// The duty of the last millisecond that had one.
+    driven: f64,
+    /// The one before: what a deaf bridge goes on with.
     kept: f64,
     drives: Vec<Drive>,
     level_on: bool,
@@ -82,6 +84,7 @@ impl Motors {
             mode,
             high_cycles: 0,
             duty: 0.0,
+            driven: 0.0,
             kept: 0.0,
             drives: Vec::new(),
             level_on: false,
@@ -120,8 +123,10 @@ impl Motors {
             let high = high_cycles - motor.high_cycles;
             motor.high_cycles = high_cycles;
             motor.duty = (high as f64 / CYCLES_PER_MS as f64).min(1.0);
+            // The millisecond in which it is switched off shows less than what went before.
             if motor.duty > 0.0 {
-                motor.kept = motor.duty;
+                motor.kept = motor.driven;
+                motor.driven = motor.duty;
             }
             if self.watched {
                 motor.log(machine, end);
@@ -154,6 +159,7 @@ impl Motors {
     /// A reset ends every drive; the pins are inputs.
     pub(super) fn reset(&mut self) {
         for motor in &mut self.motors {
+            motor.driven = 0.0;
             motor.kept = 0.0;
             motor.duty = 0.0;
         }
