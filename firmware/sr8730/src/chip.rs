@@ -54,7 +54,7 @@ global_asm!(
     include_str!("link.S"),
     ".set pop",
     ".text",
-    edges = sym sr8730::board::link::EDGES,
+    edges = sym sr8730::board::link::by_edges::EDGES,
     runs = sym sr8730::board::link::RUNS,
 );
 

@@ -3,9 +3,9 @@
 use cordlib::board::HardwareFault;
 use pic32mx3_hal::clock::{self, Running};
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
-use pic32mx3_hal::timer::{Prescaler, Timer};
 use pic32mx3_hal::{cpu, interrupt, memory, stack};
 
+use super::bus_clock::BusClock;
 use super::{off, tick};
 use crate::logic::image_check::{ImageCheck, Verdict};
 use crate::logic::pace::{Look, Pace, PaceCheck};
@@ -29,16 +29,15 @@ pub struct SelfChecks {
     image: ImageCheck<'static>,
     ram_place: u32,
     ram_size: u32,
-    bus_timer: Timer<5>,
+    bus: BusClock,
     pace: PaceCheck,
     started: bool,
 }
 
 impl SelfChecks {
-    /// With Timer5, which runs free as a second clock.
+    /// With the second clock.
     #[must_use]
-    pub fn take(mut bus_timer: Timer<5>) -> Self {
-        bus_timer.start(Prescaler::By256, 0x1_0000);
+    pub fn take(bus: BusClock) -> Self {
         interrupt::set_priority(Vector::ClockMonitor, Priority::Level6, SubPriority::Sub3).ok();
         Source::ClockMonitor.enable();
         Self {
@@ -48,8 +47,8 @@ impl SelfChecks {
             ),
             ram_place: 0,
             ram_size: memory::ram_size(),
-            bus_timer,
-            pace: PaceCheck::new(Look::default()),
+            bus,
+            pace: PaceCheck::new(Look::default(), BusClock::HALVES_PER_COUNT),
             started: false,
         }
     }
@@ -76,11 +75,11 @@ impl SelfChecks {
         let look = Look {
             tick: tick::ticks(),
             core: cpu::count(),
-            bus: self.bus_timer.count(),
+            bus: self.bus.count(),
         };
         if !self.started {
             self.started = true;
-            self.pace = PaceCheck::new(look);
+            self.pace = PaceCheck::new(look, BusClock::HALVES_PER_COUNT);
         }
         self.pace.update(look) == Pace::Even
     }

@@ -6,7 +6,7 @@ use pic32mx3_hal::gpio::{Level, Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::link;
+use super::link::by_edges::brush_pulses;
 use super::off::Motor;
 use super::wheels::Bridge;
 use crate::logic::renewal::Renewal;
@@ -60,7 +60,7 @@ impl CleaningMotor for BrushMain {
     }
 
     fn pulses(&mut self) -> Option<u32> {
-        self.has_pulses.then(link::brush_pulses)
+        self.has_pulses.then(brush_pulses)
     }
 }
 

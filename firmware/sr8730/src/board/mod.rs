@@ -15,6 +15,7 @@
 //!
 //! Handlers and main loop share atomic words and bounded rings; nothing else.
 
+pub mod bus_clock;
 pub mod charger;
 pub mod checks;
 pub mod cleaners;

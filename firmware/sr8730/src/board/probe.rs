@@ -4,8 +4,9 @@ use cordlib::board::Probe;
 use pic32mx3_hal::gpio::Port;
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
+use super::link::by_edges::port_c;
 use super::serial::SerialPorts;
-use super::{contacts, converter, encoders, link};
+use super::{contacts, converter, encoders};
 
 /// Everything that can be looked at.
 #[derive(Debug)]
@@ -41,7 +42,7 @@ impl Probe for RawReadings {
         let mut lines = [0; PROBE_PORTS];
         for (line, port) in lines.iter_mut().zip(Port::ALL) {
             *line = match port {
-                Port::C => link::port_c(),
+                Port::C => port_c(),
                 _ => port.read(),
             };
         }

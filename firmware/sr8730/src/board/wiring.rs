@@ -9,12 +9,13 @@ use pic32mx3_hal::gpio::Level::{High, Low};
 use pic32mx3_hal::pwm::PwmTimer;
 use pic32mx3_hal::timer::Prescaler;
 
+use super::bus_clock::BusClock;
 use super::charger::PackCharger;
 use super::checks::SelfChecks;
 use super::cleaners::{BrushMain, Switched};
 use super::contacts::{Adapter, Bumper, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
-use super::link::{LinkParts, SerialLink};
+use super::link::{InputParts, SerialLink};
 use super::off::Motor;
 use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
@@ -180,6 +181,47 @@ macro_rules! panel {
     }};
 }
 
+/// The link's input.
+#[cfg(not(feature = "link-sampled"))]
+macro_rules! link_input {
+    ($chip:ident, $p:ident) => {
+        InputParts {
+            receive: pin!($p.rc13 is LINK_RECEIVE).into_input(),
+            brush: pin!($p.rb5 is BRUSH_MAIN_ENCODER).into_input(),
+            notice: $chip.change_notice,
+        }
+    };
+}
+
+/// The link's input, sampled.
+#[cfg(feature = "link-sampled")]
+macro_rules! link_input {
+    ($chip:ident, $p:ident) => {
+        InputParts {
+            receive: pin!($p.rb6 is LINK_RECEIVE_SAMPLED).into_input(),
+            brush: pin!($p.rb5 is BRUSH_MAIN_ENCODER).into_input(),
+            notice: $chip.change_notice,
+            timer: $chip.timer5,
+        }
+    };
+}
+
+/// The second clock of the self-checks.
+#[cfg(not(feature = "link-sampled"))]
+macro_rules! bus_clock {
+    ($chip:ident) => {
+        BusClock::take($chip.timer5)
+    };
+}
+
+/// The second clock of the self-checks, whose timer the link has.
+#[cfg(feature = "link-sampled")]
+macro_rules! bus_clock {
+    ($chip:ident) => {
+        BusClock
+    };
+}
+
 /// The serial lines.
 macro_rules! lines {
     ($chip:ident, $p:ident, $calibration:ident) => {
@@ -192,13 +234,11 @@ macro_rules! lines {
                 },
                 $calibration.gyro(),
             ),
-            SerialLink::take(LinkParts {
-                receive: pin!($p.rc13 is LINK_RECEIVE).into_input(),
-                transmit: pin!($p.rb7 is LINK_TRANSMIT).into_output(High),
-                brush: pin!($p.rb5 is BRUSH_MAIN_ENCODER).into_input(),
-                timer: $chip.timer4,
-                notice: $chip.change_notice,
-            }),
+            SerialLink::take(
+                link_input!($chip, $p),
+                pin!($p.rb7 is LINK_TRANSMIT).into_output(High),
+                $chip.timer4,
+            ),
         )
     };
 }
@@ -245,7 +285,7 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
         buttons: ButtonLines::take(pin!(p.re9 is BUTTON_ANY).into_input(), calibration.ladder()),
         probe: RawReadings::take(ports),
     };
-    (board, SelfChecks::take(chip.timer5))
+    (board, SelfChecks::take(bus_clock!(chip)))
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@
 const WINDOW_MS: u32 = 100;
 /// Counts of the core timer in a millisecond.
 const CORE_PER_MS: u32 = 40_000;
-/// Counts of the core timer for one of Timer5, whose prescaler is 256.
-const CORE_PER_BUS: u32 = 128;
+/// Half counts of the core timer for one of Timer5 with a prescaler of 256.
+pub const HALVES_PER_COUNT: u32 = 256;
 /// Allowed deviation: one in 20, 5 %.
 const TOLERANCE: u32 = 20;
 
@@ -29,6 +29,7 @@ pub struct Look {
 #[derive(Clone, Copy, Debug)]
 pub struct PaceCheck {
     last: Look,
+    halves_per_count: u32,
 }
 
 /// What a comparison says.
@@ -41,10 +42,13 @@ pub enum Pace {
 }
 
 impl PaceCheck {
-    /// Starts now.
+    /// Starts now. `halves_per_count` is how many halves of a count of the core timer make one of the other.
     #[must_use]
-    pub const fn new(now: Look) -> Self {
-        Self { last: now }
+    pub const fn new(now: Look, halves_per_count: u32) -> Self {
+        Self {
+            last: now,
+            halves_per_count,
+        }
     }
 
     /// To be called once in a millisecond. Later than 200 ms after the last call it says nothing, because Timer5 has
@@ -55,7 +59,7 @@ impl PaceCheck {
         if ticks < WINDOW_MS && core < 2 * WINDOW_MS * CORE_PER_MS {
             return Pace::Even;
         }
-        let bus = now.bus.wrapping_sub(self.last.bus) as u32 * CORE_PER_BUS;
+        let bus = now.bus.wrapping_sub(self.last.bus) as u32 * self.halves_per_count / 2;
         self.last = now;
         if ticks > 2 * WINDOW_MS {
             return Pace::Even;
@@ -74,7 +78,7 @@ const fn agree(left: u32, right: u32) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Look, Pace, PaceCheck};
+    use super::{HALVES_PER_COUNT, Look, Pace, PaceCheck};
 
     /// Runs for a second with the given counts in each millisecond.
     fn run(core_per_ms: u32, bus_per_16_ms: u32, ticks_per_16_ms: u32) -> Pace {
@@ -83,7 +87,7 @@ mod tests {
             core: u32::MAX - 1_000_000,
             bus: 65_000,
         };
-        let mut check = PaceCheck::new(start);
+        let mut check = PaceCheck::new(start, HALVES_PER_COUNT);
         let verdicts = (1..=1_000).map(|ms| {
             check.update(Look {
                 tick: start.tick.wrapping_add(ms * ticks_per_16_ms / 16),
@@ -113,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_late_look_is_no_verdict() {
-        let mut check = PaceCheck::new(Look::default());
+        let mut check = PaceCheck::new(Look::default(), HALVES_PER_COUNT);
         let late = Look {
             tick: 500,
             core: 500 * 40_000,
