@@ -52,6 +52,8 @@ fn by_instruction() -> Vec<Case> {
         ("special 3f", 0x3F, Reserved, None, 0),
         ("srl with rs 2", special(2, 9, 2, 9), Reserved, None, 0),
         ("ext too long", 0x7C00_FFC0, Reserved, None, 0),
+        ("ext by one bit too long", 0x7C00_F840, Reserved, None, 0),
+        ("ins of nothing", 0x7C00_0884, Reserved, None, 0),
         ("tlbwi", 0x4200_0002, Reserved, None, 0),
         ("deret outside of debug mode", DERET, Reserved, None, 0),
         ("lwc1", 0x31 << 26, CoprocessorUnusable, None, 1),

@@ -1,6 +1,6 @@
 //! The model of time: cycles of sequences.
 
-use crate::bench::{Bench, FLASH, NOP, RAM, REGISTER, immediate, special};
+use crate::bench::{Bench, ERET, FLASH, NOP, RAM, REGISTER, SYSCALL, bytes, immediate, special};
 use pic32::memory::{FlashTiming, Prefetch};
 
 /// `lw $9, 0($1)` with the address of RAM.
@@ -24,7 +24,7 @@ fn sequences_take_what_the_table_says() {
     let (mflo, mfhi) = (special(0x12, 9, 0, 0), special(0x10, 9, 0, 0));
     let mult = |register| special(0x18, 0, 3, register);
     let use_loaded = special(0x21, 10, 9, 0);
-    let cases: [(&str, &[u32], u32, u64); 16] = [
+    let cases: [(&str, &[u32], u32, u64); 17] = [
         ("plain", &[NOP, NOP, NOP], RAM, 3),
         ("load, not used", &[LOAD, NOP, use_loaded], RAM, 3),
         ("load, used", &[LOAD, use_loaded], RAM, 3),
@@ -35,6 +35,12 @@ fn sequences_take_what_the_table_says() {
         (
             "write of a register",
             &[immediate(0x2B, 9, 1, 0), NOP],
+            REGISTER,
+            2,
+        ),
+        (
+            "part of a register",
+            &[immediate(0x2A, 9, 1, 2), NOP],
             REGISTER,
             2,
         ),
@@ -82,6 +88,40 @@ fn flash_is_hidden_by_the_prefetch_unit_or_not() {
     assert_eq!(of_loop(16, 10, timing(2, Prefetch::Uncached)), 480);
     assert_eq!(of_loop(16, 10, timing(7, Prefetch::Off)), 1280);
     assert_eq!(of_loop(16, 10, timing(0, Prefetch::Off)), 160);
+}
+
+#[test]
+fn a_load_waits_when_what_needs_it_is_programmed_behind_it() {
+    let mut bench = Bench::new(&[LOAD, NOP]);
+    bench.cpu.set_register(1, RAM);
+    let using = special(0x21, 10, 9, 0);
+    bench
+        .memory
+        .write(0x1D00_0004, &bytes(&[using]))
+        .expect("it is flash");
+    bench.step();
+    assert_eq!(bench.cpu.cycle(), 2);
+}
+
+#[test]
+fn a_handler_waits_for_its_line() {
+    let mut bench = Bench::new(&[SYSCALL]);
+    bench
+        .memory
+        .write(0x1D01_0180, &bytes(&[ERET, NOP]))
+        .expect("it is flash");
+    bench.memory.set_flash_timing(FlashTiming {
+        wait_states: 2,
+        prefetch: Prefetch::Both,
+    });
+    // Two for the line of the first instruction; then the pipeline is filled again.
+    bench.run(100);
+    assert_eq!(bench.cpu.cycle(), 2 + 3);
+    // The handler's line, its one instruction, the pipeline. The line that it returns to is there.
+    bench.step();
+    assert_eq!(bench.cpu.cycle(), 2 + 3 + 2 + 1 + 3);
+    bench.run(1);
+    assert_eq!(bench.cpu.cycle(), 2 + 3 + 2 + 1 + 3 + 3);
 }
 
 #[test]
