@@ -18,6 +18,8 @@ enum Subject {
     Sim,
     /// Size of cordlib's state.
     Cordlib,
+    /// Every safety rule on the robot's firmware in the emulated chip: worst reactions.
+    Safety,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -47,6 +49,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Subject::Firmware => Some(Firmwares::build()?),
         _ => None,
     };
+    let usual = match arguments.subject {
+        Subject::Safety => Some(firmware::build(
+            firmware::board("sr8730")?,
+            &Options::default(),
+            None,
+        )?),
+        _ => None,
+    };
     let mut command = workspace::cargo();
     command
         .args(["run", "--release", "--quiet", "--locked"])
@@ -55,6 +65,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     command.args(fixed(arguments.subject));
     if let Some(firmware) = &firmware {
         firmware.hand_over(&mut command);
+    }
+    if let Some(files) = &usual {
+        command.arg("--firmware").arg(&files.elf);
     }
     if arguments.json {
         command.arg("--json");
@@ -116,6 +129,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Kill => &["--package", "vthal", "--bin", "bench-kill"],
         Subject::Sim => &["--package", "rvac-sim", "--bin", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
+        Subject::Safety => &["--package", "trials", "--bin", "bench-safety"],
         Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
@@ -134,6 +148,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
             "60",
         ],
         Subject::Kill | Subject::Firmware => &["--home", "homes/two-room-flat.toml"],
+        Subject::Safety => &["--phases", "20"],
         Subject::Link | Subject::Relay | Subject::Cordlib => &[],
     }
 }
@@ -141,6 +156,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
 fn longer(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Kill => &["--kills", "200"],
+        Subject::Safety => &["--phases", "200"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],

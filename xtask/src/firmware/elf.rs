@@ -50,6 +50,8 @@ pub(crate) struct Symbol {
     pub(crate) size: u32,
     /// Whether it is a function, or code without a type.
     pub(crate) code: bool,
+    /// Whether it has the type of a function, which other names of the same place do not always have.
+    pub(crate) function: bool,
 }
 
 /// The physical address behind a virtual one: both windows on it lie above.
@@ -224,6 +226,7 @@ impl File<'_> {
                 address: self.word(at + 4)?,
                 size: self.word(at + 8)?,
                 code: in_code && kind != 1,
+                function: kind == 2,
             });
         }
         Ok(symbols)

@@ -243,11 +243,11 @@ impl Descent<'_> {
 /// First and last address and name of each function. One without a size ends where the next begins.
 fn extents(symbols: &[Symbol], code: &[&Section]) -> Vec<(u32, u32, String)> {
     let mut starts: BTreeMap<u32, (u32, String)> = BTreeMap::new();
-    for symbol in symbols.iter().filter(|symbol| symbol.code) {
-        let entry = starts.entry(symbol.address).or_insert((0, symbol.name.clone()));
-        if symbol.size > entry.0 {
-            *entry = (symbol.size, symbol.name.clone());
-        }
+    let mut code_symbols: Vec<&Symbol> = symbols.iter().filter(|symbol| symbol.code).collect();
+    // Of several names of a place the last one stays: a function's own, with its size.
+    code_symbols.sort_by_key(|symbol| (symbol.address, symbol.function, symbol.size));
+    for symbol in code_symbols {
+        starts.insert(symbol.address, (symbol.size, symbol.name.clone()));
     }
     let mut found = Vec::new();
     for (start, (size, name)) in &starts {

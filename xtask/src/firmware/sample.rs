@@ -20,6 +20,7 @@ pub(super) fn linked(sections: &[(&str, Functions<'_>)], constants: &[u32]) -> E
                 address: address + bytes.len() as u32,
                 size: words.len() as u32 * 4,
                 code: true,
+                function: true,
             });
             words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
         }

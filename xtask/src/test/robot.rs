@@ -47,5 +47,22 @@ pub(super) fn emulator(_long: bool) -> Result {
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", workspace::target().join("firmware/sr8730.elf"));
-    tests(&mut command)
+    all([tests(&mut command), check(&mut safety_rules())])
+}
+
+/// Each safety rule at a few phases of the real firmware; `cargo xtask bench safety --long` takes 200.
+fn safety_rules() -> Command {
+    let mut command = workspace::cargo();
+    command.args([
+        "run",
+        "--release",
+        "--quiet",
+        "--locked",
+        "--package",
+        "trials",
+        "--bin",
+    ]);
+    command.args(["bench-safety", "--", "--phases", "4", "--firmware"]);
+    command.arg(workspace::target().join("firmware/sr8730.elf"));
+    command
 }
