@@ -47,7 +47,7 @@ pub(super) fn emulator(_long: bool) -> Result {
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", workspace::target().join("firmware/sr8730.elf"));
-    all([tests(&mut command), check(&mut safety_rules())])
+    all([tests(&mut command), check(&mut safety_rules())].into_iter())
 }
 
 /// Each safety rule at a few phases of the real firmware; `cargo xtask bench safety --long` takes 200.
