@@ -12,6 +12,7 @@ use trials::{StageError, Theatre, Trial, Verdict, Workshop, trials};
 
 /// Tries every safety rule on a firmware.
 #[derive(Debug, Parser)]
+#[command(args_override_self = true)]
 struct Arguments {
     /// The firmware, as ELF.
     #[arg(long)]
