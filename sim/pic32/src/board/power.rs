@@ -39,6 +39,17 @@ pub(super) struct ChargeCurrent {
     cycles: u64,
 }
 
+/// What the charging switch was told in a stretch of time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct SwitchUse {
+    /// Length of the stretch, cycles.
+    pub(super) cycles: u64,
+    /// For so many of them it was to be closed.
+    pub(super) closed: u64,
+    /// So often it was told to open.
+    pub(super) openings: u32,
+}
+
 /// What is on the contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Feed {
@@ -61,15 +72,11 @@ impl Feed {
 }
 
 impl ChargeCurrent {
-    /// The switch was told to be closed for `closed` cycles of the last `cycles`, in pulses that begin at most once a
-    /// [`SLICE`].
-    pub(super) fn pass(&mut self, (closed, cycles): (u64, u64), supply: Feed, pack_v: f64) {
-        let pulses = if closed == 0 {
-            0.0
-        } else {
-            (cycles as f64 / SLICE as f64).max(1.0)
-        };
-        let share = ((closed as f64 + pulses * OPENS_LATE) / cycles as f64).min(1.0);
+    /// The switch did this, and the pack had this voltage.
+    pub(super) fn pass(&mut self, switch: SwitchUse, supply: Feed, pack_v: f64) {
+        let cycles = switch.cycles;
+        let closed = switch.closed as f64 + f64::from(switch.openings) * OPENS_LATE;
+        let share = (closed / cycles as f64).min(1.0);
         // The home's supply tells the resistance for the mean of all pulses; this is that of a closed switch.
         let closed_ohm = SUPPLY.series_ohm * (PULSE + OPENS_LATE) / SLICE as f64;
         let driven_a = ((SUPPLY.open_v - pack_v) / closed_ohm).max(0.0);
@@ -143,14 +150,22 @@ pub(super) fn thermistor_counts(celsius: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ChargeCurrent, Feed, SLICE, thermistor_counts};
+    use super::{ChargeCurrent, Feed, SLICE, SwitchUse, thermistor_counts};
+
+    fn pulse(closed: u64) -> SwitchUse {
+        SwitchUse {
+            cycles: SLICE,
+            closed,
+            openings: u32::from(closed != 0 && closed != SLICE),
+        }
+    }
 
     /// Mean current of an envelope of 20 ms with so many periods of 133 counts.
     fn envelope_a(pulses: u64, supply: Feed) -> f64 {
         let mut current = ChargeCurrent::default();
         for period in 0..400 {
             let closed = if period < pulses { 133 } else { 0 };
-            current.pass((closed, SLICE), supply, 16.0);
+            current.pass(pulse(closed), supply, 16.0);
         }
         current.take_mean_a()
     }
@@ -161,7 +176,7 @@ mod tests {
         // 160 Hz at 1.5 %: the first two of 125 slices hold a pulse of 7,500 cycles.
         for slice in 0..1_250 {
             let closed = [SLICE, 3_500].get(slice % 125).copied().unwrap_or(0);
-            current.pass((closed, SLICE), Feed::Full, 16.0);
+            current.pass(pulse(closed), Feed::Full, 16.0);
         }
         let slow_a = current.take_mean_a();
         assert!((0.25..0.36).contains(&slow_a), "{slow_a}");
@@ -181,11 +196,11 @@ mod tests {
     fn the_quiet_part_of_an_envelope_shows_the_pack_alone() {
         let mut current = ChargeCurrent::default();
         for _ in 0..380 {
-            current.pass((133, SLICE), Feed::Full, 16.0);
+            current.pass(pulse(133), Feed::Full, 16.0);
         }
         assert!((0.35..0.5).contains(&current.shunt_v()), "{}", current.shunt_v());
         for _ in 0..20 {
-            current.pass((0, SLICE), Feed::Full, 16.0);
+            current.pass(pulse(0), Feed::Full, 16.0);
         }
         assert!(current.shunt_v() < 0.005);
     }
@@ -193,8 +208,8 @@ mod tests {
     #[test]
     fn a_switch_that_is_stuck_gives_what_the_supply_can() {
         let mut current = ChargeCurrent::default();
-        for _ in 0..100 {
-            current.pass((80_000, 80_000), Feed::Full, 16.0);
+        for _ in 0..2_000 {
+            current.pass(pulse(SLICE), Feed::Full, 16.0);
         }
         let mean_a = current.take_mean_a();
         assert!((1.49..1.55).contains(&mean_a), "{mean_a}");

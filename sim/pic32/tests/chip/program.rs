@@ -96,6 +96,7 @@ impl Program {
         self.at(0x1FC0_2FF8, &[value])
     }
 
+    #[allow(dead_code, reason = "the tests of the board use it")]
     pub(crate) fn image(&self) -> &Image {
         &self.image
     }

@@ -76,6 +76,11 @@ impl EmulatedRobot {
         self.circuit.hold(channel, counts, (from, until));
     }
 
+    /// The transistor of the charging switch conducts for good.
+    pub const fn short_charging_switch(&mut self) {
+        self.charge_switch_shorted = true;
+    }
+
     /// The chip, to break it and to look into it.
     pub const fn machine_mut(&mut self) -> &mut Machine {
         &mut self.machine

@@ -18,7 +18,7 @@ use crate::board::encoder::{BrushEncoder, Edge, Encoder, Position};
 use crate::board::gyro::GyroModule;
 use crate::board::light::{Lights, Sound};
 use crate::board::motors::{Motor, Motors};
-use crate::board::power::{Feed, SLICE};
+use crate::board::power::{Feed, SLICE, SwitchUse};
 use crate::board::serial::{HostPort, Receiver, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
@@ -67,6 +67,7 @@ pub struct EmulatedRobot {
     charge_cycles: u64,
     /// The last millisecond in which the charging switch was closed.
     charge_driven_ms: Option<u64>,
+    charge_switch_shorted: bool,
     /// Entries of the core timer's handler at the last reset, until the first one after it.
     ticks_before: Option<u64>,
     now_ms: u64,
@@ -111,6 +112,7 @@ impl EmulatedRobot {
             line_edges: Vec::new(),
             charge_cycles: 0,
             charge_driven_ms: None,
+            charge_switch_shorted: false,
             ticks_before: Some(0),
             now_ms: 0,
             resets: 0,
@@ -138,10 +140,11 @@ impl EmulatedRobot {
             self.machine.set_input(pin, Level::High);
         }
         let emitter = self.wiring.sensor_select.map(|line| line.pin);
-        for pin in emitter
-            .into_iter()
-            .chain([self.wiring.emit.pin, self.wiring.link_transmit.pin])
-        {
+        for pin in emitter.into_iter().chain([
+            self.wiring.emit.pin,
+            self.wiring.link_transmit.pin,
+            self.wiring.charge.pin,
+        ]) {
             self.machine.watch(pin);
         }
         // The host's UART holds its input high while nobody drives it.
@@ -242,22 +245,38 @@ impl EmulatedRobot {
 
     fn charge(&mut self, cycles: u64) {
         let total = self.machine.high_cycles(self.wiring.charge.pin);
-        let closed = total - self.charge_cycles;
+        let mut switch = SwitchUse {
+            cycles,
+            closed: total - self.charge_cycles,
+            openings: 0,
+        };
         self.charge_cycles = total;
-        if closed != 0 {
+        if switch.closed != 0 {
             self.charge_driven_ms = Some(self.now_ms);
         }
+        if switch.closed != 0 {
+            let edges = self.machine.take_edges(self.wiring.charge.pin).into_iter();
+            switch.openings = edges.filter(|(_, level)| !level.is_high()).count() as u32;
+        }
+        if self.charge_switch_shorted {
+            switch = SwitchUse {
+                cycles,
+                closed: cycles,
+                openings: 0,
+            };
+        }
         let supply = self.supply();
-        if closed != 0 || self.circuit.charge.is_flowing() || supply == Feed::Full {
+        if switch.closed != 0 || self.circuit.charge.is_flowing() || supply == Feed::Full {
             let pack_v = f64::from(self.circuit.sensors.battery_voltage.0) / 1000.0;
-            self.circuit.charge.pass((closed, cycles), supply, pack_v);
+            self.circuit.charge.pass(switch, supply, pack_v);
         }
     }
 
     fn supply(&self) -> Feed {
         if !self.contacts.is_on(Contact::Adapter) {
             Feed::Absent
-        } else if self.ear.is_content(self.machine.cycle()) {
+        // A dock whose supply is shorted into the pack gives what it can, asked or not.
+        } else if self.charge_switch_shorted || self.ear.is_content(self.machine.cycle()) {
             Feed::Full
         } else {
             Feed::Limited(self.model.battery.trickle_a)
