@@ -157,3 +157,65 @@ fn fitted(calibration: &Calibration) -> Capabilities {
         ..all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::parameters;
+    use crate::calibration::Calibration;
+    use crate::generated::calibration::{COUNT, ENTRIES};
+    use crate::logic::calibration_record::{MAGIC, VERSION};
+    use rvac_protocol::seal::crc32c;
+    use std::vec::Vec;
+
+    fn measured() -> Calibration {
+        let count = u16::try_from(COUNT).unwrap();
+        let mut record: Vec<u8> = [
+            &MAGIC.to_le_bytes()[..],
+            &VERSION.to_le_bytes(),
+            &count.to_le_bytes(),
+        ]
+        .concat();
+        record.extend(ENTRIES.iter().flat_map(|entry| entry.high.to_le_bytes()));
+        record.extend((!crc32c(u32::MAX, &record)).to_le_bytes());
+        Calibration::from_record(&record)
+    }
+
+    #[test]
+    fn what_nobody_has_measured_is_not_fitted() {
+        let fitted = parameters(&Calibration::from_record(&[0xFF; 4_096]))
+            .fitted
+            .unwrap();
+        assert!(!fitted.encoders && !fitted.gyro && !fitted.currents && !fitted.charger);
+        assert_eq!(
+            (
+                fitted.cliffs,
+                fitted.proximity,
+                fitted.dock_receivers,
+                fitted.buttons
+            ),
+            (0, 0, 0, 0)
+        );
+        assert!(fitted.battery && fitted.probe && fitted.beeper && fitted.brush_main);
+        assert_eq!((fitted.bumpers, fitted.wheel_drops, fitted.leds), (2, 2, 8));
+    }
+
+    #[test]
+    fn a_calibrated_robot_has_everything_with_its_own_figures() {
+        let parameters = parameters(&measured());
+        let fitted = parameters.fitted.unwrap();
+        assert!(fitted.encoders && fitted.gyro && fitted.currents && fitted.charger);
+        assert_eq!(
+            (
+                fitted.cliffs,
+                fitted.proximity,
+                fitted.dock_receivers,
+                fitted.buttons
+            ),
+            (3, 7, 4, 3)
+        );
+        assert_eq!(parameters.limits.count_nm, 50_000_000);
+        assert_eq!(parameters.limits.track.0, 500_000);
+        assert_eq!(parameters.wheel.dead_band.millionths(), 900_000);
+        assert_eq!(parameters.pack.capacity_mah, 5_000);
+    }
+}

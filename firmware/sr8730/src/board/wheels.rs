@@ -132,3 +132,103 @@ impl WheelMotors for Wheels {
         self.right.command(right.duty());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Bridge;
+    use crate::board::off::Motor;
+    use core::cell::RefCell;
+    use core::convert::Infallible;
+    use embedded_hal::digital::{self, OutputPin};
+    use embedded_hal::pwm::{self, SetDutyCycle};
+    use pic32mx3_hal::gpio::Level;
+    use rvac_units::Throttle;
+
+    /// What the lines carry, and whether PHASE ever changed while ENABLE had a width.
+    #[derive(Debug, Default)]
+    struct Lines {
+        width: u16,
+        phase: bool,
+        changes_under_current: u32,
+    }
+
+    #[derive(Debug)]
+    struct Enable<'a>(&'a RefCell<Lines>);
+    #[derive(Debug)]
+    struct Phase<'a>(&'a RefCell<Lines>);
+
+    impl pwm::ErrorType for Enable<'_> {
+        type Error = Infallible;
+    }
+
+    impl SetDutyCycle for Enable<'_> {
+        fn max_duty_cycle(&self) -> u16 {
+            4_000
+        }
+
+        fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+            self.0.borrow_mut().width = duty;
+            Ok(())
+        }
+    }
+
+    impl digital::ErrorType for Phase<'_> {
+        type Error = Infallible;
+    }
+
+    impl OutputPin for Phase<'_> {
+        fn set_low(&mut self) -> Result<(), Infallible> {
+            self.set(false)
+        }
+
+        fn set_high(&mut self) -> Result<(), Infallible> {
+            self.set(true)
+        }
+    }
+
+    impl Phase<'_> {
+        fn set(&mut self, high: bool) -> Result<(), Infallible> {
+            let mut lines = self.0.borrow_mut();
+            if lines.phase != high && lines.width != 0 {
+                lines.changes_under_current += 1;
+            }
+            lines.phase = high;
+            Ok(())
+        }
+    }
+
+    fn duty(millionths: i32) -> Throttle {
+        Throttle::from_millionths(millionths).unwrap()
+    }
+
+    #[test]
+    fn forward_is_the_level_that_the_wiring_says() {
+        for (forward, phase) in [(Level::Low, false), (Level::High, true)] {
+            let lines = RefCell::default();
+            let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), forward, Motor::WheelLeft);
+            bridge.command(duty(500_000));
+            assert_eq!((lines.borrow().width, lines.borrow().phase), (2_000, phase));
+            bridge.command(duty(-500_000));
+            assert_eq!(lines.borrow().width, 0);
+            bridge.service();
+            bridge.service();
+            assert_eq!((lines.borrow().width, lines.borrow().phase), (2_000, !phase));
+        }
+    }
+
+    #[test]
+    fn no_order_of_commands_changes_phase_while_the_line_has_a_width() {
+        let lines = RefCell::default();
+        let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), Level::High, Motor::WheelRight);
+        let mut seed = 11_u32;
+        for _ in 0..50_000 {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            match seed >> 30 {
+                0 => bridge.command(duty((seed >> 10) as i32 % 1_000_001)),
+                1 => bridge.command(duty(-((seed >> 10) as i32 % 1_000_001))),
+                _ => bridge.service(),
+            }
+        }
+        assert_eq!(lines.borrow().changes_under_current, 0);
+    }
+}
