@@ -1,6 +1,8 @@
 //! The batch commands as processes.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod echo;
+
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -48,6 +50,26 @@ fn a_report_has_all_keys_and_repeats_itself() {
     second["wall_seconds"] = Value::Null;
     assert_eq!(first, second);
     assert_ne!(first["path_m"], report("8")["path_m"]);
+}
+
+#[test]
+fn an_emulated_robot_gives_the_same_report() {
+    let image = std::env::temp_dir().join(format!("rvac-sim-echo-{}.hex", std::process::id()));
+    std::fs::write(&image, echo::image()).unwrap();
+    let home = "homes/two-room-flat.toml";
+    let run = |extra: &[&str]| {
+        let output = rvac_sim(&[&["run", "--home", home, "--minutes", "0.1", "--json"], extra].concat());
+        assert!(output.status.success(), "{output:?}");
+        serde_json::from_slice::<Value>(&output.stdout).unwrap()
+    };
+    let built_in = run(&[]);
+    let emulated = run(&["--firmware", image.to_str().unwrap()]);
+    let keys = |report: &Value| report.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!(keys(&built_in), keys(&emulated));
+    assert_eq!(emulated["sim_seconds"], 6.0);
+    assert_eq!(emulated["path_m"], 0.0, "an echo does not drive");
+    assert_ne!(built_in["path_m"], 0.0);
+    std::fs::remove_file(image).unwrap();
 }
 
 #[test]
