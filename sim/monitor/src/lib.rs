@@ -119,6 +119,12 @@ impl Monitor {
         self.count
     }
 
+    /// Whether a rule is broken in this very millisecond.
+    #[must_use]
+    pub const fn is_broken(&self) -> bool {
+        self.broken != 0
+    }
+
     /// The first violations in full.
     #[must_use]
     pub fn violations(&self) -> &[Violation] {

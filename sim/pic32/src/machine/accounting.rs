@@ -56,6 +56,11 @@ impl Accounting {
         (0..).zip(self.vectors).filter(|(_, account)| account.entries > 0)
     }
 
+    /// How often any handler was entered.
+    pub fn entries(&self) -> u64 {
+        self.vectors.iter().map(|account| account.entries).sum()
+    }
+
     /// Cycles at a priority level, 1..=7; level 0 is the main program, WAIT included.
     pub fn level_cycles(&self, level: u8) -> u64 {
         self.levels.get(usize::from(level)).copied().unwrap_or(0)

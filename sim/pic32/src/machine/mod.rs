@@ -11,11 +11,13 @@ mod accounting;
 mod core_clock;
 mod faults;
 mod surroundings;
+mod touches;
 mod view;
 mod wires;
 
 pub use accounting::{Accounting, VectorAccount};
 pub use surroundings::{Grounded, Outputs, Surroundings};
+pub use touches::Touch;
 pub use wires::{LineRate, Uart};
 
 use crate::cpu::{Access, CoreReset, Cpu, Exception, Exit, Width};
@@ -102,6 +104,7 @@ pub struct Machine {
     untold_resets: Vec<ResetSource>,
     exceptions: Vec<ExceptionRecord>,
     exception_count: u64,
+    touches: Option<Box<touches::Touches>>,
 }
 
 impl Machine {
@@ -123,6 +126,7 @@ impl Machine {
             untold_resets: Vec::new(),
             exceptions: Vec::new(),
             exception_count: 0,
+            touches: None,
         }
     }
 
@@ -155,6 +159,13 @@ impl Machine {
     /// Runs until this cycle since power-on, or until something named stops the program before. Everything that is due at
     /// that cycle has happened then, except the instruction that begins with it.
     pub fn run_until(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) -> Halt {
+        if self.touches.is_some() {
+            return self.run_noting(cycle, surroundings);
+        }
+        self.run_plainly(cycle, surroundings)
+    }
+
+    fn run_plainly(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) -> Halt {
         loop {
             let misuses = self.chip.record.misuses.len();
             self.settle(surroundings);
