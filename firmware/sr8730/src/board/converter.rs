@@ -20,6 +20,20 @@ use crate::logic::proximity::{FRONT_CHANNEL, Look, SENSORS, Sweep};
 pub const CHANNELS: usize = 16;
 /// AN0, 2, 3, 4, 8, 10, 11, 12, 13, 14: everything analog on the board.
 const SCANNED: Channels = Channels::from_bits(pins::ANALOG as u16);
+/// Number of channels in a scan.
+const SCAN: usize = SCANNED.len() as usize;
+/// Channels of a scan, in the order of its results.
+const ORDER: [u8; SCAN] = {
+    let mut order = [0; SCAN];
+    let mut channel = 0;
+    while channel < CHANNELS as u8 {
+        if let Some(position) = SCANNED.position(channel) {
+            order[position as usize] = channel;
+        }
+        channel += 1;
+    }
+    order
+};
 /// 400 ns clocks and the longest sampling, for the dividers of 10 kilo-ohm and more: ten channels last 172 µs.
 const TIMING: Timing = Timing {
     clock_divider: 15,
@@ -56,11 +70,9 @@ fn on_scan(context: &mut Context<vector::ADC>) {
     let Some(scanning) = HANDLER.get(context) else {
         return;
     };
-    let mut position = 0;
-    for (channel, count) in (0_u8..).zip(&COUNTS) {
-        if SCANNED.position(channel).is_some() {
+    for (position, channel) in (0_u8..).zip(ORDER) {
+        if let Some(count) = COUNTS.get(usize::from(channel)) {
             count.store(scanning.results.get(position), Ordering::Relaxed);
-            position += 1;
         }
     }
     SCANNED_AT.store(tick::ticks(), Ordering::Relaxed);
