@@ -50,11 +50,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         _ => None,
     };
     let usual = match arguments.subject {
-        Subject::Safety => Some(firmware::build(
-            firmware::board("sr8730")?,
-            &Options::default(),
-            None,
-        )?),
+        Subject::Safety => Some(firmware::usual_elf()?),
         _ => None,
     };
     let mut command = workspace::cargo();
@@ -66,8 +62,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if let Some(firmware) = &firmware {
         firmware.hand_over(&mut command);
     }
-    if let Some(files) = &usual {
-        command.arg("--firmware").arg(&files.elf);
+    if let Some(elf) = &usual {
+        command.arg("--firmware").arg(elf);
     }
     if arguments.json {
         command.arg("--json");
@@ -78,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     command.args(&arguments.rest);
     process::say(&process::name(&command));
     if let (Some(firmware), true) = (&firmware, arguments.json) {
-        return firmware.join(&process::capture(&mut command)?);
+        return firmware.join(&mut command);
     }
     let status = command.status()?;
     if !status.success() {
@@ -95,7 +91,7 @@ struct Firmwares {
 
 impl Firmwares {
     fn build() -> anyhow::Result<Self> {
-        let board = firmware::board("sr8730")?;
+        let board = firmware::board(firmware::ROBOT)?;
         let free_running = Options {
             features: vec!["free-running".to_owned()],
         };
@@ -110,14 +106,20 @@ impl Firmwares {
         command.arg("--free-running").arg(&self.free_running.elf);
     }
 
-    /// Prints one object with what was measured in the chip and what the firmware takes of it.
-    fn join(&self, measured: &str) -> anyhow::Result<()> {
-        let mut object: serde_json::Value = serde_json::from_str(measured).context("what was measured")?;
+    /// Prints one object with what was measured in the chip and what the firmware takes of it; fails when the measurement
+    /// does, after that.
+    fn join(&self, command: &mut std::process::Command) -> anyhow::Result<()> {
+        let output = process::finish(command.stderr(std::process::Stdio::inherit()))?;
+        let mut object: serde_json::Value =
+            serde_json::from_slice(&output.stdout).context("the measurement gave no figures")?;
         let taken = firmware::report(&self.usual.elf)?;
         for key in ["flash_bytes", "ram_static_bytes", "stack_worst_bytes"] {
             object[key] = taken[key].clone();
         }
         process::print(&serde_json::to_string(&object)?);
+        if !output.status.success() {
+            anyhow::bail!("the measurement ended with {}", output.status);
+        }
         Ok(())
     }
 }

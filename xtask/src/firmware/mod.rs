@@ -23,6 +23,9 @@ use elf::{Elf, Segment};
 use report::Report;
 use std::path::{Path, PathBuf};
 
+/// The robot whose firmware tests and measurements use.
+pub(crate) const ROBOT: &str = "sr8730";
+
 /// Arguments of `cargo xtask firmware`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -104,6 +107,11 @@ fn stem(board: &Board, options: &Options) -> String {
         .chain(features)
         .collect::<Vec<_>>()
         .join("-")
+}
+
+/// The robot's firmware as ELF file, built if it is not fresh.
+pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
+    Ok(build(board(ROBOT)?, &Options::default(), None)?.elf)
 }
 
 /// Builds the firmware in a place; gives the bytes of the ELF file, sealed.

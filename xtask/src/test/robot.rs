@@ -2,22 +2,39 @@
 
 use super::runner::{Result, all, check, tests};
 use crate::firmware::build::build_others;
-use crate::{system, workspace};
+use crate::{firmware, system, workspace};
+use std::path::Path;
 use std::process::Command;
 
 /// Workspaces of firmware, whose parts are also tested on this machine.
 const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
 
 /// The firmware is built and measured, and what of it runs on this machine is tested.
-pub(super) fn firmware(_long: bool) -> Result {
-    let mut build = workspace::cargo();
-    build.args(["xtask", "firmware", "sr8730"]);
+pub(super) fn of_firmware(_long: bool) -> Result {
+    let builds = [
+        robot_command(&["xtask", "firmware", "sr8730"]),
+        robot_command(&[
+            "xtask",
+            "firmware",
+            "sr8730",
+            "--once",
+            "--features",
+            "link-sampled",
+        ]),
+    ];
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
     let tested = FIRMWARE.map(|manifest| on_this_machine("test", manifest, &["--lib", "--no-fail-fast"]));
     let lints = lints.into_iter().map(|mut command| check(&mut command));
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
-    all([check(&mut build)].into_iter().chain(lints).chain(tested))
+    let builds = builds.into_iter().map(|mut command| check(&mut command));
+    all(builds.chain(lints).chain(tested))
+}
+
+fn robot_command(words: &[&str]) -> Command {
+    let mut command = workspace::cargo();
+    command.args(words);
+    command
 }
 
 fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
@@ -28,8 +45,9 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 }
 
 /// The emulated chip beside qemu-user, and with the programs that are written for it.
-pub(super) fn emulator(_long: bool) -> Result {
+pub(super) fn of_emulator(_long: bool) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
+    let elf = firmware::usual_elf()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     let programs = build_others(
         "the emulator's proof",
@@ -46,12 +64,14 @@ pub(super) fn emulator(_long: bool) -> Result {
         .args(["test", "--locked", "--package", "pic32", "--no-fail-fast"])
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
-        .env("RVAC_FIRMWARE", workspace::target().join("firmware/sr8730.elf"));
-    all([tests(&mut command), check(&mut safety_rules())].into_iter())
+        .env("RVAC_FIRMWARE", &elf);
+    let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
+    let (mut safety, mut pace) = (safety_rules(&elf), robot_command(&pace));
+    all([tests(&mut command), check(&mut safety), check(&mut pace)].into_iter())
 }
 
 /// Each safety rule at a few phases of the real firmware; `cargo xtask bench safety --long` takes 200.
-fn safety_rules() -> Command {
+fn safety_rules(elf: &Path) -> Command {
     let mut command = workspace::cargo();
     command.args([
         "run",
@@ -63,6 +83,6 @@ fn safety_rules() -> Command {
         "--bin",
     ]);
     command.args(["bench-safety", "--", "--phases", "4", "--firmware"]);
-    command.arg(workspace::target().join("firmware/sr8730.elf"));
+    command.arg(elf);
     command
 }

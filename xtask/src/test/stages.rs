@@ -4,7 +4,7 @@ use super::count::Count;
 use super::robot;
 use super::runner::{Result, all, check, checks, tests};
 use crate::workspace::{self, Profile, program};
-use crate::{codegen, panel, system, tidy};
+use crate::{codegen, firmware, panel, system, tidy};
 use std::process::Command;
 
 /// One stage.
@@ -42,12 +42,12 @@ pub(super) const STAGES: [Stage; 15] = [
     Stage {
         name: "firmware",
         does: "the robot's firmware keeps to its budgets; its parts pass their tests",
-        run: robot::firmware,
+        run: robot::of_firmware,
     },
     Stage {
         name: "emulator",
         does: "the emulated chip runs programs as other implementations do",
-        run: robot::emulator,
+        run: robot::of_emulator,
     },
     Stage {
         name: "tests",
@@ -81,7 +81,7 @@ pub(super) const STAGES: [Stage; 15] = [
     },
     Stage {
         name: "headless",
-        does: "the demo cleans without a browser",
+        does: "the demo cleans without a browser, with either robot",
         run: headless,
     },
     Stage {
@@ -221,30 +221,40 @@ fn link(long: bool) -> Result {
     check(&mut command)
 }
 
+/// Many runs of the logic built for this machine, and a few of the real firmware, which take two thousand times as long.
 fn faults(long: bool) -> Result {
     workspace::build(&["rvac-sim"], Profile::Release)?;
-    let mut command = Command::new(program("rvac-sim", Profile::Release));
-    command.current_dir(workspace::root());
-    command.args([
-        "faults",
+    let elf = firmware::usual_elf()?;
+    let run = |words: &[&str]| {
+        let mut command = Command::new(program("rvac-sim", Profile::Release));
+        command.current_dir(workspace::root()).arg("faults").args(words);
+        command
+    };
+    let seeds = if long { "0..100000" } else { "0..1000" };
+    let mut on_chip = run(&[
         "--seeds",
-        if long { "0..100000" } else { "0..1000" },
+        if long { "0..100" } else { "0..4" },
         "--minutes",
-        "10",
+        "1",
+        "--firmware",
     ]);
-    check(&mut command)
+    on_chip.arg(elf);
+    checks(&mut [run(&["--seeds", seeds, "--minutes", "10"]), on_chip])
 }
 
 fn headless(_long: bool) -> Result {
-    check(&mut cargo(&[
+    let usual = ["xtask", "demo", "--headless", "--minutes", "3", "--seed", "1"];
+    let emulated = [
         "xtask",
         "demo",
         "--headless",
+        "--emulated",
         "--minutes",
-        "3",
+        "0.5",
         "--seed",
         "1",
-    ]))
+    ];
+    checks(&mut [cargo(&usual), cargo(&emulated)])
 }
 
 fn kill(long: bool) -> Result {
