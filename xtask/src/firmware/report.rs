@@ -242,3 +242,70 @@ fn stray(program: &Elf) -> Vec<u32> {
     });
     outside.map(|segment| segment.physical).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{FLASH_MAX, Report};
+    use crate::firmware::elf::{Elf, Segment};
+    use crate::firmware::sample::linked;
+
+    fn program(flash_bytes: u32, configuration_bytes: usize) -> Elf {
+        let mut elf = linked(&[(".text", &[("__start", &[0, 0])])], &[]);
+        let segment = |physical, length| Segment {
+            physical,
+            offset: 0,
+            bytes: vec![0; length],
+        };
+        elf.segments = vec![
+            segment(0x1D00_0000, flash_bytes as usize),
+            segment(0x1FC0_2FF0, configuration_bytes),
+        ];
+        elf
+    }
+
+    fn faults(elf: &Elf, reproducible: Option<bool>) -> Vec<String> {
+        Report::of(elf, reproducible).expect("it has a start").faults()
+    }
+
+    #[test]
+    fn what_keeps_to_its_budget_is_accepted_and_configuration_is_no_flash() {
+        assert!(faults(&program(FLASH_MAX, 16), Some(true)).is_empty());
+        assert!(faults(&program(FLASH_MAX, 16), None).is_empty());
+    }
+
+    #[test]
+    fn each_fault_is_named_with_its_limit() {
+        let mut greedy = program(4, 16);
+        if let Some(section) = greedy.sections.last_mut() {
+            (section.address, section.size) = (0x8000_0000, 20_481);
+        }
+        let mut astray = program(4, 16);
+        astray.segments[0].physical = 0x1D04_0000;
+        let table = [
+            (
+                program(FLASH_MAX + 4, 16),
+                None,
+                "over budget: 163844 bytes of flash, 163840 allowed",
+            ),
+            (
+                greedy,
+                None,
+                "over budget: 20481 bytes of static memory, 20480 allowed",
+            ),
+            (
+                program(4, 12),
+                None,
+                "configuration words are not all in the program",
+            ),
+            (program(4, 16), Some(false), "other bytes"),
+            (astray, None, "0x1d040000, which is no flash"),
+        ];
+        for (elf, reproducible, wanted) in table {
+            let found = faults(&elf, reproducible);
+            assert!(
+                found.len() == 1 && found[0].contains(wanted),
+                "{wanted}: {found:?}"
+            );
+        }
+    }
+}
