@@ -46,7 +46,8 @@ pub(super) struct FaultWatch {
     no_current_tries: u8,
     frozen_ms: u32,
     frozen_cc: Option<i32>,
-    second_mv: Option<i32>,
+    /// Averages of the last second and of the one before: a jump in the middle of a second is shared by two.
+    seconds_mv: [Option<i32>; 2],
     supplied: bool,
     interruptions: u8,
     forgive_ms: u32,
@@ -67,7 +68,7 @@ impl FaultWatch {
 
     /// The switch was opened: the voltage falls by what the current made, which is no jump.
     pub(super) const fn interrupt(&mut self) {
-        self.second_mv = None;
+        self.seconds_mv = [None; 2];
     }
 
     /// Off the dock nothing can be wrong with the charger. How often the contacts came and went is kept.
@@ -155,12 +156,24 @@ impl<S: Stops> ChargeController<S> {
             return Some(ChargeFault::TooHot);
         }
         let flows = self.charge.flows();
-        let before_mv = core::mem::replace(&mut self.watch.second_mv, flows.then_some(means.pack_mv));
-        if flows && means.pack_mv >= self.scale.voltage_max_mv() && self.charge.is_young(ABSENT_MS) {
+        let [last_mv, before_mv] = self.watch.seconds_mv;
+        self.watch.seconds_mv = [flows.then_some(means.pack_mv), last_mv];
+        let young = self.charge.is_young(ABSENT_MS);
+        if flows && means.pack_mv >= self.scale.voltage_max_mv() && young {
             return Some(ChargeFault::NoBattery);
         }
-        if flows && before_mv.is_some_and(|mv| self.scale.is_jump(mv, means.pack_mv)) {
-            return Some(ChargeFault::VoltageJump);
+        let jumped = |mv: Option<i32>| mv.is_some_and(|mv| self.scale.is_jump(mv, means.pack_mv));
+        if flows && (jumped(last_mv) || jumped(before_mv)) {
+            return Some(if young {
+                ChargeFault::NoBattery
+            } else {
+                ChargeFault::VoltageJump
+            });
+        }
+        let rests =
+            self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS) && self.supplied_ms >= means.elapsed_ms;
+        if rests && self.scale.unfit(means.pack_mv) == Some(ChargeFault::NoBattery) {
+            return Some(ChargeFault::NoBattery);
         }
         self.find_no_current(&means)
     }

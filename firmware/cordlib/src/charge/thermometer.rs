@@ -16,7 +16,8 @@ const JUMP_MS: u32 = 10_000;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thermometer {
     cc: Option<i32>,
-    second_cc: Option<i32>,
+    /// Averages of the last second and of the one before: a jump in the middle of a second is shared by two.
+    seconds_cc: [Option<i32>; 2],
     bad_ms: u32,
     bad: Option<ThermistorFault>,
     jump_ms: u32,
@@ -50,10 +51,13 @@ impl Thermometer {
 
     /// A window of a second is over.
     pub(super) fn each_second(&mut self, means: &Means) {
-        let before = core::mem::replace(&mut self.second_cc, means.temperature_cc);
-        if let (Some(before), Some(now)) = (before, means.temperature_cc)
-            && now.saturating_sub(before).saturating_abs() > JUMP_CC
-        {
+        let [last_cc, before_cc] = self.seconds_cc;
+        self.seconds_cc = [means.temperature_cc, last_cc];
+        let is_jump = |cc: Option<i32>, limit_cc: i32| match (cc, means.temperature_cc) {
+            (Some(cc), Some(now_cc)) => now_cc.saturating_sub(cc).saturating_abs() > limit_cc,
+            _ => false,
+        };
+        if is_jump(last_cc, JUMP_CC) || is_jump(before_cc, JUMP_CC + JUMP_CC / 2) {
             self.jump_ms = JUMP_MS;
             self.doubt(ThermistorFault::Jump);
         }
