@@ -104,7 +104,9 @@ impl Sound {
     pub(super) fn take(&mut self, machine: &mut Machine) {
         for (cycle, level) in machine.take_edges(self.tone) {
             if level == Level::High {
-                self.period = self.last_rise.map(|last| cycle - last);
+                // A longer pause is silence between two tones.
+                let since = self.last_rise.map(|last| cycle - last);
+                self.period = since.filter(|period| *period < SILENCE);
                 self.last_rise = Some(cycle);
             }
         }
