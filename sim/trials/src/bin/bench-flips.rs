@@ -1,0 +1,141 @@
+//! `bench-flips`: bits that flip in the memory and the registers of the emulated chip while it runs the real firmware.
+//! `cargo xtask bench flips` builds and runs it.
+#![forbid(unsafe_code)]
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use trials::flips::{Fate, Plan, Storage, Tally, flip_bits};
+use trials::{StageError, Workshop};
+
+/// Flips bits of a firmware's memory.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// The firmware, as ELF.
+    #[arg(long)]
+    firmware: PathBuf,
+    /// Flips.
+    #[arg(long, default_value_t = 10_000)]
+    count: u32,
+    /// Seed of places and moments.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Stretches of life, for each of the five situations, that the flips are spread over.
+    #[arg(long, default_value_t = 8)]
+    courses: usize,
+    /// Flips in flash that are left until the check of the image must have found them.
+    #[arg(long, default_value_t = 20)]
+    image_checks: u32,
+    /// Tell each course on standard error.
+    #[arg(long)]
+    progress: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(&arguments) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => complain("a flipped bit was unsafe, or not what was foreseen"),
+        Err(Failure::Stage(error)) => complain(&error.to_string()),
+        Err(Failure::Output(error)) => complain(&error.to_string()),
+    }
+}
+
+enum Failure {
+    Stage(StageError),
+    Output(io::Error),
+}
+
+impl From<StageError> for Failure {
+    fn from(error: StageError) -> Self {
+        Self::Stage(error)
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+fn complain(what: &str) -> ExitCode {
+    // When even standard error is gone there is nobody left to tell.
+    writeln!(io::stderr(), "bench-flips: {what}").ok();
+    ExitCode::FAILURE
+}
+
+fn run(arguments: &Arguments) -> Result<bool, Failure> {
+    let workshop = Workshop::open(&arguments.firmware)?;
+    let plan = Plan {
+        count: arguments.count,
+        seed: arguments.seed,
+        courses: arguments.courses,
+        image_checks: arguments.image_checks,
+    };
+    let tally = flip_bits(&workshop, &plan, |tally| {
+        if arguments.progress {
+            let (flips, tried) = (tally.flips, tally.tried);
+            let breaches = tally.breaches.len();
+            writeln!(io::stderr(), "{flips} flips, {tried} tried, {breaches} breaches").ok();
+        }
+    })?;
+    let mut out = io::stdout().lock();
+    if arguments.json {
+        serde_json::to_writer(&mut out, &tally).map_err(io::Error::from)?;
+        writeln!(out)?;
+    } else {
+        print(&mut out, &tally)?;
+    }
+    Ok(tally.is_safe())
+}
+
+fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
+    let row = |fates: &std::collections::BTreeMap<Fate, u32>| -> String {
+        let number = |fate| fates.get(fate).copied().unwrap_or_default();
+        Fate::ALL
+            .iter()
+            .map(|fate| format!("{:>12}", number(fate)))
+            .collect()
+    };
+    let names: String = Fate::ALL
+        .iter()
+        .map(|fate| format!("{:>12}", format!("{fate:?}").to_lowercase()))
+        .collect();
+    writeln!(out, "{:<16}{names}", "")?;
+    for storage in Storage::ALL {
+        if let Some(fates) = tally.fates.get(&storage) {
+            writeln!(out, "{:<16}{}", storage.name(), row(fates))?;
+        }
+    }
+    for (situation, fates) in &tally.situations {
+        writeln!(out, "{:<16}{}", situation.name(), row(fates))?;
+    }
+    let (checked, wrong) = tally.foreseen_checked;
+    let (left, missed) = tally.image_checked;
+    writeln!(
+        out,
+        "{} flips, {} of them tried; {checked} tried though foreseen, {wrong} of them otherwise; \
+         {left} left to the image check, {missed} not found",
+        tally.flips, tally.tried
+    )?;
+    for breach in &tally.breaches {
+        writeln!(
+            out,
+            "{:?} for {} ms: {} course {} at {} ms, {:?} in {}: {}",
+            breach.fate,
+            breach.broken_ms,
+            breach.situation.name(),
+            breach.course,
+            breach.at_ms,
+            breach.place,
+            breach.name,
+            breach.breach
+        )?;
+    }
+    Ok(())
+}

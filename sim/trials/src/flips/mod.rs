@@ -1,0 +1,236 @@
+//! Single bits that flip in memory and registers while the robot stands, drives, cleans or charges (S21).
+//!
+//! Each flip is tried from a snapshot: the bit flips at the beginning of a millisecond (each course has another phase
+//! between the core and the surroundings' milliseconds), at most a quarter of a second later something happens after which
+//! motors or charger must be off, and the judge looks on for longer than the watchdog's time. Words that the same robot
+//! does not read in this time without the flip need not be tried: the program cannot take another way because of them.
+
+mod course;
+mod place;
+
+use std::collections::BTreeMap;
+
+use home::Pcg;
+use pic32::image::{Image, SymbolKind};
+use rvac_protocol::message::Inhibit;
+use serde::Serialize;
+
+pub use course::{Fate, Situation};
+pub use place::{Place, Storage};
+
+use crate::stage::{StageError, Workshop};
+use course::{Course, FLIP_MS};
+use place::Places;
+
+const DRAWS: u64 = 0xF11B;
+/// Of the flips that need not be tried so many are tried all the same, one in so many.
+const CHECKED_EACH: u32 = 50;
+/// A flipped bit in flash must be found within this time, ms: the image is gone over every ten seconds.
+const FOUND_MS: u64 = 13_000;
+
+/// How a campaign is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Flips.
+    pub count: u32,
+    /// Of everything random.
+    pub seed: u64,
+    /// Courses of each situation.
+    pub courses: usize,
+    /// Flips in flash that are left until the check of the image must have found them.
+    pub image_checks: u32,
+}
+
+/// A flip that broke a rule.
+#[derive(Clone, Debug, Serialize)]
+pub struct Breach {
+    /// When the bit flipped.
+    pub situation: Situation,
+    /// Number of the course.
+    pub course: usize,
+    /// Millisecond of the course.
+    pub at_ms: usize,
+    /// The bit.
+    pub place: Place,
+    /// The function or variable that it belongs to.
+    pub name: String,
+    /// What it came to.
+    pub fate: Fate,
+    /// For how long a rule was broken, ms.
+    pub broken_ms: u32,
+    /// The first breach.
+    pub breach: String,
+}
+
+/// What came of a campaign.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Tally {
+    /// Flips.
+    pub flips: u32,
+    /// Flips that were tried in the emulator; those of the others are certain without.
+    pub tried: u32,
+    /// Flips by storage and fate.
+    pub fates: BTreeMap<Storage, BTreeMap<Fate, u32>>,
+    /// Flips by situation and fate.
+    pub situations: BTreeMap<Situation, BTreeMap<Fate, u32>>,
+    /// Flips that were certain and were tried all the same, and how many of them were not as foreseen.
+    pub foreseen_checked: (u32, u32),
+    /// Flips of flash that were left until the check of the image had to find them, and how many it did not find.
+    pub image_checked: (u32, u32),
+    /// Flips that broke a rule.
+    pub breaches: Vec<Breach>,
+}
+
+impl Tally {
+    /// Flips with this fate.
+    #[must_use]
+    pub fn of(&self, fate: Fate) -> u32 {
+        self.fates.values().filter_map(|fates| fates.get(&fate)).sum()
+    }
+
+    /// Whether nothing is left to explain.
+    #[must_use]
+    pub fn is_safe(&self) -> bool {
+        self.of(Fate::Unsafe) == 0 && self.foreseen_checked.1 == 0 && self.image_checked.1 == 0
+    }
+
+    fn count(&mut self, situation: Situation, storage: Storage, fate: Fate) {
+        self.flips += 1;
+        *self.fates.entry(storage).or_default().entry(fate).or_default() += 1;
+        *self
+            .situations
+            .entry(situation)
+            .or_default()
+            .entry(fate)
+            .or_default() += 1;
+    }
+}
+
+/// Flips bits. `progress` is told the tally after each course.
+///
+/// # Errors
+/// When the robot does not get into a situation without any fault.
+pub fn flip_bits(
+    workshop: &Workshop,
+    plan: &Plan,
+    mut progress: impl FnMut(&Tally),
+) -> Result<Tally, StageError> {
+    let mut random = Pcg::new(plan.seed, DRAWS);
+    let mut tally = Tally::default();
+    let all = plan.courses * Situation::ALL.len();
+    for number in 0..all {
+        let Some(situation) = Situation::ALL.get(number % Situation::ALL.len()) else {
+            continue;
+        };
+        let variables_end = variables_end(workshop.image());
+        let mut places = None;
+        let course = Course::live(workshop, *situation, number / Situation::ALL.len(), |machine| {
+            let found = Places::of(machine, variables_end);
+            places.insert(found).chip().to_vec()
+        })?;
+        let Some(places) = places else { continue };
+        let ground = Ground {
+            image: workshop.image(),
+            course: &course,
+            places: &places,
+        };
+        let share = |number: usize| (u64::from(plan.count) * number as u64 / all as u64) as u32;
+        for _ in share(number)..share(number + 1) {
+            ground.flip_one(&mut random, &mut tally);
+        }
+        if number == 0 {
+            ground.check_image(plan.image_checks, &mut random, &mut tally);
+        }
+        progress(&tally);
+    }
+    Ok(tally)
+}
+
+/// A stretch of life and the bits that can flip in it.
+struct Ground<'a> {
+    image: &'a Image,
+    course: &'a Course,
+    places: &'a Places,
+}
+
+impl Ground<'_> {
+    fn flip_one(&self, random: &mut Pcg, tally: &mut Tally) {
+        let course = self.course;
+        let place = self.places.draw(random);
+        let at_ms = random.below(FLIP_MS as u32) as usize;
+        let is_checked = random.below(CHECKED_EACH) == 0;
+        let foreseen = course.foreseen(place, at_ms);
+        if let (Some(fate), false) = (foreseen, is_checked) {
+            tally.count(course.situation, place.storage, fate);
+            return;
+        }
+        tally.tried += 1;
+        let trace = course.try_out(place, at_ms);
+        if foreseen.is_some() {
+            tally.foreseen_checked.0 += 1;
+            tally.foreseen_checked.1 += u32::from(trace.fate != Fate::Masked);
+        }
+        let fate = match trace.fate {
+            Fate::Masked => foreseen.unwrap_or(Fate::Masked),
+            fate => fate,
+        };
+        tally.count(course.situation, place.storage, fate);
+        if let Some(breach) = trace.breach {
+            tally.breaches.push(Breach {
+                situation: course.situation,
+                course: course.number(),
+                at_ms,
+                place,
+                name: name_of(self.image, place),
+                fate,
+                broken_ms: trace.broken_ms,
+                breach,
+            });
+        }
+    }
+
+    /// Leaves flipped bits of flash alone until the robot has found them.
+    fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut Tally) {
+        while left > 0 {
+            let place = self.places.draw(random);
+            // What is behind the image is no part of it: the calibration record has a check of its own, at the start.
+            if !place.is_in_image() || self.course.foreseen(place, 0) != Some(Fate::Untouched) {
+                continue;
+            }
+            left -= 1;
+            tally.image_checked.0 += 1;
+            let found = self.course.first().is_some_and(|mut stage| {
+                place.flip(stage.robot_mut().machine_mut());
+                (0..FOUND_MS).any(|_| {
+                    stage.tick();
+                    stage.inhibits().contains(Inhibit::Memory)
+                })
+            });
+            tally.image_checked.1 += u32::from(!found);
+        }
+    }
+}
+
+/// Where the program's variables end, physical.
+fn variables_end(image: &Image) -> u32 {
+    let variables = image.symbols().iter().filter(|symbol| {
+        symbol.kind == SymbolKind::Object && (0x8000_0000..0x8000_8000).contains(&symbol.address)
+    });
+    let end = variables.map(|symbol| symbol.address + symbol.size).max();
+    (end.unwrap_or(0x8000_8000) & 0xFFFF).next_multiple_of(4)
+}
+
+/// The function or variable that the bit belongs to.
+fn name_of(image: &Image, place: Place) -> String {
+    let segment = match place.storage {
+        Storage::Ram | Storage::Flash => 0x8000_0000,
+        Storage::Core | Storage::Chip => return format!("{} {:#x}", place.storage.name(), place.address),
+    };
+    let address = segment + place.address;
+    let holds = |start: u32, size: u32| (start..start + size.max(4)).contains(&address);
+    let found = image
+        .symbols()
+        .iter()
+        .find(|symbol| symbol.kind != SymbolKind::Plain && holds(symbol.address, symbol.size));
+    found.map_or_else(|| format!("{address:#010x}"), |symbol| symbol.name.clone())
+}
