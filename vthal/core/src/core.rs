@@ -249,13 +249,19 @@ impl Core {
                 update: Update::Log(entry.clone()),
             });
         }
+        if self.records() {
+            outputs.records.push(Record::Log(entry.clone()));
+        }
         outputs.log.push(entry);
     }
 
+    /// Whether a run is going on that is recorded.
+    fn records(&self) -> bool {
+        self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded)
+    }
+
     fn wants_packets(&self) -> bool {
-        let recorded =
-            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
-        recorded || self.clients.any(Topic::Packets)
+        self.records() || self.clients.any(Topic::Packets)
     }
 
     fn tap_received(&mut self, now_us: u64, bytes: &[u8], outputs: &mut Outputs) {
@@ -293,8 +299,7 @@ impl Core {
         packets: &mut Vec<(crate::Direction, String)>,
         outputs: &mut Outputs,
     ) {
-        let recorded =
-            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
+        let recorded = self.records();
         let followed = self.clients.any(Topic::Packets);
         for (direction, text) in packets.drain(..) {
             if recorded {

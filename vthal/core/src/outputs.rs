@@ -110,6 +110,8 @@ pub enum Record {
     },
     /// Where the brain believes the robot to be.
     Pose(Pose),
+    /// A line of the log.
+    Log(LogEntry),
     /// The run is over.
     RunEnded {
         /// Host time in microseconds.

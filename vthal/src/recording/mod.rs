@@ -1,6 +1,7 @@
 //! Recordings of runs: one MCAP file each, which Foxglove opens and [`replay`] runs again.
 
 pub mod format;
+mod foxglove;
 mod library;
 pub mod replay;
 mod run_file;
@@ -23,5 +24,11 @@ pub(crate) const DECISIONS: &str = "/decisions";
 pub(crate) const PACKETS: &str = "/packets";
 /// Channel of the status as clients see it.
 pub(crate) const STATUS: &str = "/status";
-/// Channel of the pose, in Foxglove's own form.
+/// Channel of the pose, for Foxglove.
 pub(crate) const POSE: &str = "/pose";
+/// Channel of the robot's frame in the map's, for Foxglove.
+pub(crate) const TRANSFORM: &str = "/tf";
+/// Channel of the robot's looks, for Foxglove.
+pub(crate) const ROBOT: &str = "/robot";
+/// Channel of the log, for Foxglove.
+pub(crate) const LOG: &str = "/log";

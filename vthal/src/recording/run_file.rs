@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{WriteOptions, Writer};
-use rvac_api::Pose;
 use serde::Serialize;
 use serde_json::json;
 use vthal_core::{Record, RunStart};
 
 use super::format::{Answered, Given, GivenCommand, RunHeader, Seen};
+use super::foxglove;
 use super::schemas::CHANNELS;
-use super::{COMMANDS, DECISIONS, OBSERVATIONS, PACKETS, POSE, RUN, STATUS};
+use super::{COMMANDS, DECISIONS, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT, RUN, STATUS, TRANSFORM};
 
 /// Why a record was not written.
 #[derive(Debug, thiserror::Error)]
@@ -107,6 +107,10 @@ impl RunFile {
             last_answer: Vec::new(),
         };
         run.write_json((RUN, start.time_us), &RunHeader::new(start))?;
+        run.write_json(
+            (ROBOT, start.time_us),
+            &foxglove::robot(start.time_us, start.brain.body.radius_m),
+        )?;
         run.flush()?;
         Ok(run)
     }
@@ -159,8 +163,11 @@ impl RunFile {
             ),
             Record::Status { time_us, status } => self.write_json((STATUS, *time_us), status),
             Record::Pose(pose) => {
-                self.write_json((POSE, (pose.t * 1e6).round() as u64), &pose_in_frame(*pose))
+                let time_us = foxglove::time_us(pose.t);
+                self.write_json((POSE, time_us), &foxglove::pose_in_frame(*pose))?;
+                self.write_json((TRANSFORM, time_us), &foxglove::frame_transform(*pose))
             }
+            Record::Log(entry) => self.write_json((LOG, foxglove::time_us(entry.t)), &foxglove::log(entry)),
         }
     }
 
@@ -226,17 +233,4 @@ fn metadata(start: &RunStart, settings: &str) -> Metadata {
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
     }
-}
-
-fn pose_in_frame(pose: Pose) -> serde_json::Value {
-    let half = 0.5 * pose.heading;
-    let sec = pose.t.floor();
-    json!({
-        "timestamp": {"sec": sec as u64, "nsec": ((pose.t - sec) * 1e9) as u64},
-        "frame_id": "map",
-        "pose": {
-            "position": {"x": pose.x, "y": pose.y, "z": 0.0},
-            "orientation": {"x": 0.0, "y": 0.0, "z": half.sin(), "w": half.cos()},
-        },
-    })
 }

@@ -9,7 +9,7 @@ use crate::clients::Clients;
 use crate::device::{Description, Device, Part};
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
-use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, Recording, to_api};
+use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, to_api};
 
 /// Poses go out at most this often.
 const POSE_US: u64 = 50_000;
@@ -60,9 +60,7 @@ impl Feed {
 
 impl Core {
     pub(super) fn feed(&mut self, now_us: u64, outputs: &mut Outputs) {
-        let recorded =
-            self.config.recording == Recording::On && self.mind.as_ref().is_some_and(Mind::is_recorded);
-        if self.clients.any_topic() || recorded {
+        if self.clients.any_topic() || self.records() {
             self.feed_status(now_us, outputs);
             self.feed_pose(now_us, outputs);
         }

@@ -1,0 +1,300 @@
+//! A recording as Foxglove meets it: an indexed file whose messages keep to the schemas that it brings along.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::PathBuf;
+
+use brain::action::{Arm, Decision, Tone};
+use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
+use mcap::{MessageStream, Summary};
+use rvac_api::{LogEntry, LogLevel, Pose, Status};
+use serde_json::{Value, json};
+use vthal::recording::RunFile;
+use vthal_core::{Direction, Record, RunCause, RunStart};
+
+/// Host time of the run's begin.
+const BEGIN_US: u64 = 8_008_291;
+
+fn start() -> RunStart {
+    RunStart {
+        time_us: BEGIN_US,
+        run: 1,
+        cause: RunCause::Job,
+        seed: u64::MAX,
+        brain: config(),
+        checkpoint: brain::Checkpoint::default(),
+        device: "sr8730".to_owned(),
+        firmware: "0.1.0".to_owned(),
+    }
+}
+
+fn config() -> BrainConfig {
+    let body = Body {
+        radius_m: 0.175,
+        swath_m: 0.3,
+        track_m: 0.23,
+    };
+    let speeds = Speeds {
+        cruise_m_per_s: 0.25,
+        max_m_per_s: 0.35,
+        turn_max_rad_per_s: 1.5,
+    };
+    BrainConfig::new(body, speeds)
+}
+
+fn answers() -> [Actions; 2] {
+    let quiet = Actions {
+        motion: Motion::Rest,
+        cleaners: false,
+        arm: None,
+        tones: Vec::new(),
+        decisions: Vec::new(),
+    };
+    let busy = Actions {
+        motion: Motion::Drive {
+            speed_m_per_s: 0.25,
+            turn_rad_per_s: 0.0,
+        },
+        cleaners: true,
+        arm: Some(Arm { undock: true }),
+        tones: vec![Tone {
+            pitch_hz: 880,
+            duration_ms: 200,
+        }],
+        decisions: vec![Decision {
+            what: "turn",
+            reason: "bump-left",
+            value: 1.5,
+        }],
+    };
+    [busy, quiet]
+}
+
+/// One record of every kind, some with every optional part and some with none.
+fn records() -> Vec<Record> {
+    let status = Status {
+        state: "cleaning".to_owned(),
+        inhibits: vec!["bumper".to_owned()],
+        ..Status::default()
+    };
+    let named = Status {
+        strategy: Some("bounce".to_owned()),
+        driver: Some("panel".to_owned()),
+        ..status.clone()
+    };
+    let full = Observation {
+        time_us: BEGIN_US + 1,
+        gyro_heading_rad: Some(-15.7),
+        proximity: vec![0.5; 8],
+        dock_beams: vec![0, 3],
+        battery_charge: Some(0.94),
+        inhibits: vec!["wheel-drop"],
+        ..Observation::default()
+    };
+    let mut records = vec![
+        Record::Command {
+            time_us: BEGIN_US,
+            command: Command::Clean {
+                strategy: StrategyName::Bounce,
+            },
+        },
+        Record::Observation(full),
+        Record::Observation(Observation::default()),
+    ];
+    records.extend(answers().into_iter().map(|actions| Record::Actions {
+        time_us: BEGIN_US + 1,
+        actions,
+    }));
+    records.extend(
+        [Direction::ToRobot, Direction::FromRobot].map(|direction| Record::Packet {
+            time_us: BEGIN_US + 2,
+            direction,
+            text: r#"{"c":"stop"}"#.to_owned(),
+        }),
+    );
+    records.extend([status, named].map(|status| Record::Status {
+        time_us: BEGIN_US + 3,
+        status,
+    }));
+    records.push(Record::Pose(POSE));
+    records.extend([LogLevel::Debug, LogLevel::Info, LogLevel::Warn, LogLevel::Error].map(line));
+    records
+}
+
+/// A quarter turn to the left, at a time that a float cannot say exactly.
+const POSE: Pose = Pose {
+    x: 1.25,
+    y: -0.333_333_333,
+    heading: core::f64::consts::FRAC_PI_2,
+    t: 259.975_123,
+};
+
+fn line(level: LogLevel) -> Record {
+    Record::Log(LogEntry {
+        number: 1,
+        t: 9.5,
+        level,
+        part: "brain".to_owned(),
+        text: "turns: bump-left".to_owned(),
+    })
+}
+
+/// Writes a run and gives the bytes of its file.
+fn recording(name: &str) -> Vec<u8> {
+    let path: PathBuf = std::env::temp_dir().join(format!("vthal-recording-{}-{name}", std::process::id()));
+    fs::remove_file(&path).ok();
+    let mut run = RunFile::create(&path, &start(), "settings").expect("creates");
+    for record in records() {
+        run.write(&record).expect("writes");
+    }
+    run.finish().expect("finishes");
+    let bytes = fs::read(&path).expect("reads");
+    fs::remove_file(&path).expect("cleans up");
+    bytes
+}
+
+/// All messages by topic, each with its time in nanoseconds.
+fn messages(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Value)>> {
+    let mut all: BTreeMap<String, Vec<(u64, Value)>> = BTreeMap::new();
+    for message in MessageStream::new(bytes).expect("is MCAP") {
+        let message = message.expect("is whole");
+        let value = serde_json::from_slice(&message.data).expect("is JSON");
+        all.entry(message.channel.topic.clone())
+            .or_default()
+            .push((message.log_time, value));
+    }
+    all
+}
+
+#[test]
+fn the_index_names_every_channel_and_all_messages() {
+    let bytes = recording("index");
+    let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
+    let stats = summary.stats.as_ref().expect("has statistics");
+    let found = messages(&bytes);
+    assert_eq!(
+        stats.message_count as usize,
+        found.values().map(Vec::len).sum::<usize>()
+    );
+    assert!(!summary.chunk_indexes.is_empty(), "a reader can jump in it");
+    let mut schemas = BTreeMap::new();
+    for channel in summary.channels.values() {
+        let schema = channel.schema.as_ref().expect("each channel has a schema");
+        assert_eq!(
+            (channel.message_encoding.as_str(), schema.encoding.as_str()),
+            ("json", "jsonschema")
+        );
+        assert!(
+            found.contains_key(&channel.topic),
+            "{} has messages",
+            channel.topic
+        );
+        schemas.insert(channel.topic.as_str(), schema.name.as_str());
+    }
+    let drawn = ["/pose", "/tf", "/robot", "/log"].map(|topic| schemas[topic]);
+    // Foxglove knows forms by these names.
+    let names = ["PoseInFrame", "FrameTransform", "SceneUpdate", "Log"];
+    assert_eq!(drawn, names.map(|name| format!("foxglove.{name}")));
+}
+
+#[test]
+fn every_message_keeps_to_its_schema() {
+    let bytes = recording("schemas");
+    let mut keys_met: BTreeSet<(String, String)> = BTreeSet::new();
+    for message in MessageStream::new(&bytes).expect("is MCAP") {
+        let message = message.expect("is whole");
+        let schema = message.channel.schema.as_ref().expect("has a schema");
+        let schema: Value = serde_json::from_slice(&schema.data).expect("schemas are JSON");
+        let value: Value = serde_json::from_slice(&message.data).expect("is JSON");
+        let topic = &message.channel.topic;
+        if let Err(wrong) = check(&schema, &value) {
+            panic!("{topic}: {wrong} in {value}");
+        }
+        let keys = value.as_object().expect("is an object").keys();
+        keys_met.extend(keys.map(|key| (topic.clone(), key.clone())));
+    }
+    for (topic, schema) in schemas(&bytes) {
+        let properties = schema["properties"].as_object().expect("has properties");
+        for key in properties.keys() {
+            assert!(
+                keys_met.contains(&(topic.clone(), key.clone())),
+                "{topic} never has {key}"
+            );
+        }
+    }
+}
+
+fn schemas(bytes: &[u8]) -> BTreeMap<String, Value> {
+    let summary = Summary::read(bytes).expect("reads").expect("has a summary");
+    let channels = summary.channels.values();
+    channels
+        .map(|channel| {
+            let schema = channel.schema.as_ref().expect("has a schema");
+            let schema = serde_json::from_slice(&schema.data).expect("schemas are JSON");
+            (channel.topic.clone(), schema)
+        })
+        .collect()
+}
+
+/// As much of JSON Schema as ours use. Stricter in one point: a key that the schema does not name is wrong, and less
+/// strict in another: `null` stands for what is not there.
+fn check(schema: &Value, value: &Value) -> Result<(), String> {
+    if value.is_null() {
+        return Ok(());
+    }
+    if let Some(choices) = schema["oneOf"].as_array() {
+        let fits = choices.iter().any(|choice| choice["const"] == *value);
+        return fits
+            .then_some(())
+            .ok_or(format!("{value} is none of the choices"));
+    }
+    let fits = match schema["type"].as_str() {
+        None => true,
+        Some("object") => value.is_object(),
+        Some("array") => value.is_array(),
+        Some("string") => value.is_string(),
+        Some("boolean") => value.is_boolean(),
+        Some("integer") => value.is_i64() || value.is_u64(),
+        Some("number") => value.is_number(),
+        Some(other) => return Err(format!("the schema says {other}")),
+    };
+    if !fits {
+        return Err(format!("{value} is no {}", schema["type"]));
+    }
+    if let (Some(properties), Some(members)) = (schema["properties"].as_object(), value.as_object()) {
+        for (key, member) in members {
+            let schema = properties.get(key).ok_or(format!("no schema for {key}"))?;
+            check(schema, member).map_err(|wrong| format!("{key}: {wrong}"))?;
+        }
+    }
+    if let (Some(items), Some(members)) = (schema.get("items"), value.as_array()) {
+        members.iter().try_for_each(|member| check(items, member))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn the_robot_stands_where_the_pose_says() {
+    let found = messages(&recording("pose"));
+    let timestamp = json!({"sec": 259, "nsec": 975_123_000});
+    let place = json!({"x": 1.25, "y": -0.333333, "z": 0.0});
+    let turn = json!({"x": 0.0, "y": 0.0, "z": 0.707107, "w": 0.707107});
+    let pose = json!({
+        "timestamp": timestamp, "frame_id": "map", "pose": {"position": place, "orientation": turn},
+    });
+    assert_eq!(found["/pose"], [(259_975_123_000, pose)]);
+    let transform = json!({
+        "timestamp": timestamp, "parent_frame_id": "map", "child_frame_id": "robot",
+        "translation": place, "rotation": turn,
+    });
+    assert_eq!(found["/tf"], [(259_975_123_000, transform)]);
+    let [(time_ns, scene)] = found["/robot"].as_slice() else {
+        panic!("once: {:?}", found["/robot"])
+    };
+    assert_eq!(*time_ns, BEGIN_US * 1000);
+    let entity = &scene["entities"][0];
+    assert_eq!(entity["frame_id"], "robot", "it moves with the transform");
+    assert_eq!(entity["cylinders"][0]["size"]["x"], 2.0 * config().body.radius_m);
+    let levels: Vec<&Value> = found["/log"].iter().map(|(_, line)| &line["level"]).collect();
+    assert_eq!(levels, [1, 2, 3, 4], "DEBUG to ERROR in Foxglove's numbers");
+}
