@@ -45,7 +45,7 @@ fn disturb(rig: &mut Rig, phases: &mut Phases) {
                 right: coin(12),
             };
             board.dock_contacts.0 = coin(12);
-            board.buttons.0 = u8::from(coin(12));
+            board.buttons.down = u8::from(coin(12));
             board.currents.0.wheel_left = Current(if coin(20) { 3_000 } else { 100 });
         }
     }
@@ -97,7 +97,7 @@ fn calm(rig: &mut Rig) {
     board.cliffs.missing = Cliffs::default();
     board.wheel_drops.0 = WheelDrops::default();
     board.dock_contacts.0 = false;
-    board.buttons.0 = 0;
+    board.buttons.down = 0;
     board.currents.0 = Currents::default();
     rig.mechanics = rig::Mechanics::default();
     rig.host_dead = false;

@@ -58,7 +58,7 @@ fn state_comes_every_20_ms_across_the_wrap_and_at_the_period_that_is_set() {
 fn state_tells_what_the_board_senses() {
     let mut rig = Rig::driving(0);
     let board = rig.cord.board_mut();
-    board.buttons.0 = 0;
+    board.buttons.down = 0;
     board.bumpers.0 = Bumpers {
         left: false,
         right: true,

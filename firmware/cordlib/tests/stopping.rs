@@ -536,7 +536,7 @@ fn s27_the_newest_motion_rules_and_a_person_outranks_it() {
     assert_eq!(rig.cord.phase(), MotionPhase::Drive);
     assert_eq!(rig.try_motion(motor(Motor::WheelLeft, 0.4)), Ok(()));
     assert_eq!(rig.cord.phase(), MotionPhase::Motor);
-    rig.cord.board_mut().buttons.0 = 2;
+    rig.cord.board_mut().buttons.down = 2;
     rig.run(50);
     assert_eq!(rig.try_motion(drive(0.1, 0.0)), Err(Refusal::Inhibited));
 }
@@ -544,13 +544,13 @@ fn s27_the_newest_motion_rules_and_a_person_outranks_it() {
 #[test]
 fn s28_a_button_stops_within_50_ms_and_until_arming() {
     let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(50, cleaning, |rig| rig.cord.board_mut().buttons.0 = 4, off);
+    worst_reaction(50, cleaning, |rig| rig.cord.board_mut().buttons.down = 4, off);
     let mut rig = cleaning(0);
-    rig.cord.board_mut().buttons.0 = 1;
+    rig.cord.board_mut().buttons.down = 1;
     rig.run(100);
     assert!(rig.has(Inhibit::ButtonStop) && off(&rig));
     assert_eq!(rig.ask(rig::arm(false)), Err(Refusal::CauseRemains));
-    rig.cord.board_mut().buttons.0 = 0;
+    rig.cord.board_mut().buttons.down = 0;
     rig.run(500);
     assert!(off(&rig), "the host goes on asking in vain");
     for pressed in [true, false] {
@@ -564,7 +564,7 @@ fn s28_a_button_stops_within_50_ms_and_until_arming() {
 #[test]
 fn s28_a_button_of_a_resting_robot_is_an_event_only() {
     let mut rig = Rig::armed(0);
-    rig.cord.board_mut().buttons.0 = 1;
+    rig.cord.board_mut().buttons.down = 1;
     rig.run(100);
     assert!(!rig.has(Inhibit::ButtonStop));
     assert!(rig.edges.contains(&EdgeKind::Button {

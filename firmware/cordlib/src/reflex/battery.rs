@@ -10,8 +10,8 @@ use rvac_units::Tick;
 use crate::charge::Thermometer;
 use crate::timing::Held;
 
-/// Averages of 100 ms: one of them may pass before a level is seen, and the limits are to hold with it.
-const AVERAGE_MS: u32 = 100;
+/// Averages of 100 ms: most of two of them may pass before a level is seen, and the limits are to hold with that.
+const AVERAGE_MS: u32 = 200;
 /// Millivolts of a cell, and how long it must be below.
 const LEVELS: [(Inhibit, i32, u32); 3] = [
     (Inhibit::BatteryLow, 1_100, 10_000 - AVERAGE_MS),

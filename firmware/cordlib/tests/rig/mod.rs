@@ -10,8 +10,8 @@ use cordlib::{Cord, Parameters};
 use parts::{Bridges, Floor, Memory, Time, Wire};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Cliffs, Command, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor, MotorCommand,
-    Move, MoveEnd, Refusal, Report, Sequence, State,
+    BinaryKinds, Cliffs, Command, Description, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor,
+    MotorCommand, Move, MoveEnd, Refusal, Report, Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Throttle, Tick};
@@ -50,6 +50,7 @@ pub struct Rig {
     pub edges: Vec<EdgeKind>,
     pub reports: Vec<Report>,
     pub refusals: Vec<Refusal>,
+    pub described: Option<Description>,
     pub answered: usize,
     /// The host is dead: nothing it would send arrives.
     pub host_dead: bool,
@@ -111,6 +112,13 @@ fn board() -> Board<Memory> {
     }
 }
 
+fn parameters() -> Parameters {
+    let mut parameters = Parameters::for_machine("rig", "0.1.0", LIMITS);
+    parameters.wheel.dead_band = Throttle::saturating_from_millionths(120_000);
+    parameters.wheel.speed_at_full = Speed(480_000);
+    parameters
+}
+
 impl Rig {
     /// Switched on when the board's clock shows `start`.
     pub fn switched_on(start: u32) -> Self {
@@ -122,9 +130,19 @@ impl Rig {
         let mut board = board();
         board.clock.0 = start;
         prepare(&mut board);
-        let mut parameters = Parameters::for_machine("rig", "0.1.0", LIMITS);
-        parameters.wheel.dead_band = Throttle::saturating_from_millionths(120_000);
-        parameters.wheel.speed_at_full = Speed(480_000);
+        Self::with(board, parameters(), start)
+    }
+
+    /// As [`Self::switched_on`], with something different about the parameters.
+    pub fn switched_on_as(start: u32, prepare: impl FnOnce(&mut Parameters)) -> Self {
+        let mut board = board();
+        board.clock.0 = start;
+        let mut parameters = parameters();
+        prepare(&mut parameters);
+        Self::with(board, parameters, start)
+    }
+
+    fn with(board: Board<Memory>, parameters: Parameters, start: u32) -> Self {
         Self {
             cord: Cord::new(board, parameters),
             host: HostSession::new(BinaryKinds::default(), Tick(0)),
@@ -134,6 +152,7 @@ impl Rig {
             edges: Vec::new(),
             reports: Vec::new(),
             refusals: Vec::new(),
+            described: None,
             answered: 0,
             host_dead: false,
             repeated: Vec::new(),
@@ -281,12 +300,21 @@ impl Rig {
                 self.now()
             );
             let mut hard = standing.inhibits;
+            for telling in [
+                Inhibit::BatteryLow,
+                Inhibit::BatteryWeak,
+                Inhibit::ChargerFault,
+                Inhibit::ChargerShorted,
+            ] {
+                hard.remove(telling);
+            }
+            let standing_against = hard;
             for soft in [Inhibit::Bumper, Inhibit::Cliff, Inhibit::CliffSensorFault] {
                 hard.remove(soft);
             }
             assert!(hard.is_empty(), "moves in spite of {:?}", self.names());
             assert!(
-                hard == standing.inhibits || left + right <= 0,
+                hard == standing_against || left + right <= 0,
                 "moves forward in spite of {:?}",
                 self.names()
             );
@@ -354,6 +382,7 @@ impl Rig {
             match event {
                 HostEvent::Report(Report::Edge(edge)) => self.edges.push(edge.kind),
                 HostEvent::Report(report) => self.reports.push(report),
+                HostEvent::Described(table) => self.described = Some(table),
                 HostEvent::Answered {
                     refusal: Some(refusal),
                     ..

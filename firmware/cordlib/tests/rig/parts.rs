@@ -373,14 +373,23 @@ impl Lights for Lamps {
     }
 }
 
+/// Buttons; `any` is the line that tells of a press without telling of which.
 #[derive(Debug, Default)]
-pub struct Keys(pub u8);
+pub struct Keys {
+    pub down: u8,
+    pub any: bool,
+}
 
 impl Buttons for Keys {
     const COUNT: u8 = 3;
 
     fn down(&mut self) -> u8 {
         called();
-        self.0
+        self.down
+    }
+
+    fn any_down(&mut self) -> bool {
+        called();
+        self.any || self.down != 0
     }
 }
