@@ -56,7 +56,7 @@ fn main() {
         beeper: parts::Speaker::default(),
         lights: parts::Lamps::default(),
         buttons: parts::Keys::default(),
-        probe: cordlib::board::Absent,
+        probe: parts::Pins::default(),
     };
     let mut cord = Cord::new(board, Parameters::for_machine("pace", "0", limits));
     let start = Instant::now();

@@ -173,87 +173,55 @@ fn s16_a_dip_of_the_voltage_is_nothing() {
     assert!(!rig.wheels_off() && !rig.cleaners_off(), "{:?}", rig.names());
 }
 
-#[test]
-fn s17_a_hot_pack_stops_motors_within_a_second() {
-    let heat = |tenths: i16| {
-        move |rig: &mut Rig| {
-            show(
-                rig,
-                ChargerReadings {
-                    temperature: Ok(Temperature(530)),
-                    ..PACK
-                },
-            );
-            rig.run(1);
-            show(
-                rig,
-                ChargerReadings {
-                    temperature: Ok(Temperature(tenths)),
-                    ..PACK
-                },
-            );
-        }
-    };
-    let warm = |start| {
-        let mut rig = cleaning(start);
-        // Warm before, so that it is no jump.
-        for tenths in (250..=540).step_by(25) {
-            show(
-                &mut rig,
-                ChargerReadings {
-                    temperature: Ok(Temperature(tenths)),
-                    ..PACK
-                },
-            );
-            rig.run(1_000);
-        }
-        rig
-    };
-    let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(1_000, warm, heat(556), off);
-    let mut rig = warm(0);
-    heat(556)(&mut rig);
-    rig.run(2_000);
-    assert!(rig.has(Inhibit::BatteryHot) && !rig.has(Inhibit::BatteryOverheated));
-    for tenths in (480..=540).rev().step_by(20) {
-        show(
-            &mut rig,
-            ChargerReadings {
-                temperature: Ok(Temperature(tenths)),
-                ..PACK
-            },
-        );
+fn warm_to(rig: &mut Rig, tenths: i16) {
+    let temperature = Ok(Temperature(tenths));
+    show(rig, ChargerReadings { temperature, ..PACK });
+}
+
+/// Cleaning with a pack that has slowly become as warm as it may.
+fn warm(start: u32) -> Rig {
+    let mut rig = cleaning(start);
+    for tenths in (250..=540).step_by(25) {
+        warm_to(&mut rig, tenths);
+        rig.run(1_000);
+    }
+    warm_to(&mut rig, 530);
+    rig.run(10);
+    rig
+}
+
+fn cool_down(rig: &mut Rig, from: i16) {
+    for tenths in (470..=from).rev().step_by(20) {
+        warm_to(rig, tenths);
         rig.run(2_000);
     }
     rig.run(11_000);
-    assert!(!rig.has(Inhibit::BatteryHot), "it has cooled");
+}
+
+#[test]
+fn s17_a_hot_pack_stops_motors_within_a_second_until_it_has_cooled() {
+    let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
+    worst_reaction(1_000, warm, |rig| warm_to(rig, 556), off);
     let mut rig = warm(0);
-    heat(570)(&mut rig);
+    warm_to(&mut rig, 556);
     rig.run(2_000);
-    heat(605)(&mut rig);
-    rig.run(2_000);
-    show(
-        &mut rig,
-        ChargerReadings {
-            temperature: Ok(Temperature(590)),
-            ..PACK
-        },
-    );
+    assert!(rig.has(Inhibit::BatteryHot) && !rig.has(Inhibit::BatteryOverheated));
+    cool_down(&mut rig, 540);
+    assert!(!rig.has(Inhibit::BatteryHot), "it has cooled");
+}
+
+#[test]
+fn s17_an_overheated_pack_is_latched_until_it_has_cooled_and_somebody_clears_it() {
+    let mut rig = warm(0);
+    for tenths in [570, 605, 590] {
+        warm_to(&mut rig, tenths);
+        rig.run(2_000);
+    }
     assert_eq!(
         rig.ask(clear(Inhibit::BatteryOverheated)),
         Err(Refusal::CauseRemains)
     );
-    for tenths in (470..=590).rev().step_by(20) {
-        show(
-            &mut rig,
-            ChargerReadings {
-                temperature: Ok(Temperature(tenths)),
-                ..PACK
-            },
-        );
-        rig.run(2_000);
-    }
-    rig.run(11_000);
+    cool_down(&mut rig, 580);
     assert!(rig.has(Inhibit::BatteryOverheated), "latched");
     assert_eq!(rig.ask(clear(Inhibit::BatteryOverheated)), Ok(()));
 }

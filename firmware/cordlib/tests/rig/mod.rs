@@ -108,7 +108,7 @@ fn board() -> Board<Memory> {
         beeper: parts::Speaker::default(),
         lights: parts::Lamps::default(),
         buttons: parts::Keys::default(),
-        probe: cordlib::board::Absent,
+        probe: parts::Pins::default(),
     }
 }
 

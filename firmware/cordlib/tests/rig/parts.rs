@@ -6,11 +6,12 @@ use std::collections::VecDeque;
 use cordlib::board::{
     Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
     CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
-    HeadingSensor, Lights, Link, Parts, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts,
-    WheelDrive, WheelDropSwitches, WheelMotors,
+    HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
+    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{
-    Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, ResetCause, WheelDrops,
+    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, PROBE_CHANNELS, PROBE_PORTS,
+    PROXIMITY_SENSORS, Refusal, ResetCause, WheelDrops,
 };
 use rvac_units::{Frequency, Ratio, Throttle, Tick};
 
@@ -64,7 +65,7 @@ impl Parts for Memory {
     type Beeper = Speaker;
     type Lights = Lamps;
     type Buttons = Keys;
-    type Probe = cordlib::board::Absent;
+    type Probe = Pins;
 }
 
 #[derive(Debug, Default)]
@@ -391,5 +392,75 @@ impl Buttons for Keys {
     fn any_down(&mut self) -> bool {
         called();
         self.any || self.down != 0
+    }
+}
+
+/// Raw readings; a serial port with number 1 that makes up to 115,200 baud.
+#[derive(Debug, Default)]
+pub struct Pins {
+    pub analog: [u16; PROBE_CHANNELS],
+    pub encoders: EncoderProbe,
+    pub lines: [u16; PROBE_PORTS],
+    pub buttons: ButtonProbe,
+    /// What the port has received; `None` while it is closed.
+    pub serial: Option<VecDeque<u8>>,
+    pub lost: u32,
+    pub opened: u32,
+}
+
+impl Probe for Pins {
+    const PRESENT: bool = true;
+
+    fn analog(&mut self) -> [u16; PROBE_CHANNELS] {
+        called();
+        self.analog
+    }
+
+    fn encoders(&mut self) -> EncoderProbe {
+        called();
+        self.encoders
+    }
+
+    fn lines(&mut self) -> [u16; PROBE_PORTS] {
+        called();
+        self.lines
+    }
+
+    fn buttons(&mut self) -> ButtonProbe {
+        called();
+        self.buttons
+    }
+
+    fn open_serial(&mut self, port: u8, baud: u32) -> Result<(), Refusal> {
+        called();
+        if port != 1 {
+            return Err(Refusal::Absent);
+        }
+        if baud > 115_200 {
+            return Err(Refusal::Range);
+        }
+        self.serial = Some(VecDeque::new());
+        self.opened += 1;
+        Ok(())
+    }
+
+    fn read_serial(&mut self, bytes: &mut [u8]) -> usize {
+        called();
+        let queue = self.serial.as_mut().expect("only an open port is read");
+        let taken = bytes.len().min(queue.len());
+        for (place, byte) in bytes.iter_mut().zip(queue.drain(..taken)) {
+            *place = byte;
+        }
+        taken
+    }
+
+    fn serial_lost(&mut self) -> u32 {
+        called();
+        self.lost
+    }
+
+    fn close_serial(&mut self) {
+        called();
+        self.serial = None;
     }
 }
