@@ -24,8 +24,12 @@ fn show(rig: &mut Rig, readings: ChargerReadings) {
 
 /// Driving and cleaning with a sound pack.
 fn cleaning(start: u32) -> Rig {
+    cleaning_with(start, PACK)
+}
+
+fn cleaning_with(start: u32, readings: ChargerReadings) -> Rig {
     let mut rig = Rig::armed(start);
-    show(&mut rig, PACK);
+    show(&mut rig, readings);
     rig.repeated = vec![
         drive(0.2, 0.0),
         motor(Motor::BrushMain, 1.0),
@@ -178,16 +182,10 @@ fn warm_to(rig: &mut Rig, tenths: i16) {
     show(rig, ChargerReadings { temperature, ..PACK });
 }
 
-/// Cleaning with a pack that has slowly become as warm as it may.
+/// Cleaning with a pack that is as warm as it may be.
 fn warm(start: u32) -> Rig {
-    let mut rig = cleaning(start);
-    for tenths in (250..=540).step_by(25) {
-        warm_to(&mut rig, tenths);
-        rig.run(1_000);
-    }
-    warm_to(&mut rig, 530);
-    rig.run(10);
-    rig
+    let temperature = Ok(Temperature(530));
+    cleaning_with(start, ChargerReadings { temperature, ..PACK })
 }
 
 fn cool_down(rig: &mut Rig, from: i16) {
