@@ -38,12 +38,11 @@ pub fn flash_word(offset: u32) -> Option<u32> {
 
 /// Words of program flash from `offset` bytes on, `count` of them at most; none outside of it or when unaligned.
 pub fn flash_words(offset: u32, count: u32) -> impl Iterator<Item = u32> {
-    let size = flash_size();
-    let aligned = offset.is_multiple_of(4);
-    (0..count)
-        .map(move |index| offset.saturating_add(index.saturating_mul(4)))
-        .take_while(move |at| aligned && *at < size)
-        .map(|at| access::load(FLASH_BASE + at))
+    let fitting = match offset.is_multiple_of(4) {
+        true => flash_size().saturating_sub(offset) / 4,
+        false => 0,
+    };
+    (0..count.min(fitting)).map(move |index| access::load(FLASH_BASE + offset + index * 4))
 }
 
 /// Tests one word of RAM in place: each bit can be 0 and 1, whatever its neighbours in the word are. Its content is the same

@@ -7,7 +7,7 @@ use pic32mx3_hal::{Peripherals, interrupt, reset};
 use rvac_protocol::message::{Capabilities, Limits, LogLevel};
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
-use crate::board::checks::SelfChecks;
+use crate::board::checks::{Finding, SelfChecks};
 use crate::board::resets::{self, Starts};
 use crate::board::{Service, Sr8730, service, tick, wiring};
 use crate::calibration::{Calibration, RECORD_BYTES};
@@ -33,7 +33,7 @@ impl Robot {
         let starts = Starts::take();
         let trouble = starts.trouble();
         let calibration = Calibration::from_record(&record(&chip.data_flash));
-        let (board, checks) = wiring::assemble(chip, &calibration, starts);
+        let (board, mut checks) = wiring::assemble(chip, &calibration, starts);
         let verdict = checks.image_at_start();
         let mut robot = Self {
             cord: Cord::new(board, parameters(&calibration)),
@@ -85,13 +85,14 @@ impl Robot {
     }
 
     fn millisecond(&mut self) {
-        if let Some(fault) = self.checks.service() {
-            self.cord.hardware_fault(fault);
+        match self.checks.service() {
+            None => {}
+            Some(Finding::Clock) => self.cord.hardware_fault(HardwareFault::Clock),
+            Some(Finding::Broken(trouble)) => give_up(trouble),
         }
         self.cord.step();
         match service(self.cord.board_mut()) {
             Service::Well => {}
-            // Nothing in memory can be believed: everything off, and from the start.
             Service::DamagedVariable => give_up(Trouble::Variable),
         }
     }

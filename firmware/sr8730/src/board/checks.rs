@@ -1,6 +1,5 @@
 //! What the firmware checks of itself while it runs (S20, S21): clock, image, memory, stack.
 
-use cordlib::board::HardwareFault;
 use pic32mx3_hal::clock::{self, Running};
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
 use pic32mx3_hal::{cpu, interrupt, memory, stack};
@@ -8,7 +7,9 @@ use pic32mx3_hal::{cpu, interrupt, memory, stack};
 use super::bus_clock::BusClock;
 use super::{off, tick};
 use crate::logic::image_check::{ImageCheck, Verdict};
+use crate::logic::image_sums::{ImageSums, sum};
 use crate::logic::pace::{Look, Pace, PaceCheck};
+use crate::logic::reset_log::Trouble;
 
 /// Words of memory tested in one millisecond: 32 KiB in four seconds.
 const RAM_WORDS: u32 = 2;
@@ -23,10 +24,21 @@ fn on_clock_failure(_: &mut Context<vector::CLOCK_MONITOR>) {
 }
 interrupt!(CLOCK_MONITOR, on_clock_failure);
 
+/// What a check found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// Clocks disagree, or the crystal failed: nothing may move any more, but the host can be told.
+    Clock,
+    /// Neither code nor memory can be believed: everything off and a start from the beginning, which checks all of it.
+    Broken(Trouble),
+}
+
 /// The checks.
 #[derive(Debug)]
 pub struct SelfChecks {
-    image: ImageCheck<'static>,
+    /// `None` when it was found damaged at the start: that is known, and reported, and needs no second finding.
+    image: Option<ImageCheck<'static>>,
+    sums: ImageSums,
     ram_place: u32,
     ram_size: u32,
     bus: BusClock,
@@ -40,11 +52,14 @@ impl SelfChecks {
     pub fn take(bus: BusClock) -> Self {
         interrupt::set_priority(Vector::ClockMonitor, Priority::Level6, SubPriority::Sub3).ok();
         Source::ClockMonitor.enable();
+        let program = memory::image::program();
         Self {
-            image: ImageCheck::new(
-                [memory::image::program(), memory::image::boot()],
+            image: Some(ImageCheck::new(
+                [program, memory::image::boot()],
                 memory::image::seal(),
-            ),
+            )),
+            // Taken before the whole image is checked, so that what changes in between is found, too.
+            sums: ImageSums::new(program.len() as u32 / 4, block_sum),
             ram_place: 0,
             ram_size: memory::ram_size(),
             bus,
@@ -54,21 +69,29 @@ impl SelfChecks {
     }
 
     /// The whole image, before anything moves: some 20 ms.
-    #[must_use]
-    pub fn image_at_start(&self) -> Verdict {
-        self.image.all()
+    pub fn image_at_start(&mut self) -> Verdict {
+        let verdict = self.image.map_or(Verdict::Damaged, |image| image.all());
+        if verdict != Verdict::Whole {
+            self.image = None;
+        }
+        verdict
     }
 
-    /// To be called once in a millisecond. What it finds is latched by cordlib and never forgiven by itself.
-    pub fn service(&mut self) -> Option<HardwareFault> {
-        let clock_is_well = !off::clock_has_failed() && !clock::has_failed() && self.pace_is_even();
-        if !clock_is_well || clock::running() != Running::PrimaryPll {
-            return Some(HardwareFault::Clock);
+    /// To be called once in a millisecond.
+    pub fn service(&mut self) -> Option<Finding> {
+        let verdict = self.image.as_mut().map(ImageCheck::slice);
+        if !self.sums.is_next_whole(block_sum) || verdict == Some(Verdict::Damaged) {
+            return Some(Finding::Broken(Trouble::Flash));
         }
-        if self.image.slice() == Verdict::Damaged || !self.ram_holds() {
-            return Some(HardwareFault::Memory);
+        if !self.ram_holds() {
+            return Some(Finding::Broken(Trouble::Memory));
         }
-        (!stack::canary_is_alive()).then_some(HardwareFault::Memory)
+        if !stack::canary_is_alive() {
+            return Some(Finding::Broken(Trouble::Stack));
+        }
+        let clock_has_failed = off::clock_has_failed() || clock::has_failed();
+        let clock_is_other = clock::running() != Running::PrimaryPll || !self.pace_is_even();
+        (clock_has_failed || clock_is_other).then_some(Finding::Clock)
     }
 
     fn pace_is_even(&mut self) -> bool {
@@ -97,4 +120,8 @@ impl SelfChecks {
         }
         holds
     }
+}
+
+fn block_sum(first_word: u32, words: u32) -> u32 {
+    sum(memory::flash_words(first_word * 4, words))
 }

@@ -10,6 +10,7 @@ pub mod floor_light;
 pub mod guarded;
 pub mod gyro_frame;
 pub mod image_check;
+pub mod image_sums;
 pub mod ladder;
 pub mod lamps;
 pub mod life;
