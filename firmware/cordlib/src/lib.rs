@@ -13,6 +13,7 @@ mod cleaning;
 mod cord;
 mod dispatch;
 mod floor;
+mod guarded;
 mod journal;
 mod leaving;
 mod lights;

@@ -3,6 +3,7 @@
 
 use rvac_units::Tick;
 
+use crate::guarded::Permission;
 use crate::timing::{Debounced, Held};
 
 /// One sample is noise; contacts that bounce open keep the robot docked.
@@ -26,7 +27,7 @@ pub(crate) enum DockChange {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DockRule {
     contacts: Debounced<SET_MS, CLEAR_MS>,
-    undocking: bool,
+    undocking: Permission,
     away: Held,
 }
 
@@ -35,12 +36,12 @@ impl DockRule {
     pub(crate) fn update(&mut self, raw: bool, now: Tick) -> Option<DockChange> {
         let before = self.contacts.is_active();
         let docked = self.contacts.update(raw, now);
-        if self.undocking && self.away.for_at_least(!docked, now, LEFT_MS) {
-            self.undocking = false;
+        if self.undocking.is_given() && self.away.for_at_least(!docked, now, LEFT_MS) {
+            self.undocking = Permission::REFUSED;
         }
         match (before, docked) {
-            (false, true) if !self.undocking => Some(DockChange::Arrived),
-            (true, false) if self.undocking => Some(DockChange::Left),
+            (false, true) if !self.undocking.is_given() => Some(DockChange::Arrived),
+            (true, false) if self.undocking.is_given() => Some(DockChange::Left),
             (true, false) => Some(DockChange::TakenOff),
             _ => None,
         }
@@ -48,13 +49,13 @@ impl DockRule {
 
     /// Allows motion off the dock.
     pub(crate) const fn undock(&mut self) {
-        self.undocking = true;
+        self.undocking = Permission::GIVEN;
         self.away.restart();
     }
 
     /// Takes the permission back.
     pub(crate) const fn stay(&mut self) {
-        self.undocking = false;
+        self.undocking = Permission::REFUSED;
     }
 
     /// Whether the contacts are closed.
@@ -64,6 +65,6 @@ impl DockRule {
 
     /// Whether that forbids motion.
     pub(crate) const fn inhibits(&self) -> bool {
-        self.contacts.is_active() && !self.undocking
+        self.contacts.is_active() && !self.undocking.is_given()
     }
 }

@@ -3,23 +3,25 @@
 
 use rvac_protocol::message::{Inhibit, Inhibits};
 
+use crate::guarded::Permission;
+
 /// Allowances of the host. Starts with nothing allowed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct HostRule {
-    armed: bool,
+    armed: Permission,
     standing: Inhibits,
 }
 
 impl HostRule {
     /// Motion is allowed; earlier `stop`, button and lost link are forgotten.
     pub(crate) const fn arm(&mut self) {
-        self.armed = true;
+        self.armed = Permission::GIVEN;
         self.standing = Inhibits::NONE;
     }
 
     /// Motion must be armed anew.
     pub(crate) const fn disarm(&mut self) {
-        self.armed = false;
+        self.armed = Permission::REFUSED;
     }
 
     /// `stop` was commanded.
@@ -44,13 +46,13 @@ impl HostRule {
 
     /// Whether the host has armed.
     pub(crate) const fn is_armed(&self) -> bool {
-        self.armed
+        self.armed.is_given()
     }
 
     /// What follows from it.
     pub(crate) const fn inhibits(&self) -> Inhibits {
         let mut inhibits = self.standing;
-        if !self.armed {
+        if !self.armed.is_given() {
             inhibits.insert(Inhibit::NotArmed);
         }
         inhibits

@@ -24,6 +24,7 @@ pub(crate) use stall::{Load, StallRule};
 use rvac_protocol::message::{Bumpers, ChargeFault, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
 
 use crate::board::ResetRecord;
+use crate::guarded::Latches;
 use crate::motion::{MotionStatus, WheelStatus};
 use crate::parameters::Parameters;
 use crate::permit::Standing;
@@ -61,7 +62,7 @@ pub(crate) struct Reflexes {
     blinded: bool,
     lifted: bool,
     idle: bool,
-    latched: Inhibits,
+    latched: Latches,
     wheel_turns: bool,
     /// Encoder counts mean ways: fitted and calibrated.
     counted: bool,
@@ -80,7 +81,7 @@ impl Reflexes {
     /// Starts disarmed; a reset loop is latched from the start.
     pub(crate) fn new<R: ResetRecord>(record: &mut R, counted: bool, now: rvac_units::Tick) -> Self {
         let (reset, is_loop) = ResetRule::new(record, now);
-        let mut latched = Inhibits::NONE;
+        let mut latched = Latches::default();
         if is_loop {
             latched.insert(Inhibit::ResetLoop);
         }
@@ -216,7 +217,7 @@ impl Reflexes {
     /// The rules that look at the battery, on every pass.
     pub(crate) fn judge_battery(&mut self, view: &PackView, now: rvac_units::Tick) {
         let found = self.battery.update(view, now);
-        self.latched = Inhibits::from_bits(self.latched.bits() | found.bits());
+        self.latched.add(found);
     }
 
     /// Lets the record of resets age.
@@ -258,7 +259,7 @@ impl Reflexes {
     /// Everything that inhibits now.
     pub(crate) fn inhibits(&self) -> Inhibits {
         let mut all = Inhibits::from_bits(
-            self.latched.bits() | self.host.inhibits().bits() | self.battery.inhibits().bits(),
+            self.latched.members().bits() | self.host.inhibits().bits() | self.battery.inhibits().bits(),
         );
         let shorted = self.charger_fault == Some(ChargeFault::Shorted);
         let present = [
