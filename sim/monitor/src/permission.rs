@@ -44,6 +44,8 @@ pub(crate) struct Permission {
     to_robot: Splitter,
     from_robot: Splitter,
     session: u16,
+    /// Session in which the packet under way began.
+    packet_session: u16,
     /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
     sealed_ms: Option<u64>,
     reset_ms: u64,
@@ -63,7 +65,11 @@ pub(crate) struct Permission {
 
 impl Permission {
     pub(crate) fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
-        let session = self.session;
+        // A packet belongs to the session in which it began, even if silence ends that while it is under way.
+        if self.to_robot.is_between_packets() {
+            self.packet_session = self.session;
+        }
+        let session = self.packet_session;
         let Some(heard) = self
             .to_robot
             .push(byte)

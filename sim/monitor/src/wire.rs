@@ -26,6 +26,11 @@ impl Splitter {
         None
     }
 
+    /// Whether the next byte begins a packet.
+    pub(crate) fn is_between_packets(&self) -> bool {
+        self.packet.is_empty()
+    }
+
     fn takes(&self, byte: u8) -> bool {
         let binary = self.packet.first().is_some_and(|first| *first >= 0x80);
         self.packet.len() < PACKET_MAX && (binary || byte >= 0x20)
