@@ -121,11 +121,11 @@ fn records() -> Vec<Record> {
     records
 }
 
-/// A quarter turn to the left, at a time that a float cannot say exactly.
+/// A radian to the left, at a time that a float cannot say exactly.
 const POSE: Pose = Pose {
     x: 1.25,
     y: -0.333_333_333,
-    heading: core::f64::consts::FRAC_PI_2,
+    heading: 1.0,
     t: 259.975_123,
 };
 
@@ -278,7 +278,7 @@ fn the_robot_stands_where_the_pose_says() {
     let found = messages(&recording("pose"));
     let timestamp = json!({"sec": 259, "nsec": 975_123_000});
     let place = json!({"x": 1.25, "y": -0.333333, "z": 0.0});
-    let turn = json!({"x": 0.0, "y": 0.0, "z": 0.707107, "w": 0.707107});
+    let turn = json!({"x": 0.0, "y": 0.0, "z": 0.479426, "w": 0.877583});
     let pose = json!({
         "timestamp": timestamp, "frame_id": "map", "pose": {"position": place, "orientation": turn},
     });

@@ -1,14 +1,11 @@
 //! Both ends of the session over a damaged line: what must arrive arrives, once, in order, and as it was meant.
 
-use rvac_channel::{Channel, FaultRates, ReceivedByte};
+use rvac_channel::{Channel, FaultRates, ReceivedByte, switched_on};
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Drive, EdgeKind, Limits, Name, Report, ResetCause,
-    Sequence, State,
-};
+use rvac_protocol::message::{BinaryKinds, Command, Drive, EdgeKind, Report, Sequence, State};
 use rvac_protocol::quality::Verdict;
-use rvac_protocol::session::{HostEvent, HostSession, RobotEvent, RobotIdentity, RobotSession};
-use rvac_units::{AngularSpeed, Length, Speed, Tick};
+use rvac_protocol::session::{HostEvent, HostSession, RobotEvent, RobotSession};
+use rvac_units::{AngularSpeed, Speed, Tick};
 
 /// Milliseconds between two commands that must arrive.
 const ARM_MS: u32 = 170;
@@ -16,28 +13,6 @@ const ARM_MS: u32 = 170;
 const EDGE_MS: u32 = 230;
 /// Speed that the host asks for; anything else would be a wrong actuation.
 const SPEED: Speed = Speed(123_000);
-
-fn identity() -> RobotIdentity {
-    RobotIdentity {
-        device: Name::new(),
-        firmware: Name::new(),
-        boot_count: 1,
-        reset_cause: ResetCause::PowerOn,
-        session_seed: 7,
-        binary: BinaryKinds::ALL,
-        description: Description {
-            capabilities: Capabilities::default(),
-            limits: Limits {
-                speed_max: Speed(350_000),
-                turn_max: AngularSpeed(1_500_000),
-                track: Length(230_000),
-                count_nm: 100_000,
-                radius: Length(175_000),
-                swath: Length(300_000),
-            },
-        },
-    }
-}
 
 /// Two ends, two lines, one millisecond a step.
 struct Link {
@@ -58,7 +33,7 @@ impl Link {
     fn new(seed: u64, rates: FaultRates) -> Self {
         let now = Tick(u32::MAX - 5_000);
         Self {
-            robot: RobotSession::new(identity(), now),
+            robot: switched_on(now),
             host: HostSession::new(BinaryKinds::ALL, now),
             to_robot: Channel::new(seed, rates),
             to_host: Channel::new(seed + 1, rates),

@@ -2,15 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use rvac_channel::{Channel, FaultRates, Pcg32, ReceivedByte};
+use rvac_channel::{Channel, FaultRates, Pcg32, ReceivedByte, switched_on};
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, HostHello, Limits, Name, ProtocolVersion, Report,
-    ResetCause, State,
-};
-use rvac_protocol::session::{Mode, RobotEvent, RobotIdentity, RobotSession};
+use rvac_protocol::message::{BinaryKinds, Command, HostHello, ProtocolVersion, Report, State};
+use rvac_protocol::session::{Mode, RobotEvent, RobotSession};
 use rvac_protocol::text::write_sealed_command;
-use rvac_units::{AngularSpeed, Length, Speed, Tick};
+use rvac_units::Tick;
 use serde::Serialize;
 
 use crate::traffic::Traffic;
@@ -402,34 +399,9 @@ impl Bench {
     }
 }
 
-/// A robot that no host has greeted.
-pub(crate) fn new_robot(now: Tick) -> RobotSession {
-    let name = |text| Name::try_from(text).expect("a short name");
-    let identity = RobotIdentity {
-        device: name("sr8730"),
-        firmware: name("bench"),
-        boot_count: 1,
-        reset_cause: ResetCause::PowerOn,
-        session_seed: 1,
-        binary: BinaryKinds::ALL,
-        description: Description {
-            capabilities: Capabilities::default(),
-            limits: Limits {
-                speed_max: Speed(350_000),
-                turn_max: AngularSpeed(1_500_000),
-                track: Length(230_000),
-                count_nm: 100_000,
-                radius: Length(175_000),
-                swath: Length(300_000),
-            },
-        },
-    };
-    RobotSession::new(identity, now)
-}
-
 /// A robot as its host has greeted it.
 pub(crate) fn open_robot(now: Tick) -> RobotSession {
-    let mut robot = new_robot(now);
+    let mut robot = switched_on(now);
     let hello = Command::Hello(HostHello {
         version_min: ProtocolVersion::MIN,
         version_max: ProtocolVersion::CURRENT,

@@ -5,6 +5,7 @@ use std::process::Command as Process;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
+use rvac_channel::switched_on;
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary::{read_drive, write_drive, write_sealed_drive};
 use rvac_protocol::message::{Command, Drive, Motor, MotorCommand, Sequence};
@@ -14,7 +15,7 @@ use rvac_protocol::text::{Form, read_command, write_command, write_sealed_comman
 use rvac_units::{AngularSpeed, Speed, Throttle, Tick};
 use serde::{Deserialize, Serialize};
 
-use crate::corruption::{new_robot, open_robot};
+use crate::corruption::open_robot;
 
 /// The motor packet of 2016, 50 bytes.
 const MOTOR_2016: &[u8] = br#"{"c":"motor","motor":"wheel left","throttle":0.75}"#;
@@ -216,7 +217,7 @@ struct Work {
 impl Work {
     fn new(reader: Reader) -> Self {
         let robot = if reader == Reader::Motor2016Session {
-            new_robot(NOW)
+            switched_on(NOW)
         } else {
             open_robot(NOW)
         };
