@@ -101,20 +101,24 @@ impl<P: Parts> Cord<P> {
         self.charge_output.drive
     }
 
-    /// The battery for telemetry; `None` where it is not measured, or not at this moment.
+    /// Voltage and current of the pack; `None` where they are not measured, or not at this moment.
+    pub(crate) fn pack(&self) -> Option<(Voltage, Current)> {
+        let (pack_mv, current_ma) = self.charger.pack().filter(|_| self.fitted.battery)?;
+        Some((Voltage(pack_mv), Current(current_ma)))
+    }
+
+    /// The battery for telemetry; `None` where it is not measured, or not at this moment, or while its charge is not
+    /// known yet: nobody is told that a pack is empty before that was measured.
     pub(crate) fn battery(&self) -> Option<Battery> {
-        if !self.fitted.battery {
-            return None;
-        }
-        let (pack_mv, current_ma) = self.charger.pack()?;
+        let (voltage, current) = self.pack()?;
         let tenths = self
             .charger
             .temperature_cc()
             .and_then(|cc| i16::try_from(cc / 10).ok());
         Some(Battery {
-            charge: self.charger.charge_left(),
-            voltage: Voltage(pack_mv),
-            current: Current(current_ma),
+            charge: self.charger.charge_left()?,
+            voltage,
+            current,
             temperature: tenths.map(Temperature),
             state: self.charge_state(),
             charger: self.fitted.charger.then(|| self.charger.status()),

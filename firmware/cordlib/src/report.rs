@@ -206,7 +206,7 @@ impl<P: Parts> Cord<P> {
     }
 
     fn state(&mut self, now: Tick) -> State {
-        let battery = self.battery();
+        let (battery_voltage, battery_current) = self.pack().unwrap_or_default();
         State {
             tick: now,
             count_left: shown(self.fitted.encoders, self.senses.counts.left),
@@ -221,8 +221,8 @@ impl<P: Parts> Cord<P> {
             // The wire has no word for a machine without this switch: its box is never missed.
             dust_box: self.board.dust_box.inserted().unwrap_or(true),
             currents: self.senses.currents.unwrap_or_default(),
-            battery_voltage: battery.map(|battery| battery.voltage).unwrap_or_default(),
-            battery_current: battery.map(|battery| battery.current).unwrap_or_default(),
+            battery_voltage,
+            battery_current,
             charge: self.charge_state(),
             docked: self.reflexes.dock.is_docked(),
             inhibits: self.reflexes.inhibits(),

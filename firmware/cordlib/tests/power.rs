@@ -407,3 +407,21 @@ fn a_machine_whose_pack_is_never_measured_has_no_battery_to_worry_about() {
             .any(|report| matches!(report, Report::Info(info) if info.battery.is_some()))
     );
 }
+
+/// Before the first average there is no estimate, and a daemon that reads 0 % refuses to start.
+#[test]
+fn no_charge_is_told_before_it_is_known() {
+    let mut rig = Rig::switched_on_with(0, |board| board.charger.readings = Some(PACK));
+    rig.connect();
+    rig.run(3_000);
+    let mut told = rig.reports.iter().filter_map(|report| match report {
+        Report::Info(info) => Some(info.battery),
+        _ => None,
+    });
+    assert_eq!(told.next(), Some(None), "the first info comes with the session");
+    let later: Vec<f64> = told.flatten().map(|battery| battery.charge.as_f64()).collect();
+    assert!(
+        !later.is_empty() && later.iter().all(|&charge| charge > 0.4),
+        "{later:?}"
+    );
+}

@@ -275,9 +275,9 @@ impl<S: Stops> ChargeController<S> {
         self.full
     }
 
-    /// Charge that is left, 0 to 1; 0 before the first second.
+    /// Charge that is left, 0 to 1; `None` before the first second is over.
     #[must_use]
-    pub fn charge_left(&self) -> Ratio {
+    pub fn charge_left(&self) -> Option<Ratio> {
         self.gauge.charge()
     }
 

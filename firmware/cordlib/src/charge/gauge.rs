@@ -80,10 +80,10 @@ impl Gauge {
         self.charge = Some(WHOLE);
     }
 
-    /// The estimate.
-    pub(super) fn charge(&self) -> Ratio {
-        let millionths = i32::try_from(self.charge.unwrap_or(0)).unwrap_or(0);
-        Ratio::from_millionths(millionths).unwrap_or_default()
+    /// The estimate; `None` in the first second, before there is one.
+    pub(super) fn charge(&self) -> Option<Ratio> {
+        let millionths = i32::try_from(self.charge?).ok()?;
+        Ratio::from_millionths(millionths).ok()
     }
 }
 
@@ -144,6 +144,7 @@ mod tests {
     #[test]
     fn a_charge_counts_up_and_is_full_only_when_it_has_ended() {
         let mut gauge = Gauge::default();
+        assert!(gauge.charge().is_none());
         gauge.each_second(
             &means(14_640, 0),
             Use {
@@ -152,7 +153,7 @@ mod tests {
             },
             &PACK,
         );
-        assert_eq!(gauge.charge().millionths(), 200_000);
+        assert_eq!(gauge.charge().unwrap().millionths(), 200_000);
         for _ in 0..3_600 {
             gauge.each_second(
                 &means(17_000, 950),
@@ -163,7 +164,7 @@ mod tests {
                 &PACK,
             );
         }
-        let after_an_hour = gauge.charge().millionths();
+        let after_an_hour = gauge.charge().unwrap().millionths();
         assert!((620_000..640_000).contains(&after_an_hour), "{after_an_hour}");
         for _ in 0..7_200 {
             gauge.each_second(
@@ -175,9 +176,9 @@ mod tests {
                 &PACK,
             );
         }
-        assert_eq!(gauge.charge().millionths(), 990_000);
+        assert_eq!(gauge.charge().unwrap().millionths(), 990_000);
         gauge.fill();
-        assert_eq!(gauge.charge().millionths(), 1_000_000);
+        assert_eq!(gauge.charge().unwrap().millionths(), 1_000_000);
     }
 
     #[test]
@@ -193,7 +194,7 @@ mod tests {
             },
             &PACK,
         );
-        let before = gauge.charge().millionths();
+        let before = gauge.charge().unwrap().millionths();
         for _ in 0..600 {
             gauge.each_second(
                 &means(15_180 - sag_mv, 0),
@@ -204,7 +205,7 @@ mod tests {
                 &PACK,
             );
         }
-        let after = gauge.charge().millionths();
+        let after = gauge.charge().unwrap().millionths();
         assert!(
             (before - 130_000..before - 60_000).contains(&after),
             "{before} to {after}"

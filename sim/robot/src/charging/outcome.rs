@@ -4,6 +4,7 @@ use cordlib::board::ChargeDrive;
 use cordlib::charge::Stops;
 use monitor::{ChargeMonitor, Charging};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
+use rvac_units::Ratio;
 
 use super::bench::{Bench, STEP_MS};
 use super::conditions::Conditions;
@@ -95,7 +96,7 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
         end: status.end.filter(|_| status.fault.is_none()),
         fault: status.fault,
         violations: monitor.count(),
-        estimate: bench.charger().charge_left().as_f64(),
+        estimate: bench.charger().charge_left().map_or(0.0, Ratio::as_f64),
         ..outcome
     }
 }
