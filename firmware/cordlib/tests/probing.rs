@@ -52,6 +52,7 @@ fn each_target_is_answered_once() {
         right: -3,
         left_illegal: 1,
         right_illegal: 0,
+        brush: Some(77),
     };
     pins.lines[6] = 0x8200;
     pins.buttons = ButtonProbe {

@@ -245,6 +245,7 @@ impl Probe for Cell {
             right: read() as i32,
             left_illegal: read(),
             right_illegal: read(),
+            brush: Some(read()),
         }
     }
 

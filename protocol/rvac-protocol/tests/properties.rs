@@ -90,16 +90,22 @@ fn probe() -> impl Strategy<Value = Probe> {
 }
 
 fn probed() -> impl Strategy<Value = Probed> {
-    let encoders = (any::<i32>(), any::<i32>(), any::<u32>(), any::<u32>()).prop_map(
-        |(left, right, left_illegal, right_illegal)| {
+    let encoders = (
+        any::<i32>(),
+        any::<i32>(),
+        any::<u32>(),
+        any::<u32>(),
+        any::<Option<u32>>(),
+    )
+        .prop_map(|(left, right, left_illegal, right_illegal, brush)| {
             ProbedContent::Encoders(EncoderProbe {
                 left,
                 right,
                 left_illegal,
                 right_illegal,
+                brush,
             })
-        },
-    );
+        });
     let buttons = (any::<u16>(), any::<bool>())
         .prop_map(|(level, pressed)| ProbedContent::Buttons(ButtonProbe { level, pressed }));
     let bytes = prop::collection::vec(any::<u8>(), 0..=PROBE_BYTES);

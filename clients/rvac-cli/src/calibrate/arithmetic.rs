@@ -18,6 +18,16 @@ pub(crate) enum NoValue {
         /// What to do.
         advice: &'static str,
     },
+    /// Some sensors answered and some did not.
+    #[error(
+        "the levels rose by {least} to {greatest}, which is neither yes nor no: keep it still over a light floor"
+    )]
+    Unclear {
+        /// Rise of the one that rose least.
+        least: i64,
+        /// Rise of the one that rose most.
+        greatest: i64,
+    },
     /// No reading came.
     #[error("no reading came")]
     Empty,
@@ -93,13 +103,53 @@ pub(crate) fn mean(readings: &[i64]) -> Result<i64, NoValue> {
     mean_milli(readings).map(|milli| (milli + 500).div_euclid(1000))
 }
 
-/// Spread between the least and the greatest reading.
-pub(crate) fn spread(readings: &[i64]) -> Result<i64, NoValue> {
-    let (least, greatest) = (readings.iter().min(), readings.iter().max());
-    least
-        .zip(greatest)
-        .map(|(least, greatest)| greatest - least)
-        .ok_or(NoValue::Empty)
+/// How far the brightest sensor stands above the dark, in readings of a line that a multiplexer switches through all
+/// sensors, dark and lit: half of the readings are dark, and the brightest lie in the upper half of what is above them.
+pub(crate) fn brightest(readings: &[i64]) -> Result<i64, NoValue> {
+    let mut sorted = readings.to_vec();
+    sorted.sort_unstable();
+    let dark = *sorted.get(sorted.len() / 4).ok_or(NoValue::Empty)?;
+    let most = *sorted.last().ok_or(NoValue::Empty)?;
+    let bright = sorted.partition_point(|reading| 2 * reading < dark + most);
+    let top = sorted.get(bright..).unwrap_or_default();
+    Ok(top.get(top.len() / 2).ok_or(NoValue::Empty)? - dark)
+}
+
+/// Least rise and greatest rise of three levels between two moments.
+pub(crate) fn rises(before: [i64; 3], after: [i64; 3]) -> (i64, i64) {
+    let [left, middle, right] = [0, 1, 2].map(|sensor: usize| after[sensor] - before[sensor]);
+    (left.min(middle).min(right), left.max(middle).max(right))
+}
+
+/// Whether a line lights three sensors: 1 if all of them see it, 0 if none does.
+pub(crate) fn follows((least, greatest): (i64, i64)) -> Result<i64, NoValue> {
+    /// A lit floor is far above this, noise far below.
+    const SEEN: i64 = 30;
+    if least >= SEEN {
+        Ok(1)
+    } else if greatest.abs().max(least.abs()) < SEEN / 2 {
+        Ok(0)
+    } else {
+        Err(NoValue::Unclear { least, greatest })
+    }
+}
+
+/// µA of a count when a current rose by so much and the mean of the readings by so much.
+pub(crate) fn current_scale_ua(rise_ma: i64, rise_milli: i64) -> Result<i64, NoValue> {
+    if rise_ma.abs() < 50 || rise_milli.abs() < 2_000 {
+        return Err(NoValue::Still(
+            "hold the wheel fast, so that its motor draws a current that can be seen",
+        ));
+    }
+    Ok((rise_ma * 1_000_000 + rise_milli.abs() / 2 * rise_ma.signum() * rise_milli.signum()) / rise_milli)
+}
+
+/// Events a second.
+pub(crate) fn rate_per_s(events: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
+    if elapsed_ms < 100 || events == 0 {
+        return Err(NoValue::Still("nothing turned, or its encoder is not plugged in"));
+    }
+    Ok((events * 1000 + elapsed_ms / 2) / elapsed_ms)
 }
 
 /// µV of a count when a pack of `pack_mv` gives this mean.
@@ -121,8 +171,8 @@ pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValu
 #[cfg(test)]
 mod tests {
     use super::{
-        NoValue, count_way_nm, line_order, mean, mean_milli, scale_uv, speed_mm_per_s, spread, track_um,
-        travelled,
+        NoValue, brightest, count_way_nm, current_scale_ua, follows, line_order, mean, mean_milli,
+        rate_per_s, rises, scale_uv, speed_mm_per_s, track_um, travelled,
     };
 
     #[test]
@@ -163,7 +213,48 @@ mod tests {
         assert_eq!(mean_milli(&[1, 2]), Ok(1500));
         assert_eq!(mean_milli(&[-1, -2]), Ok(-1500));
         assert_eq!(mean(&[]), Err(NoValue::Empty));
-        assert_eq!(spread(&[5, 9, 7]), Ok(4));
+    }
+
+    #[test]
+    fn the_brightest_of_seven_sensors_stands_out_of_dark_and_lit_readings() {
+        let looks = |lit: [i64; 7]| -> Vec<i64> {
+            let round = lit.into_iter().flat_map(|level| [60, 60 + level]);
+            round
+                .cycle()
+                .zip([-1, 0, 1, 0, 0].into_iter().cycle())
+                .map(|(level, noise)| level + noise)
+                .take(140)
+                .collect()
+        };
+        assert_eq!(brightest(&looks([6; 7])), Ok(6));
+        assert_eq!(brightest(&looks([6, 6, 700, 6, 6, 6, 6])), Ok(700));
+        assert_eq!(brightest(&looks([6, 6, 6, 40, 6, 6, 6])), Ok(40));
+        assert_eq!(brightest(&[]), Err(NoValue::Empty));
+    }
+
+    #[test]
+    fn a_line_lights_all_three_sensors_or_none() {
+        assert_eq!(follows(rises([40, 41, 39], [720, 680, 700])), Ok(1));
+        assert_eq!(follows(rises([40, 41, 39], [42, 40, 38])), Ok(0));
+        let one = follows(rises([40, 41, 39], [720, 41, 40]));
+        assert_eq!(
+            one,
+            Err(NoValue::Unclear {
+                least: 0,
+                greatest: 680
+            })
+        );
+        assert!(follows(rises([700; 3], [40; 3])).is_err(), "darker is no light");
+    }
+
+    #[test]
+    fn currents_and_rates_are_rises_over_rises() {
+        assert_eq!(current_scale_ua(1_600, 400_000), Ok(4_000));
+        assert_eq!(current_scale_ua(1_600, -400_000), Ok(-4_000));
+        assert!(current_scale_ua(10, 400_000).is_err());
+        assert!(current_scale_ua(1_600, 500).is_err());
+        assert_eq!(rate_per_s(100, 1_000), Ok(100));
+        assert!(rate_per_s(0, 1_000).is_err());
     }
 
     #[test]

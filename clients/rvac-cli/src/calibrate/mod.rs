@@ -3,7 +3,9 @@
 mod arithmetic;
 mod catalog;
 mod dialog;
+mod driven;
 mod file;
+mod light;
 mod procedure;
 
 use std::process::ExitCode;
@@ -73,6 +75,10 @@ fn walk(robot: &mut Robot, device: &str, options: &CalibrateOptions) -> anyhow::
             item.needed_for,
             item.measure
         ))?;
+        if is_idle(&measured, &item.name) {
+            Dialog::say("  not needed: cliff-emitter-line is 1")?;
+            continue;
+        }
         if let Some(value) = settle(robot, (&catalog, &measured), item)? {
             measured.keep(&catalog, &item.name, value)?;
             Dialog::say(&format!("  kept: {} = {value} {}", item.name, item.unit))?;
@@ -82,16 +88,19 @@ fn walk(robot: &mut Robot, device: &str, options: &CalibrateOptions) -> anyhow::
     Ok(())
 }
 
+/// The level of a drop is needed only where the emitters cannot be switched off.
+fn is_idle(measured: &Measurements, name: &str) -> bool {
+    name == "cliff-drop-level" && measured.get("cliff-emitter-line") == Some(1)
+}
+
 /// Measures one value until the person is content with it; `None` if it is left out.
 fn settle(
     robot: &mut Robot,
     (catalog, measured): (&Catalog, &Measurements),
     item: &Item,
 ) -> anyhow::Result<Option<i64>> {
-    if Procedure::of(&item.name).moves() {
-        Dialog::say(
-            "  The robot will MOVE: put it on the floor with a metre free before it, and stay within reach.",
-        )?;
+    if let Some(warning) = Procedure::of(&item.name).warning() {
+        Dialog::say(&format!("  {warning}"))?;
     }
     if Dialog::choose(robot, "  Ready?")? != Wish::Yes {
         return Ok(None);

@@ -3,25 +3,20 @@
 use std::time::Duration;
 
 use anyhow::{Context as _, bail};
-use rvac_protocol::message::{EncoderProbe, Motor, PROBE_CHANNELS, ProbeTarget, ProbedContent};
-use rvac_units::Throttle;
+use rvac_protocol::message::{EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
-use super::arithmetic::{
-    count_way_nm, line_order, mean, mean_milli, scale_uv, speed_mm_per_s, spread, track_um, travelled,
-};
+use super::arithmetic::{count_way_nm, line_order, mean, mean_milli, scale_uv, track_um, travelled};
 use super::catalog::{Catalog, Item};
 use super::dialog::Dialog;
 use super::file::Measurements;
 use crate::robot::Robot;
 
 /// Readings whose mean is a value.
-const READINGS: usize = 100;
-/// Step of a duty that is raised until something turns.
-const DUTY_STEP_PERMILLE: i32 = 10;
-/// Highest duty that is tried.
-const DUTY_MAX_PERMILLE: i32 = 900;
-/// Counts within a step that mean "turns steadily".
-const TURNS: i64 = 5;
+pub(super) const READINGS: usize = 100;
+/// Readings whose mean is a value that is wanted to a hundredth of a count.
+const READINGS_EXACT: usize = 1_000;
+/// Readings follow each other after 1 to so many ms, so that they do not fall into step with the sensors' own round.
+const PAUSE_MAX_MS: usize = 13;
 
 /// A side of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +44,22 @@ pub(crate) enum Procedure {
     Difference(&'static str, &'static str),
     /// A voltage at the multimeter against the mean of a line.
     Voltage(&'static str),
-    /// Spread of a line that a multiplexer switches through all its sensors.
-    Spread(&'static str),
+    /// Whether the light supply of unknown purpose lights the cliff sensors.
+    CliffLine,
+    /// Half of the rise from a drop to a floor.
+    CliffFloor,
+    /// The brightest cliff sensor over a drop.
+    CliffDrop,
+    /// The brightest proximity sensor with nothing there.
+    ProximityNone,
+    /// The dimmest proximity sensor with paper at it.
+    ProximityTouching,
+    /// A wheel's current at an ammeter against its line.
+    CurrentScale,
+    /// The duty of the main brush is raised until it turns.
+    BrushLeastDuty,
+    /// Pulses of the main brush at full duty.
+    BrushRate,
     /// The person reads it off and types it.
     Typed,
 }
@@ -70,14 +79,32 @@ impl Procedure {
             "button-ladder-1" | "button-ladder-2" | "button-ladder-3" => Self::Mean("button-ladder"),
             "charge-current-zero" => Self::Difference("charger-voltage", "battery-voltage"),
             "battery-scale" => Self::Voltage("battery-voltage"),
-            "proximity-none" => Self::Spread("proximity-receive"),
+            "cliff-emitter-line" => Self::CliffLine,
+            "cliff-floor-level" => Self::CliffFloor,
+            "cliff-drop-level" => Self::CliffDrop,
+            "proximity-none" => Self::ProximityNone,
+            "proximity-touching" => Self::ProximityTouching,
+            "wheel-current-scale" => Self::CurrentScale,
+            "brush-main-dead-band" => Self::BrushLeastDuty,
+            "brush-main-pulse-rate" => Self::BrushRate,
             _ => Self::Typed,
         }
     }
 
-    /// Whether the robot moves by itself, which a person must know beforehand.
-    pub(crate) const fn moves(self) -> bool {
-        matches!(self, Self::LeastDuty | Self::FreeSpeed)
+    /// What a person must know beforehand, if the robot moves something by itself.
+    pub(crate) const fn warning(self) -> Option<&'static str> {
+        match self {
+            Self::LeastDuty | Self::FreeSpeed => Some(
+                "The robot will MOVE: put it on the floor with a metre free before it, and stay within reach.",
+            ),
+            Self::CurrentScale => Some(
+                "A wheel will PULL: keep fingers and hair out of it, and hold the robot so that it cannot get away.",
+            ),
+            Self::BrushLeastDuty | Self::BrushRate => Some(
+                "The main brush will TURN: keep fingers and hair away from it, and the robot on the floor.",
+            ),
+            _ => None,
+        }
     }
 }
 
@@ -113,36 +140,50 @@ impl Bench<'_> {
             }
             Procedure::LeastDuty => self.least_duty(),
             Procedure::FreeSpeed => self.free_speed(),
-            Procedure::Mean(signal) => Ok(mean(&self.line(signal)?)?),
+            Procedure::CurrentScale => self.current_scale(),
+            Procedure::BrushLeastDuty => self.brush_least_duty(),
+            Procedure::BrushRate => self.brush_rate(),
+            Procedure::CliffLine => self.cliff_line(),
+            Procedure::CliffFloor => self.cliff_floor(),
+            Procedure::CliffDrop => self.cliff_drop(),
+            Procedure::ProximityNone => self.proximity_none(),
+            Procedure::ProximityTouching => self.proximity_touching(),
+            Procedure::Mean(signal) => Ok(mean(&self.line(signal, READINGS)?)?),
             Procedure::Difference(more, less) => {
                 let (more, less) = (self.catalog.channel(more)?, self.catalog.channel(less)?);
-                let readings = self.readings(|raw| level(raw, more) - level(raw, less))?;
+                let readings = self.readings(READINGS_EXACT, |raw| level(raw, more) - level(raw, less))?;
                 Ok(mean_milli(&readings)? / 10)
             }
             Procedure::Voltage(signal) => {
                 let volts = Dialog::number(self.robot, "What does the multimeter show, in millivolts?")?;
-                Ok(scale_uv(volts, mean_milli(&self.line(signal)?)?)?)
+                Ok(scale_uv(volts, mean_milli(&self.line(signal, READINGS)?)?)?)
             }
-            Procedure::Spread(signal) => Ok(spread(&self.line(signal)?)?),
             Procedure::Typed => Dialog::number(self.robot, &format!("The value, in {}?", item.unit)),
         }
     }
 
     /// A value that another one is reckoned from.
-    fn needed(&self, name: &str) -> anyhow::Result<i64> {
+    pub(super) fn needed(&self, name: &str) -> anyhow::Result<i64> {
         self.measured
             .get(name)
             .with_context(|| format!("{name} must be measured first"))
     }
 
-    fn line(&mut self, signal: &str) -> anyhow::Result<Vec<i64>> {
+    /// So many readings of a line of the converter.
+    pub(super) fn line(&mut self, signal: &str, count: usize) -> anyhow::Result<Vec<i64>> {
         let channel = self.catalog.channel(signal)?;
-        self.readings(|raw| level(raw, channel))
+        self.readings(count, |raw| level(raw, channel))
     }
 
-    fn readings(&mut self, of: impl Fn(&[u16; PROBE_CHANNELS]) -> i64) -> anyhow::Result<Vec<i64>> {
-        let mut readings = Vec::with_capacity(READINGS);
-        while readings.len() < READINGS {
+    fn readings<Reading>(
+        &mut self,
+        count: usize,
+        of: impl Fn(&[u16; PROBE_CHANNELS]) -> Reading,
+    ) -> anyhow::Result<Vec<Reading>> {
+        let mut readings = Vec::with_capacity(count);
+        while readings.len() < count {
+            let pause_ms = 1 + (readings.len() * 5) % PAUSE_MAX_MS;
+            self.robot.pass(Duration::from_millis(pause_ms as u64))?;
             match self.robot.probe(ProbeTarget::Analog)? {
                 ProbedContent::Analog(raw) => readings.push(of(&raw)),
                 other => bail!("the robot answered with something else: {other:?}"),
@@ -164,46 +205,23 @@ impl Bench<'_> {
         Ok(travelled(before, self.totals()?))
     }
 
-    /// Counts of both wheels, and the time they took in ms, while both run with `duty`: of the second half of `span`, when
-    /// they have come to speed.
-    fn counts_at(&mut self, duty: Throttle, span: Duration) -> anyhow::Result<((i64, i64), i64)> {
-        self.robot.arm()?;
-        let motors = [(Motor::WheelLeft, duty), (Motor::WheelRight, duty)];
-        let watched = self.robot.watch(ProbeTarget::Encoders, &motors, span)?;
-        let settled = watched.get(watched.len() / 2..).unwrap_or_default();
-        let (Some(first), Some(last)) = (settled.first(), settled.last()) else {
-            bail!("no reading came while the wheels ran");
-        };
-        let (ProbedContent::Encoders(from), ProbedContent::Encoders(to)) = (&first.content, &last.content)
-        else {
-            bail!("the robot answered with something else");
-        };
-        let counts = travelled((from.left, from.right), (to.left, to.right));
-        Ok((counts, i64::from(last.tick.since(first.tick))))
-    }
-
-    fn least_duty(&mut self) -> anyhow::Result<i64> {
-        for permille in (DUTY_STEP_PERMILLE..=DUTY_MAX_PERMILLE).step_by(DUTY_STEP_PERMILLE as usize) {
-            let duty = Throttle::saturating_from_millionths(permille * 1_000);
-            let ((left, right), _) = self.counts_at(duty, Duration::from_millis(400))?;
-            if left.abs().min(right.abs()) >= TURNS {
-                return Ok(i64::from(permille));
-            }
+    /// Means of three lines of the converter.
+    pub(super) fn three(&mut self, signals: [&str; 3]) -> anyhow::Result<[i64; 3]> {
+        let mut channels = [0; 3];
+        for (channel, signal) in channels.iter_mut().zip(signals) {
+            *channel = self.catalog.channel(signal)?;
         }
-        bail!("the wheels do not turn at {DUTY_MAX_PERMILLE} permille: are motors and encoders plugged in?")
-    }
-
-    fn free_speed(&mut self) -> anyhow::Result<i64> {
-        let way_nm = self.needed("wheel-count-way")?;
-        let full = Throttle::saturating_from_millionths(1_000_000);
-        let ((left, right), elapsed_ms) = self.counts_at(full, Duration::from_millis(1_000))?;
-        Ok(speed_mm_per_s(
-            (left.abs() + right.abs()) * way_nm / 2,
-            elapsed_ms,
-        )?)
+        let readings = self.readings(READINGS, |raw| channels.map(|channel| level(raw, channel)))?;
+        let mut means = [0; 3];
+        for (place, found) in means.iter_mut().enumerate() {
+            let of_one: Vec<i64> = readings.iter().map(|three| three[place]).collect();
+            *found = mean(&of_one)?;
+        }
+        Ok(means)
     }
 }
 
-fn level(raw: &[u16; PROBE_CHANNELS], channel: usize) -> i64 {
+/// The reading of a channel.
+pub(super) fn level(raw: &[u16; PROBE_CHANNELS], channel: usize) -> i64 {
     raw.get(channel).copied().map_or(0, i64::from)
 }

@@ -46,10 +46,17 @@ fn spell(content: &ProbedContent) -> String {
                     .map(|(channel, count)| format!("AN{channel:<2} {count:4}")),
             )
         }
-        ProbedContent::Encoders(seen) => format!(
-            "left  {:11}, {} illegal transitions\nright {:11}, {} illegal transitions",
-            seen.left, seen.left_illegal, seen.right, seen.right_illegal
-        ),
+        ProbedContent::Encoders(seen) => {
+            let brush = seen.brush.map(|pulses| format!("\nbrush {pulses:11} pulses"));
+            format!(
+                "left  {:11}, {} illegal transitions\nright {:11}, {} illegal transitions{}",
+                seen.left,
+                seen.left_illegal,
+                seen.right,
+                seen.right_illegal,
+                brush.unwrap_or_default()
+            )
+        }
         ProbedContent::Lines(ports) => {
             let mut cells = ('A'..).zip(ports);
             rows(

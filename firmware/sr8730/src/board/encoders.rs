@@ -13,6 +13,7 @@ use pic32mx3_hal::interrupt;
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
 use rvac_protocol::message::EncoderProbe;
 
+use super::link::by_edges::brush_pulses;
 use super::off::{mask, port};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
@@ -204,6 +205,7 @@ pub(super) fn raw() -> EncoderProbe {
         right: RIGHT.total(),
         left_illegal: LEFT.illegal.load(Ordering::Relaxed),
         right_illegal: RIGHT.illegal.load(Ordering::Relaxed),
+        brush: Some(brush_pulses()),
     }
 }
 

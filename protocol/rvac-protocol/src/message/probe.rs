@@ -81,6 +81,8 @@ pub struct EncoderProbe {
     pub left_illegal: u32,
     /// The same of the right encoder.
     pub right_illegal: u32,
+    /// Pulses of the main brush since reset, wrapping; `None` if nothing counts them.
+    pub brush: Option<u32>,
 }
 
 /// The buttons without knowing which.

@@ -13,12 +13,7 @@ pub(super) fn write(probed: &Probed, buffer: &mut PacketBuffer) -> Result<(), En
     object.name("c", "probed");
     match &probed.content {
         ProbedContent::Analog(counts) => object.name("of", "analog").numbers("raw", counts),
-        ProbedContent::Encoders(encoders) => object
-            .name("of", "encoders")
-            .number("left", encoders.left, span::COUNT)
-            .number("right", encoders.right, span::COUNT)
-            .number("left-illegal", encoders.left_illegal, span::TOTAL)
-            .number("right-illegal", encoders.right_illegal, span::TOTAL),
+        ProbedContent::Encoders(encoders) => write_encoders(encoders, &mut object),
         ProbedContent::Lines(ports) => object.name("of", "lines").hex_words("ports", ports),
         ProbedContent::Buttons(buttons) => object
             .name("of", "buttons")
@@ -31,6 +26,22 @@ pub(super) fn write(probed: &Probed, buffer: &mut PacketBuffer) -> Result<(), En
             .hex("bytes", &serial.bytes),
     };
     object.number("t", probed.tick.0, span::TOTAL).finish()
+}
+
+fn write_encoders<'a, 'b>(
+    encoders: &EncoderProbe,
+    object: &'a mut ObjectWriter<'b>,
+) -> &'a mut ObjectWriter<'b> {
+    object
+        .name("of", "encoders")
+        .number("left", encoders.left, span::COUNT)
+        .number("right", encoders.right, span::COUNT)
+        .number("left-illegal", encoders.left_illegal, span::TOTAL)
+        .number("right-illegal", encoders.right_illegal, span::TOTAL);
+    match encoders.brush {
+        Some(pulses) => object.number("brush", pulses, span::TOTAL),
+        None => object,
+    }
 }
 
 pub(super) fn read(text: &[u8]) -> Result<Probed, Refusal> {
@@ -50,13 +61,18 @@ pub(super) fn read(text: &[u8]) -> Result<Probed, Refusal> {
 }
 
 fn read_encoders(text: &[u8]) -> Result<EncoderProbe, Refusal> {
-    let keys = ["left", "right", "left-illegal", "right-illegal"];
+    let keys = ["left", "right", "left-illegal", "right-illegal", "brush"];
     let fields = Fields::read(text, keys, UnknownKeys::Ignore)?;
     Ok(EncoderProbe {
         left: fields.int(0, span::COUNT)?,
         right: fields.int(1, span::COUNT)?,
         left_illegal: fields.total(2)?,
         right_illegal: fields.total(3)?,
+        brush: if fields.has(4) {
+            Some(fields.total(4)?)
+        } else {
+            None
+        },
     })
 }
 

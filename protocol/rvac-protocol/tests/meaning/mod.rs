@@ -104,10 +104,16 @@ pub(crate) fn report(report: &Report) -> Value {
 fn probed_content(content: &ProbedContent) -> Value {
     match content {
         ProbedContent::Analog(counts) => json!({"analog": counts}),
-        ProbedContent::Encoders(encoders) => json!({
-            "left": encoders.left, "right": encoders.right, "left_illegal": encoders.left_illegal,
-            "right_illegal": encoders.right_illegal,
-        }),
+        ProbedContent::Encoders(encoders) => {
+            let mut told = json!({
+                "left": encoders.left, "right": encoders.right, "left_illegal": encoders.left_illegal,
+                "right_illegal": encoders.right_illegal,
+            });
+            if let Some(pulses) = encoders.brush {
+                told["brush"] = json!(pulses);
+            }
+            told
+        }
         ProbedContent::Lines(ports) => json!({"ports": ports}),
         ProbedContent::Buttons(buttons) => json!({"level": buttons.level, "pressed": buttons.pressed}),
         ProbedContent::Serial(serial) => {
