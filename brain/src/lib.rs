@@ -29,5 +29,5 @@ pub use checkpoint::{Checkpoint, JobCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, Speeds};
 pub use geometry::{Point2, Pose2};
-pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, SweptRun};
+pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster, SweptRun};
 pub use observation::Observation;

@@ -83,3 +83,42 @@ impl Facts {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Facts;
+    use crate::behavior::Reason;
+    use crate::observation::Observation;
+
+    fn facts_of(name: &'static str) -> Facts {
+        let observation = Observation {
+            inhibits: vec![name],
+            ..Observation::default()
+        };
+        Facts::read(&observation, 0.15)
+    }
+
+    #[test]
+    fn a_low_pack_leads_home_and_a_broken_charger_stops_no_job() {
+        for name in ["battery-low", "battery-weak"] {
+            let facts = facts_of(name);
+            assert!(facts.battery_low && facts.fault.is_none(), "{name}");
+        }
+        let facts = facts_of("charger-fault");
+        assert!(!facts.battery_low && facts.fault.is_none());
+    }
+
+    #[test]
+    fn what_needs_a_person_is_a_fault_by_its_name() {
+        for (name, reason) in [
+            ("battery-empty", Reason::BatteryEmpty),
+            ("battery-overheated", Reason::BatteryOverheated),
+            ("thermistor", Reason::Thermistor),
+            ("charger-shorted", Reason::ChargerShorted),
+            ("memory", Reason::Memory),
+            ("flux-capacitor", Reason::UnknownInhibit),
+        ] {
+            assert_eq!(facts_of(name).fault, Some(reason), "{name}");
+        }
+    }
+}

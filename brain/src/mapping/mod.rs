@@ -5,9 +5,11 @@
 //! only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a new one.
 
 mod layers;
+mod raster;
 mod swept;
 
 pub use layers::{Mark, MarkKind, PathPoint};
+pub use raster::Raster;
 pub use swept::{CELL_M, Cell, SweptRun};
 
 use crate::geometry::{Point2, Pose2};

@@ -1,0 +1,117 @@
+//! A dense window of cells.
+
+use super::Cell;
+
+/// Values of the cells of a rectangle whose lower left cell is `origin`; rows from low to high y.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster<T> {
+    origin: Cell,
+    width: usize,
+    values: Vec<T>,
+}
+
+impl<T: Clone> Raster<T> {
+    /// A window of `width` times `height` cells that all hold `value`.
+    #[must_use]
+    pub fn filled(origin: Cell, width: usize, height: usize, value: T) -> Self {
+        Self {
+            origin,
+            width,
+            values: vec![value; width.saturating_mul(height)],
+        }
+    }
+}
+
+impl<T> Raster<T> {
+    /// The lower left cell.
+    #[must_use]
+    pub const fn origin(&self) -> Cell {
+        self.origin
+    }
+
+    /// Cells of a row.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.values.len().checked_div(self.width).unwrap_or(0)
+    }
+
+    /// All values, row after row.
+    #[must_use]
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// All values, row after row.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// The value of a cell; `None` outside.
+    #[must_use]
+    pub fn get(&self, cell: Cell) -> Option<&T> {
+        self.values.get(self.index(cell)?)
+    }
+
+    /// The value of a cell, to be changed; `None` outside.
+    pub fn get_mut(&mut self, cell: Cell) -> Option<&mut T> {
+        let index = self.index(cell)?;
+        self.values.get_mut(index)
+    }
+
+    /// Place of a cell among [`Self::values`]; `None` outside.
+    #[must_use]
+    pub fn index(&self, cell: Cell) -> Option<usize> {
+        let column = usize::try_from(i64::from(cell.x) - i64::from(self.origin.x)).ok()?;
+        let row = usize::try_from(i64::from(cell.y) - i64::from(self.origin.y)).ok()?;
+        (column < self.width && row < self.height()).then_some(row * self.width + column)
+    }
+
+    /// The cell at a place of [`Self::values`].
+    #[must_use]
+    pub fn cell(&self, index: usize) -> Cell {
+        let (row, column) = (
+            index.checked_div(self.width).unwrap_or(0),
+            index.checked_rem(self.width).unwrap_or(0),
+        );
+        Cell {
+            x: self
+                .origin
+                .x
+                .saturating_add(i32::try_from(column).unwrap_or(i32::MAX)),
+            y: self
+                .origin
+                .y
+                .saturating_add(i32::try_from(row).unwrap_or(i32::MAX)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Raster;
+    use crate::mapping::Cell;
+
+    #[test]
+    fn cells_inside_are_found_and_those_outside_are_not() {
+        let mut raster = Raster::filled(Cell { x: -2, y: 5 }, 4, 3, 0_u8);
+        *raster.get_mut(Cell { x: 1, y: 7 }).unwrap() = 9;
+        assert_eq!(raster.get(Cell { x: 1, y: 7 }), Some(&9));
+        assert_eq!(raster.index(Cell { x: 1, y: 7 }), Some(11));
+        assert_eq!(raster.cell(11), Cell { x: 1, y: 7 });
+        for outside in [(-3, 5), (2, 5), (0, 4), (0, 8), (i32::MIN, i32::MAX)] {
+            assert_eq!(
+                raster.get(Cell {
+                    x: outside.0,
+                    y: outside.1
+                }),
+                None
+            );
+        }
+    }
+}
