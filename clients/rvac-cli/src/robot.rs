@@ -1,5 +1,6 @@
 //! A robot on the serial line, asked and answered one thing at a time, while a person reads and types.
 
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -8,11 +9,11 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, bail};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Command, Motor, MotorCommand, PROBE_LEASE_MS_MAX, Probe, ProbeTarget, Probed, ProbedContent,
-    Refusal, Report, Sequence,
+    BinaryKinds, Command, Led, LedPattern, Motor, MotorCommand, PROBE_LEASE_MS_MAX, Probe, ProbeTarget,
+    Probed, ProbedContent, Refusal, Report, Sequence,
 };
 use rvac_protocol::session::{HostEvent, HostSession, SendError};
-use rvac_units::{Throttle, Tick};
+use rvac_units::{Ratio, Throttle, Tick};
 use serial2::SerialPort;
 
 use crate::lines;
@@ -36,13 +37,54 @@ enum Event {
 /// What has come in while somebody waited.
 #[derive(Default)]
 struct Heard {
-    described: bool,
+    /// Number of lights, once the robot has described itself.
+    lights: Option<u8>,
     probed: Vec<Probed>,
     answered: Option<(Sequence, Option<Refusal>)>,
     refused: Option<Refusal>,
     unanswered: Option<Sequence>,
-    typed: Option<String>,
+    typed: VecDeque<String>,
     input_ended: bool,
+}
+
+/// How long raw readings are taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Watch {
+    /// So long.
+    For(Duration),
+    /// Until the person has typed a line, but no longer than this.
+    UntilTyped(Duration),
+}
+
+/// What a target is, whichever port or rate.
+fn kind_of(target: ProbeTarget) -> Kind {
+    match target {
+        ProbeTarget::Analog => Kind::Analog,
+        ProbeTarget::Encoders => Kind::Encoders,
+        ProbeTarget::Lines => Kind::Lines,
+        ProbeTarget::Buttons => Kind::Buttons,
+        ProbeTarget::Serial { .. } => Kind::Serial,
+    }
+}
+
+/// What a reading is of.
+fn target_of(content: &ProbedContent) -> Kind {
+    match content {
+        ProbedContent::Analog(_) => Kind::Analog,
+        ProbedContent::Encoders(_) => Kind::Encoders,
+        ProbedContent::Lines(_) => Kind::Lines,
+        ProbedContent::Buttons(_) => Kind::Buttons,
+        ProbedContent::Serial(_) => Kind::Serial,
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Analog,
+    Encoders,
+    Lines,
+    Buttons,
+    Serial,
 }
 
 /// A session with a robot.
@@ -72,7 +114,7 @@ impl Robot {
             device: String::new(),
             heard: Heard::default(),
         };
-        if robot.wait(PATIENCE, |heard| heard.described)? {
+        if robot.wait(PATIENCE, |heard| heard.lights.is_some())? {
             return Ok(robot);
         }
         bail!(
@@ -89,15 +131,35 @@ impl Robot {
     pub(crate) fn next_line(&mut self) -> anyhow::Result<Option<String>> {
         loop {
             self.wait(Duration::from_secs(3600), |heard| {
-                heard.typed.is_some() || heard.input_ended
+                !heard.typed.is_empty() || heard.input_ended
             })?;
-            if let Some(line) = self.heard.typed.take() {
+            if let Some(line) = self.heard.typed.pop_front() {
                 return Ok(Some(line));
             }
             if self.heard.input_ended {
                 return Ok(None);
             }
         }
+    }
+
+    /// Number of lights; the firmware numbers them from 0.
+    pub(crate) fn lights(&self) -> u8 {
+        self.heard.lights.unwrap_or(0)
+    }
+
+    /// Switches a light.
+    pub(crate) fn light(&mut self, led: u8, on: bool) -> anyhow::Result<()> {
+        self.send(Command::Led(Led {
+            led,
+            pattern: if on { LedPattern::On } else { LedPattern::Off },
+            brightness: Ratio::ONE,
+        }))
+        .map(drop)
+    }
+
+    /// Lets time pass.
+    pub(crate) fn pass(&mut self, span: Duration) -> anyhow::Result<()> {
+        self.wait(span, |_| false).map(drop)
     }
 
     /// One raw reading.
@@ -108,40 +170,53 @@ impl Robot {
             lease_ms: 0,
             sequence: Sequence(0),
         }))?;
-        self.wait(PATIENCE, |heard| !heard.probed.is_empty())?;
-        match self.heard.probed.pop() {
+        // A reading of something else may still come, of a lease that was given before.
+        let asked_for = |probed: &Probed| target_of(&probed.content) == kind_of(target);
+        self.wait(PATIENCE, |heard| heard.probed.iter().any(asked_for))?;
+        match self.heard.probed.drain(..).find(asked_for) {
             Some(probed) => Ok(probed.content),
             None => bail!("the robot promised a raw reading and sent none"),
         }
     }
 
-    /// Raw readings for `span`, as they come (each 50 ms), while `motors` run open loop; whatever happens, they are stopped
-    /// at the end. Motors need an armed robot; without any the robot need not be armed.
+    /// Raw readings for `span`, or until the person has typed something if `until_typed`, as they come (each 50 ms), while
+    /// `motors` run open loop; whatever happens, they are stopped at the end. Motors need an armed robot; without any the
+    /// robot need not be armed.
     pub(crate) fn watch(
         &mut self,
         target: ProbeTarget,
         motors: &[(Motor, Throttle)],
-        span: Duration,
+        span: Watch,
     ) -> anyhow::Result<Vec<Probed>> {
         self.heard.probed.clear();
         let watched = self.watch_running(target, motors, span);
         if !motors.is_empty() {
             self.stop()?;
         }
-        watched.map(|()| std::mem::take(&mut self.heard.probed))
+        watched
+            .map(|()| std::mem::take(&mut self.heard.probed))
+            .map(|probed| {
+                probed
+                    .into_iter()
+                    .filter(|one| target_of(&one.content) == kind_of(target))
+                    .collect()
+            })
     }
 
     fn watch_running(
         &mut self,
         target: ProbeTarget,
         motors: &[(Motor, Throttle)],
-        span: Duration,
+        span: Watch,
     ) -> anyhow::Result<()> {
-        let end = Instant::now() + span;
+        let (Watch::For(longest) | Watch::UntilTyped(longest)) = span;
+        let until_typed = matches!(span, Watch::UntilTyped(_));
+        let end = Instant::now() + longest;
         let mut lease_until = Instant::now();
+        let mut asked = false;
         loop {
             let now = Instant::now();
-            if now >= end {
+            if now >= end || (until_typed && (!self.heard.typed.is_empty() || self.heard.input_ended)) {
                 return Ok(());
             }
             if now >= lease_until {
@@ -150,6 +225,10 @@ impl Robot {
                     lease_ms: PROBE_LEASE_MS_MAX,
                     sequence: Sequence(0),
                 }))?;
+                if !std::mem::replace(&mut asked, true) {
+                    // What came before the answer is of another rate, perhaps.
+                    self.heard.probed.clear();
+                }
                 lease_until = now + Duration::from_millis(u64::from(PROBE_LEASE_MS_MAX) / 2);
             }
             self.run(motors)?;
@@ -234,7 +313,7 @@ impl Robot {
                 return Ok(false);
             }
             match self.inbox.recv_timeout(LOOK.min(left)) {
-                Ok(Event::Typed(line)) => self.heard.typed = Some(line),
+                Ok(Event::Typed(line)) => self.heard.typed.push_back(line),
                 Ok(Event::InputEnded) => self.heard.input_ended = true,
                 Ok(Event::Received(bytes)) => self.take_bytes(&bytes),
                 Ok(Event::Lost(error)) => return Err(error).context("the serial line is gone"),
@@ -273,7 +352,7 @@ impl Robot {
     fn take_event(&mut self, event: HostEvent) {
         match event {
             HostEvent::Opened(hello) => self.device = hello.device.as_str().to_owned(),
-            HostEvent::Described(_) => self.heard.described = true,
+            HostEvent::Described(description) => self.heard.lights = Some(description.capabilities.leds),
             HostEvent::Report(Report::Probed(probed)) => self.heard.probed.push(probed),
             HostEvent::Answered {
                 sequence: Some(sequence),

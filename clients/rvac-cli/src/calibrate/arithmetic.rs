@@ -141,7 +141,7 @@ pub(crate) fn current_scale_ua(rise_ma: i64, rise_milli: i64) -> Result<i64, NoV
             "hold the wheel fast, so that its motor draws a current that can be seen",
         ));
     }
-    Ok((rise_ma * 1_000_000 + rise_milli.abs() / 2 * rise_ma.signum() * rise_milli.signum()) / rise_milli)
+    Ok((rise_ma * 1_000_000 + rise_milli.abs() / 2 * rise_ma.signum()) / rise_milli)
 }
 
 /// Events a second.

@@ -8,7 +8,7 @@ use rvac_protocol::message::{ProbeTarget, Probed, ProbedContent};
 
 use super::frames::{Frames, Recording};
 use super::say;
-use crate::robot::Robot;
+use crate::robot::{Robot, Watch};
 
 /// Ports of the chip.
 const PORTS: [u8; 2] = [1, 2];
@@ -53,7 +53,7 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
         if robot.next_line()?.is_none() {
             bail!("the input ended before the recording did; nothing was written");
         }
-        Ok(Heard::join(robot.watch(target, &[], PART)?).bytes)
+        Ok(Heard::join(robot.watch(target, &[], Watch::For(PART))?).bytes)
     };
     let recording = Recording {
         rest: part("Leave the robot alone")?,
@@ -75,7 +75,7 @@ fn find(robot: &mut Robot) -> anyhow::Result<(u8, u32)> {
     let mut closest: Option<(u8, u32, usize)> = None;
     for port in PORTS {
         for baud in RATES {
-            let heard = Heard::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], TRY)?);
+            let heard = Heard::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], Watch::For(TRY))?);
             say(&format!(
                 "UART {port}, {baud:6} baud: {} bytes, {} wrong",
                 heard.bytes.len(),

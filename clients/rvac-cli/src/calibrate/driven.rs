@@ -1,0 +1,143 @@
+//! Values for which motors run: open loop, under leases, and stopped at the end whatever happens.
+
+use std::time::Duration;
+
+use anyhow::{Context as _, bail};
+use rvac_protocol::message::{EncoderProbe, Motor, ProbeTarget, Probed, ProbedContent};
+use rvac_units::Throttle;
+
+use super::arithmetic::{current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled};
+use super::dialog::Dialog;
+use super::procedure::{Bench, READINGS, level};
+use crate::robot::Watch;
+
+/// Step of a duty that is raised until something turns.
+const STEP_PERMILLE: i32 = 10;
+/// Highest duty that is tried.
+const MOST_PERMILLE: i32 = 900;
+/// How long each duty is tried.
+const TRY: Duration = Duration::from_millis(600);
+/// Counts in half of that which mean "turns steadily".
+const TURNS: i64 = 3;
+/// Pulses of the brush in half of that which mean the same.
+const PULSES: i64 = 2;
+/// Duty at which a wheel is held fast: a third of what it can pull.
+const HELD_PERMILLE: i32 = 300;
+/// A wheel that is held fast gets warm: no longer than this.
+const HELD_MAX: Duration = Duration::from_secs(20);
+
+/// What was counted while motors ran.
+struct Counted {
+    left: i64,
+    right: i64,
+    brush: i64,
+    elapsed_ms: i64,
+}
+
+impl Bench<'_> {
+    /// Both wheels are given more and more until they turn.
+    pub(super) fn least_duty(&mut self) -> anyhow::Result<i64> {
+        self.raise(&[Motor::WheelLeft, Motor::WheelRight], |counted| {
+            counted.left.abs().min(counted.right.abs()) >= TURNS
+        })
+    }
+
+    /// Speed of the rims at full duty.
+    pub(super) fn free_speed(&mut self) -> anyhow::Result<i64> {
+        let way_nm = self.needed("wheel-count-way")?;
+        let wheels = [Motor::WheelLeft, Motor::WheelRight];
+        let counted = self.count(&wheels, 1000, Duration::from_millis(1_000))?;
+        let way_nm = (counted.left.abs() + counted.right.abs()) * way_nm / 2;
+        Ok(speed_mm_per_s(way_nm, counted.elapsed_ms)?)
+    }
+
+    /// The main brush is given more and more until it turns.
+    pub(super) fn brush_least_duty(&mut self) -> anyhow::Result<i64> {
+        self.raise(&[Motor::BrushMain], |counted| counted.brush >= PULSES)
+    }
+
+    /// Pulses of the main brush in a second at full duty.
+    pub(super) fn brush_rate(&mut self) -> anyhow::Result<i64> {
+        let counted = self.count(&[Motor::BrushMain], 1000, Duration::from_secs(3))?;
+        Ok(rate_per_s(counted.brush, counted.elapsed_ms)?)
+    }
+
+    /// The left wheel pulls while it is held fast; the person reads the ammeter.
+    pub(super) fn current_scale(&mut self) -> anyhow::Result<i64> {
+        let channel = self.catalog.channel("wheel-left-current")?;
+        let rest_ma = Dialog::number(
+            self.robot,
+            "What does the ammeter in the battery's line show at rest, in mA?",
+        )?;
+        let rest = mean_milli(&self.line("wheel-left-current", READINGS)?)?;
+        Dialog::enter(
+            self.robot,
+            "Hold the left wheel fast. After Enter it pulls; read the ammeter, type the mA, and Enter stops it.",
+        )?;
+        self.robot.arm()?;
+        let motors = [(Motor::WheelLeft, duty(HELD_PERMILLE))];
+        let watched = self
+            .robot
+            .watch(ProbeTarget::Analog, &motors, Watch::UntilTyped(HELD_MAX))?;
+        let pulled_ma = Dialog::number(self.robot, "What did the ammeter show while it pulled, in mA?")?;
+        let readings: Vec<i64> = second_half(&watched)
+            .iter()
+            .filter_map(|probed| match &probed.content {
+                ProbedContent::Analog(raw) => Some(level(raw, channel)),
+                _ => None,
+            })
+            .collect();
+        Ok(current_scale_ua(
+            pulled_ma - rest_ma,
+            mean_milli(&readings)? - rest,
+        )?)
+    }
+
+    /// The least duty at which `turns` is content.
+    fn raise(&mut self, motors: &[Motor], turns: impl Fn(&Counted) -> bool) -> anyhow::Result<i64> {
+        for permille in (STEP_PERMILLE..=MOST_PERMILLE).step_by(STEP_PERMILLE as usize) {
+            if turns(&self.count(motors, permille, TRY)?) {
+                return Ok(i64::from(permille));
+            }
+        }
+        bail!("nothing turns at {MOST_PERMILLE} permille: are motors and encoders plugged in?")
+    }
+
+    /// Runs these motors for `span` and counts in the second half of it, when they have come to speed.
+    fn count(&mut self, motors: &[Motor], permille: i32, span: Duration) -> anyhow::Result<Counted> {
+        self.robot.arm()?;
+        let motors: Vec<_> = motors.iter().map(|motor| (*motor, duty(permille))).collect();
+        let watched = self
+            .robot
+            .watch(ProbeTarget::Encoders, &motors, Watch::For(span))?;
+        let settled = second_half(&watched);
+        let ends = settled.first().zip(settled.last());
+        let (first, last) = ends.context("no reading came while the motors ran")?;
+        let (from, to) = (totals(first)?, totals(last)?);
+        let (left, right) = travelled((from.left, from.right), (to.left, to.right));
+        Ok(Counted {
+            left,
+            right,
+            brush: match (from.brush, to.brush) {
+                (Some(before), Some(after)) => i64::from(after.wrapping_sub(before)),
+                _ => bail!("this firmware does not tell the pulses of the brush"),
+            },
+            elapsed_ms: i64::from(last.tick.since(first.tick)),
+        })
+    }
+}
+
+fn totals(probed: &Probed) -> anyhow::Result<EncoderProbe> {
+    match probed.content {
+        ProbedContent::Encoders(totals) => Ok(totals),
+        _ => bail!("the robot answered with something else"),
+    }
+}
+
+fn second_half(watched: &[Probed]) -> &[Probed] {
+    watched.get(watched.len() / 2..).unwrap_or_default()
+}
+
+fn duty(permille: i32) -> Throttle {
+    Throttle::saturating_from_millionths(permille * 1_000)
+}
