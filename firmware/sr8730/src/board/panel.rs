@@ -20,9 +20,11 @@ pub struct LightPins {
     pub main: Pin<'A', 6, Output>,
     /// Supply of the second group: RG1.
     pub battery: Pin<'G', 1, Output>,
+    /// LED_UNKNOWNS: the supply of nobody knows what, RG0, unless it is known to switch the emitters of the cliff sensors.
+    pub unknown: Option<Pin<'G', 0, Output>>,
 }
 
-/// The eight lights.
+/// The eight lights, and as a ninth the supply of unknown purpose, so that a person can find out what it feeds.
 #[derive(Debug)]
 pub struct PanelLights {
     pins: LightPins,
@@ -78,9 +80,15 @@ impl PanelLights {
 }
 
 impl Lights for PanelLights {
-    const COUNT: u8 = LIGHTS;
+    const COUNT: u8 = LIGHTS + 1;
 
     fn set(&mut self, light: u8, brightness: Ratio) {
+        if light == LIGHTS
+            && let Some(supply) = &mut self.pins.unknown
+        {
+            let lit = brightness.millionths() != 0;
+            supply.set_level(if lit { Level::High } else { Level::Low });
+        }
         self.lamps.set(light, brightness);
     }
 }

@@ -1,7 +1,7 @@
 //! Sensors that are read from the converter: cliffs, proximity, wheel currents.
 
 use cordlib::board::{CliffLevels, CliffSensors, CurrentSense, Emitters, ProximitySensors};
-use pic32mx3_hal::gpio::{Output, Pin};
+use pic32mx3_hal::gpio::{Level, Output, Pin};
 use rvac_protocol::message::{Cliffs, Currents, PROXIMITY_SENSORS};
 use rvac_units::Current;
 
@@ -19,8 +19,8 @@ const CLIFFS: [Signal; 3] = [pins::CLIFF_LEFT, pins::CLIFF_MIDDLE, pins::CLIFF_R
 /// The cliff sensors.
 #[derive(Debug)]
 pub struct CliffReceivers {
-    /// LED_UNKNOWNS: perhaps the supply of the emitters.
-    emitters: Pin<'G', 0, Output>,
+    /// LED_UNKNOWNS, if it is known to be the supply of the emitters.
+    emitters: Option<Pin<'G', 0, Output>>,
     calibration: Option<CliffCalibration>,
     lit: bool,
     watch: [StillnessWatch; 3],
@@ -31,9 +31,9 @@ pub struct CliffReceivers {
 }
 
 impl CliffReceivers {
-    /// With what is known of their emitters and levels.
+    /// With what is known of their emitters and levels; `emitters` is the line that switches them, if one does.
     #[must_use]
-    pub fn take(emitters: Pin<'G', 0, Output>, calibration: &Calibration) -> Self {
+    pub fn take(emitters: Option<Pin<'G', 0, Output>>, calibration: &Calibration) -> Self {
         Self {
             emitters,
             calibration: calibration.cliffs(),
@@ -80,14 +80,8 @@ impl CliffSensors for CliffReceivers {
 
     fn set_emitters(&mut self, emitters: Emitters) {
         self.lit = emitters == Emitters::On;
-        // While nobody knows what this line feeds, it stays off.
-        let switched = self
-            .calibration
-            .is_some_and(|known| known.emitters == CliffEmitters::Switched);
-        if switched && self.lit {
-            self.emitters.set_high();
-        } else {
-            self.emitters.set_low();
+        if let Some(emitters) = &mut self.emitters {
+            emitters.set_level(if self.lit { Level::High } else { Level::Low });
         }
     }
 

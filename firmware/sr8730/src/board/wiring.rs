@@ -26,7 +26,7 @@ use super::serial::{GyroModule, SerialParts, SerialPorts};
 use super::tick::TickClock;
 use super::wheels::Wheels;
 use super::{Sr8730, converter};
-use crate::calibration::Calibration;
+use crate::calibration::{Calibration, CliffEmitters};
 use crate::generated::pins::{self, Signal};
 use crate::logic::bridge::PERIOD_COUNTS;
 
@@ -147,7 +147,7 @@ macro_rules! feelers {
 
 /// What people see and hear.
 macro_rules! panel {
-    ($chip:ident, $p:ident) => {{
+    ($chip:ident, $p:ident, $unknown_supply:ident) => {{
         let tone_time = Speaker::time_base($chip.timer2);
         let tone = tone_time.channel($chip.compare5, pin!($p.rd4 is SOUND_TONE).into_output(Low));
         let sound = SoundPins {
@@ -168,6 +168,7 @@ macro_rules! panel {
             ],
             main: pin!($p.ra6 is LIGHT_SUPPLY_MAIN).into_output(Low),
             battery: pin!($p.rg1 is LIGHT_SUPPLY_BATTERY).into_output(Low),
+            unknown: $unknown_supply,
         };
         // The display of other models, whose remaining segments are presumably the lines of the lights: never on.
         leave(pin!($p.ra7 is DISPLAY_DIGIT_1).into_output(Low));
@@ -254,7 +255,12 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
     let adapter = pin!(p.rb1 is ADAPTER).into_input();
     let charger = PackCharger::take(gate, chip.timer1, calibration);
     let (encoders, bumpers, wheel_drops, dock_beams) = feelers!(chip, p, calibration);
-    let (beeper, lights) = panel!(chip, p);
+    let supply = pin!(p.rg0 is LIGHT_SUPPLY_UNKNOWN).into_output(Low);
+    let (emitters, unknown_supply) = match calibration.cliffs().map(|known| known.emitters) {
+        Some(CliffEmitters::Switched) => (Some(supply), None),
+        Some(CliffEmitters::AlwaysLit(_)) | None => (None, Some(supply)),
+    };
+    let (beeper, lights) = panel!(chip, p, unknown_supply);
     let (ports, link) = lines!(chip, p, calibration);
     let (scanner, channels) = converter!(chip, p);
     let gyro = GyroModule::take(ports.gyro());
@@ -266,7 +272,7 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
         watchdog: Supervised::take(chip.watchdog),
         encoders,
         bumpers,
-        cliffs: CliffReceivers::take(pin!(p.rg0 is LIGHT_SUPPLY_UNKNOWN).into_output(Low), calibration),
+        cliffs: CliffReceivers::take(emitters, calibration),
         wheel_drops,
         proximity: ProximityReceivers::take(calibration.proximity()),
         gyro,
