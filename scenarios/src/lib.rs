@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use brain::command::StrategyName;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
-use rvac_sim::{Household, Scene, SceneSettings};
+use rvac_sim::{Household, Record, Scene, SceneSettings};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
@@ -23,6 +23,7 @@ pub fn scene(home: &str, noise: &str) -> Scene {
         robot: "sr8730".to_owned(),
         noise: noise.to_owned(),
         firmware: None,
+        record: Record::Complete,
     })
     .expect("the project's homes suit the project's robot")
 }

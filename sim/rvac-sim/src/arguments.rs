@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use anyhow::bail;
 use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
-use rvac_sim::SceneSettings;
+
 use rvac_sim::run::RunSettings;
 use rvac_sim::serve::ServeSettings;
+use rvac_sim::{Record, SceneSettings};
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
@@ -42,6 +43,9 @@ pub(crate) struct SceneArguments {
     /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
     #[arg(long)]
     firmware: Option<PathBuf>,
+    /// The robot's flash holds no calibration record: an owner has just flashed it. Needs --firmware.
+    #[arg(long, requires = "firmware")]
+    uncalibrated: bool,
 }
 
 impl SceneArguments {
@@ -51,6 +55,11 @@ impl SceneArguments {
             robot: self.robot.clone(),
             noise: self.noise.clone(),
             firmware: self.firmware.clone(),
+            record: if self.uncalibrated {
+                Record::Absent
+            } else {
+                Record::Complete
+            },
         }
     }
 }

@@ -60,11 +60,12 @@ pub enum FirmwareError {
 }
 
 impl Firmware {
-    /// The firmware of this file (ELF or Intel HEX), or without a file the one that is built in.
+    /// The firmware of this file (ELF or Intel HEX), or without a file the one that is built in. `record` says
+    /// what the flash of its chip holds besides.
     ///
     /// # Errors
     /// One sentence that names the file, what is wrong with it and what to do.
-    pub fn load(path: Option<&Path>) -> Result<Self, FirmwareError> {
+    pub fn load(path: Option<&Path>, record: &Record) -> Result<Self, FirmwareError> {
         let Some(path) = path else {
             return Ok(Self::HostBuilt);
         };
@@ -73,10 +74,7 @@ impl Firmware {
             path: path.to_owned(),
             cause,
         })?;
-        Ok(Self::Image(Arc::new(Blueprint::sr8730(
-            image,
-            &Record::Complete,
-        )?)))
+        Ok(Self::Image(Arc::new(Blueprint::sr8730(image, record)?)))
     }
 
     /// A robot with this firmware that was just switched on.

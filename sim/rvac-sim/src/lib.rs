@@ -20,6 +20,7 @@ pub mod serve;
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use household::{Household, TICK_US};
+pub use pic32::board::Record;
 pub use report::{Report, StuckWatch};
 pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};

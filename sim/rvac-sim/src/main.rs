@@ -16,7 +16,7 @@ use progress::Progress;
 use rvac_sim::faults::{Campaign, Summary, trials};
 use rvac_sim::run::{household, run};
 use rvac_sim::serve::serve;
-use rvac_sim::{Firmware, Report, Scene};
+use rvac_sim::{Firmware, Record, Report, Scene};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -65,7 +65,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let model = RobotModel::by_name("sr8730")?;
-    let firmware = Firmware::load(arguments.firmware.as_deref())?;
+    let firmware = Firmware::load(arguments.firmware.as_deref(), &Record::Complete)?;
     let campaign = Campaign::load(model, firmware)?;
     let seeds = arguments.seeds.clone();
     let count = seeds.end - seeds.start;

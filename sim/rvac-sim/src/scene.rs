@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, HomeError, ModelError, Noise, RobotModel, World};
+use pic32::board::Record;
 use robot::RobotSettings;
 
 use crate::{Firmware, FirmwareError, Robot};
@@ -19,6 +20,8 @@ pub struct SceneSettings {
     pub noise: String,
     /// File of the firmware image; `None` = the firmware that is built in.
     pub firmware: Option<PathBuf>,
+    /// The calibration record in the robot's flash, which only an image for the chip reads.
+    pub record: Record,
 }
 
 /// A home, a model of robot and its firmware, ready for any number of runs.
@@ -45,7 +48,7 @@ impl Scene {
         }
         let noise =
             Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
-        let firmware = Firmware::load(settings.firmware.as_deref())?;
+        let firmware = Firmware::load(settings.firmware.as_deref(), &settings.record)?;
         let home = Home::load(Path::new(&settings.home), &model)?;
         Ok(Self::new(Arc::new(home), model, noise).with_firmware(firmware))
     }

@@ -204,6 +204,17 @@ impl World {
         self.sensors.buttons &= !1u8.checked_shl(button.into()).unwrap_or(0);
     }
 
+    /// Somebody turns the left and right wheel by hand at these speeds of their rims, m/s, whatever the motors do: pushes or
+    /// turns the robot on the floor, or turns the wheels of a lifted one. 0 holds a wheel fast; `None` lets go of both.
+    pub const fn turn_wheels(&mut self, rims_m_per_s: Option<[f64; 2]>) {
+        let (left, right) = match rims_m_per_s {
+            Some([left, right]) => (Some(left), Some(right)),
+            None => (None, None),
+        };
+        self.left.hold(left);
+        self.right.hold(right);
+    }
+
     /// Takes the dust box out.
     pub const fn remove_dust_box(&mut self) {
         self.sensors.dust_box = false;

@@ -37,6 +37,8 @@ pub(crate) struct Wheel {
     pub(crate) count: i32,
     /// Current of the motor, ampere.
     pub(crate) current_a: f64,
+    /// Speed at which somebody holds the rim, m/s, whatever the motor does.
+    held_m_per_s: Option<f64>,
 }
 
 impl Wheel {
@@ -52,11 +54,20 @@ impl Wheel {
             count_signed: 0,
             count: 0,
             current_a: 0.0,
+            held_m_per_s: None,
         }
     }
 
     pub(crate) fn is_standing(&self) -> bool {
-        self.rim_m_per_s == 0.0
+        self.rim_m_per_s == 0.0 && self.held_m_per_s.is_none_or(|speed| speed == 0.0)
+    }
+
+    /// Somebody turns the wheel at this speed, or lets go of it, and then it stands.
+    pub(crate) const fn hold(&mut self, speed_m_per_s: Option<f64>) {
+        if self.held_m_per_s.is_some() {
+            self.rim_m_per_s = 0.0;
+        }
+        self.held_m_per_s = speed_m_per_s;
     }
 
     /// Advances the motor one step under a load that opposes its motion; `supply` is the battery voltage over the nominal.
@@ -85,6 +96,9 @@ impl Wheel {
         if !driven && (self.rim_m_per_s.abs() < STANDING_M_PER_S || self.rim_m_per_s * before_m_per_s <= 0.0)
         {
             self.rim_m_per_s = 0.0;
+        }
+        if let Some(held_m_per_s) = self.held_m_per_s {
+            self.rim_m_per_s = held_m_per_s;
         }
         self.current_a = if driven {
             let strain = (free - self.rim_m_per_s).abs() / self.motor.free_speed_m_per_s;

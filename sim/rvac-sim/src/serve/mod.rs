@@ -4,6 +4,7 @@
 //! present. The wall clock enters here and nowhere below.
 
 mod clients;
+mod hand;
 mod pace;
 mod pty;
 mod request;
@@ -16,17 +17,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use home::Pose;
+use home::{Pose, SensorFault, SensorId};
 use robot::RobotSettings;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rvac_api::Update;
 
 use crate::report::{Driven, Report, StuckWatch};
 use crate::{Robot, Scene, SceneError, plan};
-use clients::Clients;
+use clients::{Clients, Number};
+use hand::{End, Hand, Way};
 use pace::Pace;
 use pty::{Peer, Pty, PtyError};
-use request::SimulatorRequest;
+use request::{Answer, SimulatorRequest, blocked};
 use socket::{Listener, SocketError};
 use speedometer::Speedometer;
 
@@ -100,6 +102,7 @@ struct Server {
     map_from_plan: Pose,
     stuck: StuckWatch,
     presses: Vec<(u8, u64)>,
+    hand: Option<(Number, Hand)>,
     to_host: Vec<u8>,
     started: Instant,
     truths: u32,
@@ -128,6 +131,7 @@ impl Server {
             map_from_plan,
             stuck: StuckWatch::default(),
             presses: Vec::new(),
+            hand: None,
             to_host: Vec::new(),
             started,
             truths: 0,
@@ -198,6 +202,7 @@ impl Server {
         while done < due && (done == 0 || begun.elapsed() < TURN_MAX) {
             self.robot.tick(&mut self.to_host);
             self.release_buttons();
+            self.move_hand();
             self.watch_stuck();
             done += 1;
         }
@@ -223,28 +228,104 @@ impl Server {
         }
     }
 
+    fn move_hand(&mut self) {
+        let Some((client, hand)) = &mut self.hand else {
+            return;
+        };
+        let answer = match hand.follow(self.robot.world_mut()) {
+            None => return,
+            Some(End::Done) => Answer::Done,
+            Some(End::Blocked) => blocked("something is in the way"),
+        };
+        self.clients.answer(*client, &answer);
+        self.hand = None;
+    }
+
     fn answer(&mut self) {
         for (client, request) in self.clients.requests() {
             match request {
-                Ok(SimulatorRequest::Report) => {
-                    let report = Report {
-                        wall_seconds: self.started.elapsed().as_secs_f64(),
-                        ..Report::of(&self.robot, &self.stuck)
-                    };
-                    self.clients.answer(client, &request::Answer::Report(report));
-                }
-                Ok(SimulatorRequest::Truth) => {
-                    let truth = plan::truth(&self.robot, self.map_from_plan);
-                    self.clients.answer(client, &Update::SimulatedTruth(truth));
-                }
-                Ok(SimulatorRequest::Lift) => self.robot.world_mut().lift(),
-                Ok(SimulatorRequest::PutDown) => self.robot.world_mut().put_down(),
-                Ok(SimulatorRequest::Press { button }) => {
-                    self.presses.push((button, self.robot.now_ms() + PRESS_MS));
-                    self.robot.world_mut().press_button(button);
-                }
-                Err(refusal) => self.clients.answer(client, &request::Answer::Failed(refusal)),
+                Ok(request) => self.obey(client, request),
+                Err(refusal) => self.clients.answer(client, &Answer::Failed(refusal)),
             }
+        }
+    }
+
+    fn obey(&mut self, client: Number, request: SimulatorRequest) {
+        match request {
+            SimulatorRequest::Report => {
+                let report = Report {
+                    wall_seconds: self.started.elapsed().as_secs_f64(),
+                    ..Report::of(&self.robot, &self.stuck)
+                };
+                self.clients.answer(client, &Answer::Report(report));
+            }
+            SimulatorRequest::Truth => {
+                let truth = plan::truth(&self.robot, self.map_from_plan);
+                self.clients.answer(client, &Update::SimulatedTruth(truth));
+            }
+            SimulatorRequest::Meters => {
+                let truth = self.robot.world().truth();
+                let (pack_v, drawn_a) = (truth.battery_v, -truth.battery_a);
+                self.clients.answer(client, &Answer::Meters { pack_v, drawn_a });
+            }
+            SimulatorRequest::Push { way } => self.grip(client, Way::Push(way)),
+            SimulatorRequest::Turn { turns } => self.grip(client, Way::Turn(turns)),
+            SimulatorRequest::Roll { wheel, way } => self.grip(client, Way::Roll(wheel, way)),
+            SimulatorRequest::Lift
+            | SimulatorRequest::PutDown
+            | SimulatorRequest::Press { .. }
+            | SimulatorRequest::Hold { .. }
+            | SimulatorRequest::Paper { .. }
+            | SimulatorRequest::Place { .. } => self.touch(request),
+        }
+    }
+
+    /// What is done in a moment and not answered.
+    fn touch(&mut self, request: SimulatorRequest) {
+        let now_ms = self.robot.now_ms();
+        let sensors = self
+            .robot
+            .model()
+            .proximity
+            .as_ref()
+            .map_or(0, |part| part.headings_rad.len());
+        let world = self.robot.world_mut();
+        match request {
+            SimulatorRequest::Lift => world.lift(),
+            SimulatorRequest::PutDown => world.put_down(),
+            SimulatorRequest::Press { button, ms } => {
+                self.presses
+                    .push((button, now_ms + ms.map_or(PRESS_MS, u64::from)));
+                world.press_button(button);
+            }
+            SimulatorRequest::Hold { on } => world.turn_wheels(on.then_some([0.0; 2])),
+            SimulatorRequest::Paper { sensor } => {
+                for number in (0..=u8::MAX).take(sensors) {
+                    let white = SensorFault::StuckAt(i32::from(u8::MAX));
+                    world.set_fault(
+                        SensorId::Proximity(number),
+                        (sensor == Some(number)).then_some(white),
+                    );
+                }
+            }
+            SimulatorRequest::Place { x, y, heading } => {
+                let there = Pose {
+                    x_m: x,
+                    y_m: y,
+                    heading_rad: heading,
+                };
+                world.put_down_at(self.map_from_plan.inverse().then(there));
+            }
+            _ => {}
+        }
+    }
+
+    fn grip(&mut self, client: Number, way: Way) {
+        if self.hand.is_some() {
+            self.clients
+                .answer(client, &blocked("the hand is still on its way"));
+        } else {
+            self.hand = Some((client, Hand::grip(way, self.robot.world_mut())));
         }
     }
 }

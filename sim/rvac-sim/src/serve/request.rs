@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::Report;
 
-/// A request: `{"c":"report"}`, `{"c":"truth"}`, `{"c":"lift"}`, `{"c":"put-down"}`, `{"c":"press","button":0}`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+/// A request, for example `{"c":"report"}`, `{"c":"lift"}` or `{"c":"press","button":0}`; the book has them all.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(tag = "c", rename_all = "kebab-case")]
 pub(crate) enum SimulatorRequest {
     /// The figures so far.
@@ -21,17 +21,87 @@ pub(crate) enum SimulatorRequest {
     Press {
         /// By number.
         button: u8,
+        /// How long, simulated milliseconds.
+        #[serde(default)]
+        ms: Option<u32>,
     },
+    /// Pushes the robot over the floor; answered at the end, as `turn` and `roll` are.
+    Push {
+        /// Straight ahead, metres.
+        way: f64,
+    },
+    /// Turns it on the spot.
+    Turn {
+        /// Counter-clockwise.
+        turns: f64,
+    },
+    /// Turns a wheel of a lifted robot.
+    Roll {
+        /// Which.
+        wheel: Wheel,
+        /// Way of the rim, forward positive, metres.
+        way: f64,
+    },
+    /// Holds both wheels fast, or lets go of them.
+    Hold {
+        /// Whether to hold.
+        on: bool,
+    },
+    /// Holds white paper against a proximity sensor and nowhere else; without a number takes it away.
+    Paper {
+        /// By number, from the right.
+        #[serde(default)]
+        sensor: Option<u8>,
+    },
+    /// Puts the robot somewhere else, in the frame of the plan that the socket gives.
+    Place {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Radians.
+        heading: f64,
+    },
+    /// Reads a multimeter at the pack's contacts and an ammeter in its line.
+    Meters,
+}
+
+/// A wheel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Wheel {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
 }
 
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "e", rename_all = "kebab-case")]
+#[serde(tag = "e", rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub(crate) enum Answer {
     /// To `report`.
     Report(Report),
-    /// To what could not be understood.
+    /// To `meters`.
+    Meters {
+        /// At the pack's contacts, volts.
+        pack_v: f64,
+        /// Out of the pack, ampere.
+        drawn_a: f64,
+    },
+    /// To `push`, `turn` and `roll`, when the whole way was made.
+    Done,
+    /// To what could not be understood or done.
     Failed(Failure),
+}
+
+/// The answer to a hand that met a wall, or to a second hand.
+pub(crate) fn blocked(text: &str) -> Answer {
+    Answer::Failed(Failure {
+        id: None,
+        reason: "blocked".to_owned(),
+        text: text.to_owned(),
+    })
 }
 
 impl SimulatorRequest {
@@ -41,7 +111,8 @@ impl SimulatorRequest {
             id: None,
             reason: "unknown".to_owned(),
             text: format!(
-                "this is no request to the simulator ({error}); known are report, truth, lift, put-down and press"
+                "this is no request to the simulator ({error}); known are report, truth, lift, put-down, press, \
+                 push, turn, roll, hold, paper, place and meters"
             ),
         })
     }
@@ -49,7 +120,7 @@ impl SimulatorRequest {
 
 #[cfg(test)]
 mod tests {
-    use super::SimulatorRequest;
+    use super::{SimulatorRequest, Wheel};
 
     #[test]
     fn requests_are_read_exactly() {
@@ -59,7 +130,14 @@ mod tests {
         );
         assert_eq!(
             SimulatorRequest::read(br#"{"c":"press","button":2}"#),
-            Ok(SimulatorRequest::Press { button: 2 })
+            Ok(SimulatorRequest::Press { button: 2, ms: None })
+        );
+        assert_eq!(
+            SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#),
+            Ok(SimulatorRequest::Roll {
+                wheel: Wheel::Left,
+                way: -0.1
+            })
         );
         for wrong in [&b"{}"[..], b"", b"\xff", br#"{"c":"press"}"#, br#"{"c":"rep"}"#] {
             assert_eq!(SimulatorRequest::read(wrong).unwrap_err().reason, "unknown");
