@@ -8,6 +8,7 @@
 
 mod campaign;
 mod catalog;
+pub mod charges;
 pub mod flips;
 mod stage;
 mod trial;

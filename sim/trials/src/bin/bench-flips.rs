@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use trials::flips::{Fate, Plan, Storage, Tally, flip_bits};
+use trials::flips::{Breach, Fate, Plan, Storage, Tally, flip_bits};
 use trials::{StageError, Workshop};
 
 /// Flips bits of a firmware's memory.
@@ -77,11 +77,13 @@ fn run(arguments: &Arguments) -> Result<bool, Failure> {
         courses: arguments.courses,
         image_checks: arguments.image_checks,
     };
+    let mut told = 0;
     let tally = flip_bits(&workshop, &plan, |tally| {
         if arguments.progress {
             let (flips, tried) = (tally.flips, tally.tried);
-            let breaches = tally.breaches.len();
-            writeln!(io::stderr(), "{flips} flips, {tried} tried, {breaches} breaches").ok();
+            writeln!(io::stderr(), "{flips} flips, {tried} tried").ok();
+            tell_breaches(&mut io::stderr(), tally.breaches.get(told..).unwrap_or_default()).ok();
+            told = tally.breaches.len();
         }
     })?;
     let mut out = io::stdout().lock();
@@ -123,7 +125,11 @@ fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
          {left} left to the image check, {missed} not found",
         tally.flips, tally.tried
     )?;
-    for breach in &tally.breaches {
+    tell_breaches(out, &tally.breaches)
+}
+
+fn tell_breaches(out: &mut impl Write, breaches: &[Breach]) -> io::Result<()> {
+    for breach in breaches {
         writeln!(
             out,
             "{:?} for {} ms: {} course {} at {} ms, {:?} in {}: {}",

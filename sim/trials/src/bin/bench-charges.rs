@@ -1,0 +1,89 @@
+//! `bench-charges`: the real firmware in the emulated chip begins to charge packs of many kinds, and meets trouble.
+//! `cargo xtask bench charges` builds and runs it.
+#![forbid(unsafe_code)]
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use trials::charges::charge;
+use trials::{StageError, Workshop};
+
+/// Charges packs with a firmware.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// The firmware, as ELF.
+    #[arg(long)]
+    firmware: PathBuf,
+    /// Charges.
+    #[arg(long, default_value_t = 14)]
+    count: u64,
+    /// Seed of the first one; the others follow.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Print JSON, one object a line.
+    #[arg(long)]
+    json: bool,
+}
+
+enum Failure {
+    Stage(StageError),
+    Output(io::Error),
+}
+
+impl From<StageError> for Failure {
+    fn from(error: StageError) -> Self {
+        Self::Stage(error)
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => complain("a charge was not as it must be"),
+        Err(Failure::Stage(error)) => complain(&error.to_string()),
+        Err(Failure::Output(error)) => complain(&error.to_string()),
+    }
+}
+
+fn complain(what: &str) -> ExitCode {
+    // When even standard error is gone there is nobody left to tell.
+    writeln!(io::stderr(), "bench-charges: {what}").ok();
+    ExitCode::FAILURE
+}
+
+fn run(arguments: &Arguments) -> Result<bool, Failure> {
+    let workshop = Workshop::open(&arguments.firmware)?;
+    let mut out = io::stdout().lock();
+    let mut all_good = arguments.count > 0;
+    for seed in arguments.seed..arguments.seed + arguments.count {
+        let charge = charge(&workshop, seed)?;
+        all_good &= charge.is_good();
+        if arguments.json {
+            serde_json::to_writer(&mut out, &charge).map_err(io::Error::from)?;
+            writeln!(out)?;
+            continue;
+        }
+        let ended = charge.ended_ms.map_or_else(String::new, |ms| format!("{ms} ms"));
+        writeln!(
+            out,
+            "{seed:>5} {:<18} {:.2} Ah  {:>5.2} A  {:>5.1} C  {ended:>9}  {} breaches{}{}",
+            format!("{:?}", charge.trouble),
+            charge.capacity_ah,
+            charge.highest_a,
+            charge.hottest_c,
+            charge.violations,
+            if charge.began { "" } else { "  refused" },
+            if charge.is_good() { "" } else { "  WRONG" },
+        )?;
+        out.flush()?;
+    }
+    Ok(all_good)
+}

@@ -1,0 +1,194 @@
+//! The real firmware on its dock with packs of many kinds, and with trouble (S18). Each charge is watched for its first minutes
+//! only: the emulated chip is too slow for hours. Whole charges are the model's (`cargo run --release -p robot --example charges`),
+//! with the same charger.
+
+use home::{Pack, PackMake, Pcg};
+use monitor::Bridges;
+use serde::Serialize;
+
+use crate::stage::{Stage, StageError, Workshop};
+
+const PACKS: u64 = 0xC4A6;
+/// A charge begins within this time on the dock.
+const BEGINS_MS: u64 = 60_000;
+/// A charge without trouble is watched for so long.
+const WATCH_MS: u64 = 60_000;
+/// Trouble begins so long after the charge.
+const CALM_MS: u64 = 2_000;
+/// Current that tells that a pack is being charged, ampere. The dock gives less before it was asked.
+const CHARGING_A: f64 = 0.1;
+/// Channel of the thermistor, with readings of a broken and of a shorted wire (pinout.toml; sr8730.md section 7).
+const THERMISTOR: u8 = 4;
+const OPEN: u16 = 1_000;
+const SHORTED: u16 = 20;
+/// AD1CON1's CLR address and its bit ON (pic32mx360.md section 13).
+const CONVERTER_CLEAR: u32 = 0xBF80_9004;
+const CONVERTER_ON: u32 = 1 << 15;
+
+/// What goes wrong while the pack is charged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Trouble {
+    /// Nothing; a pack as they come.
+    None,
+    /// Nothing; a worn pack.
+    WornPack,
+    /// The thermistor's wire breaks.
+    ThermistorOpen,
+    /// The thermistor's wire is shorted.
+    ThermistorShorted,
+    /// Somebody takes the robot off the dock.
+    Lifted,
+    /// The charging switch conducts for good: the robot must drive off.
+    SwitchShorted,
+    /// The converter stops.
+    ConverterStopped,
+}
+
+impl Trouble {
+    const ALL: [Self; 7] = [
+        Self::None,
+        Self::ThermistorOpen,
+        Self::ConverterStopped,
+        Self::SwitchShorted,
+        Self::WornPack,
+        Self::ThermistorShorted,
+        Self::Lifted,
+    ];
+
+    /// In which time the current must have ended, ms; `None` where it may flow on.
+    const fn limit_ms(self) -> Option<u64> {
+        match self {
+            Self::None | Self::WornPack => None,
+            Self::ThermistorOpen | Self::ThermistorShorted => Some(2_000),
+            // One filtered envelope more than the 100 ms of the rule.
+            Self::Lifted => Some(120),
+            // Found within a second; then it backs off, with a pause if the first try fails.
+            Self::SwitchShorted => Some(20_000),
+            // Found after 200 ms or ended by the watchdog.
+            Self::ConverterStopped => Some(480),
+        }
+    }
+
+    fn begin(self, stage: &mut Stage) {
+        let now = stage.robot().cycle();
+        let robot = stage.robot_mut();
+        match self {
+            Self::None | Self::WornPack => {}
+            Self::ThermistorOpen => robot.hold_analog(THERMISTOR, OPEN, (now, u64::MAX)),
+            Self::ThermistorShorted => robot.hold_analog(THERMISTOR, SHORTED, (now, u64::MAX)),
+            Self::Lifted => robot.world_mut().lift(),
+            Self::SwitchShorted => robot.short_charging_switch(),
+            Self::ConverterStopped => robot.machine_mut().write_register(CONVERTER_CLEAR, CONVERTER_ON),
+        }
+    }
+}
+
+/// How a charge went.
+#[derive(Clone, Debug, Serialize)]
+pub struct Charge {
+    /// Of the pack and of the moment.
+    pub seed: u64,
+    /// What went wrong.
+    pub trouble: Trouble,
+    /// Capacity of the pack, Ah.
+    pub capacity_ah: f64,
+    /// Whether the charge began at all: a pack with a failed cell may be refused.
+    pub began: bool,
+    /// Highest current, ampere, before trouble came.
+    pub highest_a: f64,
+    /// Time from the trouble to the last current, ms; `None` = it flows on, or there was no trouble.
+    pub ended_ms: Option<u64>,
+    /// Hottest cell, degrees Celsius.
+    pub hottest_c: f64,
+    /// Breaches that the monitor saw.
+    pub violations: u32,
+}
+
+impl Charge {
+    /// Whether all is as it must be.
+    #[must_use]
+    pub fn is_good(&self) -> bool {
+        let ended = match (self.trouble.limit_ms(), self.ended_ms) {
+            (None, _) => true,
+            (Some(_), None) => !self.began,
+            (Some(limit_ms), Some(ended_ms)) => ended_ms <= limit_ms,
+        };
+        let began = self.began || self.trouble == Trouble::WornPack;
+        ended && began && self.violations == 0 && self.hottest_c < 55.0
+    }
+}
+
+/// Charges the pack of a seed.
+///
+/// # Errors
+/// When the robot does not answer.
+pub fn charge(workshop: &Workshop, seed: u64) -> Result<Charge, StageError> {
+    let mut random = Pcg::new(seed, PACKS);
+    let kinds = Trouble::ALL.len() as u64;
+    let trouble = Trouble::ALL
+        .get((seed % kinds) as usize)
+        .copied()
+        .unwrap_or(Trouble::None);
+    let make = match trouble {
+        Trouble::WornPack => PackMake::worn(&mut random),
+        _ => PackMake::sound(&mut random),
+    };
+    let (left, ambient_c) = (0.1 + 0.6 * random.unit(), 9.0 + 25.0 * random.unit());
+    let mut stage = on_the_dock(workshop, seed, Pack::new(make, left, ambient_c))?;
+    let mut charge = Charge {
+        seed,
+        trouble,
+        capacity_ah: make.capacity_ah,
+        began: false,
+        highest_a: 0.0,
+        ended_ms: None,
+        hottest_c: 0.0,
+        violations: 0,
+    };
+    charge.began = (0..BEGINS_MS).any(|_| {
+        stage.tick();
+        current_a(&stage) > CHARGING_A
+    });
+    let calm_ms = match trouble.limit_ms() {
+        Some(_) => CALM_MS + u64::from(random.below(1_000)),
+        None => WATCH_MS,
+    };
+    for _ in 0..calm_ms {
+        stage.tick();
+        charge.highest_a = charge.highest_a.max(current_a(&stage));
+    }
+    if let Some(limit_ms) = trouble.limit_ms().filter(|_| charge.began) {
+        trouble.begin(&mut stage);
+        charge.ended_ms = time_of_end(&mut stage, 2 * limit_ms);
+    }
+    charge.hottest_c = stage.robot().world().truth().battery_hottest_c;
+    charge.violations = stage.robot().monitor().count();
+    Ok(charge)
+}
+
+fn on_the_dock(workshop: &Workshop, seed: u64, pack: Pack) -> Result<Stage, StageError> {
+    let mut stage = workshop.stage(seed, Bridges::Sound, seed * 9_973);
+    let world = stage.robot_mut().world_mut();
+    let dock = world.home().start();
+    world.put_down_at(dock);
+    world.set_pack(pack);
+    stage.connect()?;
+    Ok(stage)
+}
+
+/// When the last current flowed within `watched_ms`, if it does not still flow.
+fn time_of_end(stage: &mut Stage, watched_ms: u64) -> Option<u64> {
+    let mut last_ms = 0;
+    for ms in 1..=watched_ms {
+        stage.tick();
+        if current_a(stage) > CHARGING_A {
+            last_ms = ms;
+        }
+    }
+    (last_ms < watched_ms).then_some(last_ms)
+}
+
+fn current_a(stage: &Stage) -> f64 {
+    stage.robot().world().truth().battery_a
+}
