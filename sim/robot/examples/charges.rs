@@ -9,7 +9,7 @@ use robot::charging::{Conditions, Tally, Trial};
 use rvac_protocol::message::ChargeEnd;
 
 /// Each stop alone is tried on so many times fewer charges than all together.
-const ALONE_SHARE: u64 = 10;
+const ALONE_SHARE: u64 = 25;
 /// The stops of the phase of full current.
 const STOPS: [ChargeEnd; 8] = [
     ChargeEnd::Slope,

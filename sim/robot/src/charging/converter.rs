@@ -15,6 +15,8 @@ const COUNTS: usize = 1_024;
 /// Conversions of an envelope that are not disturbed by the switch: a board that converts once a millisecond has up to
 /// twenty.
 const CONVERSIONS: u32 = 4;
+/// Noise that hides the steps.
+const DITHERING_COUNTS: f64 = 0.5;
 
 /// One converter with its dividers.
 #[derive(Clone, Debug)]
@@ -53,6 +55,12 @@ impl Converter {
 
     /// Mean of the conversions of an envelope.
     fn mean_counts(&mut self, exact: f64) -> f64 {
+        if self.noise_counts >= DITHERING_COUNTS {
+            // Enough noise makes the steps of the converter noise like any other, and one draw does for all conversions.
+            let variance = self.noise_counts * self.noise_counts + 1.0 / 12.0;
+            let deviation = (variance / f64::from(CONVERSIONS)).sqrt();
+            return (exact + deviation * self.random.normal()).clamp(0.0, 1_023.0);
+        }
         let sum: f64 = (0..CONVERSIONS).map(|_| self.counts(exact)).sum();
         sum / f64::from(CONVERSIONS)
     }
