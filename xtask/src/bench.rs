@@ -20,6 +20,10 @@ enum Subject {
     Cordlib,
     /// Every safety rule on the robot's firmware in the emulated chip: worst reactions.
     Safety,
+    /// Bits that flip in the robot's firmware's memory and registers.
+    Flips,
+    /// The robot's firmware charging packs in the emulated chip.
+    Charges,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -50,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         _ => None,
     };
     let usual = match arguments.subject {
-        Subject::Safety => Some(firmware::usual_elf()?),
+        Subject::Safety | Subject::Flips | Subject::Charges => Some(firmware::usual_elf()?),
         _ => None,
     };
     let mut command = workspace::cargo();
@@ -132,6 +136,8 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Sim => &["--package", "rvac-sim", "--bin", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--package", "trials", "--bin", "bench-safety"],
+        Subject::Flips => &["--package", "trials", "--bin", "bench-flips"],
+        Subject::Charges => &["--package", "trials", "--bin", "bench-charges"],
         Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
@@ -151,7 +157,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         ],
         Subject::Kill | Subject::Firmware => &["--home", "homes/two-room-flat.toml"],
         Subject::Safety => &["--phases", "20"],
-        Subject::Link | Subject::Relay | Subject::Cordlib => &[],
+        Subject::Link | Subject::Relay | Subject::Cordlib | Subject::Flips | Subject::Charges => &[],
     }
 }
 
@@ -159,6 +165,8 @@ fn longer(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Kill => &["--kills", "200"],
         Subject::Safety => &["--phases", "200"],
+        Subject::Flips => &["--count", "100000"],
+        Subject::Charges => &["--count", "100"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],

@@ -66,12 +66,22 @@ pub(super) fn of_emulator(_long: bool) -> Result {
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf);
     let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
-    let (mut safety, mut pace) = (safety_rules(&elf), robot_command(&pace));
-    all([tests(&mut command), check(&mut safety), check(&mut pace)].into_iter())
+    let mut pace = robot_command(&pace);
+    let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
+    all([tests(&mut command), check(&mut pace)].into_iter().chain(trials))
 }
 
-/// Each safety rule at a few phases of the real firmware; `cargo xtask bench safety --long` takes 200.
-fn safety_rules(elf: &Path) -> Command {
+/// The real firmware under faults, a little of each; `cargo xtask bench safety --long` and its like take more.
+const TRIALS: [(&str, &[&str]); 3] = [
+    ("bench-safety", &["--phases", "4"]),
+    (
+        "bench-flips",
+        &["--count", "500", "--courses", "1", "--image-checks", "2"],
+    ),
+    ("bench-charges", &["--count", "4"]),
+];
+
+fn trial(program: &str, words: &[&str], elf: &Path) -> Command {
     let mut command = workspace::cargo();
     command.args([
         "run",
@@ -82,7 +92,7 @@ fn safety_rules(elf: &Path) -> Command {
         "trials",
         "--bin",
     ]);
-    command.args(["bench-safety", "--", "--phases", "4", "--firmware"]);
-    command.arg(elf);
+    command.args([program, "--"]).args(words);
+    command.arg("--firmware").arg(elf);
     command
 }
