@@ -6,7 +6,7 @@ use crate::checkpoint::Checkpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
 use crate::geometry::{Point2, Pose2};
-use crate::localization::Localization;
+use crate::localization::{Localization, PoseEstimate};
 use crate::mapping::{Brushes, Map, Mark, MarkKind};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::random::Random;
@@ -52,6 +52,7 @@ impl Brain {
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
+        self.localization.refine(&self.map, observation, advance);
         let pose = self.localization.pose();
         self.note_encounters(observation, pose);
         let situation = Situation::new(observation, advance, &self.localization, &self.config);
@@ -88,6 +89,12 @@ impl Brain {
     #[must_use]
     pub fn pose(&self) -> Pose2 {
         self.localization.pose()
+    }
+
+    /// Pose in the map frame and how sure it is.
+    #[must_use]
+    pub fn estimate(&self) -> PoseEstimate {
+        self.localization.estimate()
     }
 
     /// What the robot is doing and why.

