@@ -27,7 +27,7 @@ pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};
 pub use brain::Brain;
 pub use checkpoint::{Checkpoint, JobCheckpoint};
 pub use command::{Command, StrategyName};
-pub use config::{Body, BrainConfig, Speeds};
+pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
 pub use geometry::{Point2, Pose2};
 pub use localization::PoseEstimate;
 pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster, SweptRun};

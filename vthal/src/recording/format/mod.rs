@@ -3,6 +3,7 @@
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
 mod answer;
+mod sensors;
 mod state;
 
 pub use answer::Answered;
@@ -13,6 +14,8 @@ use brain::{Body, BrainConfig, Command, Observation, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
+
+use sensors::SensorSettings;
 
 /// Version of these forms. Raised when an old recording cannot be replayed any more.
 pub const FORMAT: u32 = 1;
@@ -62,7 +65,7 @@ impl RunHeader {
 }
 
 /// [`BrainConfig`]
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BrainSettings {
     radius_m: f64,
     swath_m: f64,
@@ -73,6 +76,9 @@ pub struct BrainSettings {
     task_budget_s: f64,
     dock_budget_s: f64,
     battery_low: f32,
+    /// Absent in recordings of earlier versions.
+    #[serde(default)]
+    sensors: SensorSettings,
 }
 
 impl From<&BrainConfig> for BrainSettings {
@@ -87,6 +93,7 @@ impl From<&BrainConfig> for BrainSettings {
             task_budget_s: config.task_budget_s,
             dock_budget_s: config.dock_budget_s,
             battery_low: config.battery_low,
+            sensors: SensorSettings::from(&config.sensors),
         }
     }
 }
@@ -94,7 +101,7 @@ impl From<&BrainConfig> for BrainSettings {
 impl BrainSettings {
     /// Back to the brain's own type.
     #[must_use]
-    pub fn to_brain(self) -> BrainConfig {
+    pub fn to_brain(&self) -> BrainConfig {
         BrainConfig {
             body: Body {
                 radius_m: self.radius_m,
@@ -109,6 +116,7 @@ impl BrainSettings {
             task_budget_s: self.task_budget_s,
             dock_budget_s: self.dock_budget_s,
             battery_low: self.battery_low,
+            sensors: self.sensors.to_brain(),
         }
     }
 }
