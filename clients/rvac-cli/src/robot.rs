@@ -6,11 +6,11 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Command, Led, LedPattern, Motor, MotorCommand, PROBE_LEASE_MS_MAX, Probe, ProbeTarget,
-    Probed, ProbedContent, Refusal, Report, Sequence,
+    BinaryKinds, Command, Inhibit, Inhibits, Led, LedPattern, Motor, MotorCommand, PROBE_LEASE_MS_MAX, Probe,
+    ProbeTarget, Probed, ProbedContent, Refusal, Report, Sequence,
 };
 use rvac_protocol::session::{HostEvent, HostSession, SendError};
 use rvac_units::{Ratio, Throttle, Tick};
@@ -27,6 +27,9 @@ const LOOK: Duration = Duration::from_millis(10);
 const LEASE_MS: u16 = 250;
 const RENEW: Duration = Duration::from_millis(100);
 
+/// Within this time the robot tells its state anew.
+const STATE: Duration = Duration::from_millis(100);
+
 enum Event {
     Typed(String),
     InputEnded,
@@ -42,6 +45,7 @@ struct Heard {
     probed: Vec<Probed>,
     answered: Option<(Sequence, Option<Refusal>)>,
     refused: Option<Refusal>,
+    inhibits: Inhibits,
     unanswered: Option<Sequence>,
     typed: VecDeque<String>,
     input_ended: bool,
@@ -234,7 +238,7 @@ impl Robot {
             self.run(motors)?;
             self.wait(RENEW.min(end - now), |heard| heard.refused.is_some())?;
             if let Some(refusal) = self.heard.refused.take() {
-                bail!("the robot refuses to run the motor: {}", refusal.name());
+                return Err(self.refused("to run the motor", refusal));
             }
         }
     }
@@ -277,12 +281,23 @@ impl Robot {
             heard.answered.is_some_and(|(sequence, _)| sequence == sent) || heard.unanswered == Some(sent)
         })?;
         match self.heard.answered.take() {
-            Some((_, Some(refusal))) => {
-                bail!("the robot refuses {}: {}", command.name().name(), refusal.name())
-            }
+            Some((_, Some(refusal))) => Err(self.refused(command.name().name(), refusal)),
             Some((_, None)) if answered => Ok(()),
             _ => bail!("the robot did not answer {}", command.name().name()),
         }
+    }
+
+    /// A refusal in words, with what the robot says keeps it from moving.
+    fn refused(&mut self, what: &str, refusal: Refusal) -> anyhow::Error {
+        if refusal == Refusal::Inhibited {
+            // The next state tells what inhibits now.
+            self.pass(STATE).ok();
+        }
+        let reasons: Vec<&str> = self.heard.inhibits.iter().map(Inhibit::name).collect();
+        if refusal != Refusal::Inhibited || reasons.is_empty() {
+            return anyhow!("the robot refuses {what}: {}", refusal.name());
+        }
+        anyhow!("the robot refuses {what}: inhibited by {}", reasons.join(", "))
     }
 
     fn send(&mut self, command: Command) -> anyhow::Result<Option<Sequence>> {
@@ -354,6 +369,7 @@ impl Robot {
             HostEvent::Opened(hello) => self.device = hello.device.as_str().to_owned(),
             HostEvent::Described(description) => self.heard.lights = Some(description.capabilities.leds),
             HostEvent::Report(Report::Probed(probed)) => self.heard.probed.push(probed),
+            HostEvent::Report(Report::State(state)) => self.heard.inhibits = state.inhibits,
             HostEvent::Answered {
                 sequence: Some(sequence),
                 refusal,

@@ -264,12 +264,12 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// One look while the robot is not armed, or looks under a lease.
+    /// One look while the robot must be armed before it moves, or looks under a lease.
     fn probe(&mut self, probe: &Probe, now: Tick) -> Answer {
         if !self.fitted.probe {
             return Err(Refusal::Absent);
         }
-        if probe.lease_ms == 0 && self.reflexes.host.is_armed() {
+        if probe.lease_ms == 0 && self.reflexes.host.lets_move() {
             return Err(Refusal::Inhibited);
         }
         self.probing.begin(&mut self.board.probe, probe, now)

@@ -89,6 +89,9 @@ fn an_armed_robot_is_probed_under_a_lease_only() {
         "every 50 ms for half a second: {answers}"
     );
     assert!(!rig.wheels_off(), "it disturbs nothing");
+    rig.send(Command::Stop);
+    rig.run(10);
+    assert_eq!(rig.ask(probe(ProbeTarget::Encoders, 0)), Ok(()), "stopped");
 }
 
 #[test]

@@ -49,6 +49,11 @@ impl HostRule {
         self.armed.is_given()
     }
 
+    /// Whether the host has armed and not stopped everything since, which takes another `arm` to move.
+    pub(crate) const fn lets_move(&self) -> bool {
+        self.armed.is_given() && !self.standing.contains(Inhibit::Stopped)
+    }
+
     /// What follows from it.
     pub(crate) const fn inhibits(&self) -> Inhibits {
         let mut inhibits = self.standing;
