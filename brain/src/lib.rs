@@ -10,7 +10,7 @@ mod brain;
 pub mod checkpoint;
 pub mod command;
 pub mod config;
-mod coverage;
+pub mod coverage;
 mod docking;
 pub mod geometry;
 pub mod localization;

@@ -1,6 +1,7 @@
 //! Ways to cover a floor. A strategy is a [`Task`]; people choose it by name.
 
 mod bounce;
+pub mod plan;
 
 pub(crate) use bounce::Bounce;
 

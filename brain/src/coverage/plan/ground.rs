@@ -1,0 +1,198 @@
+//! The ground: where the body's middle can be, and what of the floor is still open.
+
+use crate::geometry::Point2;
+use crate::mapping::{CELL_M, Cell, Raster};
+
+/// Axis of a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Along rows, in x.
+    X,
+    /// Along columns, in y.
+    Y,
+}
+
+/// Cells with a margin wide enough that no window around a free cell leaves the arrays.
+#[derive(Clone, Debug)]
+pub(super) struct Ground {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Cells around the window on each side.
+    margin: usize,
+    origin: Cell,
+    /// Cells to either side of a lane that it sweeps.
+    pub(super) reach: usize,
+    /// The middle of the body can be here.
+    pub(super) free: Vec<bool>,
+    /// Floor that can be swept and was not yet.
+    pub(super) open: Vec<bool>,
+}
+
+impl Ground {
+    pub(super) fn new(reachable: &Raster<bool>, reach: usize, swept: impl Fn(Cell) -> bool) -> Self {
+        let margin = reach + 2;
+        let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
+        let mut ground = Self {
+            width,
+            height,
+            margin,
+            origin: reachable.origin(),
+            reach,
+            free: vec![false; width * height],
+            open: vec![false; width * height],
+        };
+        for (row, values) in reachable
+            .values()
+            .chunks_exact(reachable.width().max(1))
+            .enumerate()
+        {
+            let start = (row + margin) * width + margin;
+            if let Some(target) = ground.free.get_mut(start..start + values.len()) {
+                target.copy_from_slice(values);
+            }
+        }
+        ground.open_floor(swept);
+        ground
+    }
+
+    /// Opens all floor within reach of free cells that was not swept.
+    fn open_floor(&mut self, swept: impl Fn(Cell) -> bool) {
+        let disc = self.disc();
+        for index in 0..self.free.len() {
+            if !self.free[index] {
+                continue;
+            }
+            // Inner cells are opened by their neighbours on the border too; only they themselves are needed.
+            let inner = self
+                .neighbours(index)
+                .iter()
+                .all(|neighbour| self.free[*neighbour]);
+            if inner {
+                self.open[index] = true;
+                continue;
+            }
+            for (row, half) in &disc {
+                let centre = self.shifted(index, *row);
+                self.open[centre - half..=centre + half].fill(true);
+            }
+        }
+        for index in 0..self.open.len() {
+            self.open[index] = self.open[index] && !swept(self.cell(index));
+        }
+    }
+
+    /// Rows of a disc of the reach, and half the cells of each.
+    pub(super) fn disc(&self) -> Vec<(isize, usize)> {
+        let radius = self.reach as f64 + 0.5;
+        let reach = self.reach as isize;
+        (-reach..=reach)
+            .map(|row| {
+                let rise = row as f64;
+                (row, libm::sqrt(radius * radius - rise * rise) as usize)
+            })
+            .collect()
+    }
+
+    /// The index `rows` higher.
+    pub(super) fn shifted(&self, index: usize, rows: isize) -> usize {
+        index.wrapping_add_signed(rows * self.width as isize)
+    }
+
+    pub(super) fn neighbours(&self, index: usize) -> [usize; 4] {
+        [index - 1, index + 1, index - self.width, index + self.width]
+    }
+
+    pub(super) fn open_count(&self) -> usize {
+        self.open.iter().filter(|open| **open).count()
+    }
+
+    /// Column and row of an index.
+    pub(super) fn place(&self, index: usize) -> (usize, usize) {
+        (index % self.width, index / self.width)
+    }
+
+    /// The cell of the map at an index.
+    pub(super) fn cell(&self, index: usize) -> Cell {
+        let (column, row) = self.place(index);
+        Cell {
+            x: self.origin.x.wrapping_add(column as i32 - self.margin as i32),
+            y: self.origin.y.wrapping_add(row as i32 - self.margin as i32),
+        }
+    }
+
+    /// Middle of the cell at an index.
+    pub(super) fn point(&self, index: usize) -> Point2 {
+        let cell = self.cell(index);
+        Point2 {
+            x_m: (f64::from(cell.x) + 0.5) * CELL_M,
+            y_m: (f64::from(cell.y) + 0.5) * CELL_M,
+        }
+    }
+
+    /// The free cell nearest to a point.
+    pub(super) fn nearest_free(&self, point: Point2) -> Option<usize> {
+        let mut best: Option<(f64, usize)> = None;
+        for index in (0..self.free.len()).filter(|index| self.free[*index]) {
+            let distance_m = self.point(index).distance_m(point);
+            if best.is_none_or(|(nearest_m, _)| distance_m < nearest_m) {
+                best = Some((distance_m, index));
+            }
+        }
+        best.map(|(_, index)| index)
+    }
+
+    /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
+    pub(super) fn keep_connected(&mut self, from: usize) {
+        let mut reached = vec![false; self.free.len()];
+        let mut stack = vec![from];
+        reached[from] = true;
+        while let Some(index) = stack.pop() {
+            for neighbour in self.neighbours(index) {
+                if self.free[neighbour] && !reached[neighbour] {
+                    reached[neighbour] = true;
+                    stack.push(neighbour);
+                }
+            }
+        }
+        if reached == self.free {
+            return;
+        }
+        self.free = reached;
+        let was_open = core::mem::replace(&mut self.open, vec![false; self.free.len()]);
+        self.open_floor(|_| false);
+        for (open, was) in self.open.iter_mut().zip(was_open) {
+            *open &= was;
+        }
+    }
+
+    /// Whether the straight way between two points leads over free cells only.
+    pub(super) fn sees_points(&self, from: Point2, to: Point2) -> bool {
+        match (self.index_under(from), self.index_under(to)) {
+            (Some(from), Some(to)) => self.free[from] && self.free[to] && self.sees(from, to),
+            _ => false,
+        }
+    }
+
+    fn index_under(&self, point: Point2) -> Option<usize> {
+        let cell = Cell::under(point);
+        let margin = self.margin as i64;
+        let column = i64::from(cell.x) - i64::from(self.origin.x) + margin;
+        let row = i64::from(cell.y) - i64::from(self.origin.y) + margin;
+        let inside = |place: i64, size: usize| (margin..size as i64 - margin).contains(&place);
+        (inside(column, self.width) && inside(row, self.height))
+            .then(|| row as usize * self.width + column as usize)
+    }
+
+    /// Whether the straight way between two free cells leads over free cells only.
+    pub(super) fn sees(&self, from: usize, to: usize) -> bool {
+        let ((x0, y0), (x1, y1)) = (self.place(from), self.place(to));
+        let (dx, dy) = (x1 as f64 - x0 as f64, y1 as f64 - y0 as f64);
+        let steps = (2.0 * dx.abs().max(dy.abs())) as usize;
+        let (step_x, step_y) = (dx / steps.max(1) as f64, dy / steps.max(1) as f64);
+        (1..steps).all(|step| {
+            let x = x0 as f64 + 0.5 + step as f64 * step_x;
+            let y = y0 as f64 + 0.5 + step as f64 * step_y;
+            self.free[y as usize * self.width + x as usize]
+        })
+    }
+}

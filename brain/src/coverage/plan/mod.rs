@@ -1,0 +1,95 @@
+//! A way over known ground that sweeps most of it soon and with few turns.
+//!
+//! Terms. *Ground*: cells that the middle of the body can take, and the floor that a swath sweeps from there. *Lane*: a
+//! straight piece along a row or column of cells that is worth driving for what it sweeps. *Link*: the way from the end of
+//! one lane to the start of the next. *Round*: lanes that are driven in one tour; leftovers that cost much for what they
+//! sweep come in later rounds.
+//!
+//! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
+
+mod bits;
+mod ground;
+mod heading;
+mod lanes;
+mod route;
+mod smooth;
+mod tour;
+
+use crate::geometry::{Point2, Pose2};
+use crate::mapping::{CELL_M, Cell, Raster};
+use ground::Ground;
+use lanes::Picker;
+use route::Router;
+pub use smooth::Piece;
+use tour::Tour;
+
+/// What a plan depends on besides the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanSettings {
+    /// Width that one pass cleans, in metres.
+    pub swath_m: f64,
+    /// Standard deviation of the pose estimate in metres: lanes overlap by twice as much.
+    pub sigma_m: f64,
+    /// Speed on lanes and links, m/s.
+    pub cruise_m_per_s: f64,
+    /// Turn rate, rad/s.
+    pub turn_rad_per_s: f64,
+}
+
+/// A way to drive.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CoveragePlan {
+    /// Corners of the way in the map frame.
+    pub corners: Vec<Point2>,
+    /// The way along them, with arcs where there is room.
+    pub pieces: Vec<Piece>,
+    /// Lanes in it.
+    pub lanes: usize,
+    /// Floor that the ground offers to the swath, in square metres, without what was swept before.
+    pub open_m2: f64,
+    /// Share of it that lanes sweep, 0..=1.
+    pub covered: f64,
+    /// Expected time in seconds.
+    pub time_s: f64,
+}
+
+/// Plans a way over `reachable` (cells that the middle of the body can take) that sweeps what `swept` has not seen yet,
+/// starting at `start`. Without anything to sweep or any reachable cell the plan has no corners.
+#[must_use]
+pub fn plan_coverage(
+    reachable: &Raster<bool>,
+    swept: impl Fn(Cell) -> bool,
+    start: Pose2,
+    settings: &PlanSettings,
+) -> CoveragePlan {
+    let reach = reach_cells(settings);
+    let mut ground = Ground::new(reachable, reach, swept);
+    let Some(origin) = ground.nearest_free(start.position()) else {
+        return CoveragePlan::default();
+    };
+    ground.keep_connected(origin);
+    let open = ground.open_count();
+    let mut picker = Picker::new(&mut ground, settings);
+    let rounds = picker.rounds();
+    let router = Router::new(&ground);
+    let mut tour = Tour::new(&router, settings, start, origin);
+    for lanes in &rounds {
+        tour.extend(lanes);
+    }
+    let corners = tour.corners();
+    let pieces = smooth::pieces(&corners, start.heading_rad, &ground);
+    CoveragePlan {
+        time_s: pieces.iter().map(|piece| piece.time_s(settings)).sum(),
+        corners,
+        pieces,
+        lanes: rounds.iter().map(Vec::len).sum(),
+        open_m2: open as f64 * CELL_M * CELL_M,
+        covered: 1.0 - ground.open_count() as f64 / open.max(1) as f64,
+    }
+}
+
+/// Cells to either side of a lane's own that it counts as swept.
+fn reach_cells(settings: &PlanSettings) -> usize {
+    let half_m = 0.5 * settings.swath_m - settings.sigma_m;
+    (libm::floor(half_m / CELL_M - 0.25).clamp(1.0, 40.0)) as usize
+}
