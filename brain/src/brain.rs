@@ -37,7 +37,7 @@ impl Brain {
         Self {
             config,
             localization: Localization::new(config.body.track_m, rim_max_m_per_s),
-            map: Map::new(config.body.swath_m),
+            map: Map::new(config.body, config.sensors),
             behavior: Behavior::new(config),
             mind: Mind {
                 random: Random::new(seed),
@@ -95,6 +95,12 @@ impl Brain {
     #[must_use]
     pub fn estimate(&self) -> PoseEstimate {
         self.localization.estimate()
+    }
+
+    /// Somebody knows where the robot stood at the last observation: a simulator that tries a planner without the estimator's
+    /// error. Not part of a recording, so such a run cannot be replayed.
+    pub fn place_at(&mut self, pose: Pose2) {
+        self.localization.place_at(pose);
     }
 
     /// What the robot is doing and why.

@@ -7,9 +7,9 @@ use anyhow::bail;
 use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
 
-use rvac_sim::run::RunSettings;
+use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::ServeSettings;
-use rvac_sim::{Record, SceneSettings};
+use rvac_sim::{PoseSource, Record, SceneSettings};
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
@@ -110,6 +110,12 @@ pub(crate) struct RunArguments {
     /// Simulated minutes.
     #[arg(long, default_value_t = 10.0, value_parser = minutes)]
     minutes: f64,
+    /// End when the robot says that its job is over and has docked or given up; --minutes is the longest then.
+    #[arg(long)]
+    until_done: bool,
+    /// Tell the host its true pose: shows a planner without the errors of localization.
+    #[arg(long)]
+    perfect_pose: bool,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
@@ -130,6 +136,22 @@ impl RunArguments {
             seed: self.seed,
             duration_ms: (self.minutes * 60_000.0) as u64,
         })
+    }
+
+    pub(crate) const fn pose_source(&self) -> PoseSource {
+        if self.perfect_pose {
+            PoseSource::Truth
+        } else {
+            PoseSource::Own
+        }
+    }
+
+    pub(crate) const fn end(&self) -> RunEnd {
+        if self.until_done {
+            RunEnd::JobOver
+        } else {
+            RunEnd::Time
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The daemon's core without the daemon: it talks to the robot in memory.
 
 use brain::command::StrategyName;
+use brain::{BehaviorState, Brain, Pose2};
+use home::Pose as TruePose;
 use rvac_api::{Pose, Request, RequestBody, Status};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
@@ -93,6 +95,27 @@ impl Host {
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.core.pose()
+    }
+
+    /// What the brain is doing; `None` before it knows its robot.
+    #[must_use]
+    pub fn state(&self) -> Option<BehaviorState> {
+        self.core.brain().map(|brain| brain.status().state)
+    }
+
+    /// The brain, once it knows its robot.
+    #[must_use]
+    pub fn brain(&self) -> Option<&Brain> {
+        self.core.brain()
+    }
+
+    /// Tells the brain where it really is, in the map frame.
+    pub(crate) fn place(&mut self, truth: TruePose) {
+        self.core.place_at(Pose2 {
+            x_m: truth.x_m,
+            y_m: truth.y_m,
+            heading_rad: home::wrap_angle(truth.heading_rad),
+        });
     }
 
     /// What the host says the robot is doing.

@@ -2,7 +2,8 @@
 
 use home::Pose;
 
-use crate::report::{Driven, Report, RootMeanSquare, StuckWatch};
+use crate::figures::{Belief, Collector, Floor};
+use crate::report::{Driven, Report, StuckWatch};
 use crate::{Host, Robot};
 
 /// Microseconds of a tick.
@@ -17,8 +18,19 @@ pub struct Household {
     host: Option<Host>,
     from_robot: Vec<u8>,
     map_from_plan: Pose,
-    error: RootMeanSquare,
+    figures: Collector,
     stuck: StuckWatch,
+    pose_source: PoseSource,
+}
+
+/// Where the host's pose comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PoseSource {
+    /// From the host itself, as on a robot.
+    #[default]
+    Own,
+    /// From the truth, with each report of the robot: shows what a planner can do apart from the estimator.
+    Truth,
 }
 
 impl Household {
@@ -26,13 +38,19 @@ impl Household {
     #[must_use]
     pub fn new(robot: Robot, host: Host) -> Self {
         let map_from_plan = robot.world().truth().pose.inverse();
+        let home = robot.world().home();
+        let floor = Floor {
+            reachable_m2: home.reachable_area_m2(),
+            t0_s: home.t0_s(),
+        };
         Self {
             robot,
             host: Some(host),
             from_robot: Vec::new(),
             map_from_plan,
-            error: RootMeanSquare::default(),
+            figures: Collector::new(floor),
             stuck: StuckWatch::default(),
+            pose_source: PoseSource::Own,
         }
     }
 
@@ -41,13 +59,35 @@ impl Household {
         self.from_robot.clear();
         self.robot.tick(&mut self.from_robot);
         let now_us = self.now_us();
+        let truth = self.map_from_plan.then(self.robot.world().truth().pose);
         if let Some(host) = &mut self.host {
+            if self.pose_source == PoseSource::Truth && !self.from_robot.is_empty() {
+                host.place(truth);
+            }
             host.step(now_us, &self.from_robot);
             deliver(&mut self.robot, host.pending());
         }
         if self.robot.now_ms().is_multiple_of(SAMPLE_MS) {
             self.sample();
         }
+    }
+
+    /// The same household whose host gets its pose from elsewhere.
+    #[must_use]
+    pub fn with_pose_source(self, pose_source: PoseSource) -> Self {
+        Self { pose_source, ..self }
+    }
+
+    /// The job began and is over.
+    #[must_use]
+    pub fn job_is_over(&self) -> bool {
+        self.figures.job_is_over()
+    }
+
+    /// 95 % of the reachable floor were swept during the job.
+    #[must_use]
+    pub fn reached_all_shares(&self) -> bool {
+        self.figures.reached_all_shares()
     }
 
     /// Advances `ms` milliseconds.
@@ -68,10 +108,14 @@ impl Household {
         self.stuck
             .watch(SAMPLE_MS as u32, self.robot.world().truth(), driven);
         if let Some(host) = &self.host {
+            let truth = self.robot.world().truth();
             let believed = host.pose();
-            let truth = self.map_from_plan.then(self.robot.world().truth().pose);
-            self.error
-                .add((believed.x - truth.x_m).hypot(believed.y - truth.y_m));
+            let belief = Belief {
+                pose: Pose::new(believed.x, believed.y, believed.heading),
+                state: host.state(),
+            };
+            self.figures
+                .sample(truth, self.map_from_plan.then(truth.pose), &belief);
         }
     }
 
@@ -121,7 +165,8 @@ impl Household {
     #[must_use]
     pub fn report(&self) -> Report {
         Report {
-            pose_rmse_m: self.error.value(),
+            pose_rmse_m: self.figures.pose_rmse_m(),
+            figures: Some(Box::new(self.figures.figures(self.robot.world().truth()))),
             ..Report::of(&self.robot, &self.stuck)
         }
     }

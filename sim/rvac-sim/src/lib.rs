@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 pub mod faults;
+mod figures;
 mod firmware;
 mod host;
 mod household;
@@ -17,9 +18,10 @@ pub mod run;
 mod scene;
 pub mod serve;
 
+pub use figures::Figures;
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
-pub use household::{Household, TICK_US};
+pub use household::{Household, PoseSource, TICK_US};
 pub use pic32::board::Record;
 pub use report::{Report, StuckWatch};
 pub use robot::Robot;

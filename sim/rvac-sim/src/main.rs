@@ -14,7 +14,7 @@ use clap::Parser;
 use home::RobotModel;
 use progress::Progress;
 use rvac_sim::faults::{Campaign, Summary, trials};
-use rvac_sim::run::{household, run};
+use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::{Firmware, Record, Report, Scene};
 
@@ -45,8 +45,10 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let settings = arguments.settings()?;
     let started = Instant::now();
     let progress = Progress::new("simulating");
-    let mut household = household(&scene, &settings);
-    let report = run(&mut household, &settings, |share| progress.show(share));
+    let mut household = household(&scene, &settings).with_pose_source(arguments.pose_source());
+    let report = run_until(&mut household, (&settings, arguments.end()), |share| {
+        progress.show(share);
+    });
     progress.clear();
     let report = Report {
         wall_seconds: started.elapsed().as_secs_f64(),

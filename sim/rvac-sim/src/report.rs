@@ -3,7 +3,7 @@
 use home::Truth;
 use serde::Serialize;
 
-use crate::Robot;
+use crate::{Figures, Robot};
 
 /// The figures of a run, as one JSON object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,6 +28,9 @@ pub struct Report {
     pub monitor_violations: u32,
     /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was watched.
     pub pose_rmse_m: Option<f64>,
+    /// Speed of covering, and how well the robot knew its place, where a host was watched.
+    #[serde(flatten)]
+    pub figures: Option<Box<Figures>>,
     /// Simulated time.
     pub sim_seconds: f64,
     /// Time on the wall.
@@ -51,6 +54,7 @@ impl Report {
             stuck: stuck.count,
             monitor_violations: robot.monitor().count(),
             pose_rmse_m: None,
+            figures: None,
             sim_seconds: robot.now_ms() as f64 / 1000.0,
             wall_seconds: 0.0,
         }

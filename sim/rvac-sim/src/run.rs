@@ -17,6 +17,32 @@ pub struct RunSettings {
     pub duration_ms: u64,
 }
 
+/// When a run ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RunEnd {
+    /// When its time is over.
+    #[default]
+    Time,
+    /// When the robot says that its job is over, and has docked or given that up; at latest when its time is over.
+    JobOver,
+    /// When 95 % are swept; else as [`Self::JobOver`].
+    Covered,
+}
+
+impl RunEnd {
+    fn is_reached(self, household: &Household) -> bool {
+        let settled = || {
+            let state = household.host().and_then(Host::state);
+            household.job_is_over() && state != Some(brain::BehaviorState::Docking)
+        };
+        match self {
+            Self::Time => false,
+            Self::JobOver => settled(),
+            Self::Covered => household.reached_all_shares() || settled(),
+        }
+    }
+}
+
 /// Milliseconds that handshake and description may take.
 const CONNECT_MS: u64 = 5_000;
 
@@ -52,13 +78,25 @@ pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool
 }
 
 /// Cleans until the time is over. After each simulated second `progress` is told the share of the time that has passed.
-pub fn run(household: &mut Household, settings: &RunSettings, mut progress: impl FnMut(f64)) -> Report {
+pub fn run(household: &mut Household, settings: &RunSettings, progress: impl FnMut(f64)) -> Report {
+    run_until(household, (settings, RunEnd::Time), progress)
+}
+
+/// Cleans until the run's end. After each simulated second `progress` is told the share of the longest time that has passed.
+pub fn run_until(
+    household: &mut Household,
+    (settings, end): (&RunSettings, RunEnd),
+    mut progress: impl FnMut(f64),
+) -> Report {
     start_cleaning(household, settings.strategy);
     while household.robot().now_ms() < settings.duration_ms {
         household.tick();
         let now_ms = household.robot().now_ms();
         if now_ms.is_multiple_of(1000) {
             progress(now_ms as f64 / settings.duration_ms as f64);
+            if end.is_reached(household) {
+                break;
+            }
         }
     }
     household.report()

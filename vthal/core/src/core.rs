@@ -139,6 +139,13 @@ impl Core {
         self.mind.as_ref().map(Mind::brain)
     }
 
+    /// Tells the brain where the robot stands in the map, for simulators that know it.
+    pub fn place_at(&mut self, pose: brain::Pose2) {
+        if let Some(mind) = &mut self.mind {
+            mind.place_at(pose);
+        }
+    }
+
     /// Whether nothing moves as far as the newest reports since [`Input::Shutdown`] (or the start) tell, or nothing is
     /// known because no robot is there.
     #[must_use]

@@ -73,6 +73,10 @@ impl Mind {
         &self.brain
     }
 
+    pub(crate) fn place_at(&mut self, pose: brain::Pose2) {
+        self.brain.place_at(pose);
+    }
+
     pub(crate) fn device(&self) -> &str {
         &self.identity.0
     }

@@ -1,0 +1,290 @@
+//! Figures of navigation: how fast a run covers the floor against the lower bound, and how well the robot knows its place.
+//!
+//! *Job*: begins when the host says that it cleans, and lasts until it stops saying so (docking, docked, idle, stuck), or
+//! until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the pose are
+//! of the whole run, since the robot must know its way home too.
+
+mod lost;
+mod pose_error;
+
+use brain::BehaviorState;
+use home::{Pose, Truth};
+use serde::Serialize;
+
+use lost::LostWatch;
+use pose_error::PoseError;
+
+/// Shares of the reachable floor whose moments are noted.
+const SHARES: [f64; 3] = [0.80, 0.90, 0.95];
+/// Multiples of T0 at which the covered share is noted.
+const MULTIPLES: [f64; 2] = [1.0, 1.8];
+
+/// The figures, as they stand in the report.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Figures {
+    /// Time until 80 % were swept over the lower bound; `null` = not reached.
+    pub t80_over_t0: Option<f64>,
+    /// The same for 90 %.
+    pub t90_over_t0: Option<f64>,
+    /// The same for 95 %.
+    pub t95_over_t0: Option<f64>,
+    /// Share that was swept after T0; `null` = the run was shorter.
+    pub share_at_t0: Option<f64>,
+    /// Share that was swept after 1.8 T0.
+    pub share_at_1_8_t0: Option<f64>,
+    /// Length of the job over the lower bound; `null` = it was not over.
+    pub job_over_t0: Option<f64>,
+    /// Turning during the job for each square metre of reachable floor, degrees.
+    pub turn_deg_per_m2: f64,
+    /// Contacts during the job for each square metre of reachable floor.
+    pub bumps_per_m2: f64,
+    /// Root mean square of the distance between believed and true place in the two minutes before this minute of the job;
+    /// `null` = the run was shorter.
+    pub pose_rmse_10_min_m: Option<f64>,
+    /// The same at 30 minutes.
+    pub pose_rmse_30_min_m: Option<f64>,
+    /// The same at 60 minutes.
+    pub pose_rmse_60_min_m: Option<f64>,
+    /// The same at 120 minutes.
+    pub pose_rmse_120_min_m: Option<f64>,
+    /// Largest distance between believed and true place.
+    pub pose_error_max_m: f64,
+    /// Root mean square of the error of the heading, degrees.
+    pub heading_rmse_deg: Option<f64>,
+    /// Seconds in stretches of more than a minute with the place wrong by more than half a metre.
+    pub lost_seconds: f64,
+    /// How often that happened.
+    pub lost_times: u32,
+    /// The robot stood on its dock at the end.
+    pub docked: bool,
+    /// Last state that the host told.
+    pub state: String,
+}
+
+/// What the host says in a moment, in the map frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Belief {
+    pub(crate) pose: Pose,
+    pub(crate) state: Option<BehaviorState>,
+}
+
+/// What the figures are of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Floor {
+    pub(crate) reachable_m2: f64,
+    pub(crate) t0_s: f64,
+}
+
+/// Collects what the figures need.
+#[derive(Clone, Debug)]
+pub(crate) struct Collector {
+    floor: Floor,
+    job: Job,
+    reached_s: [Option<f64>; SHARES.len()],
+    share_at: [Option<f64>; MULTIPLES.len()],
+    turn_rad: f64,
+    heading_rad: Option<f64>,
+    contacts_before: u32,
+    contacts: u32,
+    pose_error: PoseError,
+    lost: LostWatch,
+    last: Option<BehaviorState>,
+    docked: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Job {
+    begun_ms: Option<u64>,
+    ended_ms: Option<u64>,
+}
+
+impl Job {
+    fn follow(&mut self, now_ms: u64, state: Option<BehaviorState>) {
+        use BehaviorState::{Cleaning, Docked, Docking, Error, Idle, Spot, Stuck};
+        match state {
+            Some(Cleaning | Spot) => {
+                self.begun_ms.get_or_insert(now_ms);
+                self.ended_ms = None;
+            }
+            Some(Docking | Docked | Idle | Stuck | Error) if self.begun_ms.is_some() => {
+                self.ended_ms.get_or_insert(now_ms);
+            }
+            _ => {}
+        }
+    }
+
+    fn runs(self) -> bool {
+        self.begun_ms.is_some() && self.ended_ms.is_none()
+    }
+}
+
+impl Collector {
+    pub(crate) fn new(floor: Floor) -> Self {
+        Self {
+            floor,
+            job: Job::default(),
+            reached_s: [None; SHARES.len()],
+            share_at: [None; MULTIPLES.len()],
+            turn_rad: 0.0,
+            heading_rad: None,
+            contacts_before: 0,
+            contacts: 0,
+            pose_error: PoseError::default(),
+            lost: LostWatch::default(),
+            last: None,
+            docked: false,
+        }
+    }
+
+    /// One sample. `truth_in_map` is the true pose in the map frame.
+    pub(crate) fn sample(&mut self, truth: &Truth, truth_in_map: Pose, belief: &Belief) {
+        let now_ms = truth.time_ms;
+        self.job.follow(now_ms, belief.state);
+        self.last = belief.state;
+        self.docked = truth.docked;
+        let turned_rad = self
+            .heading_rad
+            .replace(truth.pose.heading_rad)
+            .map_or(0.0, |before| (truth.pose.heading_rad - before).abs());
+        let bumped = truth.contacts - self.contacts_before;
+        self.contacts_before = truth.contacts;
+        let job_s = self.job_s(now_ms);
+        if self.job.runs() {
+            self.turn_rad += turned_rad;
+            self.contacts += bumped;
+            self.note_share(job_s, truth.swept_share);
+        }
+        let error_m = belief.pose.distance_m(truth_in_map);
+        let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
+        self.pose_error.sample(job_s, error_m, error_rad);
+        self.lost.sample(now_ms, error_m);
+    }
+
+    fn job_s(&self, now_ms: u64) -> f64 {
+        let begun_ms = self.job.begun_ms.unwrap_or(now_ms);
+        (now_ms - begun_ms) as f64 / 1000.0
+    }
+
+    fn note_share(&mut self, job_s: f64, share: f64) {
+        for (reached_s, wanted) in self.reached_s.iter_mut().zip(SHARES) {
+            if share >= wanted {
+                reached_s.get_or_insert(job_s);
+            }
+        }
+        for (noted, multiple) in self.share_at.iter_mut().zip(MULTIPLES) {
+            if job_s >= multiple * self.floor.t0_s {
+                noted.get_or_insert(share);
+            }
+        }
+    }
+
+    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end.
+    fn share_at(&self, number: usize, now: &Truth) -> Option<f64> {
+        let over = self.job.ended_ms.is_some();
+        self.share_at[number].or(over.then_some(now.swept_share))
+    }
+
+    /// The figures up to now.
+    pub(crate) fn figures(&self, now: &Truth) -> Figures {
+        let t0_s = self.floor.t0_s;
+        let [t80, t90, t95] = self.reached_s.map(|reached| reached.map(|s| s / t0_s));
+        let per_m2 = |value: f64| value / self.floor.reachable_m2;
+        let [at_10, at_30, at_60, at_120] = self.pose_error.at_marks();
+        Figures {
+            t80_over_t0: t80,
+            t90_over_t0: t90,
+            t95_over_t0: t95,
+            share_at_t0: self.share_at(0, now),
+            share_at_1_8_t0: self.share_at(1, now),
+            job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
+            turn_deg_per_m2: per_m2(self.turn_rad.to_degrees()),
+            bumps_per_m2: per_m2(f64::from(self.contacts)),
+            pose_rmse_10_min_m: at_10,
+            pose_rmse_30_min_m: at_30,
+            pose_rmse_60_min_m: at_60,
+            pose_rmse_120_min_m: at_120,
+            pose_error_max_m: self.pose_error.max_m(),
+            heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
+            lost_seconds: self.lost.seconds(),
+            lost_times: self.lost.times(),
+            docked: self.docked,
+            state: self
+                .last
+                .map_or_else(String::new, |state| state.name().to_owned()),
+        }
+    }
+
+    /// The job began and is over.
+    pub(crate) fn job_is_over(&self) -> bool {
+        self.job.ended_ms.is_some()
+    }
+
+    /// 95 % were swept.
+    pub(crate) fn reached_all_shares(&self) -> bool {
+        self.reached_s.iter().all(Option::is_some)
+    }
+
+    /// Root mean square of the distance between believed and true place over the whole run.
+    pub(crate) fn pose_rmse_m(&self) -> Option<f64> {
+        self.pose_error.rmse_m()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Belief, Collector, Floor};
+    use brain::BehaviorState;
+    use home::{Home, Noise, Pose, RobotModel, Truth, World};
+    use std::sync::Arc;
+
+    const PLAN: &str =
+        "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0, 0], [2, 0], [2, 2], [0, 2]]\n";
+
+    fn truth() -> Truth {
+        let model = RobotModel::by_name("sr8730").unwrap();
+        let home = Home::from_floorplan("room", PLAN, &model).unwrap();
+        *World::new(Arc::new(home), &model, &Noise::ideal(), 1, None).truth()
+    }
+
+    fn belief(state: BehaviorState) -> Belief {
+        Belief {
+            pose: Pose::default(),
+            state: Some(state),
+        }
+    }
+
+    #[test]
+    fn times_count_from_the_beginning_of_cleaning_and_end_with_it() {
+        let mut collector = Collector::new(Floor {
+            reachable_m2: 2.0,
+            t0_s: 10.0,
+        });
+        let mut truth = truth();
+        let states = [
+            (0, BehaviorState::Starting, 0.0),
+            (3_000, BehaviorState::Cleaning, 0.0),
+            (15_000, BehaviorState::Cleaning, 0.82),
+            (18_000, BehaviorState::Cleaning, 0.91),
+            (20_000, BehaviorState::Docking, 0.92),
+            (40_000, BehaviorState::Docked, 0.96),
+        ];
+        for (time_ms, state, share) in states {
+            (truth.time_ms, truth.swept_share) = (time_ms, share);
+            truth.pose.heading_rad += 1.0;
+            truth.contacts += 1;
+            collector.sample(&truth, Pose::default(), &belief(state));
+        }
+        let figures = collector.figures(&truth);
+        assert_eq!(figures.t80_over_t0, Some(1.2));
+        assert_eq!(figures.t90_over_t0, Some(1.5));
+        assert_eq!(
+            figures.t95_over_t0, None,
+            "what the way home sweeps is no cleaning"
+        );
+        assert_eq!(figures.share_at_t0, Some(0.82));
+        assert_eq!(figures.job_over_t0, Some(1.7));
+        assert!((figures.turn_deg_per_m2 - 1.5_f64.to_degrees()).abs() < 1e-9);
+        assert_eq!(figures.bumps_per_m2, 1.5);
+        assert_eq!(figures.state, "docked");
+    }
+}
