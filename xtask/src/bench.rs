@@ -24,6 +24,8 @@ enum Subject {
     Flips,
     /// The robot's firmware charging packs in the emulated chip.
     Charges,
+    /// The robot's firmware in the emulated chip beside the built-in one: how well they clean the same home.
+    Coverage,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -54,7 +56,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         _ => None,
     };
     let usual = match arguments.subject {
-        Subject::Safety | Subject::Flips | Subject::Charges => Some(firmware::usual_elf()?),
+        Subject::Safety | Subject::Flips | Subject::Charges | Subject::Coverage => {
+            Some(firmware::usual_elf()?)
+        }
         _ => None,
     };
     let mut command = workspace::cargo();
@@ -138,6 +142,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Safety => &["--package", "trials", "--bin", "bench-safety"],
         Subject::Flips => &["--package", "trials", "--bin", "bench-flips"],
         Subject::Charges => &["--package", "trials", "--bin", "bench-charges"],
+        Subject::Coverage => &["--package", "rvac-sim", "--bin", "bench-coverage"],
         Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
@@ -157,7 +162,12 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         ],
         Subject::Kill | Subject::Firmware => &["--home", "homes/two-room-flat.toml"],
         Subject::Safety => &["--phases", "20"],
-        Subject::Link | Subject::Relay | Subject::Cordlib | Subject::Flips | Subject::Charges => &[],
+        Subject::Link
+        | Subject::Relay
+        | Subject::Cordlib
+        | Subject::Flips
+        | Subject::Charges
+        | Subject::Coverage => &[],
     }
 }
 
@@ -167,6 +177,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
         Subject::Charges => &["--count", "100"],
+        Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],
