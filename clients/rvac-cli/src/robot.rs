@@ -29,6 +29,8 @@ const RENEW: Duration = Duration::from_millis(100);
 
 /// Within this time the robot tells its state anew.
 const STATE: Duration = Duration::from_millis(100);
+/// A robot that was put down is believed to stand after a second (S10).
+const STANDS: Duration = Duration::from_millis(2_500);
 
 enum Event {
     Typed(String),
@@ -257,12 +259,16 @@ impl Robot {
         Ok(())
     }
 
-    /// Allows motion.
+    /// Allows motion, and waits until nothing else forbids it: a robot that was put down counts as lifted for a while.
     pub(crate) fn arm(&mut self) -> anyhow::Result<()> {
         self.command(Command::Arm {
             sequence: Sequence(0),
             undock: false,
-        })
+        })?;
+        if self.wait(STANDS, |heard| heard.inhibits.is_empty())? {
+            return Ok(());
+        }
+        Err(self.refused("to move", Refusal::Inhibited))
     }
 
     /// Stops everything.

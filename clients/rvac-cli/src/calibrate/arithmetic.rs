@@ -28,6 +28,22 @@ pub(crate) enum NoValue {
         /// Rise of the one that rose most.
         greatest: i64,
     },
+    /// The readings differ more than noise does.
+    #[error(
+        "the readings lie between {least} and {greatest}, too far apart: keep everything still meanwhile"
+    )]
+    Unsteady {
+        /// Least reading.
+        least: i64,
+        /// Greatest reading.
+        greatest: i64,
+    },
+    /// A floor that looks like a drop.
+    #[error(
+        "the levels rose by {0} counts only, so this floor can hardly be told from a drop: clean the sensors, or hold \
+         the robot higher"
+    )]
+    Faint(i64),
     /// No reading came.
     #[error("no reading came")]
     Empty,
@@ -103,6 +119,29 @@ pub(crate) fn mean(readings: &[i64]) -> Result<i64, NoValue> {
     mean_milli(readings).map(|milli| (milli + 500).div_euclid(1000))
 }
 
+/// Mean of readings that differ by no more than noise, rounded to a whole count.
+pub(crate) fn steady_mean(readings: &[i64]) -> Result<i64, NoValue> {
+    /// A person who lets go, or a motor that runs on, moves a line by far more.
+    const SPREAD_MAX: i64 = 24;
+    let least = *readings.iter().min().ok_or(NoValue::Empty)?;
+    let greatest = *readings.iter().max().ok_or(NoValue::Empty)?;
+    if greatest - least > SPREAD_MAX {
+        return Err(NoValue::Unsteady { least, greatest });
+    }
+    mean(readings)
+}
+
+/// The level that tells floor from drop when a floor lifts the least of the sensors by `rise`: as far from the one as from
+/// the other.
+pub(crate) fn between(rise: i64) -> Result<i64, NoValue> {
+    /// A tenth of the converter's range on either side would be good; this is ten times its noise.
+    const RISE_MIN: i64 = 60;
+    if rise < RISE_MIN {
+        return Err(NoValue::Faint(rise));
+    }
+    Ok(rise / 2)
+}
+
 /// How far the brightest sensor stands above the dark, in readings of a line that a multiplexer switches through all
 /// sensors, dark and lit: half of the readings are dark, and the brightest lie in the upper half of what is above them.
 pub(crate) fn brightest(readings: &[i64]) -> Result<i64, NoValue> {
@@ -171,8 +210,8 @@ pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValu
 #[cfg(test)]
 mod tests {
     use super::{
-        NoValue, brightest, count_way_nm, current_scale_ua, follows, line_order, mean, mean_milli,
-        rate_per_s, rises, scale_uv, speed_mm_per_s, track_um, travelled,
+        NoValue, between, brightest, count_way_nm, current_scale_ua, follows, line_order, mean, mean_milli,
+        rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um, travelled,
     };
 
     #[test]
@@ -213,6 +252,25 @@ mod tests {
         assert_eq!(mean_milli(&[1, 2]), Ok(1500));
         assert_eq!(mean_milli(&[-1, -2]), Ok(-1500));
         assert_eq!(mean(&[]), Err(NoValue::Empty));
+    }
+
+    #[test]
+    fn a_level_that_moves_is_no_level() {
+        assert_eq!(steady_mean(&[500, 512, 488]), Ok(500));
+        assert_eq!(
+            steady_mean(&[500, 500, 250]),
+            Err(NoValue::Unsteady {
+                least: 250,
+                greatest: 500
+            })
+        );
+        assert_eq!(steady_mean(&[]), Err(NoValue::Empty));
+    }
+
+    #[test]
+    fn a_floor_must_stand_out_from_a_drop() {
+        assert_eq!(between(633), Ok(316));
+        assert_eq!(between(59), Err(NoValue::Faint(59)));
     }
 
     #[test]

@@ -11,12 +11,14 @@ use super::dialog::Dialog;
 use super::procedure::{Bench, READINGS, level};
 use crate::robot::Watch;
 
-/// Step of a duty that is raised until something turns.
-const STEP_PERMILLE: i32 = 10;
+/// Step of a duty that is raised until something turns at all, and then step of a second look from two steps below.
+const COARSE_PERMILLE: i32 = 50;
+const FINE_PERMILLE: i32 = 10;
 /// Highest duty that is tried.
 const MOST_PERMILLE: i32 = 900;
-/// How long each duty is tried.
+/// How long each duty is tried, and how long at the second look, because what hardly turns gives few counts.
 const TRY: Duration = Duration::from_millis(600);
+const TRY_FINE: Duration = Duration::from_millis(1_200);
 /// Counts in half of that which mean "turns steadily".
 const TURNS: i64 = 3;
 /// Pulses of the brush in half of that which mean the same.
@@ -95,12 +97,19 @@ impl Bench<'_> {
 
     /// The least duty at which `turns` is content.
     fn raise(&mut self, motors: &[Motor], turns: impl Fn(&Counted) -> bool) -> anyhow::Result<i64> {
-        for permille in (STEP_PERMILLE..=MOST_PERMILLE).step_by(STEP_PERMILLE as usize) {
-            if turns(&self.count(motors, permille, TRY)?) {
-                return Ok(i64::from(permille));
+        let mut coarse = COARSE_PERMILLE;
+        while !turns(&self.count(motors, coarse, TRY)?) {
+            coarse += COARSE_PERMILLE;
+            if coarse > MOST_PERMILLE {
+                bail!("nothing turns at {MOST_PERMILLE} permille: are motors and encoders plugged in?");
             }
         }
-        bail!("nothing turns at {MOST_PERMILLE} permille: are motors and encoders plugged in?")
+        // The longer look may see what the shorter one at the step before did not.
+        let mut permille = (coarse - 2 * COARSE_PERMILLE).max(0) + FINE_PERMILLE;
+        while permille < coarse && !turns(&self.count(motors, permille, TRY_FINE)?) {
+            permille += FINE_PERMILLE;
+        }
+        Ok(i64::from(permille))
     }
 
     /// Runs these motors for `span` and counts in the second half of it, when they have come to speed.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::bail;
 
-use super::arithmetic::{brightest, follows, rises};
+use super::arithmetic::{between, brightest, follows, rises};
 use super::dialog::Dialog;
 use super::procedure::Bench;
 
@@ -53,8 +53,11 @@ impl Bench<'_> {
         )?;
         let drop = self.cliffs(on);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
-        let (least, _) = rises(drop?, floor);
-        Ok(least / 2)
+        let (least, greatest) = rises(drop?, floor);
+        Dialog::say(&format!(
+            "  the floor stands {least} to {greatest} counts above the drop"
+        ))?;
+        Ok(between(least)?)
     }
 
     /// The greatest level over a drop.

@@ -3,9 +3,11 @@
 use std::time::Duration;
 
 use anyhow::{Context as _, bail};
-use rvac_protocol::message::{EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
+use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
-use super::arithmetic::{count_way_nm, line_order, mean, mean_milli, scale_uv, track_um, travelled};
+use super::arithmetic::{
+    count_way_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
+};
 use super::catalog::{Catalog, Item};
 use super::dialog::Dialog;
 use super::file::Measurements;
@@ -38,6 +40,8 @@ pub(crate) enum Procedure {
     LeastDuty,
     /// Both wheels at full duty for a moment.
     FreeSpeed,
+    /// Mean of the buttons' line while one of them is held.
+    Button,
     /// Mean of a line of the converter.
     Mean(&'static str),
     /// Mean difference of two lines, in hundredths.
@@ -76,7 +80,7 @@ impl Procedure {
             "wheel-free-speed" => Self::FreeSpeed,
             "wheel-left-current-zero" => Self::Mean("wheel-left-current"),
             "wheel-right-current-zero" => Self::Mean("wheel-right-current"),
-            "button-ladder-1" | "button-ladder-2" | "button-ladder-3" => Self::Mean("button-ladder"),
+            "button-ladder-1" | "button-ladder-2" | "button-ladder-3" => Self::Button,
             "charge-current-zero" => Self::Difference("charger-voltage", "battery-voltage"),
             "battery-scale" => Self::Voltage("battery-voltage"),
             "cliff-emitter-line" => Self::CliffLine,
@@ -148,7 +152,8 @@ impl Bench<'_> {
             Procedure::CliffDrop => self.cliff_drop(),
             Procedure::ProximityNone => self.proximity_none(),
             Procedure::ProximityTouching => self.proximity_touching(),
-            Procedure::Mean(signal) => Ok(mean(&self.line(signal, READINGS)?)?),
+            Procedure::Button => self.button(),
+            Procedure::Mean(signal) => Ok(steady_mean(&self.line(signal, READINGS)?)?),
             Procedure::Difference(more, less) => {
                 let (more, less) = (self.catalog.channel(more)?, self.catalog.channel(less)?);
                 let readings = self.readings(READINGS_EXACT, |raw| level(raw, more) - level(raw, less))?;
@@ -196,6 +201,17 @@ impl Bench<'_> {
         match self.robot.probe(ProbeTarget::Encoders)? {
             ProbedContent::Encoders(EncoderProbe { left, right, .. }) => Ok((left, right)),
             other => bail!("the robot answered with something else: {other:?}"),
+        }
+    }
+
+    /// The line of the buttons, while one is held.
+    fn button(&mut self) -> anyhow::Result<i64> {
+        let level = steady_mean(&self.line("button-ladder", READINGS)?)?;
+        match self.robot.probe(ProbeTarget::Buttons)? {
+            ProbedContent::Buttons(ButtonProbe { pressed: true, .. }) => Ok(level),
+            _ => bail!(
+                "no button was pressed to the end: hold it from before you press Enter until a value comes"
+            ),
         }
     }
 
