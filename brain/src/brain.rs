@@ -7,7 +7,7 @@ use crate::command::Command;
 use crate::config::BrainConfig;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, Map, Mark, MarkKind};
+use crate::mapping::{Brushes, Map, Mark, MarkKind, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::random::Random;
 use crate::task::{Mind, Situation};
@@ -48,11 +48,24 @@ impl Brain {
         }
     }
 
+    /// A brain on the dock of a stored home, or at the origin of one without a known dock.
+    #[must_use]
+    pub fn with_map(config: BrainConfig, seed: u64, home: &StoredMap) -> Self {
+        let mut brain = Self::new(config, seed);
+        brain.map.take_up(home);
+        if let Some(dock) = home.dock() {
+            brain.localization.place_at(dock);
+        }
+        brain
+    }
+
     /// Takes in what the robot perceived and what people asked since the last step, and says what to do. To be called
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
         self.localization.refine(&self.map, observation, advance);
+        self.map
+            .insert(&self.localization.estimate(), observation, advance);
         let pose = self.localization.pose();
         self.note_encounters(observation, pose);
         let situation = Situation::new(observation, advance, &self.localization, &self.config);

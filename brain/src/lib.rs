@@ -30,5 +30,8 @@ pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
 pub use geometry::{Point2, Pose2};
 pub use localization::PoseEstimate;
-pub use mapping::{CELL_M, Cell, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster, SweptRun};
+pub use mapping::{
+    CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster,
+    StoredMap, StoredMapError, SweptRun,
+};
 pub use observation::Observation;

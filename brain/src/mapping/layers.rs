@@ -1,110 +1,346 @@
-//! The way of the robot and the places where it met something.
+//! The tiled layers: what is known of each cell, gathered over all jobs.
+//!
+//! *Evidence*: small saturating counts for and against what a cell may be. *Knowledge*: what the evidence of a cell amounts
+//! to. *Dirty*: cells whose knowledge may have changed since the derived rasters were last brought up to date.
 
-use crate::geometry::Point2;
+use std::collections::BTreeMap;
 
-/// Points of the way are at least this far apart.
-const PATH_STEP_MM: i64 = 20;
-/// Points kept of one way: 4 km, more than any battery drives.
-const PATH_POINTS_MAX: usize = 200_000;
-/// Marks kept of one map.
-const MARKS_MAX: usize = 50_000;
+use super::Cell;
 
-/// A point of the way, in millimetres of the map frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PathPoint {
-    /// Millimetres.
-    pub x_mm: i32,
-    /// Millimetres.
-    pub y_mm: i32,
-}
+/// Cells along the edge of a tile.
+pub(super) const TILE_CELLS: i32 = 64;
+/// Tiles that the bounding box of a map may have: 1,638 square metres. What lies beyond is not remembered, so that no
+/// stray pose makes the dense rasters outgrow the memory of a small board.
+pub(super) const TILES_MAX: i64 = 640;
 
-/// What was met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkKind {
-    /// The bumper touched something.
-    Contact,
-    /// The floor ends.
+/// What is known of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum CellKnowledge {
+    /// Nothing.
+    #[default]
+    Unknown,
+    /// Floor that the body can be on, as far as it was seen.
+    Free,
+    /// Something stands there.
+    Occupied,
+    /// The floor ends there.
     Cliff,
+    /// A person does not want the robot there, or it got stuck there.
+    NoGo,
 }
 
-/// A place where something was met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
-    /// Where, in the map frame.
-    pub at: Point2,
-    /// What.
-    pub kind: MarkKind,
+/// What was gathered about a cell. Saturating; positive occupancy speaks for an obstacle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Evidence {
+    /// Log odds of an obstacle from infrared and from the body's own presence, in steps of about 0.05.
+    pub(super) occupancy: i8,
+    /// For a contact: things too low, too dark or too clear for infrared.
+    pub(super) contact: u8,
+    /// For the end of the floor.
+    pub(super) cliff: u8,
+    /// How much the wheels slipped or drifted, in steps of 0.01 radians a metre.
+    pub(super) slip: u8,
+    /// Standard deviation of the pose in centimetres when the cell was seen best.
+    pub(super) sigma_cm: u8,
+    /// [`Flag`]s.
+    pub(super) flags: u8,
 }
 
-/// The way, thinned.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Path {
-    points: Vec<PathPoint>,
+/// Something that is so or not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flag {
+    /// The body was here.
+    Body = 1,
+    /// Not to be entered.
+    NoGo = 2,
+    /// Something was seen here, so that `sigma_cm` counts.
+    Seen = 4,
 }
 
-impl Path {
-    pub(super) fn points(&self) -> &[PathPoint] {
-        &self.points
+/// Occupancy from which on a cell counts as occupied.
+const OCCUPIED_FROM: i8 = 12;
+/// Occupancy up to which a cell counts as free.
+const FREE_TO: i8 = -4;
+/// Contact evidence from which on a cell counts as occupied.
+const CONTACT_FROM: u8 = 2;
+/// Cliff evidence from which on a cell counts as an edge.
+const CLIFF_FROM: u8 = 2;
+
+impl Evidence {
+    pub(super) fn has(self, flag: Flag) -> bool {
+        self.flags & flag as u8 != 0
     }
 
-    pub(super) fn follow(&mut self, position: Point2) {
-        let point = PathPoint {
-            x_mm: millimetres(position.x_m),
-            y_mm: millimetres(position.y_m),
+    pub(super) fn set(&mut self, flag: Flag) {
+        self.flags |= flag as u8;
+    }
+
+    pub(super) fn clear(&mut self, flag: Flag) {
+        self.flags &= !(flag as u8);
+    }
+
+    /// What all of it amounts to.
+    pub(super) fn knowledge(self) -> CellKnowledge {
+        if self.has(Flag::NoGo) {
+            CellKnowledge::NoGo
+        } else if self.cliff >= CLIFF_FROM {
+            CellKnowledge::Cliff
+        } else if self.occupancy >= OCCUPIED_FROM || self.contact >= CONTACT_FROM {
+            CellKnowledge::Occupied
+        } else if self.has(Flag::Body) || self.occupancy <= FREE_TO {
+            CellKnowledge::Free
+        } else {
+            CellKnowledge::Unknown
+        }
+    }
+}
+
+/// Cells from `low` to `high`, both included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct CellBox {
+    pub(super) low: Cell,
+    pub(super) high: Cell,
+}
+
+impl CellBox {
+    pub(super) fn of(cell: Cell) -> Self {
+        Self {
+            low: cell,
+            high: cell,
+        }
+    }
+
+    pub(super) fn joined(self, other: Self) -> Self {
+        Self {
+            low: Cell {
+                x: self.low.x.min(other.low.x),
+                y: self.low.y.min(other.low.y),
+            },
+            high: Cell {
+                x: self.high.x.max(other.high.x),
+                y: self.high.y.max(other.high.y),
+            },
+        }
+    }
+
+    pub(super) fn grown(self, cells: i32) -> Self {
+        Self {
+            low: Cell {
+                x: self.low.x.saturating_sub(cells),
+                y: self.low.y.saturating_sub(cells),
+            },
+            high: Cell {
+                x: self.high.x.saturating_add(cells),
+                y: self.high.y.saturating_add(cells),
+            },
+        }
+    }
+
+    /// Columns and rows.
+    pub(super) fn size(self) -> (usize, usize) {
+        let span = |low: i32, high: i32| usize::try_from(i64::from(high) - i64::from(low) + 1).unwrap_or(0);
+        (span(self.low.x, self.high.x), span(self.low.y, self.high.y))
+    }
+}
+
+type TileKey = (i32, i32);
+
+#[derive(Clone, Debug)]
+struct Tile {
+    cells: Box<[Evidence]>,
+    dirty: Option<CellBox>,
+}
+
+impl Tile {
+    fn new() -> Self {
+        let area = (TILE_CELLS * TILE_CELLS) as usize;
+        Self {
+            cells: vec![Evidence::default(); area].into_boxed_slice(),
+            dirty: None,
+        }
+    }
+}
+
+/// Everything that was gathered about the cells of a floor.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layers {
+    tiles: Vec<Tile>,
+    tile_at: BTreeMap<TileKey, usize>,
+    /// The tile used last: nearly every cell falls into it.
+    recent: Option<(TileKey, usize)>,
+    /// Lowest and highest key.
+    keys: Option<(TileKey, TileKey)>,
+    /// Places of the tiles in `tiles` that are dirty.
+    dirty: Vec<usize>,
+}
+
+impl Layers {
+    /// Cells that tiles cover; `None` while there is none.
+    pub(super) fn bounds(&self) -> Option<CellBox> {
+        let ((low_x, low_y), (high_x, high_y)) = self.keys?;
+        Some(CellBox {
+            low: Cell {
+                x: low_x * TILE_CELLS,
+                y: low_y * TILE_CELLS,
+            },
+            high: Cell {
+                x: (high_x + 1) * TILE_CELLS - 1,
+                y: (high_y + 1) * TILE_CELLS - 1,
+            },
+        })
+    }
+
+    /// What was gathered about a cell.
+    pub(super) fn at(&self, cell: Cell) -> Evidence {
+        let (key, index) = locate(cell);
+        self.tile_at
+            .get(&key)
+            .and_then(|tile| self.tiles.get(*tile))
+            .and_then(|tile| tile.cells.get(index))
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// Changes what was gathered about a cell, unless it lies too far away to be remembered.
+    pub(super) fn change(&mut self, cell: Cell, change: impl FnOnce(&mut Evidence)) {
+        let (key, index) = locate(cell);
+        let Some(place) = self.tile(key) else { return };
+        let Some(tile) = self.tiles.get_mut(place) else {
+            return;
         };
-        let far_enough = self.points.last().is_none_or(|last| {
-            let dx = i64::from(point.x_mm) - i64::from(last.x_mm);
-            let dy = i64::from(point.y_mm) - i64::from(last.y_mm);
-            dx * dx + dy * dy >= PATH_STEP_MM * PATH_STEP_MM
-        });
-        if far_enough && self.points.len() < PATH_POINTS_MAX {
-            self.points.push(point);
+        let Some(evidence) = tile.cells.get_mut(index) else {
+            return;
+        };
+        let before = evidence.knowledge();
+        change(evidence);
+        if evidence.knowledge() != before {
+            match &mut tile.dirty {
+                Some(dirty) => *dirty = dirty.joined(CellBox::of(cell)),
+                none => {
+                    *none = Some(CellBox::of(cell));
+                    self.dirty.push(place);
+                }
+            }
         }
     }
 
-    pub(super) fn extend(&mut self, points: &[PathPoint]) {
-        let room = PATH_POINTS_MAX.saturating_sub(self.points.len());
-        self.points.extend(points.iter().take(room));
-    }
-}
-
-fn millimetres(length_m: f64) -> i32 {
-    libm::round(length_m * 1000.0) as i32
-}
-
-/// Places where something was met.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Marks {
-    marks: Vec<Mark>,
-}
-
-impl Marks {
-    pub(super) fn all(&self) -> &[Mark] {
-        &self.marks
+    /// Whether some knowledge may have changed since [`Self::take_dirty`].
+    pub(super) fn is_dirty(&self) -> bool {
+        !self.dirty.is_empty()
     }
 
-    pub(super) fn add(&mut self, mark: Mark) {
-        if self.marks.len() < MARKS_MAX {
-            self.marks.push(mark);
+    /// The boxes in which knowledge may have changed, in the order in which they did.
+    pub(super) fn take_dirty(&mut self) -> Vec<CellBox> {
+        let places = core::mem::take(&mut self.dirty);
+        places
+            .into_iter()
+            .filter_map(|place| self.tiles.get_mut(place)?.dirty.take())
+            .collect()
+    }
+
+    /// Every cell about which something was gathered, row after row within tiles, tiles in the order of their keys.
+    pub(super) fn gathered(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
+        self.tile_at.iter().flat_map(|(&(tile_x, tile_y), &place)| {
+            let cells = self.tiles.get(place).map_or(&[][..], |tile| &tile.cells);
+            cells
+                .iter()
+                .enumerate()
+                .filter(|(_, evidence)| **evidence != Evidence::default())
+                .map(move |(index, evidence)| {
+                    let (row, column) = (index as i32 / TILE_CELLS, index as i32 % TILE_CELLS);
+                    let cell = Cell {
+                        x: tile_x * TILE_CELLS + column,
+                        y: tile_y * TILE_CELLS + row,
+                    };
+                    (cell, *evidence)
+                })
+        })
+    }
+
+    /// Bytes that the tiles take.
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.tiles.len() * (TILE_CELLS * TILE_CELLS) as usize * size_of::<Evidence>()
+    }
+
+    fn tile(&mut self, key: TileKey) -> Option<usize> {
+        if let Some((recent, tile)) = self.recent
+            && recent == key
+        {
+            return Some(tile);
         }
+        let tile = match self.tile_at.get(&key) {
+            Some(tile) => *tile,
+            None => self.allocate(key)?,
+        };
+        self.recent = Some((key, tile));
+        Some(tile)
     }
+
+    fn allocate(&mut self, key: TileKey) -> Option<usize> {
+        let (low, high) = self.keys.unwrap_or((key, key));
+        let low = (low.0.min(key.0), low.1.min(key.1));
+        let high = (high.0.max(key.0), high.1.max(key.1));
+        let columns = i64::from(high.0) - i64::from(low.0) + 1;
+        let rows = i64::from(high.1) - i64::from(low.1) + 1;
+        if columns.saturating_mul(rows) > TILES_MAX {
+            return None;
+        }
+        self.keys = Some((low, high));
+        self.tiles.push(Tile::new());
+        self.tile_at.insert(key, self.tiles.len() - 1);
+        Some(self.tiles.len() - 1)
+    }
+}
+
+/// Tile and place in it.
+fn locate(cell: Cell) -> (TileKey, usize) {
+    let key = (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS));
+    let (column, row) = (cell.x.rem_euclid(TILE_CELLS), cell.y.rem_euclid(TILE_CELLS));
+    (key, (row * TILE_CELLS + column) as usize)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Path;
-    use crate::geometry::Point2;
+    use super::{Cell, CellKnowledge, Evidence, Flag, Layers};
 
     #[test]
-    fn the_way_is_thinned_to_two_centimetres() {
-        let mut path = Path::default();
-        for step in 0..=100 {
-            path.follow(Point2 {
-                x_m: f64::from(step) * 0.005,
-                y_m: 0.0,
-            });
+    fn what_is_too_far_away_is_not_remembered() {
+        let mut layers = Layers::default();
+        layers.change(Cell { x: 0, y: 0 }, |evidence| evidence.occupancy = 100);
+        for far in [(i32::MAX, 0), (0, i32::MIN), (i32::MIN, i32::MAX), (64 * 640, 0)] {
+            let cell = Cell { x: far.0, y: far.1 };
+            layers.change(cell, |evidence| evidence.occupancy = 100);
+            assert_eq!(layers.at(cell), Evidence::default());
         }
-        assert_eq!(path.points().len(), 26, "0.5 m in steps of 2 cm and the start");
-        assert_eq!(path.points()[25].x_mm, 500);
+        assert_eq!(layers.at(Cell { x: 0, y: 0 }).occupancy, 100);
+        assert_eq!(layers.gathered().count(), 1);
+    }
+
+    #[test]
+    fn only_a_change_of_knowledge_is_dirty() {
+        let mut layers = Layers::default();
+        let cell = Cell { x: -1, y: 70 };
+        layers.change(cell, |evidence| evidence.occupancy = 3);
+        assert!(!layers.is_dirty());
+        layers.change(cell, |evidence| evidence.occupancy = 50);
+        assert_eq!(layers.take_dirty(), [super::CellBox::of(cell)]);
+        assert!(!layers.is_dirty() && layers.take_dirty().is_empty());
+    }
+
+    #[test]
+    fn what_forbids_wins_over_what_allows() {
+        let mut evidence = Evidence {
+            occupancy: -100,
+            ..Evidence::default()
+        };
+        assert_eq!(evidence.knowledge(), CellKnowledge::Free);
+        evidence.contact = 4;
+        assert_eq!(evidence.knowledge(), CellKnowledge::Occupied);
+        evidence.cliff = 4;
+        assert_eq!(evidence.knowledge(), CellKnowledge::Cliff);
+        evidence.set(Flag::NoGo);
+        assert_eq!(evidence.knowledge(), CellKnowledge::NoGo);
+        evidence.clear(Flag::NoGo);
+        assert_eq!(evidence.knowledge(), CellKnowledge::Cliff);
     }
 }

@@ -1,22 +1,40 @@
-//! What the robot remembers of its surroundings: the swept layer, its way, and where it met something.
+//! What the robot remembers of its surroundings.
+//!
+//! Two parts. *The job*: the swept layer, the way and where something was met; a new job starts it anew. *The home*: what
+//! stands where, gathered over all jobs in [`layers`], from which everything else is derived: knowledge and distances
+//! (brought up to date every other second), what the body can reach, walls, rooms and doors (on demand).
 //!
 //! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first painted.
 //! *Mark*: a place where a contact or a cliff was met. *Cursor*: how much of the map somebody has already seen; the map
-//! only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a new one.
+//! of a job only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a
+//! new one.
 
+mod derived;
+mod distance;
+mod draw;
+mod home;
 mod layers;
 mod raster;
+mod sighting;
+mod stored;
 mod swept;
+mod traces;
 
-pub use layers::{Mark, MarkKind, PathPoint};
+pub use distance::{DistanceField, FAR_M};
+pub use home::{Entry, Keyframe};
+pub use layers::CellKnowledge;
 pub use raster::Raster;
+pub use stored::{StoredMap, StoredMapError};
 pub use swept::{CELL_M, Cell, SweptRun};
+pub use traces::{Mark, MarkKind, PathPoint};
 
+use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
-use layers::{Marks, Path};
+use home::HomeMap;
 use swept::{Swath, SweptLayer};
+use traces::{Marks, Path};
 
-/// The map of one job.
+/// The map of the home and of one job in it.
 #[derive(Clone, Debug)]
 pub struct Map {
     generation: u32,
@@ -24,6 +42,7 @@ pub struct Map {
     swath: Swath,
     path: Path,
     marks: Marks,
+    home: HomeMap,
 }
 
 /// How much of a map somebody has seen.
@@ -49,15 +68,16 @@ pub struct MapPart<'map> {
 }
 
 impl Map {
-    /// An empty map, number 1, for a machine that cleans `swath_m` wide.
+    /// An empty map, number 1.
     #[must_use]
-    pub fn new(swath_m: f64) -> Self {
+    pub fn new(body: Body, sensors: SensorLayout) -> Self {
         Self {
             generation: 1,
             swept: SweptLayer::default(),
-            swath: Swath::new(swath_m),
+            swath: Swath::new(body.swath_m),
             path: Path::default(),
             marks: Marks::default(),
+            home: HomeMap::new(body, sensors),
         }
     }
 
@@ -112,7 +132,7 @@ impl Map {
         self.swept.runs()
     }
 
-    /// Forgets everything and counts one map on.
+    /// Forgets the job and counts one map on; what is known of the home stays.
     pub(crate) fn start_anew(&mut self) {
         self.generation += 1;
         self.swept = SweptLayer::default();

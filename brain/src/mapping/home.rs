@@ -1,0 +1,296 @@
+//! The part of the map that outlives a job: what stands where.
+
+use super::derived::Derived;
+use super::distance::DistanceField;
+use super::draw::Pencil;
+use super::layers::{CellKnowledge, Flag, Layers};
+use super::sighting::Sighting;
+use super::{Cell, Map, Raster, StoredMap};
+use crate::config::{Body, SensorLayout};
+use crate::geometry::{Pose2, normalize_rad};
+use crate::localization::{Advance, PoseEstimate};
+use crate::observation::Observation;
+
+/// Derived rasters are brought up to date after this time, microseconds.
+const REFRESH_US: u64 = 2_000_000;
+/// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
+const SIGHTINGS_MAX: usize = 100_000;
+/// Turn rates of wheels and gyro are compared over ways of this length, metres.
+const SLIP_WAY_M: f64 = 0.1;
+
+/// A pose of the past that turned out to have been another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keyframe {
+    /// Time of the observation at which the robot was there, in microseconds.
+    pub time_us: u64,
+    /// Where it was believed to be then.
+    pub was: Pose2,
+    /// Where it was, as far as is known now.
+    pub is: Pose2,
+}
+
+/// What is known of the home.
+#[derive(Clone, Debug)]
+pub(super) struct HomeMap {
+    pencil: Pencil,
+    layers: Layers,
+    derived: Derived,
+    /// What was known before the first of the sightings.
+    base: Layers,
+    sightings: Vec<Sighting>,
+    last: Option<Sighting>,
+    refreshed_us: u64,
+    slip: SlipMeter,
+    dock: Option<Pose2>,
+    revision: u32,
+}
+
+impl HomeMap {
+    pub(super) fn new(body: Body, sensors: SensorLayout) -> Self {
+        Self {
+            pencil: Pencil { body, sensors },
+            layers: Layers::default(),
+            derived: Derived::default(),
+            base: Layers::default(),
+            sightings: Vec::new(),
+            last: None,
+            refreshed_us: 0,
+            slip: SlipMeter::default(),
+            dock: None,
+            revision: 0,
+        }
+    }
+
+    fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation, advance: Advance) {
+        let slip = self.slip.take(advance);
+        if !is_of_use(estimate, observation) {
+            self.last = None;
+            return;
+        }
+        if observation.docked && self.dock.is_none() {
+            self.dock = Some(estimate.pose);
+        }
+        let sighting = Sighting {
+            slip,
+            ..Sighting::new(estimate.pose, estimate.sigma_m, observation)
+        };
+        if self.last.is_some_and(|last| sighting.repeats(&last)) {
+            return;
+        }
+        self.last = Some(sighting);
+        self.keep(sighting);
+        self.pencil.draw(&sighting, &mut self.layers);
+        if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
+            self.refreshed_us = observation.time_us;
+            self.refresh();
+        }
+    }
+
+    fn keep(&mut self, sighting: Sighting) {
+        if self.sightings.len() >= SIGHTINGS_MAX {
+            // What is so old stays where it is.
+            self.base = self.layers.clone();
+            self.sightings.clear();
+        }
+        self.sightings.push(sighting);
+    }
+
+    fn refresh(&mut self) {
+        if self.layers.is_dirty() {
+            self.derived.refresh(&mut self.layers);
+            self.revision = self.revision.wrapping_add(1);
+        }
+    }
+
+    fn redraw(&mut self, keyframes: &[Keyframe]) {
+        if keyframes.is_empty() {
+            return;
+        }
+        self.layers = self.base.clone();
+        for sighting in &mut self.sightings {
+            sighting.pose = corrected(keyframes, sighting.time_us, sighting.pose);
+            self.pencil.draw(sighting, &mut self.layers);
+        }
+        self.last = None;
+        self.derive_anew();
+    }
+
+    fn restore(&mut self, stored: &StoredMap) {
+        self.layers = Layers::default();
+        stored.fill(&mut self.layers);
+        self.base = self.layers.clone();
+        self.sightings.clear();
+        self.last = None;
+        self.dock = stored.dock();
+        self.derive_anew();
+    }
+
+    fn derive_anew(&mut self) {
+        self.derived = Derived::default();
+        self.derived.refresh(&mut self.layers);
+        self.revision = self.revision.wrapping_add(1);
+    }
+}
+
+/// Nothing is learnt in the air, without news, or by a robot that does not know where it is.
+fn is_of_use(estimate: &PoseEstimate, observation: &Observation) -> bool {
+    let pose = estimate.pose;
+    let is_finite = (pose.x_m + pose.y_m + pose.heading_rad).is_finite();
+    is_finite && !estimate.lost && observation.link_up && !observation.wheel_drop
+}
+
+/// Where a robot was at `time_us` that believed to be at `pose`, by the keyframes before and after.
+fn corrected(keyframes: &[Keyframe], time_us: u64, pose: Pose2) -> Pose2 {
+    let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
+    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * pose);
+    let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
+    match (before, keyframes.get(after)) {
+        (Some(before), Some(after)) => {
+            let span_us = after.time_us.saturating_sub(before.time_us).max(1) as f64;
+            let share = time_us.saturating_sub(before.time_us) as f64 / span_us;
+            between(by(before), by(after), share)
+        }
+        (Some(only), None) | (None, Some(only)) => by(only),
+        (None, None) => pose,
+    }
+}
+
+fn between(one: Pose2, other: Pose2, share: f64) -> Pose2 {
+    let turn_rad = normalize_rad(other.heading_rad - one.heading_rad);
+    Pose2 {
+        x_m: one.x_m + share * (other.x_m - one.x_m),
+        y_m: one.y_m + share * (other.y_m - one.y_m),
+        heading_rad: normalize_rad(one.heading_rad + share * turn_rad),
+    }
+}
+
+/// Compares what wheels and gyro say of turning.
+#[derive(Clone, Copy, Debug, Default)]
+struct SlipMeter {
+    way_m: f64,
+    apart_rad: f64,
+    /// Slip of the last piece of way, in steps of 0.01 radians a metre.
+    found: Option<u8>,
+}
+
+impl SlipMeter {
+    /// Slip in steps of 0.01 radians a metre, 255 = not known.
+    fn take(&mut self, advance: Advance) -> u8 {
+        let Some(gyro_turn_rad) = advance.gyro_turn_rad else {
+            return u8::MAX;
+        };
+        self.way_m += advance.distance_m.abs();
+        self.apart_rad += advance.wheel_turn_rad - gyro_turn_rad;
+        if self.way_m >= SLIP_WAY_M {
+            let per_m = (self.apart_rad / self.way_m).abs();
+            self.found = Some((100.0 * per_m).min(254.0) as u8);
+            (self.way_m, self.apart_rad) = (0.0, 0.0);
+        }
+        self.found.unwrap_or(u8::MAX)
+    }
+}
+
+/// What is known of the home.
+impl Map {
+    /// Takes in what was perceived at a pose. Nothing is taken from a robot that is lost, lifted or silent, and nothing
+    /// twice while it stands still.
+    pub fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation, advance: Advance) {
+        self.home.insert(estimate, observation, advance);
+    }
+
+    /// What is known of each cell. Up to two seconds old; [`Self::refresh`] brings it up to date.
+    #[must_use]
+    pub fn knowledge(&self) -> &Raster<CellKnowledge> {
+        &self.home.derived.knowledge
+    }
+
+    /// Distances to occupied cells, as old as [`Self::knowledge`].
+    #[must_use]
+    pub fn distance_field(&self) -> &DistanceField {
+        &self.home.derived.distance
+    }
+
+    /// Brings everything derived up to date now: for a planner that must not miss the last contact.
+    pub fn refresh(&mut self) {
+        self.home.refresh();
+    }
+
+    /// Grows whenever something derived has changed.
+    #[must_use]
+    pub fn revision(&self) -> u32 {
+        self.home.revision
+    }
+
+    /// Pose of a robot that stands on the dock, once it has been there.
+    #[must_use]
+    pub fn dock(&self) -> Option<Pose2> {
+        self.home.dock
+    }
+
+    /// Says where the dock is.
+    pub fn set_dock(&mut self, dock: Pose2) {
+        self.home.dock = Some(dock);
+    }
+
+    /// Forbids or allows a cell.
+    pub fn set_no_go(&mut self, cell: Cell, entry: Entry) {
+        let change = |evidence: &mut super::layers::Evidence| match entry {
+            Entry::Forbidden => evidence.set(Flag::NoGo),
+            Entry::Allowed => evidence.clear(Flag::NoGo),
+        };
+        self.home.base.change(cell, change);
+        self.home.layers.change(cell, change);
+    }
+
+    /// How much wheels and gyro differed where the robot drove over a cell, in radians a metre; 0 where it did not.
+    #[must_use]
+    pub fn slip_rad_per_m(&self, cell: Cell) -> f64 {
+        0.01 * f64::from(self.home.layers.at(cell).slip)
+    }
+
+    /// Standard deviation of the pose when a cell was seen best, in metres; `None` if it never was.
+    #[must_use]
+    pub fn sigma_m(&self, cell: Cell) -> Option<f64> {
+        let evidence = self.home.layers.at(cell);
+        evidence
+            .has(Flag::Seen)
+            .then(|| 0.01 * f64::from(evidence.sigma_cm))
+    }
+
+    /// Draws the home again with other poses of the past, in the order of their times; poses between two keyframes are
+    /// moved by both. The swept layer of the job and the way stay as they are.
+    pub fn redraw(&mut self, keyframes: &[Keyframe]) {
+        self.home.redraw(keyframes);
+    }
+
+    /// The home as plain data.
+    #[must_use]
+    pub fn stored(&self) -> StoredMap {
+        StoredMap::of_layers(&self.home.layers, self.home.dock)
+    }
+
+    /// Takes up a stored home in place of what is known.
+    pub fn take_up(&mut self, stored: &StoredMap) {
+        self.home.restore(stored);
+    }
+
+    /// Bytes that the map of the home takes, sightings included.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        let home = &self.home;
+        home.layers.memory_bytes()
+            + home.base.memory_bytes()
+            + home.derived.distance.memory_bytes()
+            + home.derived.knowledge.values().len()
+            + home.sightings.capacity() * size_of::<Sighting>()
+    }
+}
+
+/// Whether a cell may be entered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// It may.
+    Allowed,
+    /// It may not.
+    Forbidden,
+}

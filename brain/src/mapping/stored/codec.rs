@@ -1,0 +1,324 @@
+//! Bytes of a stored map.
+//!
+//! `RVACMAP`, a version byte, then numbers of variable length (seven bits a byte, low ones first, signed ones zigzag), and
+//! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses are micrometres and microradians.
+
+use super::{CELLS_MAX, Run, StoredMap};
+use crate::geometry::Pose2;
+use crate::mapping::Cell;
+
+const MAGIC: &[u8; 7] = b"RVACMAP";
+/// Version that is written; the only one that is read so far.
+const VERSION: u8 = 1;
+/// Most runs of one layer; a home has some ten thousand.
+const RUNS_MAX: u64 = CELLS_MAX;
+
+/// Why bytes are no map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StoredMapError {
+    /// They do not begin like a map.
+    NotAMap,
+    /// A version that is not known here.
+    Version(u8),
+    /// The checksum is another one.
+    Checksum {
+        /// Of the bytes.
+        computed: u32,
+        /// At their end.
+        stored: u32,
+    },
+    /// They end too early.
+    Cut,
+    /// A number is longer than any that is written.
+    Number,
+    /// More cells than a map can have.
+    TooLarge {
+        /// Columns.
+        width: u64,
+        /// Rows.
+        height: u64,
+    },
+    /// A layer has another number of cells than the window.
+    Cells {
+        /// Of the window.
+        expected: u64,
+        /// Of the layer.
+        found: u64,
+    },
+    /// Something follows the end.
+    Trailing,
+}
+
+impl core::fmt::Display for StoredMapError {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotAMap => formatter.write_str("it does not begin like a map"),
+            Self::Version(version) => write!(
+                formatter,
+                "it has version {version} and this program reads version {VERSION}"
+            ),
+            Self::Checksum { computed, stored } => write!(
+                formatter,
+                "its checksum is {computed:08X} and should be {stored:08X}"
+            ),
+            Self::Cut => formatter.write_str("it ends too early"),
+            Self::Number => formatter.write_str("it has a number that is too long"),
+            Self::TooLarge { width, height } => {
+                write!(
+                    formatter,
+                    "{width} times {height} cells are more than a map can have"
+                )
+            }
+            Self::Cells { expected, found } => {
+                write!(formatter, "a layer has {found} cells instead of {expected}")
+            }
+            Self::Trailing => formatter.write_str("something follows its end"),
+        }
+    }
+}
+
+impl core::error::Error for StoredMapError {}
+
+impl StoredMap {
+    /// The bytes of the map.
+    #[must_use]
+    pub fn encode(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.push(VERSION);
+        match self.dock {
+            None => bytes.push(0),
+            Some(pose) => {
+                bytes.push(1);
+                for value in [pose.x_m, pose.y_m, pose.heading_rad] {
+                    put_signed(&mut bytes, libm::round(value * 1e6) as i64);
+                }
+            }
+        }
+        put_signed(&mut bytes, self.origin.x.into());
+        put_signed(&mut bytes, self.origin.y.into());
+        put(&mut bytes, self.width.into());
+        put(&mut bytes, self.height.into());
+        put(&mut bytes, self.next_room.into());
+        for layer in [&self.cells, &self.rooms] {
+            put(&mut bytes, layer.len() as u64);
+            for run in layer {
+                put(&mut bytes, run.value.into());
+                put(&mut bytes, run.length.into());
+            }
+        }
+        let sum = crc32(&bytes);
+        bytes.extend(sum.to_le_bytes());
+        bytes
+    }
+
+    /// The map of `bytes`.
+    ///
+    /// # Errors
+    /// What is wrong with them; nothing is taken from broken bytes.
+    pub fn decode(bytes: &[u8]) -> Result<Self, StoredMapError> {
+        let body = bytes.strip_prefix(MAGIC).ok_or(StoredMapError::NotAMap)?;
+        let version = *body.first().ok_or(StoredMapError::Cut)?;
+        if version != VERSION {
+            return Err(StoredMapError::Version(version));
+        }
+        let (whole, sum) = bytes.split_last_chunk::<4>().ok_or(StoredMapError::Cut)?;
+        let (computed, stored) = (crc32(whole), u32::from_le_bytes(*sum));
+        if computed != stored {
+            return Err(StoredMapError::Checksum { computed, stored });
+        }
+        let body = whole.get(MAGIC.len() + 1..).ok_or(StoredMapError::Cut)?;
+        Reader { rest: body }.map()
+    }
+}
+
+/// What is left to read.
+struct Reader<'bytes> {
+    rest: &'bytes [u8],
+}
+
+impl Reader<'_> {
+    fn map(mut self) -> Result<StoredMap, StoredMapError> {
+        let dock = match self.number()? {
+            0 => None,
+            _ => Some(Pose2 {
+                x_m: self.millionths()?,
+                y_m: self.millionths()?,
+                heading_rad: self.millionths()?,
+            }),
+        };
+        let origin = Cell {
+            x: self.signed()?.try_into().map_err(|_| StoredMapError::Number)?,
+            y: self.signed()?.try_into().map_err(|_| StoredMapError::Number)?,
+        };
+        let (width, height) = (self.number()?, self.number()?);
+        let expected = width.checked_mul(height).filter(|cells| *cells <= CELLS_MAX);
+        let expected = expected.ok_or(StoredMapError::TooLarge { width, height })?;
+        let next_room = self.number()?.try_into().map_err(|_| StoredMapError::Number)?;
+        let cells = self.layer(expected)?;
+        let rooms = self.layer(expected)?;
+        if !self.rest.is_empty() {
+            return Err(StoredMapError::Trailing);
+        }
+        Ok(StoredMap {
+            dock,
+            origin,
+            width: width.try_into().map_err(|_| StoredMapError::Number)?,
+            height: height.try_into().map_err(|_| StoredMapError::Number)?,
+            cells,
+            rooms,
+            next_room,
+        })
+    }
+
+    /// A layer of `expected` cells, or one without any run.
+    fn layer(&mut self, expected: u64) -> Result<Vec<Run>, StoredMapError> {
+        let count = self.number()?;
+        if count > RUNS_MAX {
+            return Err(StoredMapError::Number);
+        }
+        let mut runs = Vec::new();
+        let mut found: u64 = 0;
+        for _ in 0..count {
+            let run = Run {
+                value: self.number()?.try_into().map_err(|_| StoredMapError::Number)?,
+                length: self.number()?.try_into().map_err(|_| StoredMapError::Number)?,
+            };
+            found += u64::from(run.length);
+            if found > expected {
+                return Err(StoredMapError::Cells { expected, found });
+            }
+            runs.push(run);
+        }
+        if count > 0 && found != expected {
+            return Err(StoredMapError::Cells { expected, found });
+        }
+        Ok(runs)
+    }
+
+    fn number(&mut self) -> Result<u64, StoredMapError> {
+        let mut value = 0;
+        for shift in (0..63).step_by(7) {
+            let (byte, rest) = self.rest.split_first().ok_or(StoredMapError::Cut)?;
+            self.rest = rest;
+            value |= u64::from(byte & 0x7F) << shift;
+            if byte & 0x80 == 0 {
+                return Ok(value);
+            }
+        }
+        Err(StoredMapError::Number)
+    }
+
+    fn signed(&mut self) -> Result<i64, StoredMapError> {
+        let value = self.number()?;
+        Ok((value >> 1) as i64 ^ -((value & 1) as i64))
+    }
+
+    fn millionths(&mut self) -> Result<f64, StoredMapError> {
+        Ok(self.signed()? as f64 * 1e-6)
+    }
+}
+
+fn put(bytes: &mut Vec<u8>, mut value: u64) {
+    while value >= 0x80 {
+        bytes.push((value & 0x7F) as u8 | 0x80);
+        value >>= 7;
+    }
+    bytes.push(value as u8);
+}
+
+fn put_signed(bytes: &mut Vec<u8>, value: i64) {
+    // Nine bytes hold 63 bits; nothing that is stored comes near.
+    let bounded = value.clamp(-(1 << 60), 1 << 60);
+    put(bytes, ((bounded << 1) ^ (bounded >> 63)) as u64);
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    let mut sum = u32::MAX;
+    for byte in bytes {
+        sum ^= u32::from(*byte);
+        for _ in 0..8 {
+            sum = (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg());
+        }
+    }
+    !sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{StoredMap, StoredMapError, crc32};
+    use crate::geometry::Pose2;
+    use crate::mapping::{Cell, CellKnowledge, Raster};
+
+    fn map() -> StoredMap {
+        let mut raster = Raster::filled(Cell { x: -7, y: 300 }, 9, 5, CellKnowledge::Unknown);
+        let kinds = [
+            CellKnowledge::Free,
+            CellKnowledge::Occupied,
+            CellKnowledge::Cliff,
+            CellKnowledge::NoGo,
+        ];
+        for (index, place) in raster.values_mut().iter_mut().enumerate().skip(3) {
+            *place = kinds[(index / 3) % 4];
+        }
+        let dock = Pose2 {
+            x_m: -1.25,
+            y_m: 2.5,
+            heading_rad: -3.0,
+        };
+        StoredMap::from_raster(&raster, Some(dock))
+    }
+
+    #[test]
+    fn the_checksum_is_the_usual_one() {
+        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
+    }
+
+    #[test]
+    fn a_map_comes_back_and_its_knowledge_with_it() {
+        for map in [map(), StoredMap::default(), map().with_dock(None)] {
+            let back = StoredMap::decode(&map.encode()).unwrap();
+            assert_eq!(back, map);
+            assert_eq!(back.knowledge(), map.knowledge());
+        }
+    }
+
+    #[test]
+    fn every_cut_and_every_flipped_bit_is_refused() {
+        let bytes = map().encode();
+        for length in 0..bytes.len() {
+            assert!(StoredMap::decode(&bytes[..length]).is_err(), "cut at {length}");
+        }
+        for bit in 0..8 * bytes.len() {
+            let mut flipped = bytes.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            assert!(StoredMap::decode(&flipped).is_err(), "flipped bit {bit}");
+        }
+    }
+
+    /// With a checksum that fits, as after a fault of the writer.
+    fn refused(body: &[u8]) -> StoredMapError {
+        let mut bytes = b"RVACMAP\x01".to_vec();
+        bytes.extend(body);
+        bytes.extend(crc32(&bytes).to_le_bytes());
+        StoredMap::decode(&bytes).unwrap_err()
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        assert_eq!(StoredMap::decode(b"RVACMOP"), Err(StoredMapError::NotAMap));
+        assert_eq!(StoredMap::decode(b"RVACMAP\x09"), Err(StoredMapError::Version(9)));
+        assert_eq!(refused(&[0, 0, 0]), StoredMapError::Cut);
+        let enormous = [0, 0, 0, 0xFF, 0xFF, 0x7F, 0xFF, 0xFF, 0x7F, 1];
+        assert!(matches!(refused(&enormous), StoredMapError::TooLarge { .. }));
+        let seven_of_six = [0, 0, 0, 2, 3, 1, 1, 5, 7, 0];
+        assert_eq!(
+            refused(&seven_of_six),
+            StoredMapError::Cells {
+                expected: 6,
+                found: 7
+            }
+        );
+        assert_eq!(refused(&[0, 0, 0, 2, 3, 1, 0, 0, 9]), StoredMapError::Trailing);
+        assert_eq!(refused(&[0xFF; 12]), StoredMapError::Number);
+    }
+}

@@ -1,0 +1,209 @@
+//! A map as plain data, for the disk and for the beginning of a recording.
+//!
+//! What a cell holds is rounded to what decides about it; equal cells side by side are one run. A home of 150 square
+//! metres takes some ten kilobytes.
+
+mod codec;
+
+pub use codec::StoredMapError;
+
+use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
+use super::{Cell, CellKnowledge, Raster};
+use crate::geometry::Pose2;
+
+/// Most cells of a stored map's window.
+pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
+
+/// A map as plain data. [`Self::encode`] makes bytes of it and [`Self::decode`] checks them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StoredMap {
+    /// Pose of a robot that stands on the dock, if that is known.
+    dock: Option<Pose2>,
+    origin: Cell,
+    width: u32,
+    height: u32,
+    cells: Vec<Run>,
+    /// Room of each cell, 0 = none; no runs at all when the map has no rooms yet.
+    rooms: Vec<Run>,
+    /// Identity of the next room that has none yet.
+    next_room: u16,
+}
+
+/// Equal cells side by side, rows joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Run {
+    pub(super) value: u16,
+    pub(super) length: u32,
+}
+
+/// Occupancy is stored in 15 steps of this size.
+const OCCUPANCY_STEP: i8 = 12;
+
+impl StoredMap {
+    /// A map of what is known of each cell, for instance of a home that somebody measured.
+    #[must_use]
+    pub fn from_raster(knowledge: &Raster<CellKnowledge>, dock: Option<Pose2>) -> Self {
+        let cells = runs_of(knowledge.values().iter().map(|kind| pack(sure(*kind))));
+        Self {
+            dock,
+            origin: knowledge.origin(),
+            width: knowledge.width().try_into().unwrap_or(u32::MAX),
+            height: knowledge.height().try_into().unwrap_or(u32::MAX),
+            cells,
+            rooms: Vec::new(),
+            next_room: 1,
+        }
+    }
+
+    /// Pose of a robot that stands on the dock, if that is known.
+    #[must_use]
+    pub fn dock(&self) -> Option<Pose2> {
+        self.dock
+    }
+
+    /// The same map with another dock.
+    #[must_use]
+    pub fn with_dock(self, dock: Option<Pose2>) -> Self {
+        Self { dock, ..self }
+    }
+
+    /// What is known of each cell.
+    #[must_use]
+    pub fn knowledge(&self) -> Raster<CellKnowledge> {
+        let mut raster = Raster::filled(
+            self.origin,
+            self.width as usize,
+            self.height as usize,
+            CellKnowledge::Unknown,
+        );
+        for (place, value) in raster.values_mut().iter_mut().zip(values_of(&self.cells)) {
+            *place = unpack(value).knowledge();
+        }
+        raster
+    }
+
+    /// Whether nothing is known.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cells.iter().all(|run| run.value == 0)
+    }
+
+    pub(super) fn of_layers(layers: &Layers, dock: Option<Pose2>) -> Self {
+        let mut around: Option<CellBox> = None;
+        for (cell, _) in layers.gathered() {
+            let here = CellBox::of(cell);
+            around = Some(around.map_or(here, |before| before.joined(here)));
+        }
+        let Some(around) = around else {
+            return Self {
+                dock,
+                next_room: 1,
+                ..Self::default()
+            };
+        };
+        let (width, height) = around.size();
+        let mut raster = Raster::filled(around.low, width, height, 0_u16);
+        for (cell, evidence) in layers.gathered() {
+            if let Some(place) = raster.get_mut(cell) {
+                *place = pack(evidence);
+            }
+        }
+        Self {
+            dock,
+            origin: around.low,
+            width: width.try_into().unwrap_or(u32::MAX),
+            height: height.try_into().unwrap_or(u32::MAX),
+            cells: runs_of(raster.values().iter().copied()),
+            rooms: Vec::new(),
+            next_room: 1,
+        }
+    }
+
+    /// Adds what is stored to empty layers.
+    pub(super) fn fill(&self, layers: &mut Layers) {
+        let raster: Raster<()> = Raster::filled(self.origin, self.width as usize, self.height as usize, ());
+        for (index, value) in values_of(&self.cells).enumerate() {
+            if value != 0 {
+                layers.change(raster.cell(index), |evidence| *evidence = unpack(value));
+            }
+        }
+    }
+}
+
+/// Evidence that stands for a sure knowledge.
+fn sure(kind: CellKnowledge) -> Evidence {
+    let mut evidence = Evidence::default();
+    match kind {
+        CellKnowledge::Unknown => return evidence,
+        CellKnowledge::Free => evidence.occupancy = -84,
+        CellKnowledge::Occupied => evidence.occupancy = 84,
+        CellKnowledge::Cliff => evidence.cliff = 6,
+        CellKnowledge::NoGo => evidence.set(Flag::NoGo),
+    }
+    evidence.set(Flag::Seen);
+    evidence
+}
+
+/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 slip, 1 body, 1 no-go, 1 seen, 3 uncertainty.
+fn pack(evidence: Evidence) -> u16 {
+    // Rounded so that what counts as free or occupied still does.
+    let rounding = if evidence.occupancy < 0 {
+        OCCUPANCY_STEP - 4
+    } else {
+        0
+    };
+    let steps = evidence.occupancy.saturating_sub(rounding) / OCCUPANCY_STEP;
+    let occupancy = steps.clamp(-7, 7) + 7;
+    let fields = [
+        (occupancy as u16 ^ 7, 4),
+        (u16::from(evidence.contact / 2).min(3), 2),
+        (u16::from(evidence.cliff / 2).min(3), 2),
+        (u16::from(evidence.slip / 10).min(3), 2),
+        (u16::from(evidence.has(Flag::Body)), 1),
+        (u16::from(evidence.has(Flag::NoGo)), 1),
+        (u16::from(evidence.has(Flag::Seen)), 1),
+        (u16::from(evidence.sigma_cm / 5).min(7), 3),
+    ];
+    let mut packed = 0;
+    let mut shift = 0;
+    for (value, bits) in fields {
+        packed |= value << shift;
+        shift += bits;
+    }
+    packed
+}
+
+fn unpack(packed: u16) -> Evidence {
+    let field = |shift: u16, bits: u16| (packed >> shift & ((1 << bits) - 1)) as u8;
+    let occupancy = ((field(0, 4) ^ 7) as i8 - 7) * OCCUPANCY_STEP;
+    let mut evidence = Evidence {
+        occupancy,
+        contact: 2 * field(4, 2),
+        cliff: 2 * field(6, 2),
+        slip: 10 * field(8, 2),
+        sigma_cm: 5 * field(13, 3),
+        flags: 0,
+    };
+    for (shift, flag) in [(10, Flag::Body), (11, Flag::NoGo), (12, Flag::Seen)] {
+        if field(shift, 1) == 1 {
+            evidence.set(flag);
+        }
+    }
+    evidence
+}
+
+pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for value in values {
+        match runs.last_mut() {
+            Some(run) if run.value == value && run.length < u32::MAX => run.length += 1,
+            _ => runs.push(Run { value, length: 1 }),
+        }
+    }
+    runs
+}
+
+pub(super) fn values_of(runs: &[Run]) -> impl Iterator<Item = u16> + '_ {
+    runs.iter()
+        .flat_map(|run| core::iter::repeat_n(run.value, run.length as usize))
+}
