@@ -16,6 +16,7 @@ mod report;
 mod robot;
 pub mod run;
 mod scene;
+mod sensors;
 pub mod serve;
 
 pub use figures::Figures;
@@ -26,3 +27,4 @@ pub use pic32::board::Record;
 pub use report::{Report, StuckWatch};
 pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};
+pub use sensors::sensor_layout;

@@ -3,6 +3,7 @@
 use brain::command::StrategyName;
 use robot::RobotSettings;
 use rvac_api::RequestBody;
+use vthal_core::CoreConfig;
 
 use crate::{Host, Household, Report, Scene};
 
@@ -56,7 +57,10 @@ pub fn household(scene: &Scene, settings: &RunSettings) -> Household {
             ..RobotSettings::default()
         },
     );
-    let config = Host::config(settings.seed, settings.strategy);
+    let config = CoreConfig {
+        sensors: scene.sensors(),
+        ..Host::config(settings.seed, settings.strategy)
+    };
     Household::new(robot, Host::start(0, config))
 }
 

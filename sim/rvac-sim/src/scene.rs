@@ -77,6 +77,12 @@ impl Scene {
         self.firmware.robot(world, settings)
     }
 
+    /// Where the robot's sensors sit, as its host must know it.
+    #[must_use]
+    pub fn sensors(&self) -> brain::SensorLayout {
+        crate::sensor_layout(&self.model)
+    }
+
     /// The home.
     #[must_use]
     pub fn home(&self) -> &Home {

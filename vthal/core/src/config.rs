@@ -1,5 +1,6 @@
 //! Settings of the core.
 
+use brain::SensorLayout;
 use brain::command::StrategyName;
 
 use crate::Checkpoint;
@@ -17,6 +18,8 @@ pub struct CoreConfig {
     pub recording: Recording,
     /// Whether checkpoints are wanted.
     pub checkpoints: Checkpoints,
+    /// Where the robot's sensors sit; the wire tells only how many there are.
+    pub sensors: SensorLayout,
     /// Longest job in seconds, after which the robot docks (S26).
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
@@ -33,6 +36,7 @@ impl Default for CoreConfig {
             expert: ExpertAccess::Denied,
             recording: Recording::Off,
             checkpoints: Checkpoints::Off,
+            sensors: SensorLayout::default(),
             task_budget_s: 120 * 60,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             resume: None,

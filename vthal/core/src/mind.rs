@@ -8,7 +8,7 @@ use brain::{Actions, BehaviorState, Body, Brain, Command, MapCursor, Speeds};
 
 use crate::device::{Description, Shape};
 use crate::observe::Observer;
-use crate::{Record, RunCause, RunEnd, RunStart};
+use crate::{CoreConfig, Record, RunCause, RunEnd, RunStart};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -51,8 +51,9 @@ impl Recorder<'_> {
 }
 
 impl Mind {
-    pub(crate) fn new(description: &Description, seed: u64, task_budget_s: u32) -> Self {
-        let config = brain_config(description, task_budget_s);
+    pub(crate) fn new(description: &Description, settings: &CoreConfig) -> Self {
+        let config = brain_config(description, settings);
+        let seed = settings.seed;
         Self {
             brain: Brain::new(config, seed),
             config,
@@ -221,7 +222,7 @@ impl Mind {
     }
 }
 
-fn brain_config(description: &Description, task_budget_s: u32) -> BrainConfig {
+fn brain_config(description: &Description, settings: &CoreConfig) -> BrainConfig {
     let Shape::Circle { radius_m } = description.shape;
     let body = Body {
         radius_m,
@@ -234,7 +235,8 @@ fn brain_config(description: &Description, task_budget_s: u32) -> BrainConfig {
         turn_max_rad_per_s: description.drive.turn_max_rad_per_s,
     };
     BrainConfig {
-        task_budget_s: f64::from(task_budget_s),
+        task_budget_s: f64::from(settings.task_budget_s),
+        sensors: settings.sensors,
         ..BrainConfig::new(body, speeds)
     }
 }

@@ -97,7 +97,7 @@ impl Core {
             if let Some(mut old) = self.mind.take() {
                 old.end_run(now_us, RunEnd::OtherRobot, &mut recorder(recording, outputs));
             }
-            let mut mind = Mind::new(description, self.config.seed, self.config.task_budget_s);
+            let mut mind = Mind::new(description, &self.config);
             let resume = self
                 .config
                 .resume
