@@ -191,6 +191,15 @@ pub(crate) fn rate_per_s(events: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
     Ok((events * 1000 + elapsed_ms / 2) / elapsed_ms)
 }
 
+/// A speed at this voltage of the pack as it is at the nominal one of twelve cells: motors turn in proportion.
+pub(crate) fn at_nominal(speed_mm_per_s: i64, pack_mv: i64) -> Result<i64, NoValue> {
+    const NOMINAL_MV: i64 = 14_400;
+    if pack_mv < NOMINAL_MV / 2 {
+        return Err(NoValue::Still("the converter sees no pack: is it plugged in?"));
+    }
+    Ok((speed_mm_per_s * NOMINAL_MV + pack_mv / 2) / pack_mv)
+}
+
 /// µV of a count when a pack of `pack_mv` gives this mean.
 pub(crate) fn scale_uv(pack_mv: i64, mean_milli: i64) -> Result<i64, NoValue> {
     if mean_milli < 1000 {
@@ -210,8 +219,8 @@ pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValu
 #[cfg(test)]
 mod tests {
     use super::{
-        NoValue, between, brightest, count_way_nm, current_scale_ua, follows, line_order, mean, mean_milli,
-        rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um, travelled,
+        NoValue, at_nominal, between, brightest, count_way_nm, current_scale_ua, follows, line_order, mean,
+        mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um, travelled,
     };
 
     #[test]
@@ -319,6 +328,8 @@ mod tests {
     fn a_way_in_a_time_is_a_speed() {
         assert_eq!(speed_mm_per_s(240_000_000, 500), Ok(480));
         assert!(speed_mm_per_s(240_000_000, 20).is_err());
+        assert_eq!(at_nominal(567, 17_000), Ok(480));
+        assert!(at_nominal(567, 0).is_err());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use rvac_protocol::message::{EncoderProbe, Motor, ProbeTarget, Probed, ProbedContent};
 use rvac_units::Throttle;
 
-use super::arithmetic::{current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled};
+use super::arithmetic::{at_nominal, current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled};
 use super::dialog::Dialog;
 use super::procedure::{Bench, READINGS, level};
 use crate::robot::Watch;
@@ -44,13 +44,25 @@ impl Bench<'_> {
         })
     }
 
-    /// Speed of the rims at full duty.
+    /// Speed of the rims at full duty and nominal voltage: a full pack turns them faster.
     pub(super) fn free_speed(&mut self) -> anyhow::Result<i64> {
         let way_nm = self.needed("wheel-count-way")?;
         let wheels = [Motor::WheelLeft, Motor::WheelRight];
         let counted = self.count(&wheels, 1000, Duration::from_millis(1_000))?;
         let way_nm = (counted.left.abs() + counted.right.abs()) * way_nm / 2;
-        Ok(speed_mm_per_s(way_nm, counted.elapsed_ms)?)
+        let found = speed_mm_per_s(way_nm, counted.elapsed_ms)?;
+        let pack_mv = self.pack_mv()?;
+        Dialog::say(&format!("  {found} mm/s with a pack of {pack_mv} mV"))?;
+        Ok(at_nominal(found, pack_mv)?)
+    }
+
+    /// Voltage of the pack, with the divider as far as it is known.
+    fn pack_mv(&mut self) -> anyhow::Result<i64> {
+        let assumed = self.catalog.find("battery-scale")?.assumed;
+        let scale = self.measured.get("battery-scale").or(assumed);
+        let scale_uv = scale.context("battery-scale must be measured first")?;
+        let readings = self.line("battery-voltage", READINGS)?;
+        Ok(mean_milli(&readings)? * scale_uv / 1_000_000)
     }
 
     /// The main brush is given more and more until it turns.
