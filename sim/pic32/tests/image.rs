@@ -1,0 +1,148 @@
+//! The SR8730's own image in the emulated chip: mistakes of the original project that only the whole program could repeat.
+//!
+//! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use home::{Home, Noise, RobotModel, World};
+use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Record};
+use pic32::image::Image;
+use pic32::machine::{Grounded, Halt, Machine};
+use pic32::pins::{Level, Pin};
+
+/// Lines that switch something on: wheels, main brush, side brushes, suction, charger, speaker.
+const ENABLES: [&str; 7] = ["RD0", "RD3", "RD1", "RA4", "RD5", "RD2", "RD13"];
+/// Lines that make the bridges of the wheels brake while they are high.
+const MODES: [&str; 2] = ["RE7", "RG6"];
+/// The link's transmit line.
+const TRANSMIT: &str = "RB7";
+/// The link's receive line.
+const RECEIVE: &str = "RC13";
+/// Vectors of the timers that run only while they are needed: half periods of the dock code, pulses of the charger.
+const ON_DEMAND: [u8; 2] = [4, 12];
+/// Vector of the timer that sends: it comes at changes of the level, at most ten in a byte, and once at its end.
+const SENDING: u8 = 16;
+const SENDINGS_A_BYTE: u64 = 11;
+/// Nine bits at the rate with which the robot begins, 230,400 baud, with a bit to spare: a longer low is a break.
+const LOW_CYCLES_MAX: u64 = 10 * 80_000_000 / 230_400;
+/// Vectors that come once in a millisecond: core timer and converter.
+const REGULAR: [u8; 2] = [0, 27];
+const CYCLES_PER_MS: u64 = 80_000;
+const ROOM: &str = "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]\n";
+
+/// The image, if it was built. Where it must be there, it is named.
+fn image() -> Option<Image> {
+    let named = std::env::var_os("RVAC_FIRMWARE").map(PathBuf::from);
+    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/firmware/sr8730.elf");
+    let path = named.clone().unwrap_or(built);
+    if named.is_none() && !path.is_file() {
+        println!("skipped: the firmware is not built (cargo xtask firmware sr8730 builds it)");
+        return None;
+    }
+    let bytes = std::fs::read(&path).expect("the firmware can be read");
+    Some(Image::from_elf(&bytes).expect("the firmware fits the chip"))
+}
+
+fn robot() -> Option<EmulatedRobot> {
+    let blueprint = Blueprint::sr8730(image()?, &Record::Complete).expect("the project's board is sound");
+    let model = RobotModel::by_name("sr8730").expect("it comes with the project");
+    let home = Arc::new(Home::from_floorplan("room", ROOM, &model).expect("a valid home"));
+    let world = World::new(home, &model, &Noise::nominal(), 1, None);
+    Some(EmulatedRobot::new(
+        &blueprint,
+        world,
+        &EmulatedSettings::default(),
+    ))
+}
+
+/// Gives the number of bytes that the host has heard.
+fn pass_ms(robot: &mut EmulatedRobot, ms: u64) -> u64 {
+    let mut bytes = Vec::new();
+    for _ in 0..ms {
+        robot.tick(&mut bytes);
+    }
+    bytes.len() as u64
+}
+
+fn pin(name: &str) -> Pin {
+    name.parse().expect("the pin exists")
+}
+
+/// The chip alone: nobody speaks to it, and its analog inputs are at ground.
+fn chip() -> Option<Machine> {
+    let mut machine = Machine::new(&image()?);
+    machine.set_input(pin(RECEIVE), Level::High);
+    machine.pull_up(pin(TRANSMIT));
+    Some(machine)
+}
+
+#[test]
+fn a_start_switches_nothing_on_and_sends_no_break() {
+    let Some(mut machine) = chip() else { return };
+    let watched = ENABLES.iter().chain(&MODES).chain([&TRANSMIT]);
+    watched.for_each(|name| machine.watch(pin(name)));
+    let end = 1_000 * CYCLES_PER_MS;
+    assert_eq!(machine.run_until(end, &mut Grounded), Halt::Reached);
+    for name in ENABLES {
+        assert_eq!(machine.take_edges(pin(name)), [], "{name}");
+    }
+    let said = machine.take_edges(pin(TRANSMIT));
+    assert!(said.len() > 100, "the robot says who it is: {} edges", said.len());
+    for pair in said.chunks_exact(2) {
+        assert_eq!((pair[0].1, pair[1].1), (Level::Low, Level::High));
+        let low = pair[1].0 - pair[0].0;
+        assert!(low < LOW_CYCLES_MAX, "low for {low} cycles at {}", pair[0].0);
+    }
+    for name in MODES {
+        let edges = machine.take_edges(pin(name));
+        let levels: Vec<Level> = edges.iter().map(|(_, level)| *level).collect();
+        assert_eq!(
+            levels,
+            [Level::High],
+            "{name}: from an input to braking, and no other level"
+        );
+        assert!(edges[0].0 < CYCLES_PER_MS, "{name} within the first millisecond");
+    }
+}
+
+#[test]
+fn the_program_uses_the_chip_as_it_is_meant() {
+    let Some(mut robot) = robot() else { return };
+    pass_ms(&mut robot, 1_500);
+    robot.world_mut().press_button(1);
+    pass_ms(&mut robot, 500);
+    // Among misuses are pins driven against what drives them, and analog samples of pins that are digital or outputs.
+    assert_eq!(robot.machine().misuses(), []);
+    assert_eq!(robot.machine().unknown_accesses(), []);
+    assert_eq!(robot.machine().exceptions(), []);
+    assert_eq!(robot.resets(), 0);
+}
+
+#[test]
+fn a_robot_at_rest_is_interrupted_by_what_it_needs_only() {
+    let Some(mut robot) = robot() else { return };
+    pass_ms(&mut robot, 1_500);
+    robot.machine_mut().restart_accounting();
+    let heard_bytes = pass_ms(&mut robot, 1_000);
+    let entries = |vector| {
+        let account = robot.machine().accounting().vector(vector);
+        account.map_or(0, |account| account.entries)
+    };
+    for vector in ON_DEMAND {
+        assert_eq!(entries(vector), 0, "vector {vector}");
+    }
+    // What was on its way at either end is not among the bytes that were heard.
+    let sent_bytes = heard_bytes + 64;
+    assert!(
+        entries(SENDING) <= SENDINGS_A_BYTE * sent_bytes,
+        "for {heard_bytes} bytes"
+    );
+    for vector in REGULAR {
+        let count = entries(vector);
+        assert!(
+            (999..=1_001).contains(&count),
+            "vector {vector}: {count} in a second"
+        );
+    }
+}
