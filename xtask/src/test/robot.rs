@@ -24,7 +24,8 @@ pub(super) fn of_firmware(_long: bool) -> Result {
     ];
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
-    let tested = FIRMWARE.map(|manifest| on_this_machine("test", manifest, &["--lib", "--no-fail-fast"]));
+    let tested =
+        FIRMWARE.map(|manifest| on_this_machine("test", manifest, &["--lib", "--tests", "--no-fail-fast"]));
     let lints = lints.into_iter().map(|mut command| check(&mut command));
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
     let builds = builds.into_iter().map(|mut command| check(&mut command));
