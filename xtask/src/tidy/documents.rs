@@ -1,6 +1,7 @@
 //! Links between documents, and names of code in documents.
 //!
-//! A document names code as `` `path/to/file.rs::name` ``: then the file must exist and define `name`.
+//! A document names code as `` `path/to/file.rs::name` ``: then the file must exist and define `name`, and a test that is named
+//! must run.
 
 use super::Finding;
 use super::files::Files;
@@ -17,6 +18,8 @@ pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
         for (file, name) in names(text) {
             if !defines(files, file, name) {
                 found.push(format!("{path}: {file} does not define {name}"));
+            } else if files.text(file).is_some_and(|text| is_ignored(text, name)) {
+                found.push(format!("{path}: the test {name} of {file} is ignored"));
             }
         }
     }
@@ -79,6 +82,20 @@ fn defines(files: &Files, file: &str, name: &str) -> bool {
     item || variant(text, name)
 }
 
+/// Whether the function has the attribute `ignore`.
+fn is_ignored(text: &str, name: &str) -> bool {
+    let head = format!("fn {name}(");
+    let above = text
+        .lines()
+        .rev()
+        .skip_while(|line| !line.contains(&head))
+        .skip(1);
+    above
+        .map(str::trim)
+        .take_while(|line| line.starts_with("#["))
+        .any(|line| line.starts_with("#[ignore"))
+}
+
 /// Whether a line is the variant of an enum or a field with this name.
 fn variant(text: &str, name: &str) -> bool {
     text.lines().map(str::trim).any(|line| {
@@ -91,7 +108,7 @@ fn variant(text: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{links, names, variant};
+    use super::{is_ignored, links, names, variant};
 
     #[test]
     fn links_inside_the_repository_are_found() {
@@ -106,6 +123,13 @@ mod tests {
             names(text).collect::<Vec<_>>(),
             [("brain/src/lib.rs", "Brain::step")]
         );
+    }
+
+    #[test]
+    fn tests_that_do_not_run_are_found() {
+        let text = "#[test]\n#[ignore = \"slow\"]\nfn slow() {}\n\n#[test]\nfn fast() {}\n";
+        assert!(is_ignored(text, "slow"));
+        assert!(!is_ignored(text, "fast") && !is_ignored(text, "absent"));
     }
 
     #[test]
