@@ -156,12 +156,16 @@ impl Brain {
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
             marks: map.marks.to_vec(),
+            home: Some(self.map.stored()).filter(|home| !home.is_empty()),
         }
     }
 
     /// Takes up a checkpoint in a new brain: the pose holds on from the next observation, a job that ran goes on by itself
     /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
+        if let Some(home) = &checkpoint.home {
+            self.map.take_up(home);
+        }
         self.localization.place_at(checkpoint.pose);
         self.localization.resume_backed(checkpoint.backed_m);
         self.mind.random = Random::from_state(checkpoint.random_state);

@@ -2,7 +2,7 @@
 
 use crate::behavior::{JobFigures, JobKind};
 use crate::geometry::Pose2;
-use crate::mapping::{Mark, PathPoint, SweptRun};
+use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
 
 /// State of a brain that can be taken up again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Checkpoint {
     pub path: Vec<PathPoint>,
     /// Contacts and cliffs met so far.
     pub marks: Vec<Mark>,
+    /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
+    pub home: Option<StoredMap>,
 }
 
 /// A job that ran or waited.

@@ -23,6 +23,8 @@ pub struct Config {
     pub expert: bool,
     /// Folder for checkpoints, logs and recordings.
     pub state: PathBuf,
+    /// Description of the robot, for the places of its sensors.
+    pub description: Option<PathBuf>,
     /// Strategy when a request names none.
     pub strategy: StrategyName,
     /// Longest job in minutes.
@@ -140,6 +142,7 @@ struct Socket {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Robot {
+    description: Option<PathBuf>,
     strategy: Option<Spanned<String>>,
     task_budget_min: Option<Spanned<u32>>,
     seed: Option<u64>,
@@ -273,6 +276,7 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
         clients_max: source.in_range(file.socket.clients_max, 128, 1..=1024)? as usize,
         expert: file.socket.expert.unwrap_or(false),
         state: state.ok_or(missing("state folder", "--state DIR", "state.dir"))?,
+        description: file.robot.description,
         strategy: strategy(file.robot.strategy, source)?,
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
         seed: flags.seed.or(file.robot.seed),
@@ -380,6 +384,7 @@ mod tests {
         let config = parse(&written_out).expect("valid");
         let mut defaults = parse("").expect("valid");
         defaults.seed = Some(1);
+        defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
         defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");
@@ -390,6 +395,7 @@ mod tests {
             "clients_max",
             "expert",
             "dir",
+            "description",
             "strategy",
             "task_budget_min",
             "seed",

@@ -18,6 +18,7 @@ mod instance;
 mod logging;
 mod outbox;
 pub mod recording;
+mod robot_file;
 mod rotation;
 mod serial;
 mod service;

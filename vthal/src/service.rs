@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
@@ -15,6 +16,7 @@ use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::instance::{self, InstanceError};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
+use crate::robot_file::{self, RobotFileError};
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
 use crate::{checkpoint_thread, imu, logging};
@@ -39,6 +41,9 @@ pub enum ServeError {
     /// The folder of recordings cannot be used.
     #[error("cannot use the folder of recordings: {0}; check that the state folder may be written")]
     Recordings(#[source] io::Error),
+    /// The description of the robot cannot be used.
+    #[error(transparent)]
+    Robot(#[from] RobotFileError),
     /// The system refuses something that a daemon needs.
     #[error("the system refuses to start the daemon: {0}")]
     System(#[from] io::Error),
@@ -63,7 +68,12 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let resume = BootTime::now()
         .ok()
         .and_then(|now| checkpoint_file::load(&checkpoint, &now));
+    let sensors = match &config.description {
+        Some(path) => robot_file::load(path)?,
+        None => SensorLayout::default(),
+    };
     let core_config = CoreConfig {
+        sensors,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
         expert: if config.expert {

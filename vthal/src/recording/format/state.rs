@@ -1,7 +1,7 @@
 //! The recorded form of a brain's state.
 
 use brain::geometry::{Point2, Pose2};
-use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
+use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
 use brain::{Checkpoint, JobCheckpoint, JobFigures, JobKind, StrategyName};
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,9 @@ pub struct BrainState {
     path_mm: Vec<(i32, i32)>,
     /// x, y and whether it was a contact.
     marks: Vec<(f64, f64, bool)>,
+    /// The bytes of the home's map, in hexadecimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    home: Option<String>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -66,6 +69,7 @@ impl From<&Checkpoint> for BrainState {
                 .iter()
                 .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
                 .collect(),
+            home: checkpoint.home.as_ref().map(|home| to_hex(&home.encode())),
         }
     }
 }
@@ -78,6 +82,10 @@ impl BrainState {
         let job = match &self.job {
             None => None,
             Some(job) => Some(job.to_brain()?),
+        };
+        let home = match &self.home {
+            None => None,
+            Some(text) => Some(StoredMap::decode(&from_hex(text)?).ok()?),
         };
         Some(Checkpoint {
             pose: Pose2 {
@@ -102,8 +110,28 @@ impl BrainState {
                 .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
                 .collect(),
             marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
+            home,
         })
     }
+}
+
+fn to_hex(bytes: &[u8]) -> String {
+    let digit = |value: u8| char::from_digit(value.into(), 16).unwrap_or_default();
+    bytes
+        .iter()
+        .flat_map(|byte| [digit(byte >> 4), digit(byte & 15)])
+        .collect()
+}
+
+fn from_hex(text: &str) -> Option<Vec<u8>> {
+    let value = |digit: u8| char::from(digit).to_digit(16);
+    let pairs = text.as_bytes().chunks(2);
+    pairs
+        .map(|pair| match *pair {
+            [high, low] => u8::try_from(16 * value(high)? + value(low)?).ok(),
+            _ => None,
+        })
+        .collect()
 }
 
 fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
@@ -153,5 +181,38 @@ impl JobState {
             figures,
             running: self.running,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::{Cell, CellKnowledge, Checkpoint, Pose2, Raster, StoredMap};
+
+    use super::{BrainState, from_hex, to_hex};
+
+    #[test]
+    fn the_home_comes_back_and_a_broken_one_is_not_taken_up() {
+        let mut knowledge = Raster::filled(Cell { x: -3, y: 8 }, 7, 4, CellKnowledge::Free);
+        knowledge.values_mut()[5] = CellKnowledge::Occupied;
+        let checkpoint = Checkpoint {
+            home: Some(StoredMap::from_raster(&knowledge, Some(Pose2::IDENTITY))),
+            ..Checkpoint::default()
+        };
+        let text = serde_json::to_string(&BrainState::from(&checkpoint)).expect("plain");
+        let back: BrainState = serde_json::from_str(&text).expect("just written");
+        assert_eq!(back.to_brain(), Some(checkpoint));
+        let mut broken = back;
+        broken.home = broken.home.map(|home| home.replacen("52", "53", 1));
+        assert_eq!(broken.to_brain(), None);
+    }
+
+    #[test]
+    fn hexadecimal_is_read_as_it_was_written_or_not_at_all() {
+        assert_eq!(
+            from_hex(&to_hex(&[0, 9, 0xAB, 0xFF])),
+            Some(vec![0, 9, 0xAB, 0xFF])
+        );
+        assert_eq!(from_hex("abc"), None);
+        assert_eq!(from_hex("0x"), None);
     }
 }

@@ -1,0 +1,190 @@
+//! The places of a robot's sensors, read from its description (`robots/*/robot.toml`). The wire tells only how many there
+//! are, and a figure of a robot is written once.
+
+use std::path::{Path, PathBuf};
+
+use brain::{BumperLayout, Point2, Pose2, ProximityLayout, ProximityResponse, SensorLayout};
+use serde::Deserialize;
+
+/// Why the sensors are not known.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotFileError {
+    /// The file cannot be read.
+    #[error("cannot read the description of the robot {}: {error}; check robot.description, or leave it out", .path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: std::io::Error,
+    },
+    /// The file is no description of a robot.
+    #[error("{} is no description of a robot: {error}", .path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        #[source]
+        error: Box<toml::de::Error>,
+    },
+}
+
+#[derive(Deserialize)]
+struct File {
+    body: Body,
+    bumper: Option<Bumper>,
+    cliffs: Option<Cliffs>,
+    proximity: Option<Proximity>,
+}
+
+#[derive(Deserialize)]
+struct Figure {
+    value: f64,
+}
+
+#[derive(Deserialize)]
+struct Figures {
+    values: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+struct Body {
+    radius: Figure,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Bumper {
+    half_arc: Figure,
+    overlap: Figure,
+}
+
+#[derive(Deserialize)]
+struct Cliffs {
+    x: Figures,
+    y: Figures,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Proximity {
+    headings: Figures,
+    mount_radius: Figure,
+    range: Figure,
+    half_angle: Figure,
+    half_level: Figure,
+}
+
+/// The sensors of the robot that `path` describes.
+///
+/// # Errors
+/// See [`RobotFileError`].
+pub fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
+    let text = std::fs::read_to_string(path).map_err(|error| RobotFileError::Unreadable {
+        path: path.to_owned(),
+        error,
+    })?;
+    let file: File = toml::from_str(&text).map_err(|error| RobotFileError::Invalid {
+        path: path.to_owned(),
+        error: Box::new(error),
+    })?;
+    Ok(layout(&file))
+}
+
+fn layout(file: &File) -> SensorLayout {
+    let nothing = SensorLayout::default();
+    SensorLayout {
+        proximity: file
+            .proximity
+            .as_ref()
+            .map_or(nothing.proximity, |part| proximity(part, file.body.radius.value)),
+        bumper: file.bumper.as_ref().map_or(nothing.bumper, |part| BumperLayout {
+            half_arc_rad: part.half_arc.value.to_radians(),
+            overlap_rad: part.overlap.value.to_radians(),
+        }),
+        cliffs: file.cliffs.as_ref().and_then(cliffs),
+    }
+}
+
+fn proximity(part: &Proximity, radius_m: f64) -> ProximityLayout {
+    let mount_m = part.mount_radius.value;
+    let poses: Vec<Pose2> = part
+        .headings
+        .values
+        .iter()
+        .map(|degrees| {
+            let outward = Pose2 {
+                heading_rad: degrees.to_radians(),
+                ..Pose2::IDENTITY
+            };
+            let place = outward.transform(Point2 {
+                x_m: mount_m,
+                y_m: 0.0,
+            });
+            Pose2 {
+                x_m: place.x_m,
+                y_m: place.y_m,
+                ..outward
+            }
+        })
+        .collect();
+    let response = ProximityResponse {
+        range_m: part.range.value,
+        half_angle_rad: part.half_angle.value.to_radians(),
+        half_level_m: part.half_level.value,
+        skin_m: radius_m - mount_m,
+    };
+    ProximityLayout::new(&poses, response)
+}
+
+/// Places of three cliff sensors; other numbers are not mapped.
+fn cliffs(part: &Cliffs) -> Option<[Point2; 3]> {
+    let places: Vec<Point2> = part
+        .x
+        .values
+        .iter()
+        .zip(&part.y.values)
+        .map(|(&x_m, &y_m)| Point2 { x_m, y_m })
+        .collect();
+    places.try_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::{RobotFileError, load};
+
+    fn robots() -> PathBuf {
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../robots")
+    }
+
+    #[test]
+    fn the_project_s_own_robot_is_understood() {
+        let layout = load(&robots().join("samsung-sr8730/robot.toml")).expect("a description");
+        let sensors = layout.proximity.sensors();
+        assert_eq!(sensors.len(), 7);
+        assert!(
+            sensors[0].y_m < -0.1 && sensors[0].x_m.abs() < 1e-9,
+            "the right one"
+        );
+        assert!(
+            sensors[3].x_m > 0.1 && sensors[3].heading_rad == 0.0,
+            "the front one"
+        );
+        assert!(layout.proximity.response.range_m > layout.proximity.response.skin_m);
+        assert!(layout.cliffs.is_some_and(|places| places[0].y_m > 0.0));
+    }
+
+    #[test]
+    fn what_is_no_description_is_named() {
+        assert!(matches!(
+            load(&robots().join("nobody.toml")),
+            Err(RobotFileError::Unreadable { .. })
+        ));
+        assert!(matches!(
+            load(&robots().join("samsung-sr8730/pinout.toml")),
+            Err(RobotFileError::Invalid { .. })
+        ));
+    }
+}
