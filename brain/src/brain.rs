@@ -68,7 +68,12 @@ impl Brain {
             .insert(&self.localization.estimate(), observation, advance);
         let pose = self.localization.pose();
         self.note_encounters(observation, pose);
-        let situation = Situation::new(observation, advance, &self.localization, &self.config);
+        let situation = Situation::new(
+            observation,
+            advance,
+            (&self.localization, &self.map),
+            &self.config,
+        );
         let intent = self.behavior.step(&situation, commands, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();

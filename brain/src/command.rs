@@ -41,17 +41,20 @@ pub enum StrategyName {
     /// `bounce`: drive until a bump, back off, turn by a random angle. What the software of 2016 did.
     #[default]
     Bounce,
+    /// `systematic`: lanes over a home whose map is known, with few turns.
+    Systematic,
 }
 
 impl StrategyName {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::Bounce];
+    pub const ALL: [Self; 2] = [Self::Bounce, Self::Systematic];
 
     /// The name people type.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Bounce => "bounce",
+            Self::Systematic => "systematic",
         }
     }
 

@@ -6,7 +6,8 @@ use crate::action::{Decision, Motion};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
 use crate::geometry::Pose2;
-use crate::localization::{Advance, Localization};
+use crate::localization::{Advance, Localization, PoseEstimate};
+use crate::mapping::Map;
 use crate::observation::Observation;
 use crate::random::Random;
 
@@ -18,6 +19,10 @@ pub(crate) struct Situation<'step> {
     pub(crate) advance: Advance,
     /// Pose in the map.
     pub(crate) pose: Pose2,
+    /// The pose again, and how sure it is.
+    pub(crate) estimate: PoseEstimate,
+    /// What is known of the home.
+    pub(crate) map: &'step Map,
     /// Way for which backing may still be commanded, in metres.
     pub(crate) way_back_m: f64,
     pub(crate) config: &'step BrainConfig,
@@ -31,13 +36,15 @@ impl<'step> Situation<'step> {
     pub(crate) fn new(
         observation: &'step Observation,
         advance: Advance,
-        localization: &Localization,
+        (localization, map): (&Localization, &'step Map),
         config: &'step BrainConfig,
     ) -> Self {
         Self {
             observation,
             advance,
             pose: localization.pose(),
+            estimate: localization.estimate(),
+            map,
             way_back_m: localization.way_back_m(),
             config,
             touching: observation.is_touching(),

@@ -79,6 +79,12 @@ reasons! {
     BoxedIn => "boxed-in",
     /// A straight run without an encounter for longer than any home is.
     LongRun => "long-run",
+    /// Floor that was not swept yet.
+    UnsweptFloor => "unswept-floor",
+    /// Too far from the planned way.
+    OffTheWay => "off-the-way",
+    /// What is not swept yet cannot be reached.
+    RestOutOfReach => "rest-out-of-reach",
     /// Too many things in the way.
     Obstructed => "obstructed",
     /// Commanded to move and did not (S15).

@@ -2,8 +2,10 @@
 
 mod bounce;
 pub mod plan;
+mod systematic;
 
 pub(crate) use bounce::Bounce;
+use systematic::Systematic;
 
 use crate::command::StrategyName;
 use crate::task::Task;
@@ -12,5 +14,6 @@ use crate::task::Task;
 pub(crate) fn strategy(name: StrategyName) -> Box<dyn Task> {
     match name {
         StrategyName::Bounce => Box::new(Bounce::default()),
+        StrategyName::Systematic => Box::new(Systematic::default()),
     }
 }

@@ -29,7 +29,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn new(reachable: &Raster<bool>, reach: usize, swept: impl Fn(Cell) -> bool) -> Self {
+    pub(super) fn new(reachable: &Raster<bool>, reach: usize) -> Self {
         let margin = reach + 2;
         let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
         let mut ground = Self {
@@ -51,12 +51,19 @@ impl Ground {
                 target.copy_from_slice(values);
             }
         }
-        ground.open_floor(swept);
+        ground.open_floor();
         ground
     }
 
-    /// Opens all floor within reach of free cells that was not swept.
-    fn open_floor(&mut self, swept: impl Fn(Cell) -> bool) {
+    /// Closes what was swept before.
+    pub(super) fn close(&mut self, swept: impl Fn(Cell) -> bool) {
+        for index in 0..self.open.len() {
+            self.open[index] = self.open[index] && !swept(self.cell(index));
+        }
+    }
+
+    /// Opens all floor within reach of free cells.
+    fn open_floor(&mut self) {
         let disc = self.disc();
         for index in 0..self.free.len() {
             if !self.free[index] {
@@ -75,9 +82,6 @@ impl Ground {
                 let centre = self.shifted(index, *row);
                 self.open[centre - half..=centre + half].fill(true);
             }
-        }
-        for index in 0..self.open.len() {
-            self.open[index] = self.open[index] && !swept(self.cell(index));
         }
     }
 
@@ -158,11 +162,8 @@ impl Ground {
             return;
         }
         self.free = reached;
-        let was_open = core::mem::replace(&mut self.open, vec![false; self.free.len()]);
-        self.open_floor(|_| false);
-        for (open, was) in self.open.iter_mut().zip(was_open) {
-            *open &= was;
-        }
+        self.open.fill(false);
+        self.open_floor();
     }
 
     /// Whether the straight way between two points leads over free cells only.

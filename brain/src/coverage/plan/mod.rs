@@ -45,12 +45,26 @@ pub struct CoveragePlan {
     pub pieces: Vec<Piece>,
     /// Lanes in it.
     pub lanes: usize,
-    /// Floor that the ground offers to the swath, in square metres, without what was swept before.
+    /// Floor that the ground offers to the swath, in square metres.
+    pub floor_m2: f64,
+    /// What of it is not swept yet, in square metres.
     pub open_m2: f64,
-    /// Share of it that lanes sweep, 0..=1.
-    pub covered: f64,
+    /// What of it will not be swept after the plan either, in square metres.
+    pub left_m2: f64,
     /// Expected time in seconds.
     pub time_s: f64,
+}
+
+impl CoveragePlan {
+    /// Share of the floor that is swept already, 0..=1.
+    #[must_use]
+    pub fn share_passed(&self) -> f64 {
+        if self.floor_m2 > 0.0 {
+            1.0 - self.open_m2 / self.floor_m2
+        } else {
+            1.0
+        }
+    }
 }
 
 /// Plans a way over `reachable` (cells that the middle of the body can take) that sweeps what `swept` has not seen yet,
@@ -63,11 +77,13 @@ pub fn plan_coverage(
     settings: &PlanSettings,
 ) -> CoveragePlan {
     let reach = reach_cells(settings);
-    let mut ground = Ground::new(reachable, reach, swept);
+    let mut ground = Ground::new(reachable, reach);
     let Some(origin) = ground.nearest_free(start.position()) else {
         return CoveragePlan::default();
     };
     ground.keep_connected(origin);
+    let floor = ground.open_count();
+    ground.close(swept);
     let open = ground.open_count();
     let mut picker = Picker::new(&mut ground, settings);
     let rounds = picker.rounds();
@@ -83,13 +99,14 @@ pub fn plan_coverage(
         corners,
         pieces,
         lanes: rounds.iter().map(Vec::len).sum(),
+        floor_m2: floor as f64 * CELL_M * CELL_M,
         open_m2: open as f64 * CELL_M * CELL_M,
-        covered: 1.0 - ground.open_count() as f64 / open.max(1) as f64,
+        left_m2: ground.open_count() as f64 * CELL_M * CELL_M,
     }
 }
 
 /// Cells to either side of a lane's own that it counts as swept.
-fn reach_cells(settings: &PlanSettings) -> usize {
+pub(crate) fn reach_cells(settings: &PlanSettings) -> usize {
     let half_m = 0.5 * settings.swath_m - settings.sigma_m;
     (libm::floor(half_m / CELL_M - 0.25).clamp(1.0, 40.0)) as usize
 }

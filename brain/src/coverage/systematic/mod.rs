@@ -1,0 +1,194 @@
+//! `systematic`: lanes over the whole known home, few turns, then what was left over.
+//!
+//! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
+//! lost, and when the plan is at its end. It is done when nothing is left that is worth the way, or when three plans in a
+//! row brought nothing. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
+//! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
+
+mod obstructions;
+mod passed;
+mod reachable;
+
+use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
+use crate::behavior::Reason;
+use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
+use crate::mapping::Raster;
+use crate::task::{Mind, Plan, Situation, Task};
+use obstructions::Obstructions;
+use passed::Passed;
+use reachable::reachable;
+
+/// Gap between body and known obstacles on planned ways, metres.
+const KEEP_OFF_M: f64 = 0.01;
+/// Lanes overlap by twice this at least, whatever the estimate says of itself.
+const SIGMA_MIN_M: f64 = 0.01;
+/// More overlap does not pay: leftovers are cheaper.
+const SIGMA_MAX_M: f64 = 0.03;
+/// Way back after a contact: far enough to turn.
+const CONTACT_BACK_M: f64 = 0.03;
+/// Way back at a cliff.
+const CLIFF_BACK_M: f64 = 0.08;
+/// A plan that swept less than this brought nothing, square metres.
+const NOTHING_M2: f64 = 0.02;
+/// Plans in a row that brought nothing until the rest is called out of reach.
+const VAIN_PLANS_MAX: u32 = 6;
+/// Proximity level ahead that means contact within a few centimetres.
+const NEAR_LEVEL: f32 = 0.6;
+/// Speed towards something near: a soft contact.
+const NEAR_M_PER_S: f64 = 0.1;
+/// Proximity level at a side that means the body nearly touches.
+const BESIDE_LEVEL: f32 = 0.85;
+/// How far the robot evades what nearly touches its side.
+const ASIDE_M: f64 = 0.02;
+
+/// The strategy.
+#[derive(Debug, Default)]
+pub(crate) struct Systematic {
+    follower: Option<Follower>,
+    evasion: Option<Evasion>,
+    passed: Option<Passed>,
+    obstructions: Obstructions,
+    vain_plans: u32,
+    open_before_m2: f64,
+}
+
+impl Task for Systematic {
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if let Some(passed) = &mut self.passed {
+            passed.follow(situation.pose.position());
+        }
+        if let Some(evasion) = &mut self.evasion {
+            match evasion.step(situation) {
+                EvasionStep::Going(motion) => return Plan::Go(motion),
+                EvasionStep::Free => self.evasion = None,
+                EvasionStep::Held(reason) => {
+                    self.interrupted();
+                    return Plan::Trouble(reason);
+                }
+            }
+        }
+        if let Some(reason) = encounter(situation) {
+            return self.evade(reason, situation, mind);
+        }
+        self.drive(situation, mind)
+    }
+
+    fn interrupted(&mut self) {
+        self.evasion = None;
+        self.follower = None;
+    }
+}
+
+impl Systematic {
+    /// Backs off from what was met, and remembers it.
+    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        mind.decide("back-off", reason, 0.0);
+        self.obstructions.add(reason, situation);
+        self.follower = None;
+        self.evasion = Some(if situation.at_cliff {
+            Evasion::from_cliff(CLIFF_BACK_M, 0.0)
+        } else {
+            Evasion::from_contact(CONTACT_BACK_M, 0.0)
+        });
+        Plan::Go(crate::action::Motion::Halt)
+    }
+
+    fn drive(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        // A way that ended is followed by a new plan in the same step; a plan that is at its end at once is vain.
+        for _ in 0..=VAIN_PLANS_MAX {
+            let Some(follower) = &mut self.follower else {
+                if let Some(reason) = self.make_plan(situation, mind) {
+                    return Plan::Finished(reason);
+                }
+                continue;
+            };
+            match follower.step(situation, caution(situation, follower)) {
+                FollowStep::Going(motion) => return Plan::Go(motion),
+                FollowStep::Off => mind.decide("plan", Reason::OffTheWay, 0.0),
+                FollowStep::Arrived => {}
+            }
+            self.follower = None;
+        }
+        Plan::Finished(Reason::RestOutOfReach)
+    }
+
+    /// Makes a plan for what is left; gives the reason to end if there is nothing.
+    fn make_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Reason> {
+        let knowledge = situation.map.knowledge();
+        let radius_m = situation.config.body.radius_m + KEEP_OFF_M;
+        let settings = settings(situation);
+        let blocked = self.obstructions.points(situation.observation.time_us);
+        let ground = reachable(knowledge, radius_m, &blocked);
+        let plan = self.plan_over(&ground, situation, &settings);
+        mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
+        let won_m2 = self.open_before_m2 - plan.open_m2;
+        self.vain_plans = if won_m2.abs() < NOTHING_M2 {
+            self.vain_plans + 1
+        } else {
+            0
+        };
+        self.open_before_m2 = plan.open_m2;
+        if plan.lanes == 0 || self.vain_plans > VAIN_PLANS_MAX {
+            mind.decide("covered", Reason::Finished, plan.share_passed());
+            return Some(if plan.lanes == 0 {
+                Reason::Finished
+            } else {
+                Reason::RestOutOfReach
+            });
+        }
+        self.follower = Some(Follower::new(plan.pieces));
+        None
+    }
+
+    fn plan_over(
+        &mut self,
+        ground: &Raster<bool>,
+        situation: &Situation<'_>,
+        settings: &PlanSettings,
+    ) -> CoveragePlan {
+        let passed = self
+            .passed
+            .get_or_insert_with(|| Passed::new(ground, reach_cells(settings)));
+        passed.cover(ground);
+        plan_coverage(ground, |cell| passed.contains(cell), situation.pose, settings)
+    }
+}
+
+fn settings(situation: &Situation<'_>) -> PlanSettings {
+    PlanSettings {
+        swath_m: situation.config.body.swath_m,
+        sigma_m: situation.estimate.sigma_m.clamp(SIGMA_MIN_M, SIGMA_MAX_M),
+        cruise_m_per_s: situation.config.speeds.cruise_m_per_s,
+        turn_rad_per_s: situation.config.speeds.turn_max_rad_per_s,
+    }
+}
+
+fn encounter(situation: &Situation<'_>) -> Option<Reason> {
+    if situation.at_cliff {
+        Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))
+    } else if situation.touching {
+        Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
+    } else {
+        None
+    }
+}
+
+/// What the infrared sensors advise. They are ordered from the right side counter-clockwise.
+fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
+    let proximity = &situation.observation.proximity;
+    let third = proximity.len() / 3;
+    let highest = |levels: &[f32]| levels.iter().copied().fold(0.0, f32::max);
+    let part = |range: core::ops::Range<usize>| highest(proximity.get(range).unwrap_or_default());
+    let (right, left) = (part(0..third), part(proximity.len() - third..proximity.len()));
+    let ahead = part(third..proximity.len() - third);
+    let offset_m = match (left > BESIDE_LEVEL, right > BESIDE_LEVEL) {
+        (true, false) => -ASIDE_M,
+        (false, true) => ASIDE_M,
+        _ => 0.0,
+    };
+    let slow = ahead > NEAR_LEVEL && !follower.turns_on_spot();
+    Caution {
+        speed_m_per_s: if slow { NEAR_M_PER_S } else { f64::INFINITY },
+        offset_m,
+    }
+}

@@ -1,0 +1,249 @@
+//! Following a way of arcs, straights and turns on the spot by the pose in the map.
+//!
+//! Terms. *Piece*: see [`Piece`]. *Offset*: distance of the robot from the piece it follows, left positive.
+
+use crate::action::Motion;
+use crate::coverage::plan::Piece;
+use crate::geometry::{Pose2, normalize_rad};
+use crate::task::Situation;
+
+/// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.5 m
+/// at cruise speed, without swinging.
+const HEADING_GAIN_PER_S: f64 = 2.5;
+/// Steering for an offset, rad/s for each metre of offset and m/s of speed.
+const OFFSET_GAIN: f64 = 20.0;
+/// Steering below this is not worth it; a straight way then is really straight, which the rest for the gyro needs.
+const STEER_MIN_RAD_PER_S: f64 = 0.03;
+/// Brakes and accelerates like this: less than the 0.5 m/s2 of the firmware, so that it can follow.
+const BRAKE_M_PER_S2: f64 = 0.4;
+/// Commands take this long to show in the wheels: arcs are entered as much earlier.
+const LAG_S: f64 = 0.15;
+/// Slowest speed that is still a speed for a motor with a dead band.
+const CREEP_M_PER_S: f64 = 0.05;
+/// Turn rate asked for each radian that is left of a turn on the spot.
+const TURN_GAIN_PER_S: f64 = 4.0;
+/// Slowest turn that is still a turn.
+const TURN_MIN_RAD_PER_S: f64 = 0.4;
+/// A turn on the spot is made when less than this is left; steering does the rest.
+const TURN_DONE_RAD: f64 = 0.06;
+/// Share of the highest turn rate that arcs use: the rest is for steering.
+const ARC_SHARE: f64 = 0.9;
+/// Farther from the way than this the robot does not follow it any more.
+const LOST_M: f64 = 0.25;
+/// As `LOST_M`, for the heading.
+const LOST_RAD: f64 = 1.2;
+
+/// A way that is being driven.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Follower {
+    pieces: Vec<Piece>,
+    current: usize,
+    /// Turn on the spot: what is left of it, once it has begun.
+    turn_left_rad: Option<f64>,
+}
+
+/// State of a way after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FollowStep {
+    /// On it.
+    Going(Motion),
+    /// At its end.
+    Arrived,
+    /// Too far from it.
+    Off,
+}
+
+/// What surroundings allow at this moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Caution {
+    /// Fastest speed.
+    pub(crate) speed_m_per_s: f64,
+    /// Keep this much to the left of the way (negative: to the right).
+    pub(crate) offset_m: f64,
+}
+
+/// Where the robot is on a piece.
+struct Fix {
+    /// Way made on the piece.
+    along_m: f64,
+    offset_m: f64,
+    /// Heading beyond that of the way.
+    heading_rad: f64,
+}
+
+impl Follower {
+    pub(crate) fn new(pieces: Vec<Piece>) -> Self {
+        Self {
+            pieces,
+            current: 0,
+            turn_left_rad: None,
+        }
+    }
+
+    /// Whether a turn on the spot is being made.
+    pub(crate) fn turns_on_spot(&self) -> bool {
+        self.pieces.get(self.current).is_some_and(is_turn)
+    }
+
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, caution: Caution) -> FollowStep {
+        while let Some(piece) = self.pieces.get(self.current).copied() {
+            if is_turn(&piece) {
+                if let Some(motion) = self.turn(&piece, situation) {
+                    return FollowStep::Going(motion);
+                }
+            } else {
+                let fix = Fix::on(&piece, situation.pose);
+                if fix.along_m < piece.length_m - 0.5 * LAG_S * situation.config.speeds.cruise_m_per_s {
+                    return self.drive(&piece, &fix, (situation, caution));
+                }
+            }
+            self.current += 1;
+            self.turn_left_rad = None;
+        }
+        FollowStep::Arrived
+    }
+
+    /// The motion of a turn on the spot; `None` when it is made.
+    fn turn(&mut self, piece: &Piece, situation: &Situation<'_>) -> Option<Motion> {
+        let target_rad = piece.start.heading_rad + piece.turn_rad;
+        let error_rad = normalize_rad(target_rad - situation.pose.heading_rad);
+        // A half turn keeps the side on which it began.
+        let left_rad = match self.turn_left_rad {
+            Some(before_rad) if error_rad.abs() > 2.0 => error_rad.abs().copysign(before_rad),
+            Some(_) => error_rad,
+            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(piece.turn_rad),
+            None => error_rad,
+        };
+        self.turn_left_rad = Some(left_rad);
+        if left_rad.abs() < TURN_DONE_RAD {
+            return None;
+        }
+        let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
+        let rate = (TURN_GAIN_PER_S * left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
+        Some(Motion::Drive {
+            speed_m_per_s: 0.0,
+            turn_rad_per_s: rate.copysign(left_rad),
+        })
+    }
+
+    fn drive(&self, piece: &Piece, fix: &Fix, (situation, caution): (&Situation<'_>, Caution)) -> FollowStep {
+        if fix.offset_m.abs() > LOST_M || fix.heading_rad.abs() > LOST_RAD {
+            return FollowStep::Off;
+        }
+        let turn_max = situation.config.speeds.turn_max_rad_per_s;
+        let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
+        let left_m = piece.length_m - fix.along_m;
+        let speed_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
+            .min(self.braked(left_m, cruise_m_per_s, turn_max))
+            .min(caution.speed_m_per_s)
+            .max(CREEP_M_PER_S);
+        let curvature = self.curvature_ahead(piece, left_m, LAG_S * speed_m_per_s);
+        let offset_m = fix.offset_m - caution.offset_m;
+        let steer = -HEADING_GAIN_PER_S * fix.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
+        let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
+            0.0
+        } else {
+            steer
+        };
+        // A robot that looks elsewhere first turns.
+        let speed_m_per_s = speed_m_per_s * libm::cos(fix.heading_rad).max(0.2);
+        FollowStep::Going(Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: (speed_m_per_s * curvature + steer).clamp(-turn_max, turn_max),
+        })
+    }
+
+    /// The speed from which it can brake for what comes after this piece.
+    fn braked(&self, left_m: f64, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+        let after_m_per_s = match self.pieces.get(self.current + 1) {
+            Some(next) if !is_turn(next) => piece_speed(next, cruise_m_per_s, turn_max),
+            _ => 0.0,
+        };
+        libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
+    }
+
+    /// Curvature of the way a little ahead.
+    fn curvature_ahead(&self, piece: &Piece, left_m: f64, ahead_m: f64) -> f64 {
+        let there = if ahead_m < left_m {
+            Some(piece)
+        } else {
+            self.pieces.get(self.current + 1).filter(|next| !is_turn(next))
+        };
+        there.map_or(0.0, curvature)
+    }
+}
+
+fn is_turn(piece: &Piece) -> bool {
+    piece.length_m <= 0.0
+}
+
+fn curvature(piece: &Piece) -> f64 {
+    piece.turn_rad / piece.length_m
+}
+
+fn piece_speed(piece: &Piece, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+    if piece.turn_rad == 0.0 {
+        cruise_m_per_s
+    } else {
+        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(piece).abs())
+    }
+}
+
+impl Fix {
+    fn on(piece: &Piece, pose: Pose2) -> Self {
+        let local = piece.start.inverse() * pose;
+        if piece.turn_rad == 0.0 {
+            return Self {
+                along_m: local.x_m,
+                offset_m: local.y_m,
+                heading_rad: local.heading_rad,
+            };
+        }
+        // Seen from the middle of the arc, with the start below it for a left turn and above it for a right one.
+        let radius_m = piece.length_m / piece.turn_rad;
+        let (x_m, y_m) = (local.x_m, local.y_m - radius_m);
+        let side = radius_m.signum();
+        let angle_rad = libm::atan2(x_m, -y_m * side);
+        Self {
+            along_m: angle_rad * radius_m.abs(),
+            offset_m: side * (radius_m.abs() - libm::sqrt(x_m * x_m + y_m * y_m)),
+            heading_rad: normalize_rad(local.heading_rad - angle_rad * side),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fix, Piece};
+    use crate::geometry::Pose2;
+
+    #[test]
+    fn a_robot_on_an_arc_has_no_offset_and_one_inside_of_it_has() {
+        for turn_rad in [1.2, -1.2] {
+            let start = Pose2 {
+                x_m: 0.3,
+                y_m: -0.1,
+                heading_rad: 0.7,
+            };
+            let piece = Piece {
+                start,
+                length_m: 0.3,
+                turn_rad,
+            };
+            let there = piece.at(0.5);
+            let fix = Fix::on(&piece, there);
+            assert!((fix.along_m - 0.15).abs() < 1e-9 && fix.offset_m.abs() < 1e-9);
+            assert!(fix.heading_rad.abs() < 1e-9);
+            let left = there.transform(crate::geometry::Point2 { x_m: 0.0, y_m: 0.02 });
+            let fix = Fix::on(
+                &piece,
+                Pose2 {
+                    x_m: left.x_m,
+                    y_m: left.y_m,
+                    ..there
+                },
+            );
+            assert!((fix.offset_m - 0.02).abs() < 1e-9, "{}", fix.offset_m);
+        }
+    }
+}
