@@ -119,6 +119,9 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, Box<dyn Err
     if options.file.is_empty() {
         return Err("which file? run FILE.elf [--ms N] [--watch PINS] [--vcd FILE] [--set PIN=0|1]".into());
     }
+    if options.vcd.is_some() && options.watched.is_empty() {
+        return Err("--vcd wants to know of which pins: --watch RD0,RB7".into());
+    }
     Ok(options)
 }
 
@@ -135,7 +138,9 @@ fn run(machine: &mut Machine, options: &mut Options) -> Result<Vec<(Pin, usize)>
     for &pin in &options.watched {
         machine.watch(pin);
     }
-    let mut edges: Vec<(Pin, usize)> = options.watched.iter().map(|&pin| (pin, 0)).collect();
+    // With a dump the edges go into its file, and nobody counts them.
+    let counted: &[Pin] = if vcd.is_none() { &options.watched } else { &[] };
+    let mut edges: Vec<(Pin, usize)> = counted.iter().map(|&pin| (pin, 0)).collect();
     let rate = LineRate { baud: 115_200 };
     let begin = options.ms / 10 * CYCLES_PER_MS;
     for (uart, text) in [Uart::One, Uart::Two].into_iter().zip(&options.characters) {
