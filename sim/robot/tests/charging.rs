@@ -91,6 +91,19 @@ fn a_sample_of_charges_over_packs_weather_and_trouble() {
 }
 
 #[test]
+fn a_thermistor_that_freezes_before_the_pack_warms_up_is_found_in_time() {
+    // A worn pack that was full when only the drop of its voltage could still end the charge.
+    let mut tally = Tally::default();
+    tally.add(&Trial::Everything.run(1_439), false);
+    assert_eq!(
+        tally.ends.keys().copied().collect::<Vec<_>>(),
+        ["thermistor-frozen"]
+    );
+    assert_eq!((tally.too_hot, tally.violations), (0, 0));
+    assert!(tally.hottest.0 < 45.0, "{}", tally.hottest.0);
+}
+
+#[test]
 fn no_stop_alone_lets_a_cell_reach_55_degrees_or_a_charge_go_on_for_ever() {
     let stops = [
         ChargeEnd::Slope,

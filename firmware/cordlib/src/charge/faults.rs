@@ -7,6 +7,7 @@ use crate::board::ThermistorFault;
 use super::controller::{ChargeContext, ChargeController};
 use super::guard::AGE_MAX_MS;
 use super::meter::{Beats, Means, Window};
+use super::stillness::Stillness;
 use super::stops::Stops;
 
 const TOO_HOT_CC: i32 = 5_500;
@@ -29,8 +30,6 @@ const NO_CURRENT_TRIES: u8 = 3;
 const NO_CURRENT_PAUSE_MS: u32 = 300_000;
 const ADAPTER_MAX_MV: i32 = 30_000;
 const THERMISTOR_MS: u32 = 1_000;
-/// Three quarters of an hour of full current without the least change of a single average: no sensor is that quiet.
-const FROZEN_MS: u32 = 2_700_000;
 /// No battery: the voltage shoots up in the first half minute.
 const ABSENT_MS: u32 = 30_000;
 /// Interruptions by the contacts; one is forgiven each minute.
@@ -44,8 +43,7 @@ pub(super) struct FaultWatch {
     leak_ms: u32,
     no_current_ms: u32,
     no_current_tries: u8,
-    frozen_ms: u32,
-    frozen_cc: Option<i32>,
+    stillness: Stillness,
     /// Averages of the last second and of the one before: a jump in the middle of a second is shared by two.
     seconds_mv: [Option<i32>; 2],
     supplied: bool,
@@ -134,9 +132,13 @@ impl<S: Stops> ChargeController<S> {
         if at_work && self.watch.interruptions > INTERRUPTIONS_MAX {
             return Some(ChargeFault::Contact);
         }
-        let still = self.is_at_full_rate() && means.temperature_cc == self.watch.frozen_cc;
-        self.watch.frozen_cc = means.temperature_cc;
-        if lasts(&mut self.watch.frozen_ms, still, means.elapsed_ms, FROZEN_MS) {
+        if !self.is_at_full_rate() {
+            self.watch.stillness.pause();
+        } else if self
+            .watch
+            .stillness
+            .is_frozen(means.temperature_cc, means.elapsed_ms)
+        {
             return Some(ChargeFault::ThermistorFrozen);
         }
         let thermistor = self.thermometer.fault_for(THERMISTOR_MS).filter(|_| at_work);

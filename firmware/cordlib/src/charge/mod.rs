@@ -18,6 +18,7 @@ mod meter;
 mod phases;
 mod regulate;
 mod scale;
+mod stillness;
 mod stops;
 mod thermometer;
 mod zero;
