@@ -20,11 +20,14 @@ pub struct Home {
     start: Pose,
     reachable: Vec<bool>,
     reachable_cells: u32,
+    connected_share: f64,
     t0_s: f64,
     pub(crate) solid: DistanceField,
     pub(crate) cliffs: Option<DistanceField>,
     pub(crate) surfaces: SurfaceMap,
     pub(crate) doors: Vec<Door>,
+    /// For each cell whether it belongs to a mirror; empty where there is none.
+    pub(crate) mirrors: Vec<bool>,
 }
 
 impl Home {
@@ -55,7 +58,7 @@ impl Home {
                 path: path.to_owned(),
             });
         }
-        let widest = with_doors_open(&draft);
+        let widest = without_black(&draft, with_doors_open(&draft));
         let blocked = blocked_field(&widest);
         let regions = Regions::new(&widest, &blocked, model.body.radius_m);
         let search = Search {
@@ -73,13 +76,15 @@ impl Home {
             name: draft.name,
             file_from_plan: draft.file_from_plan,
             dock: place.dock,
-            start: place.start,
+            start: draft.start.unwrap_or(place.start),
+            connected_share: regions.share(place.region),
             reachable,
             reachable_cells,
             t0_s: area_m2 / (model.body.swath_m * model.drive.cruise_m_per_s),
             solid: solid_field(&draft.grid),
             cliffs: cliff_field(&draft.grid),
             surfaces: draft.surfaces,
+            mirrors: draft.mirrors,
             doors: draft.doors,
             grid: draft.grid,
         })
@@ -158,6 +163,12 @@ impl Home {
         self.t0_s
     }
 
+    /// Share of all floor where the body fits that it can reach from the start, 0..1.
+    #[must_use]
+    pub const fn connected_share(&self) -> f64 {
+        self.connected_share
+    }
+
     /// Distance in metres from a place to the nearest solid thing; negative inside of one.
     #[must_use]
     pub fn clearance_m(&self, x_m: f64, y_m: f64) -> f64 {
@@ -177,6 +188,18 @@ fn with_doors_open(draft: &Draft) -> Grid {
     let mut grid = draft.grid.clone();
     for door in draft.doors.iter().filter(|door| door.ever_open()) {
         set_door(&mut grid, door, true);
+    }
+    grid
+}
+
+/// The same plan with drops where a robot with cliff sensors sees drops: on black rugs.
+fn without_black(draft: &Draft, mut grid: Grid) -> Grid {
+    if draft.surfaces.has_black() {
+        for (index, cell) in grid.cells.iter_mut().enumerate() {
+            if cell.is_floor() && draft.surfaces.at(index).black {
+                *cell = Cell::Cliff;
+            }
+        }
     }
     grid
 }

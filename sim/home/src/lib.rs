@@ -5,11 +5,14 @@
 //! what the firmware can read ([`Sensors`]) beside what is really so ([`Truth`]). There is no clock, no global state and no
 //! randomness except the seed: the same calls give the same bits.
 //!
-//! What it does not do: three dimensions, pushed furniture, people and animals, sound.
+//! [`generate`] draws homes from numbers.
+//!
+//! What it does not do: three dimensions, pushed furniture, sound. People and pets stand still until they leave.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 mod digest;
+pub mod generate;
 mod home;
 mod load;
 mod model;

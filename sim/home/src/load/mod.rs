@@ -24,6 +24,10 @@ pub(crate) struct Draft {
     pub(crate) dock: DockWish,
     pub(crate) surfaces: SurfaceMap,
     pub(crate) doors: Vec<Door>,
+    /// For each cell whether it belongs to a mirror; empty where there is none.
+    pub(crate) mirrors: Vec<bool>,
+    /// Where the robot starts, if not where it usually does.
+    pub(crate) start: Option<Pose>,
 }
 
 /// What a file tells about the dock, in the plan frame.

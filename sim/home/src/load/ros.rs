@@ -65,6 +65,8 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         dock: DockWish::Anywhere,
         surfaces: SurfaceMap::hard(),
         doors: Vec::new(),
+        mirrors: Vec::new(),
+        start: None,
     })
 }
 

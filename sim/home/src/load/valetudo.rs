@@ -57,6 +57,7 @@ const PIXEL_MAX: u32 = 100_000;
 
 /// A rug as the surface that lidar robots report without telling how deep it is.
 const CARPET: Surface = Surface {
+    black: false,
     drag_n: 1.0,
     slip: 0.02,
     bias_rad_per_m: 0.005,
@@ -97,6 +98,8 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         dock,
         surfaces,
         doors: Vec::new(),
+        mirrors: Vec::new(),
+        start: None,
     })
 }
 

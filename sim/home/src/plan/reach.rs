@@ -57,6 +57,17 @@ impl Regions {
         Some(position as u32 + 1)
     }
 
+    /// Share of all places where the body fits that belong to this region.
+    pub(crate) fn share(&self, region: u32) -> f64 {
+        let all: u32 = self.sizes.iter().sum();
+        let index = (region as usize).checked_sub(1);
+        let own = index
+            .and_then(|index| self.sizes.get(index))
+            .copied()
+            .unwrap_or(0);
+        f64::from(own) / f64::from(all.max(1))
+    }
+
     /// Region of a cell, 0 = the body does not fit there.
     pub(crate) fn label(&self, index: usize) -> u32 {
         self.labels.get(index).copied().unwrap_or(0)

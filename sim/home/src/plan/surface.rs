@@ -9,6 +9,8 @@ pub(crate) struct Surface {
     pub(crate) slip: f64,
     /// Heading that the nap adds, radians per metre of way.
     pub(crate) bias_rad_per_m: f64,
+    /// So dark that a cliff sensor sees no floor.
+    pub(crate) black: bool,
 }
 
 /// Surface of every cell.
@@ -29,6 +31,11 @@ impl SurfaceMap {
     /// Whether there is nothing but hard floor.
     pub(crate) fn is_hard(&self) -> bool {
         self.cells.is_empty()
+    }
+
+    /// Whether any of it is black.
+    pub(crate) fn has_black(&self) -> bool {
+        self.kinds.iter().any(|kind| kind.black)
     }
 
     /// Surface of a cell.

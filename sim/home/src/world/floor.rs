@@ -12,6 +12,8 @@ const SPOT_M: f64 = 0.008;
 const EDGE_M: f64 = 0.004;
 /// Level of a cliff sensor over a usual floor, emitter on.
 const FLOOR_LEVEL: f64 = 180.0;
+/// Share of the light that a black rug gives back.
+const BLACK_SHARE: f64 = 0.05;
 /// Level over a drop or with the emitter off: the light of the room.
 const AMBIENT_LEVEL: f64 = 10.0;
 
@@ -88,6 +90,7 @@ impl Underneath {
     pub(crate) fn sample_cliffs(&mut self, model: &RobotModel, (home, body): (&Home, &Body), in_air: bool) {
         let near = self.cliff_free_m < 2.0 * self.radius_m;
         let cliffs = home.cliffs.as_ref().filter(|_| near);
+        let has_black = home.surfaces.has_black();
         for (mount, (lit, gain)) in model.cliffs.iter().zip(self.lit.iter_mut().zip(&self.gains)) {
             let floor = match cliffs {
                 _ if in_air => 0.0,
@@ -96,6 +99,11 @@ impl Underneath {
                     let (x_m, y_m) = body.point(mount.x_m, mount.y_m);
                     (0.5 + cliffs.at(x_m, y_m) / (2.0 * SPOT_M)).clamp(0.0, 1.0)
                 }
+            };
+            let floor = if has_black && floor > 0.0 {
+                floor * shade(home, body.point(mount.x_m, mount.y_m))
+            } else {
+                floor
             };
             *lit = (AMBIENT_LEVEL + (FLOOR_LEVEL * gain - AMBIENT_LEVEL) * floor) as u8;
         }
@@ -111,5 +119,15 @@ impl Underneath {
         for dark in &mut self.dark {
             *dark = (AMBIENT_LEVEL * (1.0 + self.noise * random.normal())) as u8;
         }
+    }
+}
+
+/// Share of the light that the floor at a place gives back.
+fn shade(home: &Home, (x_m, y_m): (f64, f64)) -> f64 {
+    let index = home.grid().index(x_m, y_m);
+    if index.is_some_and(|index| home.surfaces.at(index).black) {
+        BLACK_SHARE
+    } else {
+        1.0
     }
 }

@@ -1,6 +1,7 @@
 //! Infrared proximity: each sensor sends a narrow cone outward and measures how much comes back.
 
 use super::body::Body;
+use crate::home::Home;
 use crate::model;
 use crate::plan::DistanceField;
 use crate::{Noise, Pcg};
@@ -11,6 +12,9 @@ const MARCH_MAX: usize = 32;
 const MARCH_M: f64 = 0.004;
 /// Side of the patches of walls and furniture that share one albedo, metres.
 const PATCH_M: f64 = 0.4;
+
+/// A mirror gives light back within this cosine of its normal (10 degrees).
+const MIRROR_COS: f64 = 0.985;
 
 /// The middle of a sensor's cone: where it starts and its direction.
 struct Beam {
@@ -70,7 +74,7 @@ impl Proximity {
     }
 
     /// Samples the next sensor in turn.
-    pub(crate) fn sample_next(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+    pub(crate) fn sample_next(&mut self, home: &Home, body: &Body, random: &mut Pcg) {
         let sensor = self.next;
         self.next += 1;
         if self.next >= self.directions.len() {
@@ -89,18 +93,18 @@ impl Proximity {
                 dx,
                 dy,
             };
-            self.sample(solid, &beam, random)
+            self.sample(home, &beam, random)
         };
         if let Some(shown) = self.levels.get_mut(sensor) {
             *shown = level;
         }
     }
 
-    fn sample(&self, solid: &DistanceField, beam: &Beam, random: &mut Pcg) -> u8 {
-        let Some(distance_m) = self.march(solid, beam) else {
+    fn sample(&self, home: &Home, beam: &Beam, random: &mut Pcg) -> u8 {
+        let Some(distance_m) = self.march(&home.solid, beam) else {
             return 0;
         };
-        if random.unit() < self.dropout {
+        if random.unit() < self.dropout || deflected(home, beam, distance_m) {
             return 0;
         }
         let beyond = (distance_m - self.skin_m).max(0.0) / self.half_level_m;
@@ -134,4 +138,18 @@ impl Proximity {
         let unit = f64::from((hash >> 32) as u32) / 4_294_967_296.0;
         1.0 + self.albedo * (2.0 * unit - 1.0)
     }
+}
+
+/// Whether a mirror throws the light elsewhere: only what meets it at a right angle comes back.
+fn deflected(home: &Home, beam: &Beam, distance_m: f64) -> bool {
+    if home.mirrors.is_empty() {
+        return false;
+    }
+    let (x_m, y_m) = beam.at(distance_m);
+    let is_mirror = home
+        .grid()
+        .index(x_m, y_m)
+        .is_some_and(|index| home.mirrors.get(index) == Some(&true));
+    let (nx, ny) = home.solid.away(x_m, y_m);
+    is_mirror && -(nx * beam.dx + ny * beam.dy) < MIRROR_COS
 }

@@ -127,7 +127,7 @@ impl World {
         if now_ms.is_multiple_of(PROXIMITY_MS)
             && let Some(proximity) = &mut self.proximity
         {
-            proximity.sample_next(&self.home.solid, &self.body, &mut self.random);
+            proximity.sample_next(&self.home, &self.body, &mut self.random);
         }
         if now_ms % CLIFF_MS == 1 {
             self.sample_cliffs();

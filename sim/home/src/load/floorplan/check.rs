@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::raw::{Point, RawDoor, RawFurniture, RawPlan};
+use super::raw::{Point, RawDoor, RawFurniture, RawPlan, RawVisitor};
 use crate::load::raster::CORNERS_MAX;
 use crate::load::{CELL_MAX_M, HomeError};
 
@@ -50,13 +50,34 @@ impl Check<'_> {
         for (index, door) in plan.doors.iter().enumerate() {
             self.door(&format!("`door` {}", index + 1), door)?;
         }
+        for (index, mirror) in plan.mirrors.iter().enumerate() {
+            let place = format!("`mirror` {}", index + 1);
+            self.points(&place, &[mirror.from, mirror.to])?;
+            self.size(&place, mirror.thickness_m, 0.01..=2.0)?;
+        }
+        for (index, visitor) in plan.visitors.iter().enumerate() {
+            self.visitor(&format!("`visitor` {}", index + 1), visitor)?;
+        }
         for (index, piece) in plan.furniture.iter().enumerate() {
             self.piece(&format!("`furniture` {}", index + 1), piece)?;
         }
         self.surfaces(plan)?;
-        if let Some(dock) = &plan.dock {
-            self.points("`dock`", &[dock.position])?;
-            self.size("`dock`", dock.heading_deg, -360.0..=360.0)?;
+        for (place, pose) in [("`dock`", &plan.dock), ("`start`", &plan.start)] {
+            if let Some(pose) = pose {
+                self.points(place, &[pose.position])?;
+                self.size(place, pose.heading_deg, -360.0..=360.0)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn visitor(&self, place: &str, visitor: &RawVisitor) -> Result<(), HomeError> {
+        self.points(place, &[visitor.position])?;
+        self.size(place, visitor.diameter_m, 0.05..=1.0)?;
+        self.size(place, visitor.from_s, 0.0..=1e7)?;
+        self.size(place, visitor.until_s, 0.0..=1e7)?;
+        if visitor.until_s <= visitor.from_s {
+            return Err(self.invalid(place, "it must leave later than it comes".to_owned()));
         }
         Ok(())
     }
@@ -70,6 +91,8 @@ impl Check<'_> {
             ("`rug`", plan.rugs.len()),
             ("`threshold`", plan.thresholds.len()),
             ("`cliff`", plan.cliffs.len()),
+            ("`mirror`", plan.mirrors.len()),
+            ("`visitor`", plan.visitors.len()),
         ];
         match counts.iter().find(|(_, count)| *count > THINGS_MAX) {
             Some((place, count)) => Err(self.invalid(

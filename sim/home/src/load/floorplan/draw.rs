@@ -1,7 +1,9 @@
 //! Draws the things of a home TOML into the grid.
 
 use super::check::Check;
-use super::raw::{DoorState, Point, RawDoor, RawFurniture, RawPlan, RawRug, RawThreshold};
+use super::raw::{
+    DoorState, Point, RawDoor, RawFurniture, RawPlan, RawRug, RawThreshold, RawVisitor, RawWall,
+};
 use crate::load::HomeError;
 use crate::load::raster::Canvas;
 use crate::plan::{Cell, Door, Grid, Surface, SurfaceMap};
@@ -23,7 +25,7 @@ fn solid(cells: &mut [Cell], index: usize) {
 }
 
 impl Drawing<'_> {
-    fn place(&self, point: Point) -> (f64, f64) {
+    pub(super) fn place(&self, point: Point) -> (f64, f64) {
         (point[0] - self.corner.0, point[1] - self.corner.1)
     }
 
@@ -52,6 +54,7 @@ impl Drawing<'_> {
                 drag_n: rug.drag_n,
                 slip: rug.slip,
                 bias_rad_per_m: rug.bias_deg_per_m * core::f64::consts::PI / 180.0,
+                black: rug.black,
             };
             let kind = self.kind(check, "`rug`", surface)?;
             let corners = self.corners(&rug.polygon);
@@ -102,6 +105,43 @@ impl Drawing<'_> {
         }
     }
 
+    /// For each cell whether it belongs to a mirror; nothing when there is no mirror.
+    pub(super) fn mirrors(&mut self, mirrors: &[RawWall]) -> Vec<bool> {
+        if mirrors.is_empty() {
+            return Vec::new();
+        }
+        let mut marked = vec![false; self.grid.cells.len()];
+        for mirror in mirrors {
+            let ends = [self.place(mirror.from), self.place(mirror.to)];
+            Canvas::of(self.grid).strip(ends, mirror.thickness_m, |_, index| marked[index] = true);
+        }
+        marked
+    }
+
+    /// Who stands in the way is like a door that closes for a while, and waits for the robot to leave the place.
+    pub(super) fn visitors(&mut self, visitors: &[RawVisitor]) -> Vec<Door> {
+        visitors.iter().map(|visitor| self.visitor(visitor)).collect()
+    }
+
+    fn visitor(&mut self, visitor: &RawVisitor) -> Door {
+        let mut cells = Vec::new();
+        let centre = self.place(visitor.position);
+        Canvas::of(self.grid).disc(centre, 0.5 * visitor.diameter_m, |plan, index| {
+            if plan[index].is_floor() {
+                cells.push((index, plan[index]));
+            }
+        });
+        let moment_ms = |second: f64| (second * 1000.0) as u64;
+        Door {
+            cells,
+            open: true,
+            schedule: vec![
+                (moment_ms(visitor.from_s), false),
+                (moment_ms(visitor.until_s), true),
+            ],
+        }
+    }
+
     pub(super) fn furniture(&mut self, furniture: &[RawFurniture]) {
         for piece in furniture {
             if let Some(polygon) = &piece.polygon {
@@ -131,6 +171,7 @@ impl Drawing<'_> {
                 drag_n: threshold.height_m * THRESHOLD_DRAG_N_PER_M,
                 slip: THRESHOLD_SLIP,
                 bias_rad_per_m: 0.0,
+                black: false,
             };
             let kind = self.kind(check, "`threshold`", surface)?;
             let surfaces = &mut self.surfaces;

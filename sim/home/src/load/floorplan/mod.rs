@@ -11,7 +11,7 @@ use crate::plan::{Cell, Grid, SurfaceMap};
 use crate::pose::Pose;
 use check::Check;
 use draw::Drawing;
-use raw::RawPlan;
+use raw::{RawDock, RawPlan};
 
 pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeError> {
     let plan: RawPlan = toml::from_str(text).map_err(|error| toml_error(path, text, &error))?;
@@ -26,17 +26,21 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
     drawing.floor(&plan);
     drawing.rugs(&check, &plan.rugs)?;
     drawing.solids(&plan);
-    let doors = drawing.doors(&plan.doors);
+    let mut doors = drawing.doors(&plan.doors);
     drawing.furniture(&plan.furniture);
     drawing.thresholds(&check, &plan.thresholds, climb_m)?;
+    let mirrors = drawing.mirrors(&plan.mirrors);
+    doors.extend(drawing.visitors(&plan.visitors));
+    let pose = |raw: &RawDock| {
+        let (x_m, y_m) = drawing.place(raw.position);
+        Pose::new(x_m, y_m, raw.heading_deg * core::f64::consts::PI / 180.0)
+    };
+    let dock = plan
+        .dock
+        .as_ref()
+        .map_or(DockWish::Anywhere, |dock| DockWish::At(pose(dock)));
+    let start = plan.start.as_ref().map(pose);
     let surfaces = drawing.surfaces;
-    let dock = plan.dock.as_ref().map_or(DockWish::Anywhere, |dock| {
-        DockWish::At(Pose::new(
-            dock.position[0] - corner.0,
-            dock.position[1] - corner.1,
-            dock.heading_deg * core::f64::consts::PI / 180.0,
-        ))
-    });
     Ok(Draft {
         name: plan.name.unwrap_or_else(|| stem(path)),
         grid,
@@ -44,6 +48,8 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
         dock,
         surfaces,
         doors,
+        mirrors,
+        start,
     })
 }
 

@@ -26,7 +26,12 @@ pub(super) struct RawPlan {
     pub(super) thresholds: Vec<RawThreshold>,
     #[serde(default, rename = "cliff")]
     pub(super) cliffs: Vec<RawRoom>,
+    #[serde(default, rename = "mirror")]
+    pub(super) mirrors: Vec<RawWall>,
+    #[serde(default, rename = "visitor")]
+    pub(super) visitors: Vec<RawVisitor>,
     pub(super) dock: Option<RawDock>,
+    pub(super) start: Option<RawDock>,
 }
 
 fn usual_cell_m() -> f64 {
@@ -113,6 +118,17 @@ pub(super) struct RawRug {
     pub(super) slip: f64,
     #[serde(default)]
     pub(super) bias_deg_per_m: f64,
+    #[serde(default)]
+    pub(super) black: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct RawVisitor {
+    pub(super) position: Point,
+    pub(super) diameter_m: f64,
+    pub(super) from_s: f64,
+    pub(super) until_s: f64,
 }
 
 fn usual_drag_n() -> f64 {
