@@ -11,6 +11,7 @@ mod dock_code;
 mod encoder;
 mod error;
 mod gyro;
+mod gyro_frame;
 mod light;
 mod motors;
 pub mod pinout;
@@ -22,6 +23,7 @@ pub mod wiring;
 pub use calibration::{Calibration, Particulars, RECORD_ADDRESS, put_record};
 pub use contacts::{Contact, Hold};
 pub use error::BoardError;
+pub use gyro_frame::{GyroCheck, GyroFitted, GyroLayout};
 pub use motors::{Drive, Motor, Reaction, reaction};
 pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, Record};
 

@@ -93,7 +93,7 @@ impl EmulatedRobot {
             encoders: [encoder(0), encoder(1)],
             brush: BrushEncoder::new(wiring.brush_encoder, particulars.brush_pulses_per_s),
             beams: Beams::new(wiring.beam_receivers, particulars.beams, particulars.beam_unit_us),
-            gyro: GyroModule::new(wiring, particulars, seed),
+            gyro: GyroModule::new(wiring, (particulars, blueprint.gyro), seed),
             motors: Motors::new(wiring, settings.bridges == Bridges::DeafToBrake),
             ear: DockEar::new(particulars.dock_code_ones),
             emitter_selected: false,

@@ -4,6 +4,7 @@ use monitor::Bridges;
 
 use crate::board::BoardError;
 use crate::board::calibration::{Calibration, Particulars, erase_record, has_record, put_record};
+use crate::board::gyro_frame::GyroFitted;
 use crate::board::pinout::Pinout;
 use crate::board::serial::Rate;
 use crate::board::wiring::Wiring;
@@ -63,6 +64,7 @@ pub struct Blueprint {
     pub(super) image: Image,
     pub(super) wiring: Wiring,
     pub(super) particulars: Particulars,
+    pub(super) gyro: GyroFitted,
 }
 
 impl Blueprint {
@@ -85,6 +87,13 @@ impl Blueprint {
             image,
             wiring: Wiring::of(&Pinout::sr8730()?)?,
             particulars: Particulars::of(&calibration)?,
+            gyro: GyroFitted::default(),
         })
+    }
+
+    /// The same with this gyro module.
+    #[must_use]
+    pub fn with_gyro(self, gyro: GyroFitted) -> Self {
+        Self { gyro, ..self }
     }
 }
