@@ -20,7 +20,12 @@ pub(super) struct Recording {
     pub(super) left: Vec<u8>,
     /// While it was turned clockwise.
     pub(super) right: Vec<u8>,
+    /// Length of each part, seconds.
+    pub(super) part_s: f64,
 }
+
+/// By so much the robot is turned in each part, degrees.
+const TURNED_DEGREES: f64 = 360.0;
 
 /// How frames look.
 #[derive(Debug, PartialEq)]
@@ -61,6 +66,8 @@ pub(super) struct Field {
     pub(super) meaning: Meaning,
     /// Whether it grows counter-clockwise.
     pub(super) rises_left: bool,
+    /// Steps of it for a degree, or for a degree a second.
+    pub(super) steps: f64,
     /// Its answer in multiples of its noise.
     pub(super) clarity: f64,
 }
@@ -96,7 +103,7 @@ impl Frames {
         let check = Check::find(&all);
         let end = length - usize::from(check.is_some());
         Some(Self {
-            fields: fields([&rest, &left, &right], head.len()..end),
+            fields: fields([&rest, &left, &right], head.len()..end, recording.part_s),
             head,
             length,
             check,
@@ -215,7 +222,7 @@ impl Form {
     }
 }
 
-fn fields(parts: [&Vec<&[u8]>; 3], payload: std::ops::Range<usize>) -> Vec<Field> {
+fn fields(parts: [&Vec<&[u8]>; 3], payload: std::ops::Range<usize>, part_s: f64) -> Vec<Field> {
     let mut found: Vec<Field> = payload
         .clone()
         .flat_map(|offset| Form::ALL.map(|form| (offset, form)))
@@ -225,7 +232,7 @@ fn fields(parts: [&Vec<&[u8]>; 3], payload: std::ops::Range<usize>) -> Vec<Field
             Some(Field {
                 offset,
                 form,
-                ..answer(&series)?
+                ..answer(&series, part_s)?
             })
         })
         .collect();
@@ -239,33 +246,47 @@ fn series(frames: &[&[u8]], offset: usize, form: Form) -> Vec<f64> {
 }
 
 /// Whether a series answers to turns, opposite ways to opposite turns.
-fn answer([rest, left, right]: &[Vec<f64>; 3]) -> Option<Field> {
+fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
     if left.len() < FRAMES_MIN || right.len() < FRAMES_MIN {
         return None;
     }
-    // A step of the number itself is the least noise there can be.
-    let noise = deviation(&steps(rest)).max(1.0);
+    // The smallest step that was ever seen is the least noise there can be: a number that stands still has noise, too.
+    let least = [rest, left, right].into_iter().flat_map(|part| steps(part));
+    let quantum = least.map(f64::abs).filter(|step| *step > 0.0).reduce(f64::min)?;
+    let noise = deviation(&steps(rest)).max(quantum);
     let (rest_mean, left_mean, right_mean) = (mean(rest), mean(left), mean(right));
     let (up, down) = (left_mean - rest_mean, right_mean - rest_mean);
     let (left_drift, right_drift) = (mean(&steps(left)), mean(&steps(right)));
-    let smooth = |series: &[f64]| {
-        let steps = steps(series);
-        deviation(&steps) <= mean(&steps).abs() + 2.0 * noise
-    };
     let field = |meaning, one: f64, other: f64, clarity: f64| Field {
         offset: 0,
         form: Form::I16Little,
         meaning,
         rises_left: one > other,
+        steps: (one - other).abs() / (2.0 * TURNED_DEGREES),
         clarity,
     };
     let drift = left_drift.abs().min(right_drift.abs()) * (left.len().min(right.len()) as f64) / noise;
-    if left_drift * right_drift < 0.0 && drift > ANSWERS && smooth(left) && smooth(right) {
-        return Some(field(Meaning::Heading, left_drift, right_drift, drift));
+    if left_drift * right_drift < 0.0
+        && drift > ANSWERS
+        && goes_one_way(left, noise)
+        && goes_one_way(right, noise)
+    {
+        return Some(field(Meaning::Heading, total(left), total(right), drift));
     }
     let jump = up.abs().min(down.abs()) / noise.max(deviation(rest));
     let steady = deviation(&steps(left)).max(deviation(&steps(right))) < up.abs().max(down.abs());
-    (up * down < 0.0 && jump > ANSWERS && steady).then(|| field(Meaning::Rate, up, down, jump))
+    let (left_sum, right_sum) = (up * part_s, down * part_s);
+    (up * down < 0.0 && jump > ANSWERS && steady).then(|| field(Meaning::Rate, left_sum, right_sum, jump))
+}
+
+/// Whether nearly all steps go the same way, however unevenly a person turns.
+fn goes_one_way(series: &[f64], noise: f64) -> bool {
+    let way: f64 = steps(series).into_iter().map(f64::abs).sum();
+    way <= 1.25 * total(series).abs() + 2.0 * noise * (series.len() as f64).sqrt()
+}
+
+fn total(series: &[f64]) -> f64 {
+    steps(series).into_iter().sum()
 }
 
 fn mean(series: &[f64]) -> f64 {
@@ -311,11 +332,19 @@ impl fmt::Display for Frames {
         for field in self.fields.iter().take(5) {
             writeln!(
                 out,
-                "byte {}: {:?} as {:?}, {} counter-clockwise, {:.0} times its noise",
+                "byte {}: {} as {:?}, {} counter-clockwise, {:.1} steps {}; {:.0} times its noise",
                 field.offset,
-                field.meaning,
+                match field.meaning {
+                    Meaning::Rate => "turn rate",
+                    Meaning::Heading => "heading",
+                },
                 field.form,
                 if field.rises_left { "rises" } else { "falls" },
+                field.steps,
+                match field.meaning {
+                    Meaning::Rate => "for a degree a second",
+                    Meaning::Heading => "for a degree",
+                },
                 field.clarity
             )?;
         }
@@ -359,8 +388,9 @@ mod tests {
             let (mut noise, mut heading) = (Noise(7), 1_000);
             let recording = Recording {
                 rest: simulated(&[0; 300], &mut noise, &mut heading)[cut..].to_vec(),
-                left: simulated(&[450; 300], &mut noise, &mut heading),
-                right: simulated(&[-450; 300], &mut noise, &mut heading),
+                left: simulated(&[1_200; 300], &mut noise, &mut heading),
+                right: simulated(&[-1_200; 300], &mut noise, &mut heading),
+                part_s: 3.0,
             };
             let frames = Frames::find(&recording).expect("there are frames");
             assert_eq!(
@@ -373,13 +403,15 @@ mod tests {
                 from: 2,
             };
             assert_eq!(frames.check, Some(check));
-            let has = |offset, form, meaning| {
+            let has = |offset, form, meaning, steps: f64| {
                 frames.fields.iter().any(|field| {
-                    (field.offset, field.form, field.meaning) == (offset, form, meaning) && field.rises_left
+                    (field.offset, field.form, field.meaning) == (offset, form, meaning)
+                        && field.rises_left
+                        && (field.steps / steps - 1.0).abs() < 0.01
                 })
             };
-            assert!(has(6, Form::I16Little, Meaning::Rate), "{frames}");
-            assert!(has(2, Form::I32Little, Meaning::Heading), "{frames}");
+            assert!(has(6, Form::I16Little, Meaning::Rate, 10.0), "{frames}");
+            assert!(has(2, Form::I32Little, Meaning::Heading, 100.0), "{frames}");
         }
     }
 
@@ -401,6 +433,7 @@ mod tests {
             rest: part(12),
             left: part(-900),
             right: part(900),
+            part_s: 2.0,
         };
         let frames = Frames::find(&recording).expect("there are frames");
         assert_eq!(frames.length, 6);
@@ -423,6 +456,7 @@ mod tests {
             rest,
             left,
             right: simulated(&[-300; 300], &mut noise, &mut heading),
+            part_s: 3.0,
         };
         assert_eq!(Frames::find(&recording).expect("still").length, 9);
     }
@@ -435,6 +469,7 @@ mod tests {
             rest: part(),
             left: part(),
             right: part(),
+            part_s: 8.0,
         };
         assert_eq!(Frames::find(&recording), None);
         assert_eq!(Frames::find(&Recording::default()), None);

@@ -49,7 +49,10 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
     ))?;
     let target = ProbeTarget::Serial { port, baud };
     let mut part = |wish: &str| -> anyhow::Result<Vec<u8>> {
-        say(&format!("{wish} for {} s; press Enter to begin.", PART.as_secs()))?;
+        say(&format!(
+            "{wish}, within {} s; press Enter to begin.",
+            PART.as_secs()
+        ))?;
         if robot.next_line()?.is_none() {
             bail!("the input ended before the recording did; nothing was written");
         }
@@ -57,8 +60,9 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
     };
     let recording = Recording {
         rest: part("Leave the robot alone")?,
-        left: part("Turn it slowly and steadily to the left (counter-clockwise)")?,
-        right: part("Turn it slowly and steadily to the right")?,
+        left: part("Turn it once around to the left (counter-clockwise), slowly")?,
+        right: part("Turn it once around to the right, slowly")?,
+        part_s: PART.as_secs_f64(),
     };
     save(&recording, file)?;
     match Frames::find(&recording) {
