@@ -83,6 +83,8 @@ reasons! {
     UnsweptFloor => "unswept-floor",
     /// Too far from the planned way.
     OffTheWay => "off-the-way",
+    /// No map of the home to plan on.
+    NoMap => "no-map",
     /// What is not swept yet cannot be reached.
     RestOutOfReach => "rest-out-of-reach",
     /// Too many things in the way.

@@ -7,17 +7,17 @@ use crate::coverage::plan::Piece;
 use crate::geometry::{Pose2, normalize_rad};
 use crate::task::Situation;
 
-/// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.5 m
+/// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.4 m
 /// at cruise speed, without swinging.
-const HEADING_GAIN_PER_S: f64 = 2.5;
+const HEADING_GAIN_PER_S: f64 = 3.5;
 /// Steering for an offset, rad/s for each metre of offset and m/s of speed.
-const OFFSET_GAIN: f64 = 20.0;
+const OFFSET_GAIN: f64 = 40.0;
 /// Steering below this is not worth it; a straight way then is really straight, which the rest for the gyro needs.
 const STEER_MIN_RAD_PER_S: f64 = 0.03;
 /// Brakes and accelerates like this: less than the 0.5 m/s2 of the firmware, so that it can follow.
 const BRAKE_M_PER_S2: f64 = 0.4;
 /// Commands take this long to show in the wheels: arcs are entered as much earlier.
-const LAG_S: f64 = 0.15;
+const LAG_S: f64 = 0.25;
 /// Slowest speed that is still a speed for a motor with a dead band.
 const CREEP_M_PER_S: f64 = 0.05;
 /// Turn rate asked for each radian that is left of a turn on the spot.
@@ -27,7 +27,7 @@ const TURN_MIN_RAD_PER_S: f64 = 0.4;
 /// A turn on the spot is made when less than this is left; steering does the rest.
 const TURN_DONE_RAD: f64 = 0.06;
 /// Share of the highest turn rate that arcs use: the rest is for steering.
-const ARC_SHARE: f64 = 0.9;
+const ARC_SHARE: f64 = 0.8;
 /// Farther from the way than this the robot does not follow it any more.
 const LOST_M: f64 = 0.25;
 /// As `LOST_M`, for the heading.

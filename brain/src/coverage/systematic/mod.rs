@@ -10,6 +10,7 @@ mod passed;
 mod reachable;
 
 use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
+use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::Raster;
@@ -26,12 +27,16 @@ const SIGMA_MIN_M: f64 = 0.01;
 const SIGMA_MAX_M: f64 = 0.03;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
+/// Way back that is added for each plan in a row that brought nothing.
+const MORE_BACK_M: f64 = 0.02;
 /// Way back at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
 /// A plan that swept less than this brought nothing, square metres.
 const NOTHING_M2: f64 = 0.02;
-/// Plans in a row that brought nothing until the rest is called out of reach.
+/// Plans in a row that brought nothing until the robot calls for the recovery ladder.
 const VAIN_PLANS_MAX: u32 = 6;
+/// Times that obstructions are forgotten in order to try again, in one job.
+const FRESH_STARTS_MAX: u32 = 3;
 /// Proximity level ahead that means contact within a few centimetres.
 const NEAR_LEVEL: f32 = 0.6;
 /// Speed towards something near: a soft contact.
@@ -49,6 +54,8 @@ pub(crate) struct Systematic {
     passed: Option<Passed>,
     obstructions: Obstructions,
     vain_plans: u32,
+    fresh_starts: u32,
+    /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
 }
 
@@ -88,69 +95,80 @@ impl Systematic {
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(CLIFF_BACK_M, 0.0)
         } else {
-            Evasion::from_contact(CONTACT_BACK_M, 0.0)
+            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain_plans), 0.0)
         });
-        Plan::Go(crate::action::Motion::Halt)
+        Plan::Go(Motion::Halt)
     }
 
     fn drive(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         // A way that ended is followed by a new plan in the same step; a plan that is at its end at once is vain.
         for _ in 0..=VAIN_PLANS_MAX {
             let Some(follower) = &mut self.follower else {
-                if let Some(reason) = self.make_plan(situation, mind) {
-                    return Plan::Finished(reason);
+                if let Some(end) = self.make_plan(situation, mind) {
+                    return end;
                 }
                 continue;
             };
             match follower.step(situation, caution(situation, follower)) {
                 FollowStep::Going(motion) => return Plan::Go(motion),
-                FollowStep::Off => mind.decide("plan", Reason::OffTheWay, 0.0),
+                FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
                 FollowStep::Arrived => {}
             }
             self.follower = None;
         }
-        Plan::Finished(Reason::RestOutOfReach)
+        self.start_afresh(Reason::RestOutOfReach)
     }
 
-    /// Makes a plan for what is left; gives the reason to end if there is nothing.
-    fn make_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Reason> {
-        let knowledge = situation.map.knowledge();
-        let radius_m = situation.config.body.radius_m + KEEP_OFF_M;
-        let settings = settings(situation);
+    /// Makes a plan for what is left; gives what to do instead if there is none to follow.
+    fn make_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
         let blocked = self.obstructions.points(situation.observation.time_us);
-        let ground = reachable(knowledge, radius_m, &blocked);
-        let plan = self.plan_over(&ground, situation, &settings);
+        let radius_m = situation.config.body.radius_m + KEEP_OFF_M;
+        let ground = reachable(situation.map.knowledge(), radius_m, &blocked);
+        let plan = self.plan_over(&ground, situation);
         mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
-        let won_m2 = self.open_before_m2 - plan.open_m2;
-        self.vain_plans = if won_m2.abs() < NOTHING_M2 {
-            self.vain_plans + 1
-        } else {
-            0
-        };
+        let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
+        self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
-        if plan.lanes == 0 || self.vain_plans > VAIN_PLANS_MAX {
+        if plan.floor_m2 <= 0.0 {
+            return Some(Plan::Finished(Reason::NoMap));
+        }
+        if plan.lanes == 0 {
             mind.decide("covered", Reason::Finished, plan.share_passed());
-            return Some(if plan.lanes == 0 {
-                Reason::Finished
+            return Some(if blocked.is_empty() {
+                Plan::Finished(Reason::Finished)
             } else {
-                Reason::RestOutOfReach
+                self.start_afresh(Reason::Finished)
             });
+        }
+        if self.vain_plans > VAIN_PLANS_MAX {
+            return Some(self.start_afresh(Reason::RestOutOfReach));
         }
         self.follower = Some(Follower::new(plan.pieces));
         None
     }
 
-    fn plan_over(
-        &mut self,
-        ground: &Raster<bool>,
-        situation: &Situation<'_>,
-        settings: &PlanSettings,
-    ) -> CoveragePlan {
+    /// Forgets what stood in the way: perhaps it is gone, or never was there. That ends after a few times.
+    fn start_afresh(&mut self, reason: Reason) -> Plan {
+        self.interrupted();
+        self.fresh_starts += 1;
+        if self.fresh_starts > FRESH_STARTS_MAX {
+            return Plan::Finished(reason);
+        }
+        self.obstructions.clear();
+        if self.vain_plans > VAIN_PLANS_MAX {
+            self.vain_plans = 0;
+            return Plan::Trouble(Reason::BoxedIn);
+        }
+        Plan::Go(Motion::Halt)
+    }
+
+    fn plan_over(&mut self, ground: &Raster<bool>, situation: &Situation<'_>) -> CoveragePlan {
+        let settings = settings(situation);
         let passed = self
             .passed
-            .get_or_insert_with(|| Passed::new(ground, reach_cells(settings)));
+            .get_or_insert_with(|| Passed::new(ground, reach_cells(&settings)));
         passed.cover(ground);
-        plan_coverage(ground, |cell| passed.contains(cell), situation.pose, settings)
+        plan_coverage(ground, |cell| passed.contains(cell), situation.pose, &settings)
     }
 }
 

@@ -1,46 +1,89 @@
 //! Where something was met that stands in the way of plans.
+//!
+//! A contact near to what the map knows is first taken for a robot that came too near to it; met again, it stands there.
 
 use crate::behavior::Reason;
 use crate::geometry::Point2;
+use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::task::Situation;
 
 /// An obstruction is believed for this long.
 const BELIEVED_US: u64 = 240_000_000;
-/// Obstructions kept; the oldest go first.
+/// Contacts kept; the oldest go first.
 const KEPT_MAX: usize = 64;
+/// Two contacts nearer than this are with the same thing.
+const SAME_M: f64 = 0.12;
+/// A contact this near to something known is with that.
+const KNOWN_M: f64 = 0.06;
 /// Direction of a contact on one side from straight ahead when nothing else tells, radians.
 const SIDE_RAD: f64 = 0.7;
 /// Proximity level of a sensor that looks at what was touched.
 const TOUCH_LEVEL: f32 = 0.5;
 
-/// The obstructions of the last minutes.
+/// The contacts of the last minutes.
 #[derive(Debug, Default)]
 pub(super) struct Obstructions {
-    known: Vec<(u64, Point2)>,
+    met: Vec<Met>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    since_us: u64,
+    at: Point2,
+    is_believed: bool,
 }
 
 impl Obstructions {
     /// Notes what was met.
     pub(super) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
-        let bearing_rad = bearing_rad(reason, situation);
-        let (sin, cos) = libm::sincos(bearing_rad);
+        let (sin, cos) = libm::sincos(bearing_rad(reason, situation));
         let radius_m = situation.config.body.radius_m;
         let at = situation.pose.transform(Point2 {
             x_m: radius_m * cos,
             y_m: radius_m * sin,
         });
-        if self.known.len() >= KEPT_MAX {
-            self.known.remove(0);
+        let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
+        if self.met.len() >= KEPT_MAX {
+            self.met.remove(0);
         }
-        self.known.push((situation.observation.time_us, at));
+        self.met.push(Met {
+            since_us: situation.observation.time_us,
+            at,
+            is_believed: is_again || !is_known(at, situation),
+        });
     }
 
-    /// Those that are still believed.
-    pub(super) fn points(&mut self, now_us: u64) -> Vec<Point2> {
-        self.known
-            .retain(|(since_us, _)| now_us < since_us.saturating_add(BELIEVED_US));
-        self.known.iter().map(|(_, at)| *at).collect()
+    /// Forgets all.
+    pub(super) fn clear(&mut self) {
+        self.met.clear();
     }
+
+    /// Where plans must not lead over.
+    pub(super) fn points(&mut self, now_us: u64) -> Vec<Point2> {
+        self.met
+            .retain(|met| now_us < met.since_us.saturating_add(BELIEVED_US));
+        self.met
+            .iter()
+            .filter(|met| met.is_believed)
+            .map(|met| met.at)
+            .collect()
+    }
+}
+
+/// Whether the map knows of something near a point.
+fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
+    let knowledge = situation.map.knowledge();
+    let reach = libm::ceil(KNOWN_M / CELL_M) as i32;
+    let middle = Cell::under(at);
+    (-reach..=reach).any(|rise| {
+        (-reach..=reach).any(|shift| {
+            let cell = Cell {
+                x: middle.x.saturating_add(shift),
+                y: middle.y.saturating_add(rise),
+            };
+            knowledge.get(cell) != Some(&CellKnowledge::Free)
+        })
+    })
 }
 
 /// Direction of what was met from straight ahead: that of the proximity sensor that sees most on this side, else the
@@ -52,13 +95,11 @@ fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> f64 {
         _ => return 0.0,
     };
     let levels = &situation.observation.proximity;
-    let spread = levels.len().saturating_sub(1).max(1) as f64;
+    let sensors = situation.config.sensors.proximity;
     let mut best = (TOUCH_LEVEL, side * SIDE_RAD);
-    for (number, level) in levels.iter().enumerate() {
-        // Sensors lie from -90 to 90 degrees, evenly.
-        let bearing_rad = core::f64::consts::PI * (number as f64 / spread - 0.5);
-        if bearing_rad * side > 0.0 && *level > best.0 {
-            best = (*level, bearing_rad);
+    for (level, sensor) in levels.iter().zip(sensors.sensors()) {
+        if sensor.heading_rad * side > 0.0 && *level > best.0 {
+            best = (*level, sensor.heading_rad);
         }
     }
     best.1
