@@ -113,6 +113,9 @@ pub(crate) struct RunArguments {
     /// End when the robot says that its job is over and has docked or given up; --minutes is the longest then.
     #[arg(long)]
     until_done: bool,
+    /// Give the host a perfect map of the home at the start.
+    #[arg(long)]
+    pub(crate) known_map: bool,
     /// Tell the host its true pose: shows a planner without the errors of localization.
     #[arg(long)]
     perfect_pose: bool,

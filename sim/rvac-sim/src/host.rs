@@ -1,6 +1,7 @@
 //! The daemon's core without the daemon: it talks to the robot in memory.
 
 use brain::command::StrategyName;
+use brain::mapping::StoredMap;
 use brain::{BehaviorState, Brain, Pose2};
 use home::Pose as TruePose;
 use rvac_api::{Pose, Request, RequestBody, Status};
@@ -107,6 +108,11 @@ impl Host {
     #[must_use]
     pub fn brain(&self) -> Option<&Brain> {
         self.core.brain()
+    }
+
+    /// Gives the brain a map of the home; `false` before it knows its robot.
+    pub(crate) fn take_up_home(&mut self, home: &StoredMap) -> bool {
+        self.core.take_up_home(home)
     }
 
     /// Tells the brain where it really is, in the map frame.

@@ -1,8 +1,10 @@
 //! A robot and its host in one process, on a virtual clock.
 
+use brain::mapping::StoredMap;
 use home::Pose;
 
 use crate::figures::{Belief, Collector, Floor};
+use crate::known_map::known_map;
 use crate::report::{Driven, Report, StuckWatch};
 use crate::{Host, Robot};
 
@@ -21,6 +23,8 @@ pub struct Household {
     figures: Collector,
     stuck: StuckWatch,
     pose_source: PoseSource,
+    /// A map that the host shall get when it knows its robot.
+    known_home: Option<StoredMap>,
 }
 
 /// Where the host's pose comes from.
@@ -51,6 +55,7 @@ impl Household {
             figures: Collector::new(floor),
             stuck: StuckWatch::default(),
             pose_source: PoseSource::Own,
+            known_home: None,
         }
     }
 
@@ -65,10 +70,27 @@ impl Household {
                 host.place(truth);
             }
             host.step(now_us, &self.from_robot);
+            if self
+                .known_home
+                .as_ref()
+                .is_some_and(|home| host.take_up_home(home))
+            {
+                self.known_home = None;
+            }
             deliver(&mut self.robot, host.pending());
         }
         if self.robot.now_ms().is_multiple_of(SAMPLE_MS) {
             self.sample();
+        }
+    }
+
+    /// The same household whose host has a perfect map of the home as soon as it knows its robot.
+    #[must_use]
+    pub fn with_known_map(self) -> Self {
+        let map = known_map(self.robot.world().home(), self.map_from_plan);
+        Self {
+            known_home: Some(map),
+            ..self
         }
     }
 

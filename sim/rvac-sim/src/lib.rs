@@ -11,6 +11,7 @@ mod figures;
 mod firmware;
 mod host;
 mod household;
+mod known_map;
 mod plan;
 mod report;
 mod robot;

@@ -46,6 +46,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let started = Instant::now();
     let progress = Progress::new("simulating");
     let mut household = household(&scene, &settings).with_pose_source(arguments.pose_source());
+    if arguments.known_map {
+        household = household.with_known_map();
+    }
     let report = run_until(&mut household, (&settings, arguments.end()), |share| {
         progress.show(share);
     });

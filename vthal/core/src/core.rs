@@ -139,6 +139,12 @@ impl Core {
         self.mind.as_ref().map(Mind::brain)
     }
 
+    /// Gives the brain the map of a home it has not seen itself, in which it stands on the dock, or at the origin if the map
+    /// has no dock. For simulators; to be called while no job runs. `false` before a robot was seen.
+    pub fn take_up_home(&mut self, home: &brain::mapping::StoredMap) -> bool {
+        self.mind.as_mut().map(|mind| mind.take_up(home)).is_some()
+    }
+
     /// Tells the brain where the robot stands in the map, for simulators that know it.
     pub fn place_at(&mut self, pose: brain::Pose2) {
         if let Some(mind) = &mut self.mind {

@@ -4,6 +4,7 @@
 //! of the one before, and then sees the last observation again. So a replay needs nothing from before the run.
 
 use brain::config::BrainConfig;
+use brain::mapping::StoredMap;
 use brain::{Actions, BehaviorState, Body, Brain, Command, MapCursor, Speeds};
 
 use crate::device::{Description, Shape};
@@ -72,6 +73,11 @@ impl Mind {
 
     pub(crate) fn brain(&self) -> &Brain {
         &self.brain
+    }
+
+    /// Begins anew in a home that is known.
+    pub(crate) fn take_up(&mut self, home: &StoredMap) {
+        self.brain = Brain::with_map(self.config, self.seed, home);
     }
 
     pub(crate) fn place_at(&mut self, pose: brain::Pose2) {

@@ -1,0 +1,39 @@
+//! The plan of a home as a map that a robot could have made of it.
+
+use brain::mapping::{CellKnowledge, StoredMap};
+use brain::{CELL_M, Cell, Raster};
+use home::{Cell as PlanCell, Home, Pose};
+
+/// The home in the map frame of a robot, every cell as it is in truth.
+pub(crate) fn known_map(home: &Home, map_from_plan: Pose) -> StoredMap {
+    let grid = home.grid();
+    let (width_m, height_m) = (grid.width as f64 * grid.cell_m, grid.height as f64 * grid.cell_m);
+    let corners = [(0.0, 0.0), (width_m, 0.0), (0.0, height_m), (width_m, height_m)]
+        .map(|(x_m, y_m)| map_from_plan.point(x_m, y_m));
+    let cells = |coordinates: [f64; 4]| {
+        let lowest = coordinates.into_iter().fold(f64::INFINITY, f64::min);
+        let highest = coordinates.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let first = (lowest / CELL_M).floor() as i32;
+        (first, ((highest / CELL_M).ceil() as i32 - first).max(0) as usize)
+    };
+    let (x, width) = cells(corners.map(|corner| corner.0));
+    let (y, height) = cells(corners.map(|corner| corner.1));
+    let mut knowledge = Raster::filled(Cell { x, y }, width, height, CellKnowledge::Unknown);
+    let plan_from_map = map_from_plan.inverse();
+    for index in 0..width * height {
+        let cell = knowledge.cell(index);
+        let (x_m, y_m) = plan_from_map.point(
+            (f64::from(cell.x) + 0.5) * CELL_M,
+            (f64::from(cell.y) + 0.5) * CELL_M,
+        );
+        if let (Some(value), Some(place)) = (knowledge.values_mut().get_mut(index), grid.index(x_m, y_m)) {
+            *value = match grid.cells.get(place) {
+                Some(PlanCell::Floor | PlanCell::Rug) => CellKnowledge::Free,
+                Some(PlanCell::Obstacle) => CellKnowledge::Occupied,
+                Some(PlanCell::Cliff) => CellKnowledge::Cliff,
+                Some(PlanCell::Outside) | None => CellKnowledge::Unknown,
+            };
+        }
+    }
+    StoredMap::from_raster(&knowledge, None)
+}
