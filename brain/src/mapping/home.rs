@@ -4,7 +4,9 @@ use super::derived::Derived;
 use super::distance::DistanceField;
 use super::draw::Pencil;
 use super::layers::{CellKnowledge, Flag, Layers};
+use super::rooms::Rooms;
 use super::sighting::Sighting;
+use super::walls::{WallSegment, walls};
 use super::{Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Pose2, normalize_rad};
@@ -13,6 +15,8 @@ use crate::observation::Observation;
 
 /// Derived rasters are brought up to date after this time, microseconds.
 const REFRESH_US: u64 = 2_000_000;
+/// Rooms are looked for again after this time, microseconds.
+const SURVEY_US: u64 = 120_000_000;
 /// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
 const SIGHTINGS_MAX: usize = 100_000;
 /// Turn rates of wheels and gyro are compared over ways of this length, metres.
@@ -40,6 +44,8 @@ pub(super) struct HomeMap {
     sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
+    rooms: Rooms,
+    surveyed_us: u64,
     slip: SlipMeter,
     dock: Option<Pose2>,
     revision: u32,
@@ -55,6 +61,8 @@ impl HomeMap {
             sightings: Vec::new(),
             last: None,
             refreshed_us: 0,
+            rooms: Rooms::default(),
+            surveyed_us: 0,
             slip: SlipMeter::default(),
             dock: None,
             revision: 0,
@@ -84,6 +92,15 @@ impl HomeMap {
             self.refreshed_us = observation.time_us;
             self.refresh();
         }
+        if observation.time_us >= self.surveyed_us.saturating_add(SURVEY_US) {
+            self.surveyed_us = observation.time_us;
+            self.survey();
+        }
+    }
+
+    fn survey(&mut self) {
+        self.refresh();
+        self.rooms = self.rooms.renewed(&self.derived.knowledge);
     }
 
     fn keep(&mut self, sighting: Sighting) {
@@ -123,6 +140,7 @@ impl HomeMap {
         self.last = None;
         self.dock = stored.dock();
         self.derive_anew();
+        self.rooms = stored.rooms().renewed(&self.derived.knowledge);
     }
 
     fn derive_anew(&mut self) {
@@ -221,6 +239,25 @@ impl Map {
         self.home.revision
     }
 
+    /// Rooms and doors, up to two minutes old; [`Self::survey`] brings them up to date.
+    #[must_use]
+    pub fn rooms(&self) -> &Rooms {
+        &self.home.rooms
+    }
+
+    /// Looks for rooms and doors in what is known now. Some ten milliseconds for a home.
+    pub fn survey(&mut self) {
+        self.home.survey();
+    }
+
+    /// Straight walls in what is known, longest line first. Some ten milliseconds for a home: for people who look at it.
+    #[must_use]
+    pub fn walls(&self) -> Vec<WallSegment> {
+        walls(self.knowledge(), self.distance_field(), |cell| {
+            self.sigma_m(cell).unwrap_or(0.0)
+        })
+    }
+
     /// Pose of a robot that stands on the dock, once it has been there.
     #[must_use]
     pub fn dock(&self) -> Option<Pose2> {
@@ -266,7 +303,7 @@ impl Map {
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
-        StoredMap::of_layers(&self.home.layers, self.home.dock)
+        StoredMap::of_layers(&self.home.layers, &self.home.rooms).with_dock(self.home.dock)
     }
 
     /// Takes up a stored home in place of what is known.

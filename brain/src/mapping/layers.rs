@@ -13,6 +13,9 @@ pub(super) const TILE_CELLS: i32 = 64;
 /// stray pose makes the dense rasters outgrow the memory of a small board.
 pub(super) const TILES_MAX: i64 = 640;
 
+/// Tiles are remembered up to this far from the origin: one kilometre.
+const KEY_MAX: i32 = 625;
+
 /// What is known of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKnowledge {
@@ -277,6 +280,9 @@ impl Layers {
     }
 
     fn allocate(&mut self, key: TileKey) -> Option<usize> {
+        if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
+            return None;
+        }
         let (low, high) = self.keys.unwrap_or((key, key));
         let low = (low.0.min(key.0), low.1.min(key.1));
         let high = (high.0.max(key.0), high.1.max(key.1));

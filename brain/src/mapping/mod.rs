@@ -15,18 +15,24 @@ mod draw;
 mod home;
 mod layers;
 mod raster;
+mod reach;
+mod rooms;
 mod sighting;
 mod stored;
 mod swept;
 mod traces;
+mod walls;
 
 pub use distance::{DistanceField, FAR_M};
 pub use home::{Entry, Keyframe};
 pub use layers::CellKnowledge;
 pub use raster::Raster;
+pub use reach::reachable;
+pub use rooms::{Door, Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};
 pub use swept::{CELL_M, Cell, SweptRun};
 pub use traces::{Mark, MarkKind, PathPoint};
+pub use walls::WallSegment;
 
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};

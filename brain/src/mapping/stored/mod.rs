@@ -8,6 +8,7 @@ mod codec;
 pub use codec::StoredMapError;
 
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
+use super::rooms::Rooms;
 use super::{Cell, CellKnowledge, Raster};
 use crate::geometry::Pose2;
 
@@ -88,7 +89,7 @@ impl StoredMap {
         self.cells.iter().all(|run| run.value == 0)
     }
 
-    pub(super) fn of_layers(layers: &Layers, dock: Option<Pose2>) -> Self {
+    pub(super) fn of_layers(layers: &Layers, rooms: &Rooms) -> Self {
         let mut around: Option<CellBox> = None;
         for (cell, _) in layers.gathered() {
             let here = CellBox::of(cell);
@@ -96,8 +97,7 @@ impl StoredMap {
         }
         let Some(around) = around else {
             return Self {
-                dock,
-                next_room: 1,
+                next_room: rooms.next(),
                 ..Self::default()
             };
         };
@@ -108,15 +108,27 @@ impl StoredMap {
                 *place = pack(evidence);
             }
         }
+        let labels = (0..raster.values().len())
+            .map(|index| rooms.labels().get(raster.cell(index)).copied().unwrap_or(0));
+        let labels = runs_of(labels);
         Self {
-            dock,
+            dock: None,
             origin: around.low,
             width: width.try_into().unwrap_or(u32::MAX),
             height: height.try_into().unwrap_or(u32::MAX),
             cells: runs_of(raster.values().iter().copied()),
-            rooms: Vec::new(),
-            next_room: 1,
+            rooms: labels,
+            next_room: rooms.next(),
         }
+    }
+
+    /// Cells and identities of the rooms.
+    pub(super) fn rooms(&self) -> Rooms {
+        let mut labels = Raster::filled(self.origin, self.width as usize, self.height as usize, 0);
+        for (place, value) in labels.values_mut().iter_mut().zip(values_of(&self.rooms)) {
+            *place = value;
+        }
+        Rooms::remembered(labels, self.next_room)
     }
 
     /// Adds what is stored to empty layers.
