@@ -20,7 +20,7 @@ pub(super) struct Recording {
     pub(super) left: Vec<u8>,
     /// While it was turned clockwise.
     pub(super) right: Vec<u8>,
-    /// Length of each part, seconds.
+    /// Length of each turned part by the robot's clock, seconds.
     pub(super) part_s: f64,
 }
 
@@ -222,11 +222,59 @@ impl Form {
     }
 }
 
+/// What a byte of all frames does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    /// Always the same.
+    Constant(u8),
+    /// Counts frames, whether the robot turns or not.
+    Counter,
+    /// 00 and FF only: the upper bytes of a small number.
+    Sign,
+    /// Anything else.
+    Free,
+}
+
+impl Column {
+    fn of(parts: [&Vec<&[u8]>; 3], place: usize) -> Self {
+        let [rest, ..] = parts;
+        let at = |frame: &&[u8]| frame.get(place).copied();
+        let seen: std::collections::BTreeSet<u8> = parts.into_iter().flatten().filter_map(at).collect();
+        let resting: Vec<u8> = rest.iter().filter_map(at).collect();
+        let step = |pair: &[u8]| pair[1].wrapping_sub(pair[0]);
+        let first = resting.windows(2).next().map_or(0, step);
+        let alike = resting.windows(2).filter(|pair| step(pair) == first).count();
+        match (seen.first(), seen.len()) {
+            (Some(byte), 1) => Self::Constant(*byte),
+            _ if first != 0 && alike * 10 >= resting.len() * 9 => Self::Counter,
+            _ if seen.iter().all(|byte| matches!(byte, 0 | 0xFF)) => Self::Sign,
+            _ => Self::Free,
+        }
+    }
+}
+
+/// Whether these bytes can be a number that answers to turns: the lowest moves, and the highest is no status.
+fn can_be_number(columns: &[Column], form: Form) -> bool {
+    let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
+        return false;
+    };
+    let (lowest, highest) = match form {
+        Form::I16Little | Form::I32Little => (first, last),
+        Form::I16Big | Form::I32Big => (last, first),
+    };
+    *lowest == Column::Free
+        && !columns.contains(&Column::Counter)
+        && !matches!(highest, Column::Constant(1..=0xFE))
+}
+
 fn fields(parts: [&Vec<&[u8]>; 3], payload: std::ops::Range<usize>, part_s: f64) -> Vec<Field> {
+    let columns: Vec<Column> = (0..payload.end).map(|place| Column::of(parts, place)).collect();
     let mut found: Vec<Field> = payload
-        .clone()
         .flat_map(|offset| Form::ALL.map(|form| (offset, form)))
-        .filter(|(offset, form)| offset + form.size() <= payload.end)
+        .filter(|(offset, form)| {
+            let bytes = columns.get(*offset..offset + form.size());
+            bytes.is_some_and(|bytes| can_be_number(bytes, *form))
+        })
         .filter_map(|(offset, form)| {
             let series = parts.map(|frames| series(frames, offset, form));
             Some(Field {

@@ -26,12 +26,18 @@ const BYTES_MIN: usize = 10;
 struct Heard {
     bytes: Vec<u8>,
     lost: u32,
+    /// From the first piece to the last by the robot's clock, ms.
+    span_ms: u32,
 }
 
 impl Heard {
     /// What the pieces hold, in their order; a gap on our own line is left out.
     fn join(pieces: Vec<Probed>) -> Self {
-        let mut heard = Self::default();
+        let ends = pieces.first().zip(pieces.last());
+        let mut heard = Self {
+            span_ms: ends.map_or(0, |(first, last)| last.tick.since(first.tick)),
+            ..Self::default()
+        };
         for piece in pieces {
             if let ProbedContent::Serial(serial) = piece.content {
                 heard.bytes.extend_from_slice(&serial.bytes);
@@ -48,7 +54,7 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
         "UART {port} at {baud} baud: bytes without a wrong stop bit."
     ))?;
     let target = ProbeTarget::Serial { port, baud };
-    let mut part = |wish: &str| -> anyhow::Result<Vec<u8>> {
+    let mut part = |wish: &str| -> anyhow::Result<Heard> {
         say(&format!(
             "{wish}, within {} s; press Enter to begin.",
             PART.as_secs()
@@ -56,13 +62,16 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
         if robot.next_line()?.is_none() {
             bail!("the input ended before the recording did; nothing was written");
         }
-        Ok(Heard::join(robot.watch(target, &[], Watch::For(PART))?).bytes)
+        Ok(Heard::join(robot.watch(target, &[], Watch::For(PART))?))
     };
+    let rest = part("Leave the robot alone")?;
+    let left = part("Turn it once around to the left (counter-clockwise), slowly")?;
+    let right = part("Turn it once around to the right, slowly")?;
     let recording = Recording {
-        rest: part("Leave the robot alone")?,
-        left: part("Turn it once around to the left (counter-clockwise), slowly")?,
-        right: part("Turn it once around to the right, slowly")?,
-        part_s: PART.as_secs_f64(),
+        part_s: f64::from(left.span_ms + right.span_ms) / 2_000.0,
+        rest: rest.bytes,
+        left: left.bytes,
+        right: right.bytes,
     };
     save(&recording, file)?;
     match Frames::find(&recording) {
@@ -74,30 +83,30 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
     ))
 }
 
-/// The first port and rate at which bytes come without errors.
+/// The port and rate at which most bytes come without errors: a wrong rate may give a few that only look right.
 fn find(robot: &mut Robot) -> anyhow::Result<(u8, u32)> {
-    let mut closest: Option<(u8, u32, usize)> = None;
+    let mut any = 0;
     for port in PORTS {
+        let mut best: Option<(u32, usize)> = None;
         for baud in RATES {
             let heard = Heard::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], Watch::For(TRY))?);
+            let count = heard.bytes.len();
             say(&format!(
-                "UART {port}, {baud:6} baud: {} bytes, {} wrong",
-                heard.bytes.len(),
+                "UART {port}, {baud:6} baud: {count} bytes, {} wrong",
                 heard.lost
             ))?;
-            if heard.bytes.len() >= BYTES_MIN && heard.lost == 0 {
-                return Ok((port, baud));
+            if count >= BYTES_MIN && heard.lost == 0 && best.is_none_or(|(_, most)| count > most) {
+                best = Some((baud, count));
             }
-            if heard.bytes.len() > closest.map_or(0, |(.., count)| count) {
-                closest = Some((port, baud, heard.bytes.len()));
-            }
+            any += count;
+        }
+        if let Some((baud, _)) = best {
+            return Ok((port, baud));
         }
     }
-    match closest {
-        Some((port, baud, count)) => bail!(
-            "no rate fits: the most was heard on UART {port} at {baud} baud ({count} bytes), with errors"
-        ),
-        None => bail!("neither UART hears anything: is the module fitted and its plug in?"),
+    match any {
+        0 => bail!("neither UART hears anything: is the module fitted and its plug in?"),
+        _ => bail!("something is heard, but no rate fits: at each of them bytes come with errors"),
     }
 }
 
