@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use brain::command::StrategyName;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
-use rvac_sim::{Household, Record, Scene, SceneSettings};
+use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
@@ -24,6 +24,7 @@ pub fn scene(home: &str, noise: &str) -> Scene {
         noise: noise.to_owned(),
         firmware: None,
         record: Record::Complete,
+        gyro: GyroFitted::default(),
     })
     .expect("the project's homes suit the project's robot")
 }

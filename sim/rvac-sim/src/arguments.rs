@@ -6,10 +6,9 @@ use std::path::PathBuf;
 use anyhow::bail;
 use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
-
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::ServeSettings;
-use rvac_sim::{PoseSource, Record, SceneSettings};
+use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
@@ -46,6 +45,21 @@ pub(crate) struct SceneArguments {
     /// The robot's flash holds no calibration record: an owner has just flashed it. Needs --firmware.
     #[arg(long, requires = "firmware")]
     uncalibrated: bool,
+    /// The gyro module of the emulated board: `placeholder` of robots/samsung-sr8730/gyro.md, `none`, or a number that makes
+    /// up port, rate and frames which no program knows. Without it the placeholder; 1 with --uncalibrated.
+    #[arg(long, value_name = "WHICH", requires = "firmware", value_parser = gyro)]
+    gyro: Option<GyroFitted>,
+}
+
+fn gyro(text: &str) -> Result<GyroFitted, String> {
+    match text {
+        "none" => Ok(GyroFitted::Absent),
+        "placeholder" => Ok(GyroFitted::Placeholder),
+        number => number
+            .parse()
+            .map(GyroFitted::Unknown)
+            .map_err(|_| "a gyro is `none`, `placeholder` or a whole number".to_owned()),
+    }
 }
 
 impl SceneArguments {
@@ -60,6 +74,11 @@ impl SceneArguments {
             } else {
                 Record::Complete
             },
+            gyro: self.gyro.unwrap_or(if self.uncalibrated {
+                GyroFitted::Unknown(1)
+            } else {
+                GyroFitted::Placeholder
+            }),
         }
     }
 }

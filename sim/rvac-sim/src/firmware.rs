@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use home::World;
 use pic32::board::serial::Rate;
-use pic32::board::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, GyroFitted, Record};
 use pic32::image::{Image, ImageError};
 use robot::{RobotSettings, SimulatedRobot};
 
@@ -75,6 +75,15 @@ impl Firmware {
             cause,
         })?;
         Ok(Self::Image(Arc::new(Blueprint::sr8730(image, record)?)))
+    }
+
+    /// The same with this gyro module on the board of an emulated chip; the firmware that is built in has its own.
+    #[must_use]
+    pub fn with_gyro(self, gyro: GyroFitted) -> Self {
+        match self {
+            Self::HostBuilt => Self::HostBuilt,
+            Self::Image(blueprint) => Self::Image(Arc::new(Arc::unwrap_or_clone(blueprint).with_gyro(gyro))),
+        }
     }
 
     /// A robot with this firmware that was just switched on.

@@ -24,7 +24,7 @@ pub use figures::Figures;
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use household::{Household, PoseSource, TICK_US};
-pub use pic32::board::Record;
+pub use pic32::board::{GyroFitted, Record};
 pub use report::{Report, StuckWatch};
 pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, HomeError, ModelError, Noise, RobotModel, World};
-use pic32::board::Record;
+use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
 
 use crate::{Firmware, FirmwareError, Robot};
@@ -22,6 +22,8 @@ pub struct SceneSettings {
     pub firmware: Option<PathBuf>,
     /// The calibration record in the robot's flash, which only an image for the chip reads.
     pub record: Record,
+    /// The gyro module on the board of an emulated chip.
+    pub gyro: GyroFitted,
 }
 
 /// A home, a model of robot and its firmware, ready for any number of runs.
@@ -48,7 +50,8 @@ impl Scene {
         }
         let noise =
             Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
-        let firmware = Firmware::load(settings.firmware.as_deref(), &settings.record)?;
+        let firmware =
+            Firmware::load(settings.firmware.as_deref(), &settings.record)?.with_gyro(settings.gyro);
         let home = Home::load(Path::new(&settings.home), &model)?;
         Ok(Self::new(Arc::new(home), model, noise).with_firmware(firmware))
     }
