@@ -26,6 +26,8 @@ enum Subject {
     Charges,
     /// The robot's firmware in the emulated chip beside the built-in one: how well they clean the same home.
     Coverage,
+    /// How fast and how surely the robot covers homes, against the lower bound and against bounce.
+    Navigation,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -41,8 +43,8 @@ pub(crate) struct Arguments {
     /// Measure longer, for the record.
     #[arg(long)]
     long: bool,
-    /// Arguments for the measuring program itself.
-    #[arg(last = true)]
+    /// Arguments for the measuring program itself, for example `--homes report --seeds 5` of `navigation`.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<String>,
 }
 
@@ -143,6 +145,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Flips => &["--package", "trials", "--bin", "bench-flips"],
         Subject::Charges => &["--package", "trials", "--bin", "bench-charges"],
         Subject::Coverage => &["--package", "rvac-sim", "--bin", "bench-coverage"],
+        Subject::Navigation => &["--package", "rvac-sim", "--bin", "bench-navigation"],
         Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
@@ -167,6 +170,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Cordlib
         | Subject::Flips
         | Subject::Charges
+        | Subject::Navigation
         | Subject::Coverage => &[],
     }
 }
@@ -178,6 +182,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Flips => &["--count", "100000"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
+        Subject::Navigation => &["--homes", "report", "--seeds", "20"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],

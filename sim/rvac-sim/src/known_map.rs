@@ -29,9 +29,10 @@ pub(crate) fn known_map(home: &Home, map_from_plan: Pose) -> StoredMap {
         if let (Some(value), Some(place)) = (knowledge.values_mut().get_mut(index), grid.index(x_m, y_m)) {
             *value = match grid.cells.get(place) {
                 Some(PlanCell::Floor | PlanCell::Rug) => CellKnowledge::Free,
-                Some(PlanCell::Obstacle) => CellKnowledge::Occupied,
+                // What is unknown to the plan is solid for the robot in it, so it would have found a wall.
+                Some(PlanCell::Obstacle | PlanCell::Outside) => CellKnowledge::Occupied,
                 Some(PlanCell::Cliff) => CellKnowledge::Cliff,
-                Some(PlanCell::Outside) | None => CellKnowledge::Unknown,
+                None => CellKnowledge::Unknown,
             };
         }
     }

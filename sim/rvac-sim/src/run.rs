@@ -31,7 +31,9 @@ pub enum RunEnd {
 }
 
 impl RunEnd {
-    fn is_reached(self, household: &Household) -> bool {
+    /// Whether the run of this household shall end now, apart from its time.
+    #[must_use]
+    pub fn is_reached(self, household: &Household) -> bool {
         let settled = || {
             let state = household.host().and_then(Host::state);
             household.job_is_over() && state != Some(brain::BehaviorState::Docking)

@@ -1,0 +1,181 @@
+//! Medians and 90th percentiles of each mode.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use crate::run::{Mode, Run};
+
+/// A figure over all runs of a mode.
+#[derive(Clone, Debug, Serialize)]
+struct Spread {
+    /// `null` = the median run did not get so far.
+    median: Option<f64>,
+    /// The 90th percentile toward the worse.
+    p90: Option<f64>,
+    /// Runs without the figure.
+    missing: usize,
+}
+
+/// How a figure is taken from a run, and what it is called.
+struct Figure {
+    name: &'static str,
+    better: Better,
+    of: fn(&Run) -> Option<f64>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Better {
+    Less,
+    More,
+}
+
+const FIGURES: [Figure; 18] = [
+    less("t80_over_t0", |run| run.figures.t80_over_t0),
+    less("t90_over_t0", |run| run.figures.t90_over_t0),
+    less("t95_over_t0", |run| run.figures.t95_over_t0),
+    more("share_at_t0", |run| run.figures.share_at_t0),
+    more("share_at_1_8_t0", |run| run.figures.share_at_1_8_t0),
+    more("covered", |run| Some(run.covered)),
+    less("job_over_t0", |run| run.figures.job_over_t0),
+    less("turn_deg_per_m2", |run| Some(run.figures.turn_deg_per_m2)),
+    less("bumps_per_m2", |run| Some(run.figures.bumps_per_m2)),
+    less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
+    less("pose_rmse_30_min_m", |run| run.figures.pose_rmse_30_min_m),
+    less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),
+    less("heading_rmse_deg", |run| run.figures.heading_rmse_deg),
+    less("lost_seconds", |run| Some(run.figures.lost_seconds)),
+    more("docked", |run| Some(f64::from(u8::from(run.figures.docked)))),
+    less("stuck", |run| Some(f64::from(run.stuck))),
+    less("violations", |run| Some(f64::from(run.violations))),
+    more("times_real_time", |run| Some(run.sim_seconds / run.wall_seconds)),
+];
+
+const fn less(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
+    Figure {
+        name,
+        better: Better::Less,
+        of,
+    }
+}
+
+const fn more(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
+    Figure {
+        name,
+        better: Better::More,
+        of,
+    }
+}
+
+/// All modes side by side.
+pub(crate) struct Table {
+    columns: Vec<(Mode, usize, Vec<Spread>)>,
+}
+
+impl Table {
+    pub(crate) fn of(runs: &[Run], modes: &[Mode]) -> Self {
+        let column = |mode: &Mode| {
+            let runs: Vec<&Run> = runs.iter().filter(|run| run.mode == *mode).collect();
+            let spreads = FIGURES.iter().map(|figure| {
+                spread(
+                    &runs.iter().map(|run| (figure.of)(run)).collect::<Vec<_>>(),
+                    figure.better,
+                )
+            });
+            (*mode, runs.len(), spreads.collect())
+        };
+        Self {
+            columns: modes.iter().map(column).collect(),
+        }
+    }
+}
+
+/// Nearest rank; a run without the figure is worse than all others.
+fn spread(values: &[Option<f64>], better: Better) -> Spread {
+    let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    if better == Better::More {
+        sorted.reverse();
+    }
+    let rank = |share: f64| {
+        let rank = (share * values.len() as f64).ceil() as usize;
+        rank.checked_sub(1).and_then(|index| sorted.get(index)).copied()
+    };
+    Spread {
+        median: rank(0.5),
+        p90: rank(0.9),
+        missing: values.len() - sorted.len(),
+    }
+}
+
+impl Serialize for Table {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.columns.iter().map(|(mode, runs, spreads)| {
+            let figures: serde_json::Map<String, serde_json::Value> = FIGURES
+                .iter()
+                .zip(spreads)
+                .map(|(figure, spread)| (figure.name.to_owned(), serde_json::json!(spread)))
+                .chain([("runs".to_owned(), (*runs).into())])
+                .collect();
+            (mode.name(), figures)
+        }))
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{:<20}", "")?;
+        for (mode, _, _) in &self.columns {
+            write!(formatter, " {:>18}", mode.name())?;
+        }
+        writeln!(
+            formatter,
+            "\n{:<20}{}",
+            "lower bound T0",
+            " 1.00 for all times".trim_end()
+        )?;
+        for (number, figure) in FIGURES.iter().enumerate() {
+            write!(formatter, "{:<20}", figure.name)?;
+            for (_, _, spreads) in &self.columns {
+                let text = spreads.get(number).map_or_else(String::new, Spread::text);
+                write!(formatter, " {text:>18}")?;
+            }
+            writeln!(formatter)?;
+        }
+        Ok(())
+    }
+}
+
+impl Spread {
+    fn text(&self) -> String {
+        let number = |value: Option<f64>| {
+            value.map_or_else(
+                || "-".to_owned(),
+                |value| {
+                    if value.abs() >= 100.0 {
+                        format!("{value:.0}")
+                    } else {
+                        format!("{value:.2}")
+                    }
+                },
+            )
+        };
+        format!("{} ({})", number(self.median), number(self.p90))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Better, spread};
+
+    #[test]
+    fn runs_that_did_not_arrive_count_as_the_worst() {
+        let times: Vec<Option<f64>> = (1..=8).map(|n| Some(f64::from(n))).chain([None, None]).collect();
+        let spread_of_times = spread(&times, Better::Less);
+        assert_eq!(spread_of_times.median, Some(5.0));
+        assert_eq!((spread_of_times.p90, spread_of_times.missing), (None, 2));
+        let shares: Vec<Option<f64>> = (1..=10).map(|n| Some(f64::from(n) / 10.0)).collect();
+        assert_eq!(spread(&shares, Better::More).p90, Some(0.2));
+        assert_eq!(spread(&[], Better::Less).median, None);
+    }
+}
