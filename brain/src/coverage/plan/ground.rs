@@ -3,6 +3,9 @@
 use crate::geometry::Point2;
 use crate::mapping::{CELL_M, Cell, Raster};
 
+/// A robot can set out to free cells this far from where it stands.
+const SET_OUT_M: f64 = 0.4;
+
 /// Axis of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Axis {
@@ -133,16 +136,46 @@ impl Ground {
         }
     }
 
-    /// The free cell nearest to a point.
-    pub(super) fn nearest_free(&self, point: Point2) -> Option<usize> {
-        let mut best: Option<(f64, usize)> = None;
-        for index in (0..self.free.len()).filter(|index| self.free[*index]) {
-            let distance_m = self.point(index).distance_m(point);
-            if best.is_none_or(|(nearest_m, _)| distance_m < nearest_m) {
-                best = Some((distance_m, index));
+    /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
+    /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
+    pub(super) fn origin_near(&self, point: Point2) -> Option<usize> {
+        let mut seen = vec![false; self.free.len()];
+        let mut nearest: Option<(f64, usize)> = None;
+        let mut largest: Option<(usize, f64, usize)> = None;
+        for seed in 0..self.free.len() {
+            if seen[seed] || !self.free[seed] {
+                continue;
+            }
+            let (size, distance_m, cell) = self.component(seed, &mut seen, point);
+            if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
+                nearest = Some((distance_m, cell));
+            }
+            if distance_m < SET_OUT_M && largest.is_none_or(|(most, _, _)| size > most) {
+                largest = Some((size, distance_m, cell));
             }
         }
-        best.map(|(_, index)| index)
+        largest.map(|(_, _, cell)| cell).or(nearest.map(|(_, cell)| cell))
+    }
+
+    /// Size of a piece of connected ground, and its cell nearest to a point with the distance.
+    fn component(&self, seed: usize, seen: &mut [bool], point: Point2) -> (usize, f64, usize) {
+        let mut stack = vec![seed];
+        seen[seed] = true;
+        let (mut size, mut best) = (0, (f64::INFINITY, seed));
+        while let Some(index) = stack.pop() {
+            size += 1;
+            let distance_m = self.point(index).distance_m(point);
+            if distance_m < best.0 {
+                best = (distance_m, index);
+            }
+            for neighbour in self.neighbours(index) {
+                if self.free[neighbour] && !seen[neighbour] {
+                    seen[neighbour] = true;
+                    stack.push(neighbour);
+                }
+            }
+        }
+        (size, best.0, best.1)
     }
 
     /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.

@@ -56,6 +56,12 @@ pub struct CoveragePlan {
 }
 
 impl CoveragePlan {
+    /// Floor that is swept already, in square metres.
+    #[must_use]
+    pub fn passed_m2(&self) -> f64 {
+        (self.floor_m2 - self.open_m2).max(0.0)
+    }
+
     /// Share of the floor that is swept already, 0..=1.
     #[must_use]
     pub fn share_passed(&self) -> f64 {
@@ -78,7 +84,7 @@ pub fn plan_coverage(
 ) -> CoveragePlan {
     let reach = reach_cells(settings);
     let mut ground = Ground::new(reachable, reach);
-    let Some(origin) = ground.nearest_free(start.position()) else {
+    let Some(origin) = ground.origin_near(start.position()) else {
         return CoveragePlan::default();
     };
     ground.keep_connected(origin);

@@ -1,7 +1,7 @@
 //! Ways between places over free ground: a coarse graph finds them, lines of sight straighten them.
 
 use core::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 
 use super::ground::Ground;
 
@@ -142,7 +142,63 @@ impl<'ground> Router<'ground> {
         }
         chain.push(from);
         chain.reverse();
-        self.straightened(&chain)
+        self.straightened(&self.joined_up(&chain))
+    }
+
+    /// The chain with cells put in between two that do not see each other, though their blocks touch.
+    fn joined_up(&self, chain: &[usize]) -> Vec<usize> {
+        let mut whole = Vec::with_capacity(chain.len());
+        for (position, cell) in chain.iter().enumerate() {
+            if let Some(before) = position.checked_sub(1).and_then(|before| chain.get(before))
+                && !self.ground.sees(*before, *cell)
+            {
+                whole.extend(self.cells_between(*before, *cell));
+            }
+            whole.push(*cell);
+        }
+        whole
+    }
+
+    /// Neighbouring free cells from one cell to another in the blocks around them, without the two; empty if there are none.
+    fn cells_between(&self, from: usize, to: usize) -> Vec<usize> {
+        let ((x0, y0), (x1, y1)) = (self.ground.place(from), self.ground.place(to));
+        let (low_x, high_x) = (x0.min(x1).saturating_sub(BLOCK), x0.max(x1) + BLOCK);
+        let (low_y, high_y) = (y0.min(y1).saturating_sub(BLOCK), y0.max(y1) + BLOCK);
+        let width = high_x - low_x + 1;
+        let local = |cell: usize| {
+            let (x, y) = self.ground.place(cell);
+            let inside = (low_x..=high_x).contains(&x) && (low_y..=high_y).contains(&y);
+            inside.then(|| (y - low_y) * width + x - low_x)
+        };
+        let mut parents = vec![NONE; width * (high_y - low_y + 1)];
+        let mut waiting = VecDeque::from([to]);
+        while let Some(cell) = waiting.pop_front() {
+            if cell == from {
+                break;
+            }
+            for next in self.ground.neighbours(cell) {
+                let Some(place) = local(next).filter(|_| self.ground.free[next]) else {
+                    continue;
+                };
+                if parents[place] == NONE && next != to {
+                    parents[place] = cell as u32;
+                    waiting.push_back(next);
+                }
+            }
+        }
+        let mut cells = Vec::new();
+        let mut cell = from;
+        while let Some(parent) = local(cell)
+            .map(|place| parents[place])
+            .filter(|parent| *parent != NONE)
+        {
+            cell = parent as usize;
+            if cell == to {
+                break;
+            }
+            cells.push(cell);
+        }
+        cells
     }
 
     fn straightened(&self, chain: &[usize]) -> Vec<usize> {
@@ -162,11 +218,6 @@ impl<'ground> Router<'ground> {
 }
 
 impl Spread {
-    /// Cost of a block in tenths of its edge, if it was reached.
-    pub(super) fn cost(&self, block: usize) -> Option<u32> {
-        self.costs.get(block).copied().filter(|cost| *cost != u32::MAX)
-    }
-
     fn set(&mut self, block: usize, cost: u32, parent: u32) {
         self.costs[block] = cost;
         self.parents[block] = parent;

@@ -37,6 +37,8 @@ const NOTHING_M2: f64 = 0.02;
 const VAIN_PLANS_MAX: u32 = 6;
 /// Times that obstructions are forgotten in order to try again, in one job.
 const FRESH_STARTS_MAX: u32 = 3;
+/// Less than this share of the floor that was once in reach: something is cut off.
+const WHOLE_SHARE: f64 = 0.95;
 /// Proximity level ahead that means contact within a few centimetres.
 const NEAR_LEVEL: f32 = 0.6;
 /// Speed towards something near: a soft contact.
@@ -57,6 +59,8 @@ pub(crate) struct Systematic {
     fresh_starts: u32,
     /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
+    /// Most floor that could be reached at any time: what is cut off later still counts as not swept.
+    floor_m2: f64,
 }
 
 impl Task for Systematic {
@@ -129,15 +133,21 @@ impl Systematic {
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
+        self.floor_m2 = self.floor_m2.max(plan.floor_m2);
         if plan.floor_m2 <= 0.0 {
             return Some(Plan::Finished(Reason::NoMap));
         }
         if plan.lanes == 0 {
-            mind.decide("covered", Reason::Finished, plan.share_passed());
-            return Some(if blocked.is_empty() {
-                Plan::Finished(Reason::Finished)
+            let reason = if plan.floor_m2 < WHOLE_SHARE * self.floor_m2 {
+                Reason::RestOutOfReach
             } else {
-                self.start_afresh(Reason::Finished)
+                Reason::Finished
+            };
+            mind.decide("covered", reason, plan.passed_m2() / self.floor_m2);
+            return Some(if blocked.is_empty() {
+                Plan::Finished(reason)
+            } else {
+                self.start_afresh(reason)
             });
         }
         if self.vain_plans > VAIN_PLANS_MAX {
