@@ -69,7 +69,25 @@ pub(super) fn of_emulator(_long: bool) -> Result {
     let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
     let mut pace = robot_command(&pace);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
-    all([tests(&mut command), check(&mut pace)].into_iter().chain(trials))
+    let owner =
+        workspace::build(&["rvac-cli"], workspace::Profile::Dev).and_then(|()| tests(&mut owner(&elf)));
+    all([tests(&mut command), owner, check(&mut pace)]
+        .into_iter()
+        .chain(trials))
+}
+
+/// An owner calibrates the emulated robot with `rvac`.
+fn owner(elf: &Path) -> Command {
+    let mut command = workspace::cargo();
+    command
+        .args(["test", "--locked", "--package", "rvac-sim", "--test", "owner"])
+        .args(["--no-fail-fast", "--", "--test-threads", "6"])
+        .env("RVAC_FIRMWARE", elf)
+        .env(
+            "RVAC_PROGRAM",
+            workspace::program("rvac", workspace::Profile::Dev),
+        );
+    command
 }
 
 /// The real firmware under faults, a little of each; `cargo xtask bench safety --long` and its like take more.
