@@ -69,6 +69,12 @@ impl<const N: usize> EdgeRing<N> {
                 return Some(Queued::Overrun);
             }
         }
+        let head = self.head.load(Ordering::Acquire);
+        if head.wrapping_sub(tail) > N as u32 {
+            // No producer does that: a bit of an index has flipped, and to follow it would take for ever.
+            self.tail.store(head, Ordering::Release);
+            return Some(Queued::Overrun);
+        }
         let word = self.slots.get(tail as usize & (N - 1))?.load(Ordering::Relaxed);
         self.tail.store(tail.wrapping_add(1), Ordering::Release);
         Some(Queued::Edge(Edge::unpacked(word)))
@@ -143,5 +149,29 @@ impl<const N: usize> ByteRing<N> {
 impl<const N: usize> Default for ByteRing<N> {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{EdgeRing, Queued};
+    use crate::edge::{Edge, Level};
+    use core::sync::atomic::Ordering;
+
+    #[test]
+    fn an_index_with_a_flipped_bit_costs_what_waits_and_no_more() {
+        let edge = Edge {
+            at: 8,
+            level: Level::Low,
+        };
+        for bit in 5..32 {
+            let ring = EdgeRing::<16>::new();
+            ring.push(edge);
+            ring.tail.fetch_xor(1 << bit, Ordering::Relaxed);
+            assert_eq!(ring.pop(), Some(Queued::Overrun));
+            assert_eq!(ring.pop(), None);
+            ring.push(edge);
+            assert_eq!(ring.pop(), Some(Queued::Edge(edge)));
+        }
     }
 }
