@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
-use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Motor, Record};
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, Machine};
 use pic32::pins::{Level, Pin};
@@ -28,6 +28,11 @@ const SENDINGS_A_BYTE: u64 = 11;
 const LOW_CYCLES_MAX: u64 = 10 * 80_000_000 / 230_400;
 /// Vectors that come once in a millisecond: core timer and converter.
 const REGULAR: [u8; 2] = [0, 27];
+/// Physical address of an instruction in the middle of the image.
+const IN_THE_IMAGE: u32 = 0x1D01_0000;
+/// The right wheel's output compare, and a value that makes its pin high until something else is written.
+const OC4CON: u32 = 0xBF80_3600;
+const HIGH_FOR_GOOD: u32 = 0x8001;
 const CYCLES_PER_MS: u64 = 80_000;
 const ROOM: &str = "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]\n";
 
@@ -117,6 +122,24 @@ fn the_program_uses_the_chip_as_it_is_meant() {
     assert_eq!(robot.machine().unknown_accesses(), []);
     assert_eq!(robot.machine().exceptions(), []);
     assert_eq!(robot.resets(), 0);
+}
+
+#[test]
+fn what_damaged_code_switches_on_does_not_stay_on() {
+    let Some(mut sound) = robot() else { return };
+    pass_ms(&mut sound, 500);
+    let mut damaged = sound.clone();
+    let flipped = damaged.machine_mut().flip_flash_bit(IN_THE_IMAGE, 0);
+    flipped.expect("the image is in flash");
+    pass_ms(&mut damaged, 400);
+    assert_ne!(damaged.machine().reset_count(), 0, "found, and started again");
+    for robot in [&mut sound, &mut damaged] {
+        robot.machine_mut().write_register(OC4CON, HIGH_FOR_GOOD);
+        pass_ms(robot, 3);
+    }
+    // In a sound robot nobody does that.
+    assert!(sound.duty(Motor::WheelRight).abs() > 0.5);
+    assert!(damaged.duty(Motor::WheelRight) == 0.0);
 }
 
 #[test]

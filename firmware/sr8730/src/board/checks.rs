@@ -73,12 +73,17 @@ impl SelfChecks {
         let verdict = self.image.map_or(Verdict::Damaged, |image| image.all());
         if verdict != Verdict::Whole {
             self.image = None;
+            // Who put the board together was damaged code: it may have switched on what nobody knows of.
+            off::everything();
         }
         verdict
     }
 
     /// To be called once in a millisecond.
     pub fn service(&mut self) -> Option<Finding> {
+        if self.image.is_none() {
+            off::everything();
+        }
         let verdict = self.image.as_mut().map(ImageCheck::slice);
         if !self.sums.is_next_whole(block_sum) || verdict == Some(Verdict::Damaged) {
             return Some(Finding::Broken(Trouble::Flash));
