@@ -21,9 +21,9 @@ const CHARGING_A: f64 = 0.1;
 const THERMISTOR: u8 = 4;
 const OPEN: u16 = 1_000;
 const SHORTED: u16 = 20;
-/// AD1CON1's CLR address and its bit ON (pic32mx360.md section 13).
-const CONVERTER_CLEAR: u32 = 0xBF80_9004;
-const CONVERTER_ON: u32 = 1 << 15;
+/// CLR address of IEC1 and the converter's bit (pic32mx360.md sections 5 and 13).
+const IEC1_CLEAR: u32 = 0xBF88_1074;
+const CONVERTER_ENABLE: u32 = 1 << 1;
 
 /// What goes wrong while the pack is charged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -41,7 +41,7 @@ pub enum Trouble {
     Lifted,
     /// The charging switch conducts for good: the robot must drive off.
     SwitchShorted,
-    /// The converter stops.
+    /// The converter's readings are not taken over any more.
     ConverterStopped,
 }
 
@@ -79,7 +79,7 @@ impl Trouble {
             Self::ThermistorShorted => robot.hold_analog(THERMISTOR, SHORTED, (now, u64::MAX)),
             Self::Lifted => robot.world_mut().lift(),
             Self::SwitchShorted => robot.short_charging_switch(),
-            Self::ConverterStopped => robot.machine_mut().write_register(CONVERTER_CLEAR, CONVERTER_ON),
+            Self::ConverterStopped => robot.machine_mut().write_register(IEC1_CLEAR, CONVERTER_ENABLE),
         }
     }
 }

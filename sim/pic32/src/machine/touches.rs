@@ -1,17 +1,19 @@
-//! Which words of memory the program touches, and how first: a campaign that breaks memory need not try words that nobody
+//! Which bytes of memory the program touches, and how first: a campaign that breaks memory need not try bytes that nobody
 //! reads.
 
 use std::collections::HashMap;
 
 use super::{Halt, Machine, Surroundings};
 
-/// The first thing that the program did to a word of memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Touch {
-    /// It read it, or a part of it, or executed it.
-    Read,
-    /// It wrote all of it.
-    Written,
+/// What the program did first to each byte of a word of memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Touch {
+    /// Bytes that it read or executed before it wrote them, by bit; bit 0 is the byte at the word's own address.
+    pub read: u8,
+    /// Bytes that it wrote before it read them.
+    pub written: u8,
+    /// It executed the word.
+    pub executed: bool,
 }
 
 /// Words and what was done to them first.
@@ -20,28 +22,45 @@ pub(super) struct Touches {
     first: HashMap<u32, Touch>,
 }
 
-/// What an instruction does to memory besides being fetched.
+/// What an instruction does to memory besides being fetched: bytes of one word, by bit.
 enum Transfer {
-    Load(u32),
-    StoreWord(u32),
+    Load(u32, u8),
+    Store(u32, u8),
     Nothing,
 }
 
+/// All bytes of a word.
+const WHOLE: u8 = 0b1111;
+
 impl Touches {
-    fn note(&mut self, address: u32, touch: Touch) {
-        self.first.entry(address & 0x1FFF_FFFC).or_insert(touch);
+    fn of(&mut self, address: u32) -> &mut Touch {
+        self.first.entry(address & 0x1FFF_FFFC).or_default()
+    }
+
+    fn read(&mut self, address: u32, bytes: u8) {
+        let touch = self.of(address);
+        touch.read |= bytes & !touch.written;
+    }
+
+    fn execute(&mut self, address: u32) {
+        self.read(address, WHOLE);
+        self.of(address).executed = true;
+    }
+
+    fn write(&mut self, address: u32, bytes: u8) {
+        let touch = self.of(address);
+        touch.written |= bytes & !touch.read;
     }
 }
 
 impl Machine {
-    /// From now on the machine goes instruction by instruction and notes which words of memory the program touches. Not
-    /// seen is what the very first instruction of an interrupt's handler loads or stores. A store to a part of a word is
-    /// left out: the rest of the word keeps what it was.
+    /// From now on the machine goes instruction by instruction and notes which bytes of memory the program touches. Not
+    /// seen is what the very first instruction of an interrupt's handler loads or stores.
     pub fn note_touches(&mut self) {
         self.touches = Some(Box::default());
     }
 
-    /// Physical addresses of words that were touched since the last call, each once, and what was done to them first.
+    /// Physical addresses of words that were touched since the last call, each once, and what was done to their bytes first.
     pub fn take_touches(&mut self) -> impl Iterator<Item = (u32, Touch)> + use<> {
         let touches = self.touches.as_deref_mut().map(std::mem::take);
         touches.unwrap_or_default().first.into_iter()
@@ -65,14 +84,14 @@ impl Machine {
                 break;
             };
             if self.accounting.entries() != entries {
-                touches.note(self.cpu.pc().wrapping_sub(4), Touch::Read);
+                touches.execute(self.cpu.pc().wrapping_sub(4));
                 continue;
             }
-            touches.note(pc, Touch::Read);
+            touches.execute(pc);
             let [own, slot] = transfers;
             touches.transfer(&own);
             if instruction.is_some_and(has_slot) {
-                touches.note(pc.wrapping_add(4), Touch::Read);
+                touches.execute(pc.wrapping_add(4));
                 touches.transfer(&slot);
             }
         }
@@ -104,11 +123,20 @@ impl Machine {
         let base = (instruction >> 21 & 31) as u8;
         let offset = i32::from(instruction as i16).cast_unsigned();
         let place = self.cpu.register(base).wrapping_add(offset);
+        let byte = place & 3;
         match instruction >> 26 {
-            // LB to LWR, LL.
-            0x20..=0x26 | 0x30 => Transfer::Load(place),
-            // SW, SC.
-            0x2B | 0x38 => Transfer::StoreWord(place),
+            // LB, LBU.
+            0x20 | 0x24 => Transfer::Load(place, 1 << byte),
+            // LH, LHU.
+            0x21 | 0x25 => Transfer::Load(place, 0b11 << (byte & 2)),
+            // LWL, LW, LWR, LL.
+            0x22 | 0x23 | 0x26 | 0x30 => Transfer::Load(place, WHOLE),
+            // SB.
+            0x28 => Transfer::Store(place, 1 << byte),
+            // SH.
+            0x29 => Transfer::Store(place, 0b11 << (byte & 2)),
+            // SW, SC. What SWL and SWR write is left out: the rest of the word keeps what it was.
+            0x2B | 0x38 => Transfer::Store(place, WHOLE),
             _ => Transfer::Nothing,
         }
     }
@@ -117,8 +145,8 @@ impl Machine {
 impl Touches {
     fn transfer(&mut self, transfer: &Transfer) {
         match *transfer {
-            Transfer::Load(place) => self.note(place, Touch::Read),
-            Transfer::StoreWord(place) => self.note(place, Touch::Written),
+            Transfer::Load(place, bytes) => self.read(place, bytes),
+            Transfer::Store(place, bytes) => self.write(place, bytes),
             Transfer::Nothing => {}
         }
     }

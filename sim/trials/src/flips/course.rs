@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use monitor::Bridges;
-use pic32::board::{CYCLES_PER_MS, Contact, EmulatedRobot, Hold};
+use pic32::board::{CYCLES_PER_MS, Contact, EmulatedRobot, Hold, Motor};
 use pic32::machine::{Machine, Touch};
 use rvac_protocol::message::{Command, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
@@ -14,12 +14,16 @@ use crate::trial::Scene;
 
 use super::place::{Place, Storage};
 
-/// Bits flip within so many milliseconds.
-pub(super) const FLIP_MS: usize = 250;
-/// Then something happens after which all motors, or the charger, must be off, or may not start; and this long the judge
-/// looks on: longer than the watchdog's 256 ms and every reaction to what happens.
-const LOOK_MS: usize = 450;
-pub(super) const WHOLE_MS: usize = FLIP_MS + LOOK_MS;
+/// Bits flip within so many milliseconds. Then something happens after which all motors, or the charger, must be off, or
+/// may not start.
+pub(super) const FLIP_MS: usize = 150;
+/// Longest time for which the judge looks on, see [`Situation::look_ms`].
+const LOOK_MS_MAX: usize = 450;
+/// A robot that was reset and whose memory is whole again is looked at for so long while all is off.
+const AFTER_RESET_MS: u32 = 60;
+/// With a bit of flash still flipped it must have started again, too: 30 ms for the checks of all memories and a
+/// hundred for all else; and what happens must have happened.
+const AFTER_START_MS: u32 = 130;
 /// A charger begins within this time on the dock.
 const CHARGE_BEGINS_MS: u64 = 60_000;
 /// Current that tells that it has begun, ampere.
@@ -75,6 +79,16 @@ impl Situation {
                 Ok(stage)
             }
             Self::Charging => charging(workshop, seed, late_cycles),
+        }
+    }
+
+    /// How long the judge looks on after that, ms: longer than the watchdog's 256 ms and the reaction to what happens,
+    /// as the monitor counts it.
+    const fn look_ms(self, number: usize) -> usize {
+        match (self, number % 4) {
+            (Self::Driving | Self::Cleaning, 3) => LOOK_MS_MAX,
+            (Self::Charging, _) => 380,
+            _ => 330,
         }
     }
 
@@ -158,19 +172,35 @@ impl Look {
         }
     }
 
-    /// Whether this robot goes on as the one that was looked at.
-    fn is_met_by(&self, robot: &mut EmulatedRobot, registers: &[u32]) -> bool {
+    /// Whether this robot goes on as the one that was looked at, whose program reads the `live` bytes of RAM before it
+    /// writes them.
+    fn is_met_by(&self, robot: &mut EmulatedRobot, registers: &[u32], live: impl Fn(u32) -> bool) -> bool {
         let machine = robot.machine();
-        machine.memory().ram().as_slice() == self.ram
-            && machine.cpu().cycle() == self.cycle
+        machine.cpu().cycle() == self.cycle
             && core_of(machine) == self.core
             && robot.state_hash() == self.digest
             && robot.world().encoder_positions() == self.wheels
+            && !differences(machine.memory().ram().as_slice(), &self.ram).any(live)
             && registers
                 .iter()
                 .zip(&self.chip)
                 .all(|(address, value)| robot.machine_mut().peek_register(*address) == Some(*value))
     }
+}
+
+/// Addresses of bytes that differ.
+fn differences<'a>(mine: &'a [u8], theirs: &'a [u8]) -> impl Iterator<Item = u32> + 'a {
+    const PART: usize = 64;
+    let parts = mine.chunks(PART).zip(theirs.chunks(PART)).enumerate();
+    parts
+        .filter(|(_, (mine, theirs))| mine != theirs)
+        .flat_map(|(number, (mine, theirs))| {
+            let bytes = mine.iter().zip(theirs).enumerate();
+            bytes
+                .filter(|(_, (mine, theirs))| mine != theirs)
+                // Addresses of RAM fit.
+                .map(move |(byte, _)| (number * PART + byte) as u32)
+        })
 }
 
 fn core_of(machine: &Machine) -> [u32; 35] {
@@ -239,7 +269,7 @@ pub(super) struct Course {
     stages: Vec<Stage>,
     /// At the end of each millisecond.
     looks: Vec<Look>,
-    /// Milliseconds in which a word was touched, and how first.
+    /// Milliseconds in which a word was touched, and how first its bytes were.
     touches: HashMap<u32, Vec<(usize, Touch)>>,
     /// Everything that the robot ever gave as a reason.
     inhibits: Vec<Inhibits>,
@@ -272,7 +302,7 @@ impl Course {
             touches: HashMap::new(),
             inhibits: Vec::new(),
         };
-        for ms in 0..WHOLE_MS {
+        for ms in 0..course.whole_ms() {
             if ms < FLIP_MS {
                 course.stages.push(stage.clone());
             }
@@ -293,6 +323,10 @@ impl Course {
             return Err(StageError::Scene("it breaks a rule without any fault"));
         }
         Ok(course)
+    }
+
+    const fn whole_ms(&self) -> usize {
+        FLIP_MS + self.situation.look_ms(self.number)
     }
 
     /// Its number among those of its situation.
@@ -321,15 +355,32 @@ impl Course {
             Storage::Core | Storage::Chip => None,
             // The first instructions of handlers are not seen, and configuration words act without being read.
             Storage::Flash if place.address < 0x1D00_1000 || place.address >= 0x1FC0_2FF0 => None,
-            Storage::Ram | Storage::Flash => {
-                let touches = self.touches.get(&place.address);
-                let next = touches.and_then(|all| all.iter().find(|(ms, _)| *ms >= at_ms));
-                match next {
-                    None => Some(Fate::Untouched),
-                    Some((_, Touch::Written)) => Some(Fate::Overwritten),
-                    Some((_, Touch::Read)) => None,
-                }
-            }
+            Storage::Ram | Storage::Flash => match self.next_touch(place.byte(), at_ms) {
+                Next::Nothing => Some(Fate::Untouched),
+                Next::Written => Some(Fate::Overwritten),
+                Next::Read => None,
+            },
+        }
+    }
+
+    /// Whether the word is executed.
+    #[must_use]
+    pub(super) fn executes(&self, place: Place) -> bool {
+        let touches = self.touches.get(&place.address);
+        touches.is_some_and(|all| all.iter().any(|(_, touch)| touch.executed))
+    }
+
+    /// What the program does next to a byte from this millisecond on.
+    fn next_touch(&self, address: u32, from_ms: usize) -> Next {
+        let bit = 1 << (address & 3);
+        let touches = self.touches.get(&(address & !3)).map_or(&[][..], Vec::as_slice);
+        let next = touches
+            .iter()
+            .find(|(ms, touch)| *ms >= from_ms && (touch.read | touch.written) & bit != 0);
+        match next {
+            None => Next::Nothing,
+            Some((_, touch)) if touch.read & bit != 0 => Next::Read,
+            Some(_) => Next::Written,
         }
     }
 
@@ -342,15 +393,22 @@ impl Course {
         let before = stage.robot().machine().exception_count();
         let resets = stage.robot().machine().reset_count();
         place.flip(stage.robot_mut().machine_mut());
-        let (mut broken_ms, mut longest_ms) = (0, 0);
+        let (mut broken_ms, mut longest_ms, mut off_ms) = (0, 0, 0);
         let mut is_detected = false;
-        for ms in at_ms..WHOLE_MS {
+        for ms in at_ms..self.whole_ms() {
             self.pass(&mut stage, ms);
             let is_broken = stage.robot().monitor().is_broken();
             broken_ms = if is_broken { broken_ms + 1 } else { 0 };
             longest_ms = longest_ms.max(broken_ms);
             is_detected |= self.gives_another_reason(&stage);
-            if self.is_as_before(place, ms, &mut stage) {
+            let is_new = stage.robot().machine().reset_count() != resets;
+            off_ms = if is_new && is_off(&stage) { off_ms + 1 } else { 0 };
+            let enough_ms = match place.storage {
+                Storage::Flash if ms < FLIP_MS => u32::MAX,
+                Storage::Flash => AFTER_START_MS,
+                Storage::Ram | Storage::Core | Storage::Chip => AFTER_RESET_MS,
+            };
+            if off_ms > enough_ms || self.is_as_before(place, ms, &mut stage) {
                 break;
             }
         }
@@ -377,7 +435,7 @@ impl Course {
     fn end_ms(&self) -> u64 {
         self.stages
             .first()
-            .map_or(0, |stage| stage.robot().now_ms() + WHOLE_MS as u64)
+            .map_or(0, |stage| stage.robot().now_ms() + self.whole_ms() as u64)
     }
 
     fn gives_another_reason(&self, stage: &Stage) -> bool {
@@ -389,17 +447,29 @@ impl Course {
 
     /// Whether the robot is as if the bit had not flipped, and will not come across it again.
     fn is_as_before(&self, place: Place, ms: usize, stage: &mut Stage) -> bool {
-        let last_read = match place.storage {
-            Storage::Flash => self.touches.get(&place.address).and_then(|all| all.last()),
-            Storage::Ram | Storage::Core | Storage::Chip => None,
-        };
-        let is_over = place.storage != Storage::Flash || last_read.is_some_and(|(last, _)| *last <= ms);
+        let is_over =
+            place.storage != Storage::Flash || self.next_touch(place.byte(), ms + 1) == Next::Nothing;
         is_over
-            && self
-                .looks
-                .get(ms)
-                .is_some_and(|look| look.is_met_by(stage.robot_mut(), &self.registers))
+            && self.looks.get(ms).is_some_and(|look| {
+                let live = |address| self.next_touch(address, ms + 1) == Next::Read;
+                look.is_met_by(stage.robot_mut(), &self.registers, live)
+            })
     }
+}
+
+/// What a program does next to a byte.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    Nothing,
+    Read,
+    Written,
+}
+
+/// Neither a motor nor the charger is driven.
+fn is_off(stage: &Stage) -> bool {
+    let robot = stage.robot();
+    let charges = robot.world().truth().battery_a > 0.0;
+    !charges && Motor::ALL.into_iter().all(|motor| robot.duty(motor) == 0.0)
 }
 
 impl Trace {

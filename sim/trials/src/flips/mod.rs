@@ -1,14 +1,17 @@
 //! Single bits that flip in memory and registers while the robot stands, drives, cleans or charges (S21).
 //!
 //! Each flip is tried from a snapshot: the bit flips at the beginning of a millisecond (each course has another phase
-//! between the core and the surroundings' milliseconds), at most a quarter of a second later something happens after which
-//! motors or charger must be off, and the judge looks on for longer than the watchdog's time. Words that the same robot
-//! does not read in this time without the flip need not be tried: the program cannot take another way because of them.
+//! between the core and the surroundings' milliseconds), at most 150 ms later something happens after which
+//! motors or charger must be off, and the judge looks on for longer than the watchdog's time. Bytes that the same robot
+//! does not read in this time without the flip need not be tried: the program cannot take another way because of them. Nor
+//! need instructions that it executes neither in this time nor after a reset: the running check of the image finds them.
+//! One in fifty of both is tried all the same.
 
 mod course;
+mod idle_code;
 mod place;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use home::Pcg;
 use pic32::image::{Image, SymbolKind};
@@ -20,6 +23,7 @@ pub use place::{Place, Storage};
 
 use crate::stage::{StageError, Workshop};
 use course::{Course, FLIP_MS};
+use idle_code::idle_code;
 use place::Places;
 
 const DRAWS: u64 = 0xF11B;
@@ -118,6 +122,7 @@ pub fn flip_bits(
     let mut random = Pcg::new(plan.seed, DRAWS);
     let mut tally = Tally::default();
     let all = plan.courses * Situation::ALL.len();
+    let idle_code = idle_code(workshop);
     for number in 0..all {
         let Some(situation) = Situation::ALL.get(number % Situation::ALL.len()) else {
             continue;
@@ -133,6 +138,7 @@ pub fn flip_bits(
             image: workshop.image(),
             course: &course,
             places: &places,
+            idle_code: &idle_code,
         };
         let share = |number: usize| (u64::from(plan.count) * number as u64 / all as u64) as u32;
         for _ in share(number)..share(number + 1) {
@@ -151,24 +157,38 @@ struct Ground<'a> {
     image: &'a Image,
     course: &'a Course,
     places: &'a Places,
+    idle_code: &'a HashSet<u32>,
 }
 
 impl Ground<'_> {
+    /// What a flip surely comes to without trying it.
+    fn foreseen(&self, place: Place, at_ms: usize) -> Option<Fate> {
+        let is_only_checked = self.idle_code.contains(&place.address) && !self.course.executes(place);
+        match self.course.foreseen(place, at_ms) {
+            None if place.storage == Storage::Flash && is_only_checked => Some(Fate::Detected),
+            foreseen => foreseen,
+        }
+    }
+
     fn flip_one(&self, random: &mut Pcg, tally: &mut Tally) {
         let course = self.course;
         let place = self.places.draw(random);
         let at_ms = random.below(FLIP_MS as u32) as usize;
         let is_checked = random.below(CHECKED_EACH) == 0;
-        let foreseen = course.foreseen(place, at_ms);
+        let foreseen = self.foreseen(place, at_ms);
         if let (Some(fate), false) = (foreseen, is_checked) {
             tally.count(course.situation, place.storage, fate);
             return;
         }
         tally.tried += 1;
         let trace = course.try_out(place, at_ms);
-        if foreseen.is_some() {
+        if let Some(foreseen) = foreseen {
+            let expected = match foreseen {
+                Fate::Detected => Fate::Detected,
+                _ => Fate::Masked,
+            };
             tally.foreseen_checked.0 += 1;
-            tally.foreseen_checked.1 += u32::from(trace.fate != Fate::Masked);
+            tally.foreseen_checked.1 += u32::from(trace.fate != expected);
         }
         let fate = match trace.fate {
             Fate::Masked => foreseen.unwrap_or(Fate::Masked),

@@ -130,10 +130,16 @@ impl Place {
             && (self.address < CALIBRATION || self.address >= BOOT.start && self.address < CONFIGURATION)
     }
 
+    /// Physical address of its byte.
+    #[must_use]
+    pub(super) fn byte(self) -> u32 {
+        self.address + u32::from(self.bit / 8)
+    }
+
     /// Flips it.
     pub(super) fn flip(self, machine: &mut Machine) {
         let mask = 1 << self.bit;
-        let byte = self.address + u32::from(self.bit / 8);
+        let byte = self.byte();
         match self.storage {
             // The places were taken from the machine itself, so they are there.
             Storage::Ram => machine.flip_ram_bit(byte, self.bit % 8).unwrap_or_default(),
