@@ -1,0 +1,454 @@
+//! Rooms by distance segmentation, and the doors between them.
+//!
+//! Water rises in a relief of distances to the nearest obstacle, from the widest places down. A pool that meets another one
+//! in a passage narrower than a wide door stays apart from it; else the two become one. Furniture that stands free is no
+//! obstacle here, or every chair would divide a room. Rooms keep their identities: a new room takes over that of the old
+//! room with which it shares most cells.
+
+use std::collections::BTreeMap;
+
+use super::distance::{squared_cells, window};
+use super::reach::neighbours;
+use super::{CELL_M, Cell, CellKnowledge, Raster};
+use crate::geometry::Point2;
+
+/// Half of the widest passage that still divides two rooms, metres.
+const DOOR_HALF_M: f64 = 0.55;
+/// A room is wider than the passage to it by this factor at least.
+const WIDER: f64 = 1.25;
+/// A pool smaller than this when it meets another one is a corner of it, square metres.
+const CORE_M2: f64 = 0.2;
+/// Rooms smaller than this are none, square metres.
+const ROOM_M2: f64 = 1.0;
+/// What is not free and smaller than this is furniture, square metres.
+const FURNITURE_M2: f64 = 1.2;
+/// Cells of one door lie within this many cells of each other.
+const DOOR_GAP_CELLS: i32 = 8;
+
+/// A room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// Identity, from 1; kept when the home is mapped again.
+    pub id: u16,
+    /// Its floor in square metres.
+    pub area_m2: f64,
+    /// The place in it that is farthest from everything.
+    pub middle: Point2,
+}
+
+/// A passage between two rooms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Door {
+    /// Identities of the rooms, the lower one first.
+    pub rooms: [u16; 2],
+    /// Its middle.
+    pub at: Point2,
+    /// Its width in metres.
+    pub width_m: f64,
+}
+
+/// Rooms and doors of a home.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rooms {
+    labels: Raster<u16>,
+    rooms: Vec<Room>,
+    doors: Vec<Door>,
+    next: u16,
+}
+
+impl Default for Rooms {
+    fn default() -> Self {
+        Self {
+            labels: Raster::filled(Cell::default(), 0, 0, 0),
+            rooms: Vec::new(),
+            doors: Vec::new(),
+            next: 1,
+        }
+    }
+}
+
+impl Rooms {
+    /// All rooms by identity.
+    #[must_use]
+    pub fn rooms(&self) -> &[Room] {
+        &self.rooms
+    }
+
+    /// All doors by the identities of their rooms.
+    #[must_use]
+    pub fn doors(&self) -> &[Door] {
+        &self.doors
+    }
+
+    /// Identity of the room of each cell, 0 = none.
+    #[must_use]
+    pub fn labels(&self) -> &Raster<u16> {
+        &self.labels
+    }
+
+    /// Identity of the room under a point.
+    #[must_use]
+    pub fn room_at(&self, point: Point2) -> Option<u16> {
+        self.labels.get(Cell::under(point)).copied().filter(|id| *id > 0)
+    }
+
+    /// Identity that the next new room gets.
+    pub(super) fn next(&self) -> u16 {
+        self.next
+    }
+
+    /// Rooms of an earlier time, of which only cells and identities are known.
+    pub(super) fn remembered(labels: Raster<u16>, next: u16) -> Self {
+        let highest = labels.values().iter().copied().max().unwrap_or(0);
+        Self {
+            labels,
+            next: next.max(highest.saturating_add(1)),
+            ..Self::default()
+        }
+    }
+
+    /// The rooms of what is known now; those that were there before keep their identities.
+    #[must_use]
+    pub fn renewed(&self, knowledge: &Raster<CellKnowledge>) -> Self {
+        let Some(all) = window(knowledge) else {
+            return self.clone();
+        };
+        let space = space(knowledge);
+        let squared = squared_cells(all, |cell| space.get(cell) != Some(&true));
+        let mut pools = Pools::new(&squared);
+        pools.fill(&space);
+        let labels = pools.labels(&space);
+        let (names, next) = self.names(&labels);
+        let labels = renamed(&labels, &names);
+        let rooms = measured(&labels, &squared);
+        let doors = doors(&labels, &squared);
+        Self {
+            labels,
+            rooms,
+            doors,
+            next,
+        }
+    }
+
+    /// An identity for each new label, by the cells shared with rooms of old; and the next free one.
+    fn names(&self, labels: &Raster<u16>) -> (BTreeMap<u16, u16>, u16) {
+        let mut shared: BTreeMap<(u16, u16), u32> = BTreeMap::new();
+        for (index, label) in labels
+            .values()
+            .iter()
+            .enumerate()
+            .filter(|(_, label)| **label > 0)
+        {
+            let old = self.labels.get(labels.cell(index)).copied().unwrap_or(0);
+            *shared.entry((*label, old)).or_default() += 1;
+        }
+        let mut pairs: Vec<((u16, u16), u32)> = shared.iter().map(|(pair, count)| (*pair, *count)).collect();
+        pairs.sort_by_key(|(pair, count)| (core::cmp::Reverse(*count), *pair));
+        let mut names = BTreeMap::new();
+        for ((label, old), _) in pairs {
+            let is_taken = names.values().any(|name| *name == old);
+            if old > 0 && !is_taken && !names.contains_key(&label) {
+                names.insert(label, old);
+            }
+        }
+        let mut next = self.next;
+        for (label, _) in shared.keys() {
+            if !names.contains_key(label) {
+                names.insert(*label, next);
+                next = next.saturating_add(1);
+            }
+        }
+        (names, next)
+    }
+}
+
+/// Free cells, and furniture that stands in them.
+fn space(knowledge: &Raster<CellKnowledge>) -> Raster<bool> {
+    let mut space = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
+    for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
+        *place = *kind == CellKnowledge::Free;
+    }
+    let furniture_max = (FURNITURE_M2 / (CELL_M * CELL_M)) as usize;
+    let mut seen = space.clone();
+    for index in 0..seen.values().len() {
+        if seen.values().get(index) == Some(&false) {
+            let island = island(&mut seen, index);
+            if island.len() <= furniture_max && !touches_border(&space, &island) {
+                for cell in island {
+                    if let Some(place) = space.get_mut(cell) {
+                        *place = true;
+                    }
+                }
+            }
+        }
+    }
+    space
+}
+
+/// The connected cells that were not seen yet; they are seen afterwards.
+fn island(seen: &mut Raster<bool>, index: usize) -> Vec<Cell> {
+    let mut cells = vec![seen.cell(index)];
+    if let Some(place) = seen.values_mut().get_mut(index) {
+        *place = true;
+    }
+    let mut next = 0;
+    while let Some(cell) = cells.get(next).copied() {
+        next += 1;
+        for neighbour in neighbours(cell) {
+            if let Some(place) = seen.get_mut(neighbour)
+                && !*place
+            {
+                *place = true;
+                cells.push(neighbour);
+            }
+        }
+    }
+    cells
+}
+
+fn touches_border(space: &Raster<bool>, island: &[Cell]) -> bool {
+    island
+        .iter()
+        .any(|cell| neighbours(*cell).iter().any(|next| space.get(*next).is_none()))
+}
+
+/// Pools of the rising water: a forest of cells, each tree one pool.
+struct Pools<'relief> {
+    squared: &'relief [f32],
+    parent: Vec<u32>,
+    /// Cells and greatest squared depth of the pool at its root.
+    cells: Vec<u32>,
+    deepest: Vec<f32>,
+}
+
+impl<'relief> Pools<'relief> {
+    fn new(squared: &'relief [f32]) -> Self {
+        Self {
+            squared,
+            parent: vec![u32::MAX; squared.len()],
+            cells: vec![0; squared.len()],
+            deepest: vec![0.0; squared.len()],
+        }
+    }
+
+    fn fill(&mut self, space: &Raster<bool>) {
+        // Squared distances are whole numbers, and not many: each has a list of its own.
+        let mut levels: Vec<Vec<u32>> = Vec::new();
+        for (index, squared) in self.squared.iter().enumerate() {
+            if space.values().get(index) == Some(&true) {
+                let level = *squared as usize;
+                if levels.len() <= level {
+                    levels.resize(level + 1, Vec::new());
+                }
+                if let Some(list) = levels.get_mut(level) {
+                    list.push(index as u32);
+                }
+            }
+        }
+        for index in levels.iter().rev().flatten() {
+            self.flood(*index, space);
+        }
+    }
+
+    /// The water reaches a cell: it joins the pools beside it, and perhaps them with each other.
+    fn flood(&mut self, index: u32, space: &Raster<bool>) {
+        let place = index as usize;
+        let level = self.squared.get(place).copied().unwrap_or(0.0);
+        self.set(place, (index, 1, level));
+        for neighbour in neighbours(space.cell(place)) {
+            let Some(beside) = space.index(neighbour) else {
+                continue;
+            };
+            if self.parent.get(beside).is_some_and(|parent| *parent != u32::MAX) {
+                let (one, other) = (self.root(index), self.root(beside as u32));
+                if one != other && self.become_one((one, other), level) {
+                    self.join(one, other);
+                }
+            }
+        }
+    }
+
+    fn set(&mut self, place: usize, (parent, cells, deepest): (u32, u32, f32)) {
+        if let Some(slot) = self.parent.get_mut(place) {
+            *slot = parent;
+        }
+        if let Some(slot) = self.cells.get_mut(place) {
+            *slot = cells;
+        }
+        if let Some(slot) = self.deepest.get_mut(place) {
+            *slot = deepest;
+        }
+    }
+
+    fn root(&mut self, index: u32) -> u32 {
+        let mut at = index;
+        while let Some(parent) = self.parent.get(at as usize).copied()
+            && parent != at
+        {
+            let above = self.parent.get(parent as usize).copied().unwrap_or(parent);
+            if let Some(slot) = self.parent.get_mut(at as usize) {
+                *slot = above;
+            }
+            at = above;
+        }
+        at
+    }
+
+    fn become_one(&self, (one, other): (u32, u32), level: f32) -> bool {
+        let half_m = f64::from(level).sqrt() * CELL_M;
+        if half_m > DOOR_HALF_M {
+            return true;
+        }
+        let is_room = |root: u32| {
+            let cells = self.cells.get(root as usize).copied().unwrap_or(0);
+            let deepest = self.deepest.get(root as usize).copied().unwrap_or(0.0);
+            let wide_enough = f64::from(deepest) >= WIDER * WIDER * f64::from(level);
+            f64::from(cells) * CELL_M * CELL_M >= CORE_M2 && wide_enough
+        };
+        !(is_room(one) && is_room(other))
+    }
+
+    fn join(&mut self, one: u32, other: u32) {
+        let cells = |pools: &Self, root: u32| pools.cells.get(root as usize).copied().unwrap_or(0);
+        let deepest = |pools: &Self, root: u32| pools.deepest.get(root as usize).copied().unwrap_or(0.0);
+        let (large, small) = if cells(self, one) >= cells(self, other) {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let whole = cells(self, one) + cells(self, other);
+        let depth = deepest(self, one).max(deepest(self, other));
+        self.set(large as usize, (large, whole, depth));
+        if let Some(slot) = self.parent.get_mut(small as usize) {
+            *slot = large;
+        }
+    }
+
+    /// A label for each cell of a pool that is large enough for a room; 0 for the others.
+    fn labels(&mut self, space: &Raster<bool>) -> Raster<u16> {
+        let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
+        let mut known: BTreeMap<u32, u16> = BTreeMap::new();
+        for index in 0..self.parent.len() {
+            if self.parent.get(index).is_none_or(|parent| *parent == u32::MAX) {
+                continue;
+            }
+            let root = self.root(index as u32);
+            let cells = self.cells.get(root as usize).copied().unwrap_or(0);
+            if f64::from(cells) * CELL_M * CELL_M < ROOM_M2 {
+                continue;
+            }
+            let fresh = u16::try_from(known.len() + 1).unwrap_or(u16::MAX);
+            let label = *known.entry(root).or_insert(fresh);
+            if let Some(place) = labels.values_mut().get_mut(index) {
+                *place = label;
+            }
+        }
+        labels
+    }
+}
+
+fn renamed(labels: &Raster<u16>, names: &BTreeMap<u16, u16>) -> Raster<u16> {
+    let mut renamed = labels.clone();
+    for label in renamed.values_mut() {
+        *label = names.get(label).copied().unwrap_or(0);
+    }
+    renamed
+}
+
+fn measured(labels: &Raster<u16>, squared: &[f32]) -> Vec<Room> {
+    let mut found: BTreeMap<u16, (u32, usize, f32)> = BTreeMap::new();
+    for (index, label) in labels
+        .values()
+        .iter()
+        .enumerate()
+        .filter(|(_, label)| **label > 0)
+    {
+        let depth = squared.get(index).copied().unwrap_or(0.0);
+        let room = found.entry(*label).or_insert((0, index, depth));
+        room.0 += 1;
+        if depth > room.2 {
+            (room.1, room.2) = (index, depth);
+        }
+    }
+    found
+        .into_iter()
+        .map(|(id, (cells, index, _))| Room {
+            id,
+            area_m2: f64::from(cells) * CELL_M * CELL_M,
+            middle: centre(labels.cell(index)),
+        })
+        .collect()
+}
+
+/// The middle of a cell.
+pub(super) fn centre(cell: Cell) -> Point2 {
+    Point2 {
+        x_m: (f64::from(cell.x) + 0.5) * CELL_M,
+        y_m: (f64::from(cell.y) + 0.5) * CELL_M,
+    }
+}
+
+/// Where cells of two rooms lie beside each other.
+fn doors(labels: &Raster<u16>, squared: &[f32]) -> Vec<Door> {
+    let mut borders: BTreeMap<[u16; 2], Vec<(Cell, f32)>> = BTreeMap::new();
+    for (index, label) in labels
+        .values()
+        .iter()
+        .enumerate()
+        .filter(|(_, label)| **label > 0)
+    {
+        let cell = labels.cell(index);
+        for neighbour in neighbours(cell).iter().take(2) {
+            let other = labels.get(*neighbour).copied().unwrap_or(0);
+            if other > 0 && other != *label {
+                let pair = [other.min(*label), other.max(*label)];
+                let depth = squared.get(index).copied().unwrap_or(0.0);
+                borders.entry(pair).or_default().push((cell, depth));
+            }
+        }
+    }
+    borders
+        .into_iter()
+        .flat_map(|(rooms, cells)| {
+            clusters(cells).into_iter().map(move |cluster| Door {
+                rooms,
+                ..door(&cluster)
+            })
+        })
+        .collect()
+}
+
+/// Cells joined to groups that lie together.
+fn clusters(cells: Vec<(Cell, f32)>) -> Vec<Vec<(Cell, f32)>> {
+    let mut groups: Vec<Vec<(Cell, f32)>> = Vec::new();
+    for member in cells {
+        let is_near = |other: &(Cell, f32)| {
+            other.0.x.abs_diff(member.0.x) <= DOOR_GAP_CELLS as u32
+                && other.0.y.abs_diff(member.0.y) <= DOOR_GAP_CELLS as u32
+        };
+        let (near, far): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.iter().any(is_near));
+        let mut joined: Vec<(Cell, f32)> = near.into_iter().flatten().collect();
+        joined.push(member);
+        groups = far;
+        groups.push(joined);
+    }
+    groups
+}
+
+fn door(cells: &[(Cell, f32)]) -> Door {
+    let count = cells.len().max(1) as f64;
+    let sum = cells.iter().fold((0.0, 0.0), |sum, (cell, _)| {
+        let at = centre(*cell);
+        (sum.0 + at.x_m, sum.1 + at.y_m)
+    });
+    let widest = cells.iter().map(|(_, depth)| *depth).fold(0.0, f32::max);
+    Door {
+        rooms: [0, 0],
+        at: Point2 {
+            x_m: sum.0 / count,
+            y_m: sum.1 / count,
+        },
+        // From centre to border is half a cell less than from centre to centre, on both sides.
+        width_m: (2.0 * f64::from(widest).sqrt() - 1.0).max(0.0) * CELL_M,
+    }
+}
