@@ -1,17 +1,17 @@
 //! The checkpoint on disk: a header that proves it whole, and the state as JSON.
 //!
-//! A new file is written beside the old one, flushed, and renamed over it; the old one stays as `.old`, because SD cards
-//! lie about flushing. Age is measured on the system's uptime, which no clock change moves: a checkpoint of an earlier
+//! It is replaced as [`kept_file`] tells. Age is measured on the system's uptime, which no clock change moves: a checkpoint of an earlier
 //! boot is never young.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::io;
+use std::path::Path;
 
 use rvac_protocol::seal::{Digest, Direction};
 use serde::{Deserialize, Serialize};
 use vthal_core::Checkpoint;
 
+use crate::kept_file;
 use crate::recording::format::BrainState;
 
 /// A checkpoint older than this is not taken up: somebody may have moved the robot.
@@ -66,25 +66,15 @@ pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<(
         brain: BrainState::from(&checkpoint.brain),
     };
     let body = serde_json::to_vec(&stored)?;
-    let fresh = beside(path, "new");
-    let mut file = File::create(&fresh)?;
-    writeln!(file, "{MAGIC} {} {:08X}", body.len(), digest(&body))?;
-    file.write_all(&body)?;
-    file.sync_all()?;
-    if path.exists() {
-        fs::rename(path, beside(path, "old"))?;
-    }
-    fs::rename(&fresh, path)?;
-    if let Some(folder) = path.parent() {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
+    let mut bytes = format!("{MAGIC} {} {:08X}\n", body.len(), digest(&body)).into_bytes();
+    bytes.extend(body);
+    kept_file::replace(path, &bytes)
 }
 
 /// The newest whole checkpoint that is young enough, if there is one.
 #[must_use]
 pub fn load(path: &Path, now: &BootTime) -> Option<Checkpoint> {
-    [path.to_owned(), beside(path, "old")]
+    kept_file::versions(path)
         .iter()
         .find_map(|path| load_one(path, now))
 }
@@ -107,12 +97,6 @@ fn load_one(path: &Path, now: &BootTime) -> Option<Checkpoint> {
             device: stored.device,
             brain,
         })
-}
-
-fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(format!(".{ending}"));
-    PathBuf::from(name)
 }
 
 fn digest(body: &[u8]) -> u32 {

@@ -243,6 +243,9 @@ impl Daemon {
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.wiring.checkpoints.send(checkpoint);
         }
+        if let Some(home) = self.outputs.home.take() {
+            self.wiring.checkpoints.send_home(home);
+        }
         self.outputs.clear();
     }
 

@@ -79,7 +79,7 @@ struct Proximity {
 ///
 /// # Errors
 /// See [`RobotFileError`].
-pub fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
+pub(crate) fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
     let text = std::fs::read_to_string(path).map_err(|error| RobotFileError::Unreadable {
         path: path.to_owned(),
         error,

@@ -10,6 +10,7 @@ use tokio::task::{LocalSet, spawn_local};
 use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
 
 use crate::checkpoint_file::{self, BootTime};
+use crate::checkpoint_thread::KeptPaths;
 use crate::clock::Clock;
 use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
@@ -19,12 +20,15 @@ use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
-use crate::{checkpoint_thread, imu, logging};
+use crate::{checkpoint_thread, home_file, imu, logging};
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
 /// Batches of bytes that may wait for the serial line.
 const TO_ROBOT_MAX: usize = 64;
+
+/// Name of the map of the home in the state folder.
+const HOME_FILE: &str = "home.map";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -72,7 +76,13 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         Some(path) => robot_file::load(path)?,
         None => SensorLayout::default(),
     };
+    let home_path = config.state.join(HOME_FILE);
+    let (home, complaints) = home_file::load(&home_path);
+    for complaint in complaints {
+        tracing::error!(part = "vthal", "{complaint}");
+    }
     let core_config = CoreConfig {
+        home,
         sensors,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
@@ -98,7 +108,10 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         event_sender: event_sender.clone(),
         to_robot,
         recorder: recorder(config)?,
-        checkpoints: checkpoint_thread::start(checkpoint)?,
+        checkpoints: checkpoint_thread::start(KeptPaths {
+            checkpoint,
+            home: home_path,
+        })?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
     };

@@ -1,7 +1,7 @@
 //! Settings of the core.
 
-use brain::SensorLayout;
 use brain::command::StrategyName;
+use brain::{SensorLayout, StoredMap};
 
 use crate::Checkpoint;
 
@@ -24,6 +24,8 @@ pub struct CoreConfig {
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
     pub version: String,
+    /// The home as it was kept. Taken up when the robot is seen on its dock: elsewhere it does not know where it is.
+    pub home: Option<StoredMap>,
     /// Where an interrupted run goes on.
     pub resume: Option<Checkpoint>,
 }
@@ -39,6 +41,7 @@ impl Default for CoreConfig {
             sensors: SensorLayout::default(),
             task_budget_s: 120 * 60,
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            home: None,
             resume: None,
         }
     }

@@ -213,6 +213,7 @@ impl Core {
             if self.config.checkpoints == Checkpoints::On {
                 outputs.checkpoint = Some(feed::checkpoint_without_job(mind));
             }
+            outputs.home = mind.home_to_keep();
             mind.end_run(now_us, RunEnd::Shutdown, &mut recorder(recording, outputs));
         }
     }

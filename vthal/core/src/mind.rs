@@ -28,7 +28,17 @@ pub(crate) struct Mind {
     map_base: u32,
     runs: u32,
     run: Option<Run>,
+    kept_home: KeptHome,
     identity: (String, String),
+}
+
+/// The map of the home that was kept before the daemon's start.
+#[derive(Debug)]
+enum KeptHome {
+    /// The robot was not seen on its dock yet, so nobody knows where in it it is.
+    Offered(StoredMap),
+    /// The brain has it, or there was none: what the brain knows is what is kept.
+    Present,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +74,7 @@ impl Mind {
             map_base: 0,
             runs: 0,
             run: None,
+            kept_home: settings.home.clone().map_or(KeptHome::Present, KeptHome::Offered),
             identity: (
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
@@ -132,6 +143,7 @@ impl Mind {
 
     /// Takes up what a daemon before this one was doing.
     pub(crate) fn resume(&mut self, now_us: u64, checkpoint: brain::Checkpoint, recorder: &mut Recorder<'_>) {
+        self.kept_home = KeptHome::Present;
         self.begin_run(now_us, (RunCause::ResumedAfterRestart, checkpoint), recorder);
     }
 
@@ -165,6 +177,32 @@ impl Mind {
         // What this step says was said by the brain before.
         if cause != RunCause::ResumedAfterRestart {
             self.step_once(&[], recorder);
+        }
+    }
+
+    /// Takes up the home that was kept, once the robot stands on its dock at rest: there it knows where it is. What it has
+    /// drawn since the start, not knowing, is forgotten. `true` when it did.
+    pub(crate) fn take_up_kept_home(&mut self) -> bool {
+        let observation = self.observer.observation();
+        if self.run.is_some() || !observation.docked || !observation.link_up {
+            return false;
+        }
+        match core::mem::replace(&mut self.kept_home, KeptHome::Present) {
+            KeptHome::Offered(home) => {
+                self.take_up(&home);
+                true
+            }
+            KeptHome::Present => false,
+        }
+    }
+
+    /// The home as it is worth keeping; `None` while the one that was kept is a better one, or the robot is lost.
+    pub(crate) fn home_to_keep(&self) -> Option<StoredMap> {
+        match self.kept_home {
+            KeptHome::Present if !self.brain.estimate().lost => {
+                Some(self.brain.map().stored()).filter(|home| !home.is_empty())
+            }
+            KeptHome::Present | KeptHome::Offered(_) => None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What the shell must perform.
 
-use brain::{Actions, Command, Observation};
+use brain::{Actions, Command, Observation, StoredMap};
 use rvac_api::{LogEntry, Pose, Status, Topic, Update};
 
 use crate::Checkpoint;
@@ -19,6 +19,8 @@ pub struct Outputs {
     pub records: Vec<Record>,
     /// The newest state worth surviving a crash; replaces an older one that is not yet written.
     pub checkpoint: Option<Checkpoint>,
+    /// The home after a run, worth keeping for the next start.
+    pub home: Option<StoredMap>,
 }
 
 impl Outputs {
@@ -29,6 +31,7 @@ impl Outputs {
         self.log.clear();
         self.records.clear();
         self.checkpoint = None;
+        self.home = None;
     }
 }
 

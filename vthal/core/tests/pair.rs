@@ -1,5 +1,6 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
+use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{Request, RequestBody, Topic, Update};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -26,6 +27,8 @@ struct Pair {
     /// What clients were told, in order.
     updates: Vec<Update>,
     records: Vec<Record>,
+    /// Maps that the shell should keep.
+    homes: Vec<StoredMap>,
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
@@ -34,9 +37,15 @@ struct Pair {
 impl Pair {
     /// Connected, described and idle, with two clients.
     fn new() -> Self {
+        Self::in_home(None)
+    }
+
+    /// As [`Self::new`], with a map that was kept.
+    fn in_home(home: Option<StoredMap>) -> Self {
         let mut pair = Self {
             core: Core::new(CoreConfig {
                 recording: Recording::On,
+                home,
                 ..CoreConfig::default()
             }),
             robot: RobotSession::new(identity(), Tick(0)),
@@ -45,6 +54,7 @@ impl Pair {
             commands: Vec::new(),
             updates: Vec::new(),
             records: Vec::new(),
+            homes: Vec::new(),
             to_robot: Vec::new(),
             hears_stop: true,
         };
@@ -69,6 +79,7 @@ impl Pair {
         self.updates
             .extend(outputs.deliveries.into_iter().map(|delivery| delivery.update));
         self.records.extend(outputs.records);
+        self.homes.extend(outputs.home);
     }
 
     /// Asks and gives the reason of a refusal.
@@ -482,4 +493,47 @@ fn a_gyro_on_the_board_gives_the_heading_and_is_missed_when_it_falls_silent() {
     pair.records.clear();
     pair.run_ms(400);
     assert_eq!(pair.headings().last(), Some(&None), "silent for 0.2 s and more");
+}
+
+fn kept_home() -> StoredMap {
+    let floor = Raster::filled(Cell { x: 100, y: 100 }, 40, 40, CellKnowledge::Free);
+    let dock = Pose2 {
+        x_m: 3.0,
+        y_m: 2.75,
+        heading_rad: 1.0,
+    };
+    StoredMap::from_raster(&floor, Some(dock))
+}
+
+#[test]
+fn a_kept_home_is_taken_up_on_the_dock_and_kept_again() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    assert_eq!(
+        pair.core.pose().x,
+        0.0,
+        "off the dock it does not know where it is"
+    );
+    pair.state.docked = true;
+    pair.run_ms(100);
+    let pose = pair.core.pose();
+    assert!(
+        (pose.x - 3.0).abs() < 1e-6 && (pose.heading - 1.0).abs() < 1e-6,
+        "{pose:?}"
+    );
+    pair.handle(Input::Shutdown);
+    let kept = pair.homes.pop().expect("a map to keep").knowledge();
+    let known = kept.values().iter().filter(|kind| **kind == CellKnowledge::Free);
+    assert_eq!(known.count(), 1600);
+}
+
+#[test]
+fn a_robot_that_never_saw_its_dock_does_not_overwrite_the_home() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    pair.run_ms(1000);
+    pair.handle(Input::Shutdown);
+    assert_eq!(pair.homes, []);
+    let mut stranger = Pair::new();
+    stranger.run_ms(1000);
+    stranger.handle(Input::Shutdown);
+    assert_eq!(stranger.homes.len(), 1, "without a home the first map is kept");
 }

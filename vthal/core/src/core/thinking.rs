@@ -45,15 +45,24 @@ impl Core {
         let link = self.link_view(now_us);
         let recording = self.config.recording;
         let Some(mind) = &mut self.mind else { return };
-        let before = mind.brain().status().state;
         mind.observer.stamp(now_us, link);
+        let knows_home = mind.take_up_kept_home();
+        let before = mind.brain().status().state;
+        let was_recorded = mind.is_recorded();
         let actions = mind.step(&mut recorder(recording, outputs));
+        if was_recorded && !mind.is_recorded() {
+            outputs.home = mind.home_to_keep();
+        }
         let after = mind.brain().status().state;
         if before != after {
             self.feed.state_changed(now_us);
             if before == BehaviorState::Manual {
                 self.arbiter.preempt();
             }
+        }
+        if knows_home {
+            let line = "takes up the map of the home that was kept".to_owned();
+            self.log(now_us, (LogLevel::Info, Part::Brain, line), outputs);
         }
         self.perform(now_us, actions, outputs);
     }
