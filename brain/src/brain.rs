@@ -56,6 +56,7 @@ impl Brain {
         if let Some(dock) = home.dock() {
             brain.localization.place_at(dock);
         }
+        brain.track();
         brain
     }
 
@@ -63,7 +64,7 @@ impl Brain {
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
-        self.localization.refine(&self.map, observation, advance);
+        self.localization.refine(observation, advance);
         self.map
             .insert(&self.localization.estimate(), observation, advance);
         let pose = self.localization.pose();
@@ -162,6 +163,7 @@ impl Brain {
             path: map.path.to_vec(),
             marks: map.marks.to_vec(),
             home: Some(self.map.stored()).filter(|home| !home.is_empty()),
+            tracking: self.localization.checkpoint(),
         }
     }
 
@@ -176,9 +178,19 @@ impl Brain {
         self.mind.random = Random::from_state(checkpoint.random_state);
         self.map
             .restore(&checkpoint.swept, &checkpoint.path, &checkpoint.marks);
+        if let Some(tracking) = checkpoint.tracking {
+            self.track();
+            self.localization.resume_tracking(tracking);
+        }
         if let Some(job) = checkpoint.job {
             self.behavior.restore(job);
         }
+    }
+
+    /// Follows the pose in the map as it is now.
+    fn track(&mut self) {
+        self.localization
+            .track(&self.map, &self.config, self.mind.random.state());
     }
 
     /// Marks and counts contacts and cliffs as they begin.

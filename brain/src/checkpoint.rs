@@ -23,6 +23,23 @@ pub struct Checkpoint {
     pub marks: Vec<Mark>,
     /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
     pub home: Option<StoredMap>,
+    /// How the pose is followed in the map of the home; `None` = by odometry alone.
+    pub tracking: Option<TrackingCheckpoint>,
+}
+
+/// How sure a robot is of its pose in the map of its home, and what it has learnt of its gyro.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TrackingCheckpoint {
+    /// Standard deviation of the place, metres.
+    pub sigma_m: f64,
+    /// Standard deviation of the heading, radians.
+    pub sigma_rad: f64,
+    /// It did not know where it was.
+    pub lost: bool,
+    /// Error of the gyro's scale, relative.
+    pub gyro_scale: f64,
+    /// Bias of the gyro, rad/s.
+    pub gyro_bias_rad_per_s: f64,
 }
 
 /// A job that ran or waited.

@@ -25,13 +25,13 @@ mod task;
 pub use action::{Actions, Motion};
 pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};
 pub use brain::Brain;
-pub use checkpoint::{Checkpoint, JobCheckpoint};
+pub use checkpoint::{Checkpoint, JobCheckpoint, TrackingCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
 pub use geometry::{Point2, Pose2};
 pub use localization::PoseEstimate;
 pub use mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint, Raster,
-    StoredMap, StoredMapError, SweptRun,
+    CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
+    Raster, StoredMap, StoredMapError, SweptRun,
 };
 pub use observation::Observation;

@@ -39,6 +39,14 @@ impl Random {
         low + (high - low) * (f64::from(self.next()) / 4_294_967_296.0)
     }
 
+    /// Close to normal, with mean 0 and deviation 1, never beyond 3.5: the sum of four uniform numbers of 16 bits. Cheap,
+    /// and without the far tails that nothing here needs.
+    pub(crate) fn normal(&mut self) -> f64 {
+        let (first, second) = (self.next(), self.next());
+        let sum = (first & 0xffff) + (first >> 16) + (second & 0xffff) + (second >> 16);
+        (f64::from(sum) / 65_536.0 - 2.0) * 1.732_050_807_568_877_2
+    }
+
     /// Heads or tails.
     pub(crate) fn coin(&mut self) -> bool {
         self.next() & 0x8000_0000 != 0
@@ -73,6 +81,13 @@ mod tests {
         let mut random = Random::new(7);
         let mean = (0..10_000).map(|_| random.between(-1.0, 3.0)).sum::<f64>() / 10_000.0;
         assert!((mean - 1.0).abs() < 0.05, "{mean}");
+        let normals: Vec<f64> = (0..10_000).map(|_| random.normal()).collect();
+        let variance = normals.iter().map(|value| value * value).sum::<f64>() / 10_000.0;
+        let mean = normals.iter().sum::<f64>() / 10_000.0;
+        assert!(
+            mean.abs() < 0.03 && (variance - 1.0).abs() < 0.05,
+            "{mean} {variance}"
+        );
         let heads = (0..10_000).filter(|_| random.coin()).count();
         assert!((4_700..5_300).contains(&heads), "{heads}");
     }

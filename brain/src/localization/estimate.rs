@@ -31,7 +31,7 @@ const SLIP_M_PER_SQRT_M: f64 = 0.01;
 /// Slip in heading, radians per square root of a metre: 0.5 degrees, only where there is no gyro.
 const SLIP_RAD_PER_SQRT_M: f64 = 8.7e-3;
 /// Error of a turn by wheels, relative.
-const WHEEL_TURN_SCALE: f64 = 0.015;
+pub(super) const WHEEL_TURN_SCALE: f64 = 0.015;
 /// Error of a turn by a gyro whose scale nobody has calibrated, relative.
 const GYRO_TURN_SCALE: f64 = 0.005;
 /// Noise of the gyro's heading, radians per square root of a second: 0.02 degrees.

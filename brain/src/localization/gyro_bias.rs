@@ -51,6 +51,15 @@ impl Default for GyroBias {
 }
 
 impl GyroBias {
+    /// Goes on with a bias that was learnt before; it may have wandered since.
+    pub(super) fn resumed(bias_rad_per_s: f64) -> Self {
+        let believable = bias_rad_per_s.abs() <= CARRIED_RAD_PER_S;
+        Self {
+            bias_rad_per_s: if believable { bias_rad_per_s } else { 0.0 },
+            ..Self::default()
+        }
+    }
+
     /// The bias in rad/s.
     pub(super) fn rad_per_s(&self) -> f64 {
         self.bias_rad_per_s

@@ -1,23 +1,61 @@
 //! Where the robot believes to be.
 //!
 //! Frames follow REP-105: *odom* is smooth and drifts, *map* is right on average and may jump; `pose = map_from_odom *
-//! odom_from_base`. Odometry makes the second factor. A better estimator (wall segments, a particle filter, the dock)
-//! works on the first one and hands it in through [`Localization::correct`].
+//! odom_from_base`. Odometry makes the second factor. In a map that is known, a [`tracker`] with a particle filter corrects
+//! the first one, learns what is wrong with the gyro, notices when the robot is lost and finds it again.
 
+mod calibration;
+mod confidence;
 mod estimate;
 mod gyro_bias;
+#[cfg(test)]
+mod known_home;
 mod odometry;
+mod particles;
 mod retreat;
+mod search;
+mod terrain;
+mod tracker;
+mod trail;
 
-use estimate::Drift;
 pub use estimate::PoseEstimate;
+use estimate::{Drift, WHEEL_TURN_SCALE};
 pub use odometry::Advance;
 use odometry::Odometry;
 use retreat::Retreat;
+use terrain::Terrain;
+use tracker::{Moved, Tracker};
 
-use crate::geometry::Pose2;
+use crate::checkpoint::TrackingCheckpoint;
+use crate::config::BrainConfig;
+use crate::geometry::{Pose2, normalize_rad};
 use crate::mapping::Map;
 use crate::observation::Observation;
+
+/// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
+const START_SIGMA_M: f64 = 0.02;
+const START_SIGMA_RAD: f64 = 0.03;
+/// Widest deviation that is taken up, metres and radians.
+const SIGMA_MAX: f64 = 1.0;
+/// A place nearer than this to the present one is no news for the filter, metres and radians.
+const PLACED_M: f64 = 0.05;
+const PLACED_RAD: f64 = 0.05;
+
+/// A deviation from outside, or at least this one; what is not a number is wide.
+fn finite(sigma: f64, least: f64) -> f64 {
+    if sigma.is_finite() {
+        sigma.clamp(least, SIGMA_MAX)
+    } else {
+        SIGMA_MAX
+    }
+}
+
+/// A filter and the map that it compares with.
+#[derive(Clone, Debug)]
+struct Tracked {
+    tracker: Tracker,
+    terrain: Terrain,
+}
 
 /// Pose estimate.
 #[derive(Clone, Debug)]
@@ -26,6 +64,8 @@ pub struct Localization {
     map_from_odom: Pose2,
     retreat: Retreat,
     drift: Drift,
+    tracked: Option<Box<Tracked>>,
+    was_docked: bool,
 }
 
 impl Localization {
@@ -37,6 +77,8 @@ impl Localization {
             map_from_odom: Pose2::IDENTITY,
             retreat: Retreat::default(),
             drift: Drift::default(),
+            tracked: None,
+            was_docked: false,
         }
     }
 
@@ -48,8 +90,80 @@ impl Localization {
         advance
     }
 
-    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Without a map to compare with it does nothing.
-    pub(crate) fn refine(&mut self, _map: &Map, _observation: &Observation, _advance: Advance) {}
+    /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
+    /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
+    /// next call.
+    pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
+        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
+        tracker.place_at(
+            self.pose(),
+            self.drift.sigma_m.max(START_SIGMA_M),
+            self.drift.sigma_rad.max(START_SIGMA_RAD),
+        );
+        self.tracked = Some(Box::new(Tracked {
+            tracker,
+            terrain: Terrain::of(map),
+        }));
+    }
+
+    /// What must survive a restart of a robot that is tracked.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<TrackingCheckpoint> {
+        let tracked = self.tracked.as_ref()?;
+        let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
+        Some(TrackingCheckpoint {
+            sigma_m: self.drift.sigma_m,
+            sigma_rad: self.drift.sigma_rad,
+            lost: tracked.tracker.is_lost(),
+            gyro_scale,
+            gyro_bias_rad_per_s,
+        })
+    }
+
+    /// Takes up what [`Self::checkpoint`] said before a restart, after [`Self::track`] and at the same pose.
+    pub fn resume_tracking(&mut self, before: TrackingCheckpoint) {
+        self.odometry
+            .resume_gyro(before.gyro_scale, before.gyro_bias_rad_per_s);
+        let pose = self.pose();
+        self.drift = Drift {
+            sigma_m: finite(before.sigma_m, START_SIGMA_M),
+            sigma_rad: finite(before.sigma_rad, START_SIGMA_RAD),
+        };
+        let Some(tracked) = &mut self.tracked else {
+            return;
+        };
+        let Drift { sigma_m, sigma_rad } = self.drift;
+        tracked.tracker.place_at(pose, sigma_m, sigma_rad);
+        if before.lost {
+            tracked.tracker.lose(pose);
+        }
+    }
+
+    /// Compares what was perceived with the map, and corrects [`Self::pose`]. It does nothing unless [`Self::track`] was
+    /// asked for.
+    pub fn refine(&mut self, observation: &Observation, advance: Advance) {
+        let moved = Moved {
+            advance,
+            pose: self.pose(),
+            turn_scale_sigma: match advance.gyro_turn_rad {
+                Some(_) => self.odometry.calibration.scale_sigma(),
+                None => WHEEL_TURN_SCALE,
+            },
+        };
+        let docks = observation.docked && !self.was_docked;
+        self.was_docked = observation.docked;
+        let Some(tracked) = &mut self.tracked else {
+            return;
+        };
+        let Tracked { tracker, terrain } = &mut **tracked;
+        if docks && let Some(dock) = terrain.dock() {
+            tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
+            self.odometry.calibration.interrupt();
+            self.put_at(dock);
+        } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
+            self.adopt(estimate);
+        }
+    }
 
     /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
     #[must_use]
@@ -58,8 +172,17 @@ impl Localization {
             pose: self.pose(),
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
-            lost: false,
+            lost: self
+                .tracked
+                .as_ref()
+                .is_some_and(|tracked| tracked.tracker.is_lost()),
         }
+    }
+
+    /// How well the map explains what the sensors show, 0..1; `None` without a map to compare with.
+    #[must_use]
+    pub fn explained(&self) -> Option<f64> {
+        self.tracked.as_ref().map(|tracked| tracked.tracker.explained())
     }
 
     /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
@@ -90,8 +213,36 @@ impl Localization {
         self.map_from_odom = map_from_odom;
     }
 
+    /// Takes up what the filter found; the gyro learns from it.
+    fn adopt(&mut self, estimate: PoseEstimate) {
+        let correction_rad = normalize_rad(estimate.pose.heading_rad - self.pose().heading_rad);
+        self.put_at(estimate.pose);
+        self.drift = Drift {
+            sigma_m: estimate.sigma_m,
+            sigma_rad: estimate.sigma_rad,
+        };
+        let calibration = &mut self.odometry.calibration;
+        if estimate.lost {
+            calibration.interrupt();
+        } else {
+            calibration.correct(correction_rad, estimate.sigma_rad * estimate.sigma_rad);
+        }
+    }
+
     /// Declares that the robot now stands at `pose` in the map.
     pub fn place_at(&mut self, pose: Pose2) {
+        let before = self.pose();
+        self.put_at(pose);
+        let is_there = before.position().distance_m(pose.position()) < PLACED_M
+            && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
+        if let Some(tracked) = &mut self.tracked
+            && !is_there
+        {
+            tracked.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
+        }
+    }
+
+    fn put_at(&mut self, pose: Pose2) {
         self.correct(pose * self.odometry.odom_from_base().inverse());
         self.drift = Drift::default();
     }

@@ -1,5 +1,6 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
+use super::calibration::Calibration;
 use super::gyro_bias::GyroBias;
 use crate::geometry::Pose2;
 use crate::observation::Observation;
@@ -42,6 +43,7 @@ pub(super) struct Odometry {
     odom_from_base: Pose2,
     last: Option<Totals>,
     gyro_bias: GyroBias,
+    pub(super) calibration: Calibration,
 }
 
 /// A rim is believed to have turned up to this many times its highest speed; more is a jump of the totals.
@@ -57,11 +59,24 @@ impl Odometry {
             odom_from_base: Pose2::IDENTITY,
             last: None,
             gyro_bias: GyroBias::default(),
+            calibration: Calibration::default(),
         }
     }
 
     pub(super) fn odom_from_base(&self) -> Pose2 {
         self.odom_from_base
+    }
+
+    /// Error of the gyro's scale, relative, and its bias in rad/s.
+    pub(super) fn gyro(&self) -> (f64, f64) {
+        let (scale, left_rad_per_s) = self.calibration.found();
+        (scale, self.gyro_bias.rad_per_s() + left_rad_per_s)
+    }
+
+    /// Takes up what [`Self::gyro`] said before a restart.
+    pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
+        self.calibration = Calibration::resumed(scale);
+        self.gyro_bias = GyroBias::resumed(bias_rad_per_s);
     }
 
     pub(super) fn update(&mut self, observation: &Observation) -> Advance {
@@ -78,6 +93,7 @@ impl Odometry {
             .last
             .map_or_else(Advance::default, |last| self.advance(last, now));
         self.last = Some(now);
+        self.calibration.count(advance);
         if advance.distance_m != 0.0 || advance.turn_rad != 0.0 {
             self.odom_from_base = self
                 .odom_from_base
@@ -119,6 +135,7 @@ impl Odometry {
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
         let turn_rad = now.gyro_rad? - last.gyro_rad? - self.gyro_bias.rad_per_s() * time_s;
+        let turn_rad = self.calibration.corrected_rad(turn_rad, time_s);
         let rim_turn_max_rad =
             2.0 * (JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s) / self.track_m;
         (turn_rad.abs() <= rim_turn_max_rad).then_some(turn_rad)

@@ -2,7 +2,7 @@
 
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
-use brain::{Checkpoint, JobCheckpoint, JobFigures, JobKind, StrategyName};
+use brain::{Checkpoint, JobCheckpoint, JobFigures, JobKind, StrategyName, TrackingCheckpoint};
 use serde::{Deserialize, Serialize};
 
 /// [`Checkpoint`]
@@ -22,6 +22,9 @@ pub struct BrainState {
     /// The bytes of the home's map, in hexadecimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     home: Option<String>,
+    /// Deviations of place and heading, whether lost (not 0), scale and bias of the gyro.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tracking: Option<[f64; 5]>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -70,6 +73,11 @@ impl From<&Checkpoint> for BrainState {
                 .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
                 .collect(),
             home: checkpoint.home.as_ref().map(|home| to_hex(&home.encode())),
+            tracking: checkpoint.tracking.map(|tracking| {
+                let lost = f64::from(u8::from(tracking.lost));
+                let (scale, bias) = (tracking.gyro_scale, tracking.gyro_bias_rad_per_s);
+                [tracking.sigma_m, tracking.sigma_rad, lost, scale, bias]
+            }),
         }
     }
 }
@@ -111,6 +119,13 @@ impl BrainState {
                 .collect(),
             marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
             home,
+            tracking: self.tracking.map(|[sigma_m, sigma_rad, lost, scale, bias]| TrackingCheckpoint {
+                sigma_m,
+                sigma_rad,
+                lost: lost != 0.0,
+                gyro_scale: scale,
+                gyro_bias_rad_per_s: bias,
+            }),
         })
     }
 }
@@ -186,7 +201,7 @@ impl JobState {
 
 #[cfg(test)]
 mod tests {
-    use brain::{Cell, CellKnowledge, Checkpoint, Pose2, Raster, StoredMap};
+    use brain::{Cell, CellKnowledge, Checkpoint, Pose2, Raster, StoredMap, TrackingCheckpoint};
 
     use super::{BrainState, from_hex, to_hex};
 
@@ -196,6 +211,12 @@ mod tests {
         knowledge.values_mut()[5] = CellKnowledge::Occupied;
         let checkpoint = Checkpoint {
             home: Some(StoredMap::from_raster(&knowledge, Some(Pose2::IDENTITY))),
+            tracking: Some(TrackingCheckpoint {
+                sigma_m: 0.03,
+                lost: true,
+                gyro_scale: -0.004,
+                ..TrackingCheckpoint::default()
+            }),
             ..Checkpoint::default()
         };
         let text = serde_json::to_string(&BrainState::from(&checkpoint)).expect("plain");

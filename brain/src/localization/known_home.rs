@@ -1,0 +1,309 @@
+//! A robot with bad wheels and a bad gyro drives about in a flat whose map it has.
+
+use super::Localization;
+use crate::config::{
+    Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
+};
+use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
+use crate::observation::{Contacts, Observation};
+use crate::random::Random;
+
+const RADIUS_M: f64 = 0.175;
+const TRACK_M: f64 = 0.23;
+const STEP_S: f64 = 0.02;
+const SPEED_M_PER_S: f64 = 0.25;
+const TURN_RAD_PER_S: f64 = 1.2;
+/// What is wrong with wheels and gyro.
+const WAY_FACTOR: f64 = 1.012;
+const GYRO_SCALE: f64 = 1.008;
+const GYRO_BIAS_RAD_PER_S: f64 = 4.0e-4;
+
+fn config() -> BrainConfig {
+    let poses: Vec<Pose2> = (-3..=3)
+        .map(|number| {
+            let heading_rad = f64::from(number) * core::f64::consts::FRAC_PI_6;
+            Pose2 {
+                x_m: 0.165 * heading_rad.cos(),
+                y_m: 0.165 * heading_rad.sin(),
+                heading_rad,
+            }
+        })
+        .collect();
+    let body = Body {
+        radius_m: RADIUS_M,
+        swath_m: 0.3,
+        track_m: TRACK_M,
+    };
+    let speeds = Speeds {
+        cruise_m_per_s: SPEED_M_PER_S,
+        max_m_per_s: 0.35,
+        turn_max_rad_per_s: 1.5,
+    };
+    let mut config = BrainConfig::new(body, speeds);
+    config.sensors = SensorLayout {
+        proximity: ProximityLayout::new(
+            &poses,
+            ProximityResponse {
+                range_m: 0.25,
+                half_angle_rad: 0.09,
+                half_level_m: 0.06,
+                skin_m: 0.01,
+            },
+        ),
+        bumper: BumperLayout {
+            half_arc_rad: core::f64::consts::FRAC_PI_2,
+            overlap_rad: 0.2,
+        },
+        cliffs: None,
+    };
+    config
+}
+
+/// Two rooms of different size with a door, a cupboard and a table leg.
+fn flat() -> Map {
+    let solid = |x_m: f64, y_m: f64| {
+        let outside = !(0.1..=6.1).contains(&x_m) || !(0.1..=3.6).contains(&y_m);
+        let wall = (3.6..3.7).contains(&x_m) && !(1.2..2.1).contains(&y_m);
+        let short = x_m > 3.6 && y_m > 2.9;
+        let cupboard = (0.9..2.2).contains(&x_m) && y_m > 3.1;
+        let leg = (1.8..1.9).contains(&x_m) && (1.0..1.1).contains(&y_m);
+        outside || wall || short || cupboard || leg
+    };
+    let mut knowledge = Raster::filled(Cell { x: 0, y: 0 }, 250, 150, CellKnowledge::Free);
+    for index in 0..knowledge.values().len() {
+        let cell = knowledge.cell(index);
+        let middle = |number: i32| (f64::from(number) + 0.5) * CELL_M;
+        if solid(middle(cell.x), middle(cell.y)) {
+            knowledge.values_mut()[index] = CellKnowledge::Occupied;
+        }
+    }
+    let mut map = Map::new(config().body, config().sensors);
+    map.take_up(&StoredMap::from_raster(&knowledge, None));
+    map
+}
+
+/// The real robot: drives until it touches, then turns by a random angle.
+struct Truth<'map> {
+    map: &'map Map,
+    pose: Pose2,
+    random: Random,
+    turn_left_rad: f64,
+    view: Observation,
+}
+
+impl<'map> Truth<'map> {
+    fn new(map: &'map Map, pose: Pose2) -> Self {
+        Self {
+            map,
+            pose,
+            random: Random::new(11),
+            turn_left_rad: 0.0,
+            view: Observation {
+                gyro_heading_rad: Some(0.0),
+                proximity: vec![0.0; 7],
+                ..Observation::default()
+            },
+        }
+    }
+
+    fn clear_m(&self, at: Point2) -> f64 {
+        self.map.distance_field().at(at)
+    }
+
+    fn step(&mut self) -> &Observation {
+        self.view.time_us += 20_000;
+        let (way_m, turn_rad) = if self.turn_left_rad == 0.0 {
+            (SPEED_M_PER_S * STEP_S, 0.0)
+        } else {
+            let most = TURN_RAD_PER_S * STEP_S;
+            let turn_rad = self.turn_left_rad.clamp(-most, most);
+            self.turn_left_rad -= turn_rad;
+            (0.0, turn_rad)
+        };
+        let next = self.pose.after_arc(way_m, turn_rad);
+        let touches = self.clear_m(next.position()) < RADIUS_M;
+        if touches {
+            self.turn_left_rad = self.random.between(1.2, 3.0) * if self.random.coin() { 1.0 } else { -1.0 };
+        } else {
+            self.pose = next;
+            let rim_m = 0.5 * TRACK_M * turn_rad;
+            self.view.travel_left_m += way_m / WAY_FACTOR - rim_m;
+            self.view.travel_right_m += way_m / WAY_FACTOR + rim_m;
+        }
+        let counted_rad = turn_rad * GYRO_SCALE + GYRO_BIAS_RAD_PER_S * STEP_S;
+        self.view.gyro_heading_rad = self.view.gyro_heading_rad.map(|before| before + counted_rad);
+        self.view.contacts = Contacts {
+            left: touches,
+            right: touches,
+        };
+        self.look();
+        &self.view
+    }
+
+    fn look(&mut self) {
+        let layout = config().sensors.proximity;
+        for (number, sensor) in layout.sensors().iter().enumerate() {
+            let beam = self.pose * *sensor;
+            let mut way_m = 0.0;
+            while way_m < layout.response.range_m {
+                let at = beam.transform(Point2 { x_m: way_m, y_m: 0.0 });
+                let clear_m = self.clear_m(at);
+                if clear_m < 0.09 * way_m + 0.002 {
+                    break;
+                }
+                way_m += clear_m.max(0.005);
+            }
+            let noise = 1.0 + 0.08 * self.random.normal();
+            self.view.proximity[number] = (layout.response.level(way_m) * noise) as f32;
+        }
+    }
+
+    fn off_m(&self, localization: &Localization) -> f64 {
+        self.pose.position().distance_m(localization.pose().position())
+    }
+}
+
+const START: Pose2 = Pose2 {
+    x_m: 0.6,
+    y_m: 0.5,
+    heading_rad: 0.3,
+};
+
+fn placed(map: &Map, at: Pose2) -> Localization {
+    let mut localization = Localization::new(TRACK_M, 0.5);
+    localization.place_at(at);
+    localization.track(map, &config(), 5);
+    localization
+}
+
+fn take(localization: &mut Localization, view: &Observation) {
+    let advance = localization.update(view);
+    localization.refine(view, advance);
+}
+
+#[test]
+fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
+    let map = flat();
+    let mut truth = Truth::new(&map, START);
+    let mut localization = placed(&map, START);
+    let mut odometry = Localization::new(TRACK_M, 0.5);
+    odometry.place_at(START);
+    let (mut squares, mut counted_squares) = (0.0, 0.0);
+    let steps = 60 * 50 * 10;
+    for _ in 0..steps {
+        let view = truth.step().clone();
+        take(&mut localization, &view);
+        odometry.update(&view);
+        squares += truth.off_m(&localization) * truth.off_m(&localization);
+        counted_squares += truth.off_m(&odometry) * truth.off_m(&odometry);
+    }
+    let rmse_m = (squares / f64::from(steps)).sqrt();
+    let counted_rmse_m = (counted_squares / f64::from(steps)).sqrt();
+    assert!(rmse_m < 0.04, "{rmse_m} m");
+    assert!(counted_rmse_m > 0.2, "{counted_rmse_m} m");
+    let estimate = localization.estimate();
+    assert!(!estimate.lost && estimate.sigma_m < 0.2, "{estimate:?}");
+    let checkpoint = localization.checkpoint().unwrap();
+    let scale = (1.0 + checkpoint.gyro_scale) * GYRO_SCALE - 1.0;
+    assert!(scale.abs() < 0.003, "the gyro's scale is still off by {scale}");
+}
+
+#[test]
+fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
+    let map = flat();
+    let mut truth = Truth::new(&map, START);
+    let mut localization = placed(&map, START);
+    for _ in 0..2_000 {
+        take(&mut localization, truth.step());
+    }
+    let mut held = truth.view.clone();
+    held.wheel_drop = true;
+    for _ in 0..100 {
+        held.time_us += 20_000;
+        take(&mut localization, &held);
+    }
+    truth.view.time_us = held.time_us;
+    truth.pose = Pose2 {
+        x_m: 4.6,
+        y_m: 0.8,
+        heading_rad: -2.0,
+    };
+    take(&mut localization, truth.step());
+    assert!(localization.estimate().lost);
+    let mut steps = 0;
+    while localization.estimate().lost && steps < 9_000 {
+        take(&mut localization, truth.step());
+        steps += 1;
+    }
+    assert!(steps < 9_000, "not found within three minutes");
+    assert!(
+        truth.off_m(&localization) < 0.15,
+        "{} m",
+        truth.off_m(&localization)
+    );
+}
+
+#[test]
+fn a_robot_that_starts_at_a_wrong_place_notices_it() {
+    let map = flat();
+    let mut truth = Truth::new(&map, START);
+    let wrong = Pose2 {
+        x_m: 4.8,
+        y_m: 1.5,
+        heading_rad: 2.0,
+    };
+    let mut localization = placed(&map, wrong);
+    let noticed = (0..6_000).any(|_| {
+        take(&mut localization, truth.step());
+        localization.estimate().lost
+    });
+    assert!(noticed);
+}
+
+#[test]
+fn two_that_take_up_the_same_checkpoint_go_on_alike_to_the_last_bit() {
+    let map = flat();
+    let mut truth = Truth::new(&map, START);
+    let mut before = placed(&map, START);
+    for _ in 0..3_000 {
+        take(&mut before, truth.step());
+    }
+    let checkpoint = before.checkpoint().unwrap();
+    let resumed = || {
+        let mut localization = placed(&map, before.pose());
+        localization.resume_tracking(checkpoint);
+        localization
+    };
+    let (mut one, mut other) = (resumed(), resumed());
+    for _ in 0..3_000 {
+        let view = truth.step().clone();
+        take(&mut one, &view);
+        take(&mut other, &view);
+        assert_eq!(one.estimate(), other.estimate());
+    }
+    assert!(truth.off_m(&one) < 0.15, "{} m", truth.off_m(&one));
+}
+
+#[test]
+fn nothing_from_outside_upsets_the_filter() {
+    let map = flat();
+    let mut localization = placed(&map, START);
+    let mut random = Random::new(3);
+    let odd = [f64::NAN, f64::INFINITY, -1.0, 0.0, 0.5, 1e300];
+    let mut pick = || odd[(random.between(0.0, 6.0) as usize).min(5)];
+    for step in 0..2_000 {
+        let view = Observation {
+            time_us: step * 20_000,
+            travel_left_m: pick(),
+            travel_right_m: pick(),
+            gyro_heading_rad: Some(pick()),
+            proximity: (0..(step % 9)).map(|_| pick() as f32).collect(),
+            wheel_drop: step % 100 > 20,
+            ..Observation::default()
+        };
+        take(&mut localization, &view);
+        let pose = localization.pose();
+        assert!((pose.x_m + pose.y_m + normalize_rad(pose.heading_rad)).is_finite());
+    }
+}

@@ -1,0 +1,217 @@
+//! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
+
+use super::Surroundings;
+use crate::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
+use crate::geometry::Point2;
+
+/// Levels below this are noise of the conversion, 0..1.
+const LEVEL_MIN: f64 = 0.02;
+/// Deviation of what a surface reflects, relative: white walls and dark furniture, and the noise of the level with it.
+const REFLECTION_SIGMA: f64 = 0.2;
+/// Error of a distance that comes from the map's cells and from the time between sample and report, metres.
+const PLACE_SIGMA_M: f64 = 0.015;
+/// Likelihood of a level that the map does not explain, against a perfect match: people, bags, moved chairs.
+const UNMAPPED: f64 = 0.12;
+/// The same for a beam that the map blocks in front of what was seen.
+const THROUGH: f64 = 0.04;
+/// Likelihood that nothing is seen where the map has something: drop-outs, black surfaces, what was carried away.
+const UNSEEN: f64 = 0.08;
+/// Band around the end of the range in which it is open whether something is seen, metres.
+const RANGE_BAND_M: f64 = 0.02;
+/// A beam meets what is this near, metres.
+const MEET_M: f64 = 0.003;
+/// Smallest step along a beam, metres.
+const STEP_MIN_M: f64 = 0.012;
+/// Most steps along a beam.
+const STEPS_MAX: usize = 12;
+
+/// One sensor and what it shows.
+#[derive(Clone, Copy, Debug, Default)]
+struct Beam {
+    /// The sensor's place in the body's frame, metres.
+    x_m: f64,
+    y_m: f64,
+    /// Its direction there.
+    cos: f64,
+    sin: f64,
+    /// Distance to what is seen and one over its deviation.
+    seen: Option<(f64, f64)>,
+}
+
+/// All sensors at one moment.
+#[derive(Clone, Debug)]
+pub(super) struct Beams {
+    beams: [Beam; PROXIMITY_MAX],
+    count: usize,
+    range_m: f64,
+    spread: f64,
+    /// Nothing farther from the centre than this can be met by any beam, metres.
+    reach_m: f64,
+    /// Farthest sensor from the centre, metres.
+    mount_m: f64,
+}
+
+/// How a place fits what the sensors show.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::localization) struct Fit {
+    /// Beams for which map or sensor has something.
+    pub(in crate::localization) told: u32,
+    /// Those of them for which both have the same.
+    pub(in crate::localization) agreed: u32,
+}
+
+impl Beams {
+    pub(super) fn new(layout: &ProximityLayout) -> Self {
+        let mut beams = [Beam::default(); PROXIMITY_MAX];
+        let mut mount_m: f64 = 0.0;
+        for (beam, pose) in beams.iter_mut().zip(layout.sensors()) {
+            let (sin, cos) = libm::sincos(pose.heading_rad);
+            *beam = Beam {
+                x_m: pose.x_m,
+                y_m: pose.y_m,
+                cos,
+                sin,
+                seen: None,
+            };
+            mount_m = mount_m.max(pose.position().distance_m(Point2::ORIGIN));
+        }
+        let range_m = layout.response.range_m;
+        Self {
+            beams,
+            count: layout.sensors().len(),
+            range_m,
+            spread: libm::tan(layout.response.half_angle_rad),
+            reach_m: mount_m + range_m + 4.0 * RANGE_BAND_M,
+            mount_m,
+        }
+    }
+
+    /// Takes the levels of an observation.
+    pub(super) fn look(&mut self, levels: &[f32], response: &ProximityResponse) {
+        self.count = self.count.min(levels.len());
+        for (beam, level) in self.beams.iter_mut().zip(levels) {
+            beam.seen = seen(f64::from(*level), response);
+        }
+    }
+
+    /// Likelihood of all levels at a place; 1 at best.
+    pub(super) fn likelihood(&self, map: &impl Surroundings, place: &Place) -> f64 {
+        let beams = self.beams.get(..self.count).unwrap_or_default();
+        if place.clearance_m > self.reach_m {
+            let hits = beams.iter().filter(|beam| beam.seen.is_some()).count();
+            return (0..hits).fold(1.0, |likelihood, _| likelihood * UNMAPPED);
+        }
+        beams.iter().fold(1.0, |likelihood, beam| {
+            let expected_m = self.cast(map, place, beam);
+            likelihood * self.beam_likelihood(beam.seen, expected_m)
+        })
+    }
+
+    /// Which beams the map explains at a place.
+    pub(super) fn fit(&self, map: &impl Surroundings, place: &Place) -> Fit {
+        let mut fit = Fit::default();
+        for beam in self.beams.get(..self.count).unwrap_or_default() {
+            let expected_m = self
+                .cast(map, place, beam)
+                .filter(|expected_m| *expected_m < self.range_m - RANGE_BAND_M);
+            let agreed = match (beam.seen, expected_m) {
+                (None, None) => continue,
+                (Some((seen_m, per_sigma)), Some(expected_m)) => {
+                    ((seen_m - expected_m) * per_sigma).abs() < 3.0
+                }
+                (Some((seen_m, per_sigma)), None) => (self.range_m - seen_m) * per_sigma < 3.0,
+                (None, Some(_)) => false,
+            };
+            fit.told += 1;
+            fit.agreed += u32::from(agreed);
+        }
+        fit
+    }
+
+    fn beam_likelihood(&self, seen: Option<(f64, f64)>, expected_m: Option<f64>) -> f64 {
+        match (seen, expected_m) {
+            (None, None) => 1.0,
+            (None, Some(expected_m)) => {
+                let beyond = (expected_m - self.range_m) / RANGE_BAND_M + 0.5;
+                UNSEEN + (1.0 - UNSEEN) * beyond.clamp(0.0, 1.0)
+            }
+            (Some((seen_m, per_sigma)), Some(expected_m)) => {
+                let off = (seen_m - expected_m) * per_sigma;
+                let floor = if off > 3.0 { THROUGH } else { UNMAPPED };
+                floor + (1.0 - floor) * bell(off)
+            }
+            // The map's nearest thing may lie just beyond the range.
+            (Some((seen_m, per_sigma)), None) => {
+                UNMAPPED + (1.0 - UNMAPPED) * bell((self.range_m + 2.0 * RANGE_BAND_M - seen_m) * per_sigma)
+            }
+        }
+    }
+
+    /// Distance from the sensor to what its cone meets in the map.
+    fn cast(&self, map: &impl Surroundings, place: &Place, beam: &Beam) -> Option<f64> {
+        let start = place.point(beam.x_m, beam.y_m);
+        let (dx, dy) = place.direction(beam.cos, beam.sin);
+        let limit_m = self.range_m + RANGE_BAND_M;
+        let mut way_m = (0.95 * (place.clearance_m - self.mount_m)).max(0.0);
+        for _ in 0..STEPS_MAX {
+            if way_m > limit_m {
+                return None;
+            }
+            let clear_m = map.clearance_m(Point2 {
+                x_m: start.x_m + dx * way_m,
+                y_m: start.y_m + dy * way_m,
+            });
+            if clear_m <= self.spread * way_m + MEET_M {
+                return Some(way_m + clear_m.max(0.0));
+            }
+            way_m += (0.95 * clear_m).max(STEP_MIN_M);
+        }
+        None
+    }
+}
+
+/// A bell of height 1 with heavier tails than the normal one, without an exponential function.
+fn bell(off: f64) -> f64 {
+    let body = 1.0 + off * off * 0.25;
+    1.0 / (body * body)
+}
+
+/// Distance and one over its deviation.
+fn seen(level: f64, response: &ProximityResponse) -> Option<(f64, f64)> {
+    // Written so that NaN is nothing.
+    let shows = level > LEVEL_MIN && response.half_level_m > 0.0;
+    if !shows {
+        return None;
+    }
+    let beyond = libm::sqrt((1.0 / level - 1.0).max(0.0));
+    let distance_m = response.skin_m + response.half_level_m * beyond;
+    // Derivative of the distance by the reflection; near the rim the level saturates and tells little.
+    let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
+    let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
+    let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
+    Some((distance_m.min(response.range_m), 1.0 / sigma_m))
+}
+
+/// A pose with what each sensor needs of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) centre: Point2,
+    pub(super) cos: f64,
+    pub(super) sin: f64,
+    /// From the centre to the nearest solid thing, metres.
+    pub(super) clearance_m: f64,
+}
+
+impl Place {
+    pub(super) fn point(&self, x_m: f64, y_m: f64) -> Point2 {
+        let (dx, dy) = self.direction(x_m, y_m);
+        Point2 {
+            x_m: self.centre.x_m + dx,
+            y_m: self.centre.y_m + dy,
+        }
+    }
+
+    fn direction(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.cos * x - self.sin * y, self.sin * x + self.cos * y)
+    }
+}

@@ -1,0 +1,388 @@
+//! A particle filter in a map: many guesses of the pose move as odometry says, each with errors of its own, and those that
+//! fit what the sensors show multiply.
+//!
+//! Terms. *Place*: a pose with its cosine, sine and clearance. *Fit*: how many beams the map explains at a place.
+//! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
+//! a dark cupboard is dark for all of its length.
+
+mod infrared;
+mod touch;
+
+use crate::config::SensorLayout;
+use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::observation::{Cliffs, Contacts, Observation};
+use crate::random::Random;
+
+use super::PoseEstimate;
+pub(super) use infrared::Fit;
+use infrared::{Beams, Place};
+use touch::{Touch, body_likelihood};
+
+/// What the filter asks of a map.
+pub(super) trait Surroundings {
+    /// Distance from a place to the nearest solid thing, in metres; negative inside of one.
+    fn clearance_m(&self, at: Point2) -> f64;
+
+    /// Distance from a place to the nearest end of the floor, in metres, on either side of it; `None` if the map has none.
+    fn drop_m(&self, at: Point2) -> Option<f64>;
+
+    /// Places evenly all over the floor on which the robot can stand.
+    fn places(&self) -> Vec<Point2>;
+}
+
+/// Fewest guesses while the robot knows where it is.
+const TRACKING_MIN: usize = 220;
+/// Most of them.
+const TRACKING_MAX: usize = 400;
+/// Guesses around each place where a lost robot may be.
+const EACH: usize = 100;
+/// Guesses are drawn anew when the effective share of them falls below this.
+const RESAMPLE_SHARE: f64 = 0.5;
+/// Edge of the bins whose number tells how many guesses are needed, metres.
+const BIN_M: f64 = 0.1;
+/// The same in heading, radians.
+const BIN_RAD: f64 = 0.17;
+/// Guesses so near to each other are one cluster, metres and radians.
+const CLUSTER_M: f64 = 0.5;
+const CLUSTER_RAD: f64 = 0.5;
+/// Bound of the error that too few guesses make (D. Fox 2003: KLD sampling), with quantile 2.33 of the normal distribution.
+const KLD_ERROR: f64 = 0.05;
+const KLD_QUANTILE: f64 = 2.33;
+/// Slip along the way, metres per square root of a metre.
+const SLIP_M_PER_SQRT_M: f64 = 0.012;
+/// What each move adds besides, metres and radians: cells, samples that are not of this moment.
+const JITTER_M: f64 = 0.002;
+const JITTER_RAD: f64 = 0.002;
+/// Spread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
+const WAY_FACTOR_SIGMA: f64 = 0.01;
+const WAY_FACTOR_WALK: f64 = 0.002;
+/// Least and greatest factor that is believed.
+const WAY_FACTORS: (f64, f64) = (0.9, 1.1);
+
+/// One guess.
+#[derive(Clone, Copy, Debug)]
+struct Particle {
+    pose: Pose2,
+    /// True way by counted way: wheels, slip on rugs.
+    way_factor: f64,
+    weight: f64,
+}
+
+/// What the robot moved since the guesses were weighed last.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Motion {
+    /// From the last pose to this one.
+    pub(super) step: Pose2,
+    /// Way, backwards counted too, metres.
+    pub(super) way_m: f64,
+    /// Variance of the turn, square radians.
+    pub(super) turn_variance: f64,
+}
+
+/// Standard deviations around a pose.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spread {
+    pub(super) sigma_m: f64,
+    pub(super) sigma_rad: f64,
+}
+
+/// The guesses.
+#[derive(Clone, Debug)]
+pub(super) struct ParticleFilter {
+    particles: Vec<Particle>,
+    spare: Vec<Particle>,
+    bins: Vec<u64>,
+    random: Random,
+    radius_m: f64,
+    layout: SensorLayout,
+    beams: Beams,
+}
+
+impl ParticleFilter {
+    /// All guesses at the origin.
+    pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
+        let mut filter = Self {
+            particles: Vec::new(),
+            spare: Vec::new(),
+            bins: Vec::new(),
+            random: Random::new(seed),
+            radius_m,
+            layout,
+            beams: Beams::new(&layout.proximity),
+        };
+        filter.gather(
+            Pose2::IDENTITY,
+            Spread {
+                sigma_m: 0.0,
+                sigma_rad: 0.0,
+            },
+        );
+        filter
+    }
+
+    /// All guesses around one pose.
+    pub(super) fn gather(&mut self, around: Pose2, spread: Spread) {
+        self.particles.clear();
+        for _ in 0..TRACKING_MAX {
+            let particle = self.draw(around, spread);
+            self.particles.push(particle);
+        }
+    }
+
+    /// Guesses around several poses.
+    pub(super) fn scatter(&mut self, around: &[Pose2], spread: Spread) {
+        self.particles.clear();
+        for pose in around {
+            for _ in 0..EACH {
+                let particle = self.draw(*pose, spread);
+                self.particles.push(particle);
+            }
+        }
+    }
+
+    /// Gives every third guess another place around a pose.
+    pub(super) fn widen(&mut self, around: Pose2, spread: Spread) {
+        for index in (0..self.particles.len()).step_by(3) {
+            let drawn = self.draw(around, spread);
+            if let Some(particle) = self.particles.get_mut(index) {
+                *particle = Particle {
+                    way_factor: particle.way_factor,
+                    ..drawn
+                };
+            }
+        }
+    }
+
+    fn draw(&mut self, around: Pose2, spread: Spread) -> Particle {
+        Particle {
+            pose: Pose2 {
+                x_m: around.x_m + spread.sigma_m * self.random.normal(),
+                y_m: around.y_m + spread.sigma_m * self.random.normal(),
+                heading_rad: normalize_rad(around.heading_rad + spread.sigma_rad * self.random.normal()),
+            },
+            way_factor: 1.0 + WAY_FACTOR_SIGMA * self.random.normal(),
+            weight: 1.0,
+        }
+    }
+
+    /// Moves every guess.
+    pub(super) fn follow(&mut self, motion: Motion) {
+        let root_m = libm::sqrt(motion.way_m);
+        let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
+        let turn_rad = libm::sqrt(motion.turn_variance) + JITTER_RAD;
+        let walk = WAY_FACTOR_WALK * root_m;
+        for particle in &mut self.particles {
+            let (low, high) = WAY_FACTORS;
+            particle.way_factor = (particle.way_factor + walk * self.random.normal()).clamp(low, high);
+            let step = Pose2 {
+                x_m: motion.step.x_m * particle.way_factor + along_m * self.random.normal(),
+                y_m: motion.step.y_m * particle.way_factor + JITTER_M * self.random.normal(),
+                heading_rad: motion.step.heading_rad + turn_rad * self.random.normal(),
+            };
+            particle.pose = particle.pose * step;
+        }
+    }
+
+    /// Weighs every guess by what the sensors show, and draws new ones where few are left that fit.
+    pub(super) fn weigh(
+        &mut self,
+        map: &impl Surroundings,
+        observation: &Observation,
+        edges: (Contacts, Cliffs),
+    ) {
+        self.beams
+            .look(&observation.proximity, &self.layout.proximity.response);
+        let touch = Touch {
+            contacts: edges.0,
+            edges: edges.1,
+        };
+        let mut sum = 0.0;
+        for particle in &mut self.particles {
+            let place = place(map, particle.pose);
+            let infrared = self.beams.likelihood(map, &place);
+            let mut likelihood = tempered(infrared);
+            likelihood *= body_likelihood(place.clearance_m - self.radius_m);
+            if touch.tells() {
+                likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
+            }
+            particle.weight *= likelihood;
+            sum += particle.weight;
+        }
+        self.normalize(sum);
+        if self.effective_share() < RESAMPLE_SHARE {
+            self.resample();
+        }
+    }
+
+    fn normalize(&mut self, sum: f64) {
+        let scale = if sum > 1e-200 {
+            self.particles.len() as f64 / sum
+        } else {
+            0.0
+        };
+        for particle in &mut self.particles {
+            // All guesses are impossible: none of them is better than another.
+            particle.weight = if scale > 0.0 { particle.weight * scale } else { 1.0 };
+        }
+    }
+
+    /// Share of the guesses that matter; weights have the mean 1.
+    fn effective_share(&self) -> f64 {
+        let squares: f64 = self
+            .particles
+            .iter()
+            .map(|particle| particle.weight * particle.weight)
+            .sum();
+        self.particles.len() as f64 / squares.max(1e-9)
+    }
+
+    /// Draws as many guesses as their spread asks for, each with the chance of its weight (systematic resampling).
+    fn resample(&mut self) {
+        let wanted = self.wanted();
+        let count = self.particles.len();
+        let step = count as f64 / wanted as f64;
+        let mut pointer = self.random.between(0.0, step);
+        let mut passed = 0.0;
+        self.spare.clear();
+        for particle in &self.particles {
+            passed += particle.weight;
+            while pointer < passed && self.spare.len() < wanted {
+                self.spare.push(Particle {
+                    weight: 1.0,
+                    ..*particle
+                });
+                pointer += step;
+            }
+        }
+        if !self.spare.is_empty() {
+            core::mem::swap(&mut self.particles, &mut self.spare);
+        }
+    }
+
+    /// Number of guesses for the bins that hold guesses of some weight.
+    fn wanted(&mut self) -> usize {
+        self.bins.clear();
+        for particle in self.particles.iter().filter(|particle| particle.weight > 0.1) {
+            self.bins.push(bin(particle.pose, 1.0));
+        }
+        self.bins.sort_unstable();
+        self.bins.dedup();
+        let more = self.bins.len().saturating_sub(1).max(1) as f64;
+        let shrink = 2.0 / (9.0 * more);
+        let root = 1.0 - shrink + libm::sqrt(shrink) * KLD_QUANTILE;
+        let wanted = more / (2.0 * KLD_ERROR) * root * root * root;
+        let most = self.particles.len().max(TRACKING_MAX);
+        (wanted as usize).clamp(TRACKING_MIN, most)
+    }
+
+    /// Mean of the guesses and their spread.
+    pub(super) fn estimate(&self) -> PoseEstimate {
+        mean(&self.particles)
+    }
+
+    /// Mean and spread of the greatest cluster of guesses, and its share of all weight.
+    pub(super) fn cluster(&mut self) -> (PoseEstimate, f64) {
+        let Some(centre) = self.densest() else {
+            return (self.estimate(), 0.0);
+        };
+        let near = |pose: Pose2| {
+            pose.position().distance_m(centre.position()) <= CLUSTER_M
+                && normalize_rad(pose.heading_rad - centre.heading_rad).abs() <= CLUSTER_RAD
+        };
+        self.spare.clear();
+        self.spare
+            .extend(self.particles.iter().filter(|particle| near(particle.pose)));
+        let weight = |particles: &[Particle]| particles.iter().map(|particle| particle.weight).sum::<f64>();
+        let share = weight(&self.spare) / weight(&self.particles).max(1e-9);
+        (mean(&self.spare), share)
+    }
+
+    /// A guess in the fullest bin.
+    fn densest(&self) -> Option<Pose2> {
+        let mut binned: Vec<(u64, usize)> = self
+            .particles
+            .iter()
+            .enumerate()
+            .map(|(index, particle)| (bin(particle.pose, 2.0), index))
+            .collect();
+        binned.sort_unstable();
+        let fullest = binned
+            .chunk_by(|one, other| one.0 == other.0)
+            .max_by(|one, other| {
+                let weight = |chunk: &[(u64, usize)]| -> f64 {
+                    chunk
+                        .iter()
+                        .filter_map(|(_, index)| self.particles.get(*index))
+                        .map(|particle| particle.weight)
+                        .sum()
+                };
+                weight(one).total_cmp(&weight(other))
+            })?;
+        let (_, index) = fullest.first()?;
+        self.particles.get(*index).map(|particle| particle.pose)
+    }
+
+    /// How well the beams of the last weighing fit at a pose.
+    pub(super) fn fit(&self, map: &impl Surroundings, pose: Pose2) -> Fit {
+        self.beams.fit(map, &place(map, pose))
+    }
+}
+
+/// To the power of 3/8, by roots because they are cheap.
+fn tempered(likelihood: f64) -> f64 {
+    let root = libm::sqrt(likelihood);
+    libm::sqrt(root * libm::sqrt(root))
+}
+
+/// Number of the bin of a pose, for bins `factor` times as wide as usual.
+fn bin(pose: Pose2, factor: f64) -> u64 {
+    let number = |value: f64, edge: f64| (libm::floor(value / (edge * factor)) as i64 as u64) & 0xf_ffff;
+    number(pose.x_m, BIN_M) << 40 | number(pose.y_m, BIN_M) << 20 | number(pose.heading_rad, BIN_RAD)
+}
+
+/// Weighted mean of guesses and their spread.
+fn mean(particles: &[Particle]) -> PoseEstimate {
+    let Some(first) = particles.first() else {
+        return PoseEstimate::default();
+    };
+    let origin = first.pose;
+    let sum: f64 = particles.iter().map(|particle| particle.weight).sum();
+    let mean = |of: &dyn Fn(Pose2) -> f64| {
+        particles
+            .iter()
+            .map(|particle| particle.weight * of(particle.pose))
+            .sum::<f64>()
+            / sum
+    };
+    let turn_rad = mean(&|pose| normalize_rad(pose.heading_rad - origin.heading_rad));
+    let pose = Pose2 {
+        x_m: mean(&|pose| pose.x_m),
+        y_m: mean(&|pose| pose.y_m),
+        heading_rad: normalize_rad(origin.heading_rad + turn_rad),
+    };
+    let xx = mean(&|other| (other.x_m - pose.x_m) * (other.x_m - pose.x_m));
+    let yy = mean(&|other| (other.y_m - pose.y_m) * (other.y_m - pose.y_m));
+    let xy = mean(&|other| (other.x_m - pose.x_m) * (other.y_m - pose.y_m));
+    let rad2 = mean(&|other| {
+        let off = normalize_rad(other.heading_rad - pose.heading_rad);
+        off * off
+    });
+    let half = 0.5 * (xx - yy);
+    let greatest = 0.5 * (xx + yy) + libm::sqrt(half * half + xy * xy);
+    PoseEstimate {
+        pose,
+        sigma_m: libm::sqrt(greatest),
+        sigma_rad: libm::sqrt(rad2),
+        lost: false,
+    }
+}
+
+fn place(map: &impl Surroundings, pose: Pose2) -> Place {
+    let (sin, cos) = libm::sincos(pose.heading_rad);
+    Place {
+        centre: pose.position(),
+        cos,
+        sin,
+        clearance_m: map.clearance_m(pose.position()),
+    }
+}

@@ -1,0 +1,122 @@
+//! The map as the filter sees it: a copy that stays as it is while the robot works.
+//!
+//! What the robot draws into the map while it works carries the error of its pose. A filter that compared with that would
+//! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
+
+use super::particles::Surroundings;
+use crate::geometry::{Point2, Pose2};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster};
+
+/// Cells between two places where a robot may be looked for: 15 cm.
+const PLACE_CELLS: usize = 6;
+/// The body fits with its centre this far from solid things, less a cell, metres.
+const PLACE_CLEAR_M: f64 = 0.15;
+/// Cells in each direction in which the end of the floor is looked for.
+const EDGE_CELLS: i32 = 3;
+
+/// A home as it was known when the work began.
+#[derive(Clone, Debug)]
+pub(super) struct Terrain {
+    distance: DistanceField,
+    knowledge: Raster<CellKnowledge>,
+    dock: Option<Pose2>,
+}
+
+impl Terrain {
+    pub(super) fn of(map: &Map) -> Self {
+        Self {
+            distance: map.distance_field().clone(),
+            knowledge: map.knowledge().clone(),
+            dock: map.dock(),
+        }
+    }
+
+    /// Where the robot stands when it is docked, if that is known.
+    pub(super) fn dock(&self) -> Option<Pose2> {
+        self.dock
+    }
+}
+
+impl Surroundings for Terrain {
+    fn clearance_m(&self, at: Point2) -> f64 {
+        self.distance.at(at)
+    }
+
+    fn drop_m(&self, at: Point2) -> Option<f64> {
+        edge_m(&self.knowledge, at)
+    }
+
+    fn places(&self) -> Vec<Point2> {
+        let knowledge = &self.knowledge;
+        let origin = knowledge.origin();
+        let mut places = Vec::new();
+        for row in (0..knowledge.height()).step_by(PLACE_CELLS) {
+            for column in (0..knowledge.width()).step_by(PLACE_CELLS) {
+                let cell = Cell {
+                    x: origin.x + i32::try_from(column).unwrap_or(i32::MAX),
+                    y: origin.y + i32::try_from(row).unwrap_or(i32::MAX),
+                };
+                if knowledge.get(cell) == Some(&CellKnowledge::Free)
+                    && self.distance.cell_m(cell) >= PLACE_CLEAR_M
+                {
+                    places.push(centre(cell));
+                }
+            }
+        }
+        places
+    }
+}
+
+fn centre(cell: Cell) -> Point2 {
+    Point2 {
+        x_m: (f64::from(cell.x) + 0.5) * CELL_M,
+        y_m: (f64::from(cell.y) + 0.5) * CELL_M,
+    }
+}
+
+/// Distance from a place to the border between floor and drop; `None` if there is none near.
+fn edge_m(knowledge: &Raster<CellKnowledge>, at: Point2) -> Option<f64> {
+    let here = Cell::under(at);
+    let is_drop = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Cliff);
+    let over_drop = is_drop(here);
+    let mut nearest_m: Option<f64> = None;
+    for y in here.y.saturating_sub(EDGE_CELLS)..=here.y.saturating_add(EDGE_CELLS) {
+        for x in here.x.saturating_sub(EDGE_CELLS)..=here.x.saturating_add(EDGE_CELLS) {
+            let cell = Cell { x, y };
+            if is_drop(cell) != over_drop {
+                let beyond_m = (centre(cell).distance_m(at) - 0.5 * CELL_M).max(0.0);
+                nearest_m = Some(nearest_m.map_or(beyond_m, |least: f64| least.min(beyond_m)));
+            }
+        }
+    }
+    nearest_m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::edge_m;
+    use crate::geometry::Point2;
+    use crate::mapping::{Cell, CellKnowledge, Raster};
+
+    #[test]
+    fn the_end_of_the_floor_is_as_far_on_both_sides() {
+        let mut knowledge = Raster::filled(Cell { x: 0, y: 0 }, 40, 40, CellKnowledge::Free);
+        for y in 0..40 {
+            for x in 20..40 {
+                *knowledge.get_mut(Cell { x, y }).unwrap() = CellKnowledge::Cliff;
+            }
+        }
+        let at = |x_m: f64| edge_m(&knowledge, Point2 { x_m, y_m: 0.5125 });
+        for off_m in [0.0125, 0.0375, 0.0625] {
+            assert!(
+                (at(0.5 - off_m).unwrap() - off_m).abs() < 1e-9,
+                "{off_m} m before the edge"
+            );
+            assert!(
+                (at(0.5 + off_m).unwrap() - off_m).abs() < 1e-9,
+                "{off_m} m beyond it"
+            );
+        }
+        assert_eq!(at(0.3), None);
+    }
+}

@@ -1,0 +1,283 @@
+//! When the filter is moved and weighed, and what its answer is worth.
+//!
+//! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
+//! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
+
+use super::confidence::{Confidence, Verdict};
+use super::estimate::turn_variance;
+use super::particles::{Motion, ParticleFilter, Spread, Surroundings};
+use super::search::{Candidate, search};
+use super::trail::Trail;
+use super::{Advance, PoseEstimate};
+use crate::config::SensorLayout;
+use crate::geometry::Pose2;
+use crate::observation::{Cliffs, Contacts, Observation};
+
+/// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
+const WEIGH_M: f64 = 0.05;
+const WEIGH_RAD: f64 = 0.15;
+/// A wrong scale errs the same way in all weighings of a turn; guesses err by chance, so they must err more.
+const CORRELATED: f64 = 3.0;
+/// A wheel that hangs for so long hangs because somebody holds the robot.
+const LIFTED_S: f64 = 1.0;
+/// How far a robot is put from where it was lifted by people who put it back.
+const PUT_BACK: Spread = Spread {
+    sigma_m: 0.3,
+    sigma_rad: 0.5,
+};
+/// How far the guesses of a doubtful robot are spread.
+const DOUBT: Spread = Spread {
+    sigma_m: 0.15,
+    sigma_rad: 0.12,
+};
+/// Weighings between two such spreads.
+const DOUBT_WEIGHINGS: u32 = 40;
+/// A lost robot has found itself when so much of its guesses is in one cluster that is so narrow.
+const FOUND_SHARE: f64 = 0.9;
+const FOUND_SIGMA_M: f64 = 0.2;
+/// A robot that is as wide spread as this does not know where it is, metres.
+const LOST_SIGMA_M: f64 = 0.8;
+/// A lost robot searches the map when its trail is so long, metres, and again after as much more.
+const SEARCH_FROM_M: f64 = 4.0;
+const SEARCH_EVERY_M: f64 = 2.5;
+/// How far the guesses around a searched place are spread.
+const SEARCHED: Spread = Spread {
+    sigma_m: 0.06,
+    sigma_rad: 0.03,
+};
+/// Another place that fits nearly as well as the best one, this share of it, makes a find ambiguous.
+const RIVAL_SHARE: f64 = 0.93;
+/// The trail of a find must fit this well.
+const FIND_SCORE: f64 = 0.45;
+/// A cluster is at a searched place when it is this near, metres.
+const AT_PLACE_M: f64 = 0.4;
+
+/// What the robot moved in a step, and what it believes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved {
+    pub(super) advance: Advance,
+    /// Pose by odometry since the last estimate.
+    pub(super) pose: Pose2,
+    /// Deviation of the scale of turns, relative.
+    pub(super) turn_scale_sigma: f64,
+}
+
+/// A robot that follows its pose in a map.
+#[derive(Clone, Debug)]
+pub(super) struct Tracker {
+    filter: ParticleFilter,
+    pending: Motion,
+    pending_turn_rad: f64,
+    contacts_before: Contacts,
+    cliffs_before: Cliffs,
+    hanging_s: f64,
+    confidence: Confidence,
+    lost: bool,
+    weighings: u32,
+    trail: Trail,
+    /// Way until the next search of a lost robot, metres.
+    search_in_m: f64,
+    radius_m: f64,
+    layout: SensorLayout,
+}
+
+impl Tracker {
+    /// A robot of this radius at the origin.
+    pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
+        Self {
+            filter: ParticleFilter::new(radius_m, layout, seed),
+            pending: Motion::default(),
+            pending_turn_rad: 0.0,
+            contacts_before: Contacts::default(),
+            cliffs_before: Cliffs::default(),
+            hanging_s: 0.0,
+            confidence: Confidence::default(),
+            lost: false,
+            weighings: 0,
+            trail: Trail::default(),
+            search_in_m: 0.0,
+            radius_m,
+            layout,
+        }
+    }
+
+    /// The robot stands at `pose`, give or take these deviations.
+    pub(super) fn place_at(&mut self, pose: Pose2, sigma_m: f64, sigma_rad: f64) {
+        self.filter.gather(pose, Spread { sigma_m, sigma_rad });
+        self.forget_motion();
+        self.confidence = Confidence::default();
+        self.lost = false;
+    }
+
+    /// The robot may be anywhere. Until a search tells better, the guesses stay around `pose`.
+    pub(super) fn lose(&mut self, pose: Pose2) {
+        self.filter.gather(pose, PUT_BACK);
+        self.forget_motion();
+        self.confidence = Confidence::none();
+        self.search_in_m = (SEARCH_FROM_M - self.trail.length_m()).max(0.0);
+        self.lost = true;
+    }
+
+    /// Whether the robot does not know where it is.
+    pub(super) fn is_lost(&self) -> bool {
+        self.lost
+    }
+
+    /// Share of what the sensors show that the map explains, 0..1.
+    pub(super) fn explained(&self) -> f64 {
+        self.confidence.explained()
+    }
+
+    /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
+    /// had their say.
+    pub(super) fn follow(
+        &mut self,
+        map: &impl Surroundings,
+        observation: &Observation,
+        moved: Moved,
+    ) -> Option<PoseEstimate> {
+        let Moved { advance, pose, .. } = moved;
+        self.collect(advance);
+        let felt = self.felt(observation);
+        if self.was_lifted(observation, advance) {
+            self.trail.forget();
+            self.lose(pose);
+            return Some(self.estimate());
+        }
+        self.trail.note(observation, &self.layout.proximity);
+        self.trail.touch(felt.0, self.radius_m);
+        let due = self.pending.way_m >= WEIGH_M
+            || self.pending_turn_rad >= WEIGH_RAD
+            || felt.0.any()
+            || felt.1.any();
+        if !due || observation.wheel_drop {
+            return None;
+        }
+        let scale_rad = CORRELATED * moved.turn_scale_sigma * self.pending_turn_rad;
+        self.pending.turn_variance += scale_rad * scale_rad;
+        self.filter.follow(self.pending);
+        self.forget_motion();
+        self.filter.weigh(map, observation, felt);
+        self.weighings = self.weighings.saturating_add(1);
+        let estimate = self.judge(map);
+        Some(estimate)
+    }
+
+    /// Compares the estimate with what the sensors show, and draws the consequences.
+    fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
+        if self.lost {
+            return self.search(map);
+        }
+        let estimate = self.filter.estimate();
+        self.confidence.take(self.filter.fit(map, estimate.pose));
+        let verdict = self.confidence.verdict();
+        if verdict == Verdict::Wrong || estimate.sigma_m > LOST_SIGMA_M {
+            self.lose(estimate.pose);
+        } else if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
+            self.filter.widen(estimate.pose, DOUBT);
+            self.weighings = 0;
+        }
+        PoseEstimate {
+            lost: self.lost,
+            ..estimate
+        }
+    }
+
+    fn search(&mut self, map: &impl Surroundings) -> PoseEstimate {
+        let (estimate, share) = self.filter.cluster();
+        self.confidence.take(self.filter.fit(map, estimate.pose));
+        let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
+        if self.search_in_m <= 0.0 {
+            self.search_in_m = SEARCH_EVERY_M;
+            let places = search(map, &self.trail, self.radius_m);
+            if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
+                self.lost = false;
+                self.weighings = 0;
+            } else if !gathered || !is_among(&places, estimate.pose) {
+                self.try_places(&places);
+            }
+        }
+        PoseEstimate {
+            lost: self.lost,
+            ..estimate
+        }
+    }
+
+    fn try_places(&mut self, places: &[Candidate]) {
+        if places.is_empty() {
+            return;
+        }
+        let poses: Vec<Pose2> = places.iter().map(|place| place.pose).collect();
+        self.filter.scatter(&poses, SEARCHED);
+        self.confidence = Confidence::none();
+    }
+
+    fn estimate(&self) -> PoseEstimate {
+        PoseEstimate {
+            lost: self.lost,
+            ..self.filter.estimate()
+        }
+    }
+
+    /// Contacts and cliffs that begin now.
+    fn felt(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
+        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
+        let first_contacts = if self.contacts_before.any() {
+            Contacts::default()
+        } else {
+            contacts
+        };
+        let first_cliffs = Cliffs {
+            left: cliffs.left && !self.cliffs_before.left,
+            middle: cliffs.middle && !self.cliffs_before.middle,
+            right: cliffs.right && !self.cliffs_before.right,
+        };
+        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
+        (first_contacts, first_cliffs)
+    }
+
+    /// Whether the robot has just been put down by hands.
+    fn was_lifted(&mut self, observation: &Observation, advance: Advance) -> bool {
+        if observation.wheel_drop {
+            self.hanging_s += advance.time_s;
+            return false;
+        }
+        let lifted = self.hanging_s >= LIFTED_S;
+        self.hanging_s = 0.0;
+        lifted
+    }
+
+    fn collect(&mut self, advance: Advance) {
+        self.pending.step = self.pending.step.after_arc(advance.distance_m, advance.turn_rad);
+        self.pending.way_m += advance.distance_m.abs();
+        self.pending.turn_variance += turn_variance(advance);
+        self.pending_turn_rad += advance.turn_rad.abs();
+        self.trail.advance(advance);
+        self.search_in_m -= advance.distance_m.abs();
+    }
+
+    fn forget_motion(&mut self) {
+        self.pending = Motion::default();
+        self.pending_turn_rad = 0.0;
+    }
+}
+
+/// Whether `pose` is at the best of the places, and no other fits nearly as well.
+fn is_alone(places: &[Candidate], pose: Pose2) -> bool {
+    let Some((best, others)) = places.split_first() else {
+        return false;
+    };
+    best.score >= FIND_SCORE
+        && is_at(best, pose)
+        && others
+            .iter()
+            .all(|other| is_at(other, pose) || other.score < RIVAL_SHARE * best.score)
+}
+
+fn is_among(places: &[Candidate], pose: Pose2) -> bool {
+    places.iter().any(|place| is_at(place, pose))
+}
+
+fn is_at(place: &Candidate, pose: Pose2) -> bool {
+    place.pose.position().distance_m(pose.position()) <= AT_PLACE_M
+}

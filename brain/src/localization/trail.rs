@@ -1,0 +1,133 @@
+//! What the robot met on its last metres, in a frame of its own that only odometry carries on: a piece of map without a
+//! place, which [`super::search`] lays over the whole map.
+
+use std::collections::VecDeque;
+
+use super::Advance;
+use crate::config::ProximityLayout;
+use crate::geometry::{Point2, Pose2};
+use crate::observation::{Contacts, Observation};
+
+/// Way that is remembered, metres: odometry bends a longer one too much.
+const TRAIL_M: f64 = 14.0;
+/// Way between two notes, metres.
+const NOTE_M: f64 = 0.08;
+/// Turn between two notes, radians.
+const NOTE_RAD: f64 = 0.35;
+/// A beam that shows nothing is free up to this share of its range.
+const OPEN_SHARE: f64 = 0.75;
+/// Levels below this show nothing, 0..1.
+const LEVEL_MIN: f64 = 0.02;
+
+/// What a point of the trail is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Trace {
+    /// The body's centre was there.
+    Body,
+    /// Something solid was seen or touched there.
+    Solid,
+    /// A beam went through.
+    Open,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Note {
+    at: Point2,
+    trace: Trace,
+    way_m: f64,
+}
+
+/// The last metres.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trail {
+    trail_from_base: Pose2,
+    way_m: f64,
+    noted_way_m: f64,
+    turned_rad: f64,
+    notes: VecDeque<Note>,
+}
+
+impl Trail {
+    pub(super) fn advance(&mut self, advance: Advance) {
+        self.trail_from_base = self
+            .trail_from_base
+            .after_arc(advance.distance_m, advance.turn_rad);
+        self.way_m += advance.distance_m.abs();
+        self.turned_rad += advance.turn_rad.abs();
+    }
+
+    /// The robot was carried away: nothing of what was noted is near any more.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Length of the trail in metres.
+    pub(super) fn length_m(&self) -> f64 {
+        self.notes.front().map_or(0.0, |oldest| self.way_m - oldest.way_m)
+    }
+
+    /// Notes what is seen, as often as the robot has moved enough.
+    pub(super) fn note(&mut self, observation: &Observation, layout: &ProximityLayout) {
+        if self.way_m - self.noted_way_m < NOTE_M && self.turned_rad < NOTE_RAD {
+            return;
+        }
+        self.noted_way_m = self.way_m;
+        self.turned_rad = 0.0;
+        self.put(Point2::ORIGIN, Trace::Body);
+        for (sensor, level) in layout.sensors().iter().zip(&observation.proximity) {
+            let level = f64::from(*level);
+            let (distance_m, trace) = match layout.response.distance_m(level) {
+                Some(distance_m) => (distance_m, Trace::Solid),
+                None if level > LEVEL_MIN => continue,
+                None => (OPEN_SHARE * layout.response.range_m, Trace::Open),
+            };
+            let at = sensor.transform(Point2 {
+                x_m: distance_m,
+                y_m: 0.0,
+            });
+            self.put(at, trace);
+        }
+        while self
+            .notes
+            .front()
+            .is_some_and(|oldest| self.way_m - oldest.way_m > TRAIL_M)
+        {
+            self.notes.pop_front();
+        }
+    }
+
+    /// Notes a contact at the rim of a body of this radius.
+    pub(super) fn touch(&mut self, contacts: Contacts, radius_m: f64) {
+        if !contacts.any() {
+            return;
+        }
+        let side = f64::from(u8::from(contacts.left)) - f64::from(u8::from(contacts.right));
+        let (sin, cos) = libm::sincos(side * core::f64::consts::FRAC_PI_4);
+        self.put(
+            Point2 {
+                x_m: radius_m * cos,
+                y_m: radius_m * sin,
+            },
+            Trace::Solid,
+        );
+    }
+
+    fn put(&mut self, in_base: Point2, trace: Trace) {
+        self.notes.push_back(Note {
+            at: self.trail_from_base.transform(in_base),
+            trace,
+            way_m: self.way_m,
+        });
+    }
+
+    /// Points of one kind in the frame of the robot as it stands now, at most about `most`, evenly picked.
+    pub(super) fn points(&self, trace: Trace, most: usize) -> Vec<Point2> {
+        let base_from_trail = self.trail_from_base.inverse();
+        let of_kind = || self.notes.iter().filter(|note| note.trace == trace);
+        let every = of_kind().count() / most.max(1) + 1;
+        of_kind()
+            .step_by(every)
+            .map(|note| base_from_trail.transform(note.at))
+            .collect()
+    }
+}
