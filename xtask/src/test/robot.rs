@@ -69,8 +69,8 @@ pub(super) fn of_emulator(_long: bool) -> Result {
     let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
     let mut pace = robot_command(&pace);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
-    let owner =
-        workspace::build(&["rvac-cli"], workspace::Profile::Dev).and_then(|()| tests(&mut owner(&elf)));
+    workspace::build(&["rvac-cli"], workspace::Profile::Dev)?;
+    let owner = tests(&mut owner(&elf));
     all([tests(&mut command), owner, check(&mut pace)]
         .into_iter()
         .chain(trials))
