@@ -307,3 +307,26 @@ fn nothing_from_outside_upsets_the_filter() {
         assert!((pose.x_m + pose.y_m + normalize_rad(pose.heading_rad)).is_finite());
     }
 }
+
+#[test]
+fn a_map_that_odometry_alone_has_drawn_is_not_compared_with() {
+    let home = flat();
+    let mut truth = Truth::new(&home, START);
+    let mut odometry = Localization::new(TRACK_M, 0.5);
+    odometry.place_at(START);
+    let mut drawn = Map::new(config().body, config().sensors);
+    for _ in 0..60 * 50 * 5 {
+        let view = truth.step().clone();
+        let advance = odometry.update(&view);
+        drawn.insert(&odometry.estimate(), &view, advance);
+    }
+    drawn.refresh();
+    let solid = drawn
+        .knowledge()
+        .values()
+        .iter()
+        .filter(|kind| **kind == CellKnowledge::Occupied);
+    assert!(solid.count() > 100, "there is something to compare with");
+    assert_eq!(placed(&drawn, START).checkpoint(), None);
+    assert!(placed(&home, START).checkpoint().is_some());
+}

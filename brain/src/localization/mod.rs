@@ -92,8 +92,13 @@ impl Localization {
 
     /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
     /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
-    /// next call.
+    /// next call. Nothing happens for a robot without proximity sensors, which could only feel its way, and in a map that
+    /// odometry alone has drawn.
     pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
+        self.tracked = None;
+        if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
+            return;
+        }
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.place_at(
             self.pose(),

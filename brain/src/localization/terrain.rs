@@ -11,6 +11,10 @@ use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster};
 const PLACE_CELLS: usize = 6;
 /// The body fits with its centre this far from solid things, less a cell, metres.
 const PLACE_CLEAR_M: f64 = 0.15;
+/// A cell was seen by a robot that knew where it was when its pose was this sure, metres.
+const SURE_M: f64 = 0.15;
+/// Share of the solid cells that must be sure.
+const SURE_SHARE: f64 = 0.8;
 /// Cells in each direction in which the end of the floor is looked for.
 const EDGE_CELLS: i32 = 3;
 
@@ -29,6 +33,21 @@ impl Terrain {
             knowledge: map.knowledge().clone(),
             dock: map.dock(),
         }
+    }
+
+    /// Whether the map is worth to be compared with: most of what stands in it was seen by a robot that knew where it was.
+    /// A map that odometry alone has drawn shows the same wall at several places.
+    pub(super) fn is_trustworthy(map: &Map) -> bool {
+        let knowledge = map.knowledge();
+        let (mut solid, mut sure) = (0_u32, 0_u32);
+        for (index, kind) in knowledge.values().iter().enumerate() {
+            if *kind == CellKnowledge::Occupied {
+                solid += 1;
+                let sigma_m = map.sigma_m(knowledge.cell(index));
+                sure += u32::from(sigma_m.is_some_and(|sigma_m| sigma_m <= SURE_M));
+            }
+        }
+        solid > 0 && f64::from(sure) >= SURE_SHARE * f64::from(solid)
     }
 
     /// Where the robot stands when it is docked, if that is known.
