@@ -26,11 +26,15 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Injects random faults and lets the safety monitor judge every millisecond.
     Faults(FaultArguments),
+    /// Writes the published set of generated homes as home .toml files.
+    Homes(FolderArguments),
+    /// Makes one HTML page of the runs that `run --keep DIR` kept in a folder: DIR/index.html.
+    Report(FolderArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
-    /// Home: a ROS map .yaml, a Valetudo map .json, or a home .toml.
+    /// Home: a ROS map .yaml, a Valetudo map .json, a home .toml, or generated:N.
     #[arg(long)]
     home: PathBuf,
     /// Robot by name.
@@ -132,6 +136,9 @@ pub(crate) struct RunArguments {
     /// End when the robot says that its job is over and has docked or given up; --minutes is the longest then.
     #[arg(long)]
     until_done: bool,
+    /// Keep what happened in this folder, for `rvac-sim report`.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) keep: Option<PathBuf>,
     /// Give the host a perfect map of the home at the start.
     #[arg(long)]
     pub(crate) known_map: bool,
@@ -160,6 +167,21 @@ impl RunArguments {
         })
     }
 
+    /// What the run is called in a page of several.
+    pub(crate) fn title(&self) -> String {
+        let mut title = format!(
+            "{}, {} noise, seed {}",
+            self.strategy, self.scene.noise, self.seed
+        );
+        if self.known_map {
+            title.push_str(", known map");
+        }
+        if self.perfect_pose {
+            title.push_str(", perfect pose");
+        }
+        title
+    }
+
     pub(crate) const fn pose_source(&self) -> PoseSource {
         if self.perfect_pose {
             PoseSource::Truth
@@ -175,6 +197,12 @@ impl RunArguments {
             RunEnd::Time
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FolderArguments {
+    /// The folder.
+    pub(crate) folder: PathBuf,
 }
 
 #[derive(Debug, Args)]

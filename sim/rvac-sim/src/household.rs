@@ -5,8 +5,10 @@ use home::Pose;
 
 use crate::figures::{Belief, Collector, Floor};
 use crate::known_map::known_map;
+use crate::map_quality::judge;
 use crate::report::{Driven, Report, StuckWatch};
-use crate::{Host, Robot};
+use crate::trace::{Drawing, KeptRun, Trace};
+use crate::{Figures, Host, Robot};
 
 /// Microseconds of a tick.
 pub const TICK_US: u64 = 1_000;
@@ -25,6 +27,8 @@ pub struct Household {
     pose_source: PoseSource,
     /// A map that the host shall get when it knows its robot.
     known_home: Option<StoredMap>,
+    /// What happened, if somebody wants to know.
+    trace: Option<Trace>,
 }
 
 /// Where the host's pose comes from.
@@ -56,6 +60,7 @@ impl Household {
             stuck: StuckWatch::default(),
             pose_source: PoseSource::Own,
             known_home: None,
+            trace: None,
         }
     }
 
@@ -64,10 +69,10 @@ impl Household {
         self.from_robot.clear();
         self.robot.tick(&mut self.from_robot);
         let now_us = self.now_us();
-        let truth = self.map_from_plan.then(self.robot.world().truth().pose);
         if let Some(host) = &mut self.host {
             if self.pose_source == PoseSource::Truth && !self.from_robot.is_empty() {
-                host.place(truth);
+                let truth = self.robot.world().truth();
+                host.place(self.map_from_plan.then(truth.pose));
             }
             host.step(now_us, &self.from_robot);
             if self
@@ -92,6 +97,29 @@ impl Household {
             known_home: Some(map),
             ..self
         }
+    }
+
+    /// The same household that remembers what happens.
+    #[must_use]
+    pub fn with_trace(self) -> Self {
+        Self {
+            trace: Some(Trace::default()),
+            ..self
+        }
+    }
+
+    /// The run up to now, for a picture.
+    ///
+    /// # Errors
+    /// When the figures cannot be written as JSON.
+    pub fn kept_run(&self, title: String) -> anyhow::Result<KeptRun> {
+        let home = self.robot.world().home();
+        let host = self.host.as_ref();
+        Ok(KeptRun {
+            map: host.and_then(|host| Drawing::of_map(host, self.map_from_plan.inverse())),
+            trace: self.trace.clone().unwrap_or_default(),
+            ..KeptRun::new(title, &self.report(), home)?
+        })
     }
 
     /// The same household whose host gets its pose from elsewhere.
@@ -136,8 +164,11 @@ impl Household {
                 pose: Pose::new(believed.x, believed.y, believed.heading),
                 state: host.state(),
             };
-            self.figures
-                .sample(truth, self.map_from_plan.then(truth.pose), &belief);
+            let truth_in_map = self.map_from_plan.then(truth.pose);
+            self.figures.sample(truth, truth_in_map, &belief);
+            if let Some(trace) = &mut self.trace {
+                trace.sample(truth, belief.pose.distance_m(truth_in_map), &belief);
+            }
         }
     }
 
@@ -183,12 +214,28 @@ impl Household {
         }
     }
 
+    fn all_figures(&self) -> Figures {
+        let world = self.robot.world();
+        let figures = self.figures.figures(world.truth());
+        let Some(brain) = self.host.as_ref().and_then(Host::brain) else {
+            return figures;
+        };
+        let quality = judge(brain.map(), world.home(), self.map_from_plan.inverse());
+        let swept_m2 = brain.job().swept_m2 - world.truth().swept_m2;
+        Figures {
+            map_iou: quality.map(|quality| quality.iou),
+            wall_error_m: quality.and_then(|quality| quality.wall_error_m),
+            estimate_error: Some(swept_m2 / world.home().reachable_area_m2()),
+            ..figures
+        }
+    }
+
     /// The figures so far.
     #[must_use]
     pub fn report(&self) -> Report {
         Report {
             pose_rmse_m: self.figures.pose_rmse_m(),
-            figures: Some(Box::new(self.figures.figures(self.robot.world().truth()))),
+            figures: Some(Box::new(self.all_figures())),
             ..Report::of(&self.robot, &self.stuck)
         }
     }

@@ -12,6 +12,8 @@ mod firmware;
 mod host;
 mod household;
 mod known_map;
+mod map_quality;
+pub mod page;
 mod plan;
 mod report;
 mod robot;
@@ -19,6 +21,7 @@ pub mod run;
 mod scene;
 mod sensors;
 pub mod serve;
+pub mod trace;
 
 pub use figures::Figures;
 pub use firmware::{Firmware, FirmwareError};

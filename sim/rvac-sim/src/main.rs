@@ -4,7 +4,9 @@
 mod arguments;
 mod progress;
 
+use std::fs;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -12,10 +14,13 @@ use anyhow::Context;
 use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments};
 use clap::Parser;
 use home::RobotModel;
+use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
 use rvac_sim::faults::{Campaign, Summary, trials};
+use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
+use rvac_sim::trace::KeptRun;
 use rvac_sim::{Firmware, Record, Report, Scene};
 
 /// Bad input; nothing was done.
@@ -26,6 +31,8 @@ fn main() -> ExitCode {
         Command::Serve(arguments) => serve_robot(&arguments),
         Command::Run(arguments) => run_household(&arguments),
         Command::Faults(arguments) => run_trials(&arguments),
+        Command::Homes(arguments) => write_homes(&arguments.folder),
+        Command::Report(arguments) => write_page(&arguments.folder),
     };
     outcome.unwrap_or_else(|error| {
         // When even standard error is gone there is nobody left to tell.
@@ -46,6 +53,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let started = Instant::now();
     let progress = Progress::new("simulating");
     let mut household = household(&scene, &settings).with_pose_source(arguments.pose_source());
+    if arguments.keep.is_some() {
+        household = household.with_trace();
+    }
     if arguments.known_map {
         household = household.with_known_map();
     }
@@ -57,6 +67,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         wall_seconds: started.elapsed().as_secs_f64(),
         ..report
     };
+    if let Some(folder) = &arguments.keep {
+        household.kept_run(arguments.title())?.keep(folder)?;
+    }
     if arguments.json {
         print(&serde_json::to_string(&report)?)?;
     } else {
@@ -66,6 +79,30 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         writeln!(io::stderr(), "violation: {violation}")?;
     }
     Ok(verdict(u64::from(report.monitor_violations)))
+}
+
+fn write_homes(folder: &Path) -> anyhow::Result<ExitCode> {
+    let model = RobotModel::by_name("sr8730")?;
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let progress = Progress::new("homes");
+    let count = PUBLISHED.count() as f64;
+    for number in PUBLISHED {
+        let text = GeneratedHome::number(number).floorplan(&model)?;
+        let path = folder.join(format!("generated-{number:02}.toml"));
+        fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+        progress.show(f64::from(number) / count);
+    }
+    progress.clear();
+    print(&format!("{count} homes in {}", folder.display()))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write_page(folder: &Path) -> anyhow::Result<ExitCode> {
+    let page = page::write(&KeptRun::all(folder)?);
+    let path = folder.join("index.html");
+    fs::write(&path, page).with_context(|| format!("cannot write {}", path.display()))?;
+    print(&path.display().to_string())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {

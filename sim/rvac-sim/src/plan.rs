@@ -41,7 +41,7 @@ fn to_api(pose: Pose, t: f64) -> rvac_api::Pose {
 }
 
 /// Pairs of value and length.
-fn run_lengths(values: impl Iterator<Item = u32>) -> Vec<u32> {
+pub(crate) fn run_lengths(values: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut pairs: Vec<u32> = Vec::new();
     for value in values {
         match pairs.as_mut_slice() {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use home::generate::GeneratedHome;
 use home::{Home, HomeError, ModelError, Noise, RobotModel, World};
 use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
@@ -12,7 +13,7 @@ use crate::{Firmware, FirmwareError, Robot};
 /// What people choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSettings {
-    /// File of the home.
+    /// File of the home, or `generated:N`.
     pub home: PathBuf,
     /// Name of the robot.
     pub robot: String,
@@ -52,7 +53,7 @@ impl Scene {
             Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
         let firmware =
             Firmware::load(settings.firmware.as_deref(), &settings.record)?.with_gyro(settings.gyro);
-        let home = Home::load(Path::new(&settings.home), &model)?;
+        let home = load_home(&settings.home, &model)?;
         Ok(Self::new(Arc::new(home), model, noise).with_firmware(firmware))
     }
 
@@ -93,6 +94,18 @@ impl Scene {
     }
 }
 
+/// A home from a file, or of the generator: `generated:N`.
+fn load_home(source: &Path, model: &RobotModel) -> Result<Home, SceneError> {
+    let generated = source.to_str().and_then(|text| text.strip_prefix("generated:"));
+    match generated {
+        None => Ok(Home::load(source, model)?),
+        Some(name) => match GeneratedHome::parse(name) {
+            Some(home) => Ok(home.home(model)?),
+            None => Err(SceneError::Generated(name.to_owned())),
+        },
+    }
+}
+
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
@@ -108,6 +121,11 @@ pub enum SceneError {
     /// A robot that is described, but whose board is not simulated.
     #[error("the board of `{0}` is not simulated; use --robot {BOARD}")]
     NoBoard(String),
+    /// No such generated home.
+    #[error(
+        "`{0}` is no generated home; give a number from 1, for example generated:7, generated:7/2 or generated:7+people"
+    )]
+    Generated(String),
     /// No such noise class.
     #[error("there is no noise class `{0}`; known are ideal, good, nominal and bad")]
     Noise(String),

@@ -54,6 +54,9 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "heading_rmse_deg",
         "lost_seconds",
         "lost_times",
+        "map_iou",
+        "wall_error_m",
+        "estimate_error",
         "docked",
         "state",
         "sim_seconds",
@@ -91,6 +94,42 @@ fn an_emulated_robot_gives_the_same_report() {
 }
 
 #[test]
+fn kept_runs_become_one_page_without_foreign_parts() {
+    let folder = std::env::temp_dir().join(format!("rvac-sim-page-{}", std::process::id()));
+    let name = folder.to_str().unwrap();
+    let empty = rvac_sim(&["report", name]);
+    assert_eq!(empty.status.code(), Some(2), "there is no such folder yet");
+    for seed in ["1", "2"] {
+        let run = [
+            "run",
+            "--home",
+            "generated:14",
+            "--minutes",
+            "1",
+            "--seed",
+            seed,
+            "--keep",
+            name,
+        ];
+        assert!(rvac_sim(&run).status.success());
+    }
+    let output = rvac_sim(&["report", name]);
+    assert!(output.status.success(), "{output:?}");
+    let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
+    assert_eq!(page.matches("<h2>Generated 14</h2>").count(), 1);
+    assert_eq!(
+        page.matches("<figure>").count(),
+        4,
+        "the home and the map of each run"
+    );
+    assert!(page.contains("seed 1") && page.contains("seed 2"));
+    for foreign in ["<script", "http:", "https:", "src=", "NaN", "inf"] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn trials_are_counted() {
     let output = rvac_sim(&["faults", "--seeds", "0..3", "--minutes", "1", "--json"]);
     assert!(output.status.success(), "{output:?}");
@@ -107,9 +146,10 @@ fn bad_input_names_itself() {
     let cut = std::env::temp_dir().join(format!("rvac-sim-cut-{}.elf", std::process::id()));
     std::fs::write(&cut, b"\x7fELF\x01\x01\x01\0").unwrap();
     let cut = cut.to_str().unwrap();
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 11] = [
         (&["run", "--home", "nowhere.toml"], "nowhere.toml"),
         (&["run", "--home", "Cargo.toml"], "Cargo.toml"),
+        (&["run", "--home", "generated:0"], "generated:7"),
         (&["run", "--home", flat, "--robot", "relax"], "relax"),
         (&["run", "--home", flat, "--strategy", "magic"], "magic"),
         (&["run", "--home", flat, "--minutes", "-3"], "-3"),

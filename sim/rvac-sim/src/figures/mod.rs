@@ -55,6 +55,13 @@ pub struct Figures {
     pub lost_seconds: f64,
     /// How often that happened.
     pub lost_times: u32,
+    /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
+    /// the reachable floor, and what it wrongly takes for free. `null` = it has no map.
+    pub map_iou: Option<f64>,
+    /// Mean distance of the walls of its map from true ones, metres.
+    pub wall_error_m: Option<f64>,
+    /// Area that the robot believes to have swept less the true one, over the reachable area.
+    pub estimate_error: Option<f64>,
     /// The robot stood on its dock at the end.
     pub docked: bool,
     /// Last state that the host told.
@@ -207,6 +214,9 @@ impl Collector {
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
             lost_seconds: self.lost.seconds(),
             lost_times: self.lost.times(),
+            map_iou: None,
+            wall_error_m: None,
+            estimate_error: None,
             docked: self.docked,
             state: self
                 .last

@@ -128,12 +128,11 @@ impl fmt::Display for Table {
         for (mode, _, _) in &self.columns {
             write!(formatter, " {:>18}", mode.name())?;
         }
-        writeln!(
-            formatter,
-            "\n{:<20}{}",
-            "lower bound T0",
-            " 1.00 for all times".trim_end()
-        )?;
+        write!(formatter, "\n{:<20}", "lower bound (T0)")?;
+        for _ in &self.columns {
+            write!(formatter, " {:>18}", "1.00")?;
+        }
+        writeln!(formatter)?;
         for (number, figure) in FIGURES.iter().enumerate() {
             write!(formatter, "{:<20}", figure.name)?;
             for (_, _, spreads) in &self.columns {
