@@ -1,17 +1,19 @@
 //! `systematic`: lanes over the whole known home, few turns, then what was left over.
 //!
 //! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
-//! lost, and when the plan is at its end. It is done when nothing is left that is worth the way, or when three plans in a
-//! row brought nothing. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
+//! lost, and when the plan is at its end. Where plan after plan brings nothing it bounces out of the place. It is done when
+//! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
 mod obstructions;
 mod passed;
 mod reachable;
 
+use super::Bounce;
 use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
+use crate::geometry::Point2;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::Raster;
 use crate::task::{Mind, Plan, Situation, Task};
@@ -19,7 +21,7 @@ use obstructions::Obstructions;
 use passed::Passed;
 use reachable::reachable;
 
-/// Gap between body and known obstacles on planned ways, metres.
+/// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
 const KEEP_OFF_M: f64 = 0.01;
 /// Lanes overlap by twice this at least, whatever the estimate says of itself.
 const SIGMA_MIN_M: f64 = 0.01;
@@ -33,10 +35,18 @@ const MORE_BACK_M: f64 = 0.02;
 const CLIFF_BACK_M: f64 = 0.08;
 /// A plan that swept less than this brought nothing, square metres.
 const NOTHING_M2: f64 = 0.02;
-/// Plans in a row that brought nothing until the robot calls for the recovery ladder.
-const VAIN_PLANS_MAX: u32 = 6;
-/// Times that obstructions are forgotten in order to try again, in one job.
-const FRESH_STARTS_MAX: u32 = 3;
+/// Plans in a row that brought nothing until the robot bounces out of the place.
+const VAIN_PLANS_MAX: u32 = 4;
+/// Times that obstructions are forgotten in order to try again before `FRESH_WON_M2` were won by it.
+const FRESH_STARTS_MAX: u32 = 2;
+/// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
+const STRAYS_MAX: u32 = 12;
+/// It bounces this far, metres.
+const ASTRAY_M: f64 = 0.6;
+/// It bounces for this long at most, seconds.
+const ASTRAY_S: f64 = 20.0;
+/// Floor that makes a fresh start worth it, square metres.
+const FRESH_WON_M2: f64 = 0.5;
 /// Less than this share of the floor that was once in reach: something is cut off.
 const WHOLE_SHARE: f64 = 0.95;
 /// Proximity level ahead that means contact within a few centimetres.
@@ -57,6 +67,10 @@ pub(crate) struct Systematic {
     obstructions: Obstructions,
     vain_plans: u32,
     fresh_starts: u32,
+    astray: Option<Astray>,
+    strays: u32,
+    /// Floor that was passed when obstructions were forgotten last.
+    passed_at_start_m2: f64,
     /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
     /// Most floor that could be reached at any time: what is cut off later still counts as not swept.
@@ -67,6 +81,12 @@ impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         if let Some(passed) = &mut self.passed {
             passed.follow(situation.pose.position());
+        }
+        if let Some(astray) = &mut self.astray {
+            if !astray.is_over(situation) {
+                return astray.bounce.step(situation, mind);
+            }
+            self.astray = None;
         }
         if let Some(evasion) = &mut self.evasion {
             match evasion.step(situation) {
@@ -87,6 +107,25 @@ impl Task for Systematic {
     fn interrupted(&mut self) {
         self.evasion = None;
         self.follower = None;
+        if let Some(astray) = &mut self.astray {
+            astray.bounce.interrupted();
+        }
+    }
+}
+
+/// Bouncing out of a place where no plan works.
+#[derive(Debug)]
+struct Astray {
+    bounce: Bounce,
+    from: Point2,
+    left_s: f64,
+}
+
+impl Astray {
+    fn is_over(&mut self, situation: &Situation<'_>) -> bool {
+        self.left_s -= situation.advance.time_s;
+        let is_away = self.from.distance_m(situation.pose.position()) > ASTRAY_M;
+        (is_away || self.left_s <= 0.0) && !self.bounce.is_evading() && situation.is_free()
     }
 }
 
@@ -120,7 +159,7 @@ impl Systematic {
             }
             self.follower = None;
         }
-        self.start_afresh(Reason::RestOutOfReach)
+        self.go_astray(situation, mind)
     }
 
     /// Makes a plan for what is left; gives what to do instead if there is none to follow.
@@ -134,41 +173,68 @@ impl Systematic {
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
         self.floor_m2 = self.floor_m2.max(plan.floor_m2);
+        if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
+            (self.fresh_starts, self.strays) = (0, 0);
+            self.passed_at_start_m2 = plan.passed_m2();
+        }
         if plan.floor_m2 <= 0.0 {
             return Some(Plan::Finished(Reason::NoMap));
         }
         if plan.lanes == 0 {
-            let reason = if plan.floor_m2 < WHOLE_SHARE * self.floor_m2 {
-                Reason::RestOutOfReach
-            } else {
-                Reason::Finished
-            };
-            mind.decide("covered", reason, plan.passed_m2() / self.floor_m2);
-            return Some(if blocked.is_empty() {
-                Plan::Finished(reason)
-            } else {
-                self.start_afresh(reason)
-            });
+            return Some(self.end(&plan, !blocked.is_empty(), (situation, mind)));
         }
         if self.vain_plans > VAIN_PLANS_MAX {
-            return Some(self.start_afresh(Reason::RestOutOfReach));
+            return Some(self.go_astray(situation, mind));
         }
         self.follower = Some(Follower::new(plan.pieces));
         None
     }
 
-    /// Forgets what stood in the way: perhaps it is gone, or never was there. That ends after a few times.
-    fn start_afresh(&mut self, reason: Reason) -> Plan {
+    /// Nothing is left to plan: the end, unless something may have been cut off.
+    fn end(
+        &mut self,
+        plan: &CoveragePlan,
+        is_blocked: bool,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Plan {
+        let is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
+        if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
+            return self.start_afresh();
+        }
+        if is_cut_off && self.strays < STRAYS_MAX {
+            return self.go_astray(situation, mind);
+        }
+        let reason = if is_cut_off {
+            Reason::RestOutOfReach
+        } else {
+            Reason::Finished
+        };
+        mind.decide("covered", reason, plan.passed_m2() / self.floor_m2);
+        Plan::Finished(reason)
+    }
+
+    /// Forgets what stood in the way: perhaps it is gone, or never was there.
+    fn start_afresh(&mut self) -> Plan {
         self.interrupted();
         self.fresh_starts += 1;
-        if self.fresh_starts > FRESH_STARTS_MAX {
-            return Plan::Finished(reason);
-        }
         self.obstructions.clear();
-        if self.vain_plans > VAIN_PLANS_MAX {
-            self.vain_plans = 0;
-            return Plan::Trouble(Reason::BoxedIn);
+        Plan::Go(Motion::Halt)
+    }
+
+    /// No plan works here: bounces out of the place. That ends after a few times, too.
+    fn go_astray(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.interrupted();
+        self.vain_plans = 0;
+        self.strays += 1;
+        if self.strays > STRAYS_MAX {
+            return Plan::Finished(Reason::RestOutOfReach);
         }
+        mind.decide("bounce", Reason::BoxedIn, f64::from(self.strays));
+        self.astray = Some(Astray {
+            bounce: Bounce::default(),
+            from: situation.pose.position(),
+            left_s: ASTRAY_S,
+        });
         Plan::Go(Motion::Halt)
     }
 
