@@ -25,8 +25,8 @@ use reachable::reachable;
 const KEEP_OFF_M: f64 = 0.01;
 /// Lanes overlap by twice this at least, whatever the estimate says of itself.
 const SIGMA_MIN_M: f64 = 0.01;
-/// More overlap does not pay: leftovers are cheaper.
-const SIGMA_MAX_M: f64 = 0.03;
+/// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper.
+const SIGMA_MAX_M: f64 = 0.015;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
 /// Way back that is added for each plan in a row that brought nothing.
@@ -40,15 +40,16 @@ const VAIN_PLANS_MAX: u32 = 4;
 /// Times that obstructions are forgotten in order to try again before `FRESH_WON_M2` were won by it.
 const FRESH_STARTS_MAX: u32 = 2;
 /// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
-const STRAYS_MAX: u32 = 12;
+const STRAYS_MAX: u32 = 6;
 /// It bounces this far, metres.
 const ASTRAY_M: f64 = 0.6;
 /// It bounces for this long at most, seconds.
 const ASTRAY_S: f64 = 20.0;
 /// Floor that makes a fresh start worth it, square metres.
 const FRESH_WON_M2: f64 = 0.5;
-/// Less than this share of the floor that was once in reach: something is cut off.
-const WHOLE_SHARE: f64 = 0.95;
+/// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
+/// place is known to centimetres only loses a little floor along all walls.
+const WHOLE_SHARE: f64 = 0.85;
 /// Proximity level ahead that means contact within a few centimetres.
 const NEAR_LEVEL: f32 = 0.6;
 /// Speed towards something near: a soft contact.
