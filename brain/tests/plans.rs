@@ -20,7 +20,9 @@ fn hall(width: i32, height: i32) -> Raster<bool> {
     let mut ground = Raster::filled(Cell { x: -3, y: 4 }, width as usize, height as usize, true);
     for y in 0..height - 30 {
         for x in width / 2 - 8..width / 2 + 8 {
-            *ground.get_mut(Cell { x: x - 3, y: y + 4 }).unwrap() = false;
+            if let Some(cell) = ground.get_mut(Cell { x: x - 3, y: y + 4 }) {
+                *cell = false;
+            }
         }
     }
     ground
