@@ -34,6 +34,8 @@ pub struct Noise {
     pub infrared_albedo: f64,
     /// Share of infrared samples that read nothing.
     pub infrared_dropout: f64,
+    /// How far a rug's nap turns the robot over what the home says of that rug.
+    pub rug_drift: f64,
     /// Noise of analog battery and current readings, relative.
     pub analog: f64,
 }
@@ -56,6 +58,7 @@ impl Noise {
         infrared_noise: 0.05,
         infrared_albedo: 0.2,
         infrared_dropout: 0.01,
+        rug_drift: 1.0,
         analog: 0.01,
     };
 
@@ -77,10 +80,15 @@ impl Noise {
         Self::NOMINAL
     }
 
-    /// Twice nominal: worn wheels, dark furniture.
+    /// Twice nominal, with three times the infrared noise and rugs that turn the robot three times as much: worn wheels, dark
+    /// and bright furniture (40 % albedo), thick carpets.
     #[must_use]
     pub const fn bad() -> Self {
-        Self::NOMINAL.scaled(2.0)
+        Self {
+            infrared_noise: 3.0 * Self::NOMINAL.infrared_noise,
+            rug_drift: 3.0,
+            ..Self::NOMINAL.scaled(2.0)
+        }
     }
 
     /// The class with this name: `ideal`, `good`, `nominal` or `bad`.
@@ -95,7 +103,7 @@ impl Noise {
         }
     }
 
-    /// Every imperfection times `factor`.
+    /// Every imperfection times `factor`; rugs belong to the home and stay as they are.
     #[must_use]
     pub const fn scaled(self, factor: f64) -> Self {
         Self {
@@ -112,6 +120,7 @@ impl Noise {
             infrared_noise: self.infrared_noise * factor,
             infrared_albedo: self.infrared_albedo * factor,
             infrared_dropout: self.infrared_dropout * factor,
+            rug_drift: self.rug_drift,
             analog: self.analog * factor,
         }
     }

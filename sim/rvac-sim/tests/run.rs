@@ -44,6 +44,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "share_at_t0",
         "share_at_1_8_t0",
         "job_over_t0",
+        "away_s",
         "turn_deg_per_m2",
         "bumps_per_m2",
         "pose_rmse_10_min_m",

@@ -21,6 +21,7 @@ pub(crate) struct Slip {
     track_m: f64,
     slip_m_per_sqrt_m: f64,
     slip_rad_per_sqrt_m: f64,
+    rug_drift: f64,
     /// Way since the last draw, metres.
     way_m: f64,
     /// Present errors of each step.
@@ -41,6 +42,7 @@ impl Slip {
             track_m: model.drive.track_m * (1.0 + noise.turn_scale * random.normal()),
             slip_m_per_sqrt_m: noise.slip_m_per_sqrt_m,
             slip_rad_per_sqrt_m: noise.slip_rad_per_sqrt_m,
+            rug_drift: noise.rug_drift,
             way_m: 0.0,
             stretch_m: 0.0,
             bend_rad: 0.0,
@@ -61,7 +63,7 @@ impl Slip {
         let turn_rad = (right_m - left_m) / self.track_m * grip;
         (
             way_m,
-            turn_rad + rolled_m * surface.bias_rad_per_m + self.bend_rad,
+            turn_rad + rolled_m * surface.bias_rad_per_m * self.rug_drift + self.bend_rad,
         )
     }
 

@@ -19,6 +19,9 @@ const SHARES: [f64; 3] = [0.80, 0.90, 0.95];
 /// Multiples of T0 at which the covered share is noted.
 const MULTIPLES: [f64; 2] = [1.0, 1.8];
 
+/// A robot that came so far left the place where it began.
+const AWAY_M: f64 = 1.0;
+
 /// The figures, as they stand in the report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
@@ -34,6 +37,8 @@ pub struct Figures {
     pub share_at_1_8_t0: Option<f64>,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
+    /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
+    pub away_s: Option<f64>,
     /// Turning during the job for each square metre of reachable floor, degrees.
     pub turn_deg_per_m2: f64,
     /// Contacts during the job for each square metre of reachable floor.
@@ -89,6 +94,8 @@ pub(crate) struct Collector {
     job: Job,
     reached_s: [Option<f64>; SHARES.len()],
     share_at: [Option<f64>; MULTIPLES.len()],
+    begun_at: Option<Pose>,
+    away_s: Option<f64>,
     turn_rad: f64,
     heading_rad: Option<f64>,
     contacts_before: u32,
@@ -132,6 +139,8 @@ impl Collector {
             job: Job::default(),
             reached_s: [None; SHARES.len()],
             share_at: [None; MULTIPLES.len()],
+            begun_at: None,
+            away_s: None,
             turn_rad: 0.0,
             heading_rad: None,
             contacts_before: 0,
@@ -160,6 +169,10 @@ impl Collector {
             self.turn_rad += turned_rad;
             self.contacts += bumped;
             self.note_share(job_s, truth.swept_share);
+            let begun_at = *self.begun_at.get_or_insert(truth.pose);
+            if begun_at.distance_m(truth.pose) >= AWAY_M {
+                self.away_s.get_or_insert(job_s);
+            }
         }
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
@@ -204,6 +217,7 @@ impl Collector {
             share_at_t0: self.share_at(0, now),
             share_at_1_8_t0: self.share_at(1, now),
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
+            away_s: self.away_s,
             turn_deg_per_m2: per_m2(self.turn_rad.to_degrees()),
             bumps_per_m2: per_m2(f64::from(self.contacts)),
             pose_rmse_10_min_m: at_10,

@@ -35,6 +35,7 @@ impl Place {
         };
         match text {
             "published" => return Ok(numbered(|_| true)),
+            "traps" => return traps(),
             "tuning" => return Ok(numbered(|number| number % 2 == 1)),
             "report" => return Ok(numbered(|number| number % 2 == 0)),
             _ => {}
@@ -63,6 +64,19 @@ impl Place {
         Ok(Scene::new(Arc::new(home), model.clone(), noise))
     }
 }
+
+/// The traps of the project, by name.
+fn traps() -> anyhow::Result<Vec<Place>> {
+    let entries = std::fs::read_dir(TRAPS).with_context(|| format!("cannot read {TRAPS}"))?;
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    paths.sort();
+    Ok(paths.into_iter().map(Place::File).collect())
+}
+
+const TRAPS: &str = "homes/traps";
 
 #[cfg(test)]
 mod tests {

@@ -22,7 +22,7 @@ use table::Table;
 /// Measures coverage and localization in simulated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes, separated by commas: `tuning` and `report` (odd and even numbers of the published set), `published` (both),
+    /// Homes, separated by commas: `tuning` and `report` (odd and even numbers of the published set), `published` (both), `traps`,
     /// `generated:A..B` with B, `generated:N`, or files.
     #[arg(
         long,

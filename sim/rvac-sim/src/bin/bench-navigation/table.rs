@@ -30,7 +30,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 18] = [
+const FIGURES: [Figure; 19] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -38,6 +38,7 @@ const FIGURES: [Figure; 18] = [
     more("share_at_1_8_t0", |run| run.figures.share_at_1_8_t0),
     more("covered", |run| Some(run.covered)),
     less("job_over_t0", |run| run.figures.job_over_t0),
+    less("away_s", |run| run.figures.away_s),
     less("turn_deg_per_m2", |run| Some(run.figures.turn_deg_per_m2)),
     less("bumps_per_m2", |run| Some(run.figures.bumps_per_m2)),
     less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
