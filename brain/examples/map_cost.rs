@@ -143,10 +143,15 @@ fn main() {
     timed("survey of rooms", &mut || map.survey());
     timed("walls", &mut || println!("{} walls", map.walls().len()));
     timed("reachable", &mut || {
-        map.reachable(Point2 { x_m: 0.3, y_m: 0.3 }, BODY.radius_m);
+        let reached = map.reachable(Point2 { x_m: 0.3, y_m: 0.3 }, BODY.radius_m);
+        println!(
+            "{} cells",
+            reached.values().iter().filter(|there| **there).count()
+        );
     });
     timed("distance field at once", &mut || {
-        DistanceField::new(map.knowledge());
+        let same = DistanceField::new(map.knowledge()) == *map.distance_field();
+        println!("the same as piece by piece: {same}");
     });
     let mut bytes = Vec::new();
     timed("storing", &mut || bytes = map.stored().encode());
