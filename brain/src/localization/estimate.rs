@@ -12,7 +12,8 @@ pub struct PoseEstimate {
     pub sigma_m: f64,
     /// Standard deviation of the heading, in radians.
     pub sigma_rad: f64,
-    /// The robot does not know where it is: `pose` is the best of several guesses, and nothing may be built on it.
+    /// The robot does not know where it is: `pose` is where odometry has carried the last one that was believed, and nothing
+    /// may be built on it.
     pub lost: bool,
 }
 

@@ -221,17 +221,19 @@ impl Localization {
     /// Takes up what the filter found; the gyro learns from it.
     fn adopt(&mut self, estimate: PoseEstimate) {
         let correction_rad = normalize_rad(estimate.pose.heading_rad - self.pose().heading_rad);
-        self.put_at(estimate.pose);
-        self.drift = Drift {
+        let found = Drift {
             sigma_m: estimate.sigma_m,
             sigma_rad: estimate.sigma_rad,
         };
         let calibration = &mut self.odometry.calibration;
         if estimate.lost {
+            // Guesses jump about; where odometry has carried the last pose that was believed is as good as any of them.
             calibration.interrupt();
         } else {
             calibration.correct(correction_rad, estimate.sigma_rad * estimate.sigma_rad);
+            self.put_at(estimate.pose);
         }
+        self.drift = found;
     }
 
     /// Declares that the robot now stands at `pose` in the map.
