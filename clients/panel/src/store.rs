@@ -107,7 +107,14 @@ impl Store {
                 name: "panel".to_owned(),
             },
         );
-        let topics = vec![Topic::Status, Topic::Pose, Topic::Device, Topic::Map, Topic::Log];
+        let topics = vec![
+            Topic::Status,
+            Topic::Pose,
+            Topic::Device,
+            Topic::Map,
+            Topic::Home,
+            Topic::Log,
+        ];
         self.send(None, RequestBody::Watch { topics });
     }
 
@@ -148,6 +155,7 @@ impl Store {
             Message::Pose(pose) => self.map.with_value(|map| map.on_pose(pose)),
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
             Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
+            Message::Home(home) => self.map.with_value(|map| map.on_home(&home)),
             Message::Done { .. } | Message::Packet { .. } => {}
         }
     }

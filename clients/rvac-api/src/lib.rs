@@ -8,9 +8,11 @@
 
 extern crate alloc;
 
+mod home;
 mod request;
 mod update;
 
+pub use home::{DoorView, HomeView, RoomView, WallView};
 pub use request::{Request, RequestBody, Topic};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,

@@ -27,6 +27,8 @@ pub enum Topic {
     Device,
     /// A [`crate::Update::Map`] snapshot at once, then [`crate::Update::MapDelta`], five a second while the robot cleans.
     Map,
+    /// [`crate::Update::Home`] at once, then when the robot knows more, at most every five seconds.
+    Home,
     /// [`crate::Update::Log`]: the last 200 entries at once, then each new one.
     Log,
     /// [`crate::Update::Packet`]: each packet of the wire, both directions.

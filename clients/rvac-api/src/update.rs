@@ -4,6 +4,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
+use crate::HomeView;
+
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "e", rename_all = "kebab-case")]
@@ -39,6 +41,8 @@ pub enum Update {
     Map(MapSnapshot),
     /// What changed in the map.
     MapDelta(MapDelta),
+    /// What is known of the home.
+    Home(HomeView),
     /// A line of the log.
     Log(LogEntry),
     /// A packet of the wire as text; binary ones are shown by their text twin.

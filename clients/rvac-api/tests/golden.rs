@@ -6,9 +6,9 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, DeviceTable, Failure, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    Pose, Request, RequestBody, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Topic, Update,
-    Versions,
+    BatteryReading, BumpMark, DeviceTable, DoorView, Failure, HomeView, LinkReading, LogEntry, LogLevel,
+    MapDelta, MapSnapshot, Pose, Request, RequestBody, RobotDescription, RoomView, SimulatedPlan,
+    SimulatedTruth, Status, Topic, Update, Versions, WallView,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -38,12 +38,13 @@ fn requests() {
         Topic::Pose,
         Topic::Device,
         Topic::Map,
+        Topic::Home,
         Topic::Log,
         Topic::Packets,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","log","packets"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","log","packets"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -240,6 +241,44 @@ fn the_map() {
     check(
         &Update::MapDelta(delta),
         r#"{"e":"map-delta","map":2,"swept":[1,1],"path_mm":[],"bumps":[{"x":1.5,"y":2.0,"contact":true}]}"#,
+    );
+}
+
+#[test]
+fn the_home() {
+    let home = HomeView {
+        revision: 7,
+        cell_m: 0.5,
+        x: -2,
+        y: 3,
+        width: 2,
+        height: 1,
+        cells: vec![1, 1, 2, 1],
+        room_cells: vec![1, 1, 0, 1],
+        rooms: vec![RoomView {
+            id: 1,
+            area_m2: 12.5,
+            x: 1.0,
+            y: 2.0,
+        }],
+        doors: vec![DoorView {
+            rooms: [1, 2],
+            x: 3.0,
+            y: 4.0,
+            width_m: 0.75,
+        }],
+        walls: vec![WallView {
+            from: [0.0, 1.0],
+            to: [2.0, 1.0],
+            sigma_m: 0.25,
+        }],
+        dock: None,
+        pose_sigma_m: 0.5,
+        lost: false,
+    };
+    check(
+        &Update::Home(home),
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0}],"doors":[{"rooms":[1,2],"x":3.0,"y":4.0,"width_m":0.75}],"walls":[{"from":[0.0,1.0],"to":[2.0,1.0],"sigma_m":0.25}],"pose_sigma_m":0.5,"lost":false}"#,
     );
 }
 

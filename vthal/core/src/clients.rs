@@ -7,13 +7,14 @@ use rvac_api::Topic;
 use crate::ClientId;
 
 /// All topics.
-pub(crate) const TOPICS: [Topic; 6] = [
+pub(crate) const TOPICS: [Topic; 7] = [
     Topic::Status,
     Topic::Pose,
     Topic::Device,
     Topic::Map,
     Topic::Log,
     Topic::Packets,
+    Topic::Home,
 ];
 
 const fn bit(topic: Topic) -> u8 {
@@ -24,6 +25,7 @@ const fn bit(topic: Topic) -> u8 {
         Topic::Map => 8,
         Topic::Log => 16,
         Topic::Packets => 32,
+        Topic::Home => 64,
     }
 }
 

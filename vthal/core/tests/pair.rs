@@ -520,6 +520,17 @@ fn a_kept_home_is_taken_up_on_the_dock_and_kept_again() {
         (pose.x - 3.0).abs() < 1e-6 && (pose.heading - 1.0).abs() < 1e-6,
         "{pose:?}"
     );
+    let topics = vec![Topic::Home];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let view = pair.updates.iter().rev().find_map(|update| match update {
+        Update::Home(view) => Some(view),
+        _ => None,
+    });
+    let view = view.expect("a view at once");
+    let free = view.cells.chunks(2).filter(|run| run[0] == 1).map(|run| run[1]);
+    assert_eq!(free.sum::<u32>(), 1600);
+    assert!(view.rooms.len() == 1 && (view.rooms[0].area_m2 - 1.0).abs() < 1e-9);
+    assert!(!view.lost && view.dock.is_some());
     pair.handle(Input::Shutdown);
     let kept = pair.homes.pop().expect("a map to keep").knowledge();
     let known = kept.values().iter().filter(|kind| **kind == CellKnowledge::Free);

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use leptos::prelude::{request_animation_frame, window};
 use panel_logic::FrameMeter;
-use rvac_api::{MapDelta, MapSnapshot, Pose, RobotDescription, SimulatedPlan};
+use rvac_api::{HomeView, MapDelta, MapSnapshot, Pose, RobotDescription, SimulatedPlan};
 use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext, WebGlContextAttributes};
 
@@ -69,6 +69,10 @@ impl MapHandle {
 
     pub(crate) fn set_plan(&self, plan: &SimulatedPlan) {
         self.change(|scene| scene.set_plan(plan));
+    }
+
+    pub(crate) fn on_home(&self, home: &HomeView) {
+        self.change(|scene| scene.on_home(home));
     }
 
     pub(crate) fn set_theme(&self, theme: Theme) {

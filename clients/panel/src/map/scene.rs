@@ -1,7 +1,7 @@
 //! What is to be seen on the map.
 
-use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, outlined, plan_bounds};
-use rvac_api::{BumpMark, MapDelta, MapSnapshot, Pose, SimulatedPlan};
+use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, home_plan, outlined, plan_bounds};
+use rvac_api::{BumpMark, HomeView, MapDelta, MapSnapshot, Pose, SimulatedPlan};
 
 use crate::theme::Theme;
 
@@ -53,6 +53,8 @@ pub(crate) struct Scene {
     pub(crate) truth: Playout,
     pub(crate) plan: Option<SimulatedPlan>,
     pub(crate) plan_changed: bool,
+    /// The plan is that of a simulated home, which says more than what the robot knows.
+    plan_is_true: bool,
     pub(crate) swept: SweptGrid,
     pub(crate) swept_cells: usize,
     pub(crate) cell_m: f64,
@@ -77,6 +79,7 @@ impl Default for Scene {
             truth: Playout::default(),
             plan: None,
             plan_changed: true,
+            plan_is_true: false,
             swept: SweptGrid::default(),
             swept_cells: 0,
             cell_m: 0.05,
@@ -102,8 +105,18 @@ pub(crate) struct Places {
 impl Scene {
     pub(crate) fn set_plan(&mut self, plan: &SimulatedPlan) {
         self.plan = Some(outlined(plan));
+        self.plan_is_true = true;
         self.plan_changed = true;
         self.refit();
+    }
+
+    /// Takes what the robot knows of the home, unless the truth is there.
+    pub(crate) fn on_home(&mut self, home: &HomeView) {
+        if !self.plan_is_true && home.width > 0 {
+            self.plan = Some(home_plan(home));
+            self.plan_changed = true;
+            self.refit();
+        }
     }
 
     pub(crate) fn set_theme(&mut self, theme: Theme) {

@@ -19,6 +19,8 @@ const DEVICE_US: u64 = 500_000;
 const MAP_US: u64 = 200_000;
 /// A status whose figures alone changed goes out at most this often.
 const FIGURES_US: u64 = 1_000_000;
+/// Pause between two views of the home: walls are looked for in each.
+const HOME_US: u64 = 5_000_000;
 /// Pause between two checkpoints of a small map.
 const CHECKPOINT_US: u64 = 1_000_000;
 /// Each entry of the map lengthens that pause by this much, so that a large one does not wear out the disk.
@@ -35,6 +37,8 @@ pub(super) struct Feed {
     map_us: u64,
     map_cursor: MapCursor,
     map_number: u32,
+    home_us: u64,
+    home_revision: u32,
     checkpoint_us: u64,
     checkpoint_had_job: bool,
     state_changed_us: Option<u64>,
@@ -73,7 +77,20 @@ impl Core {
             self.feed.map_us = now_us;
             self.feed_map(outputs);
         }
+        if self.clients.any(Topic::Home) && now_us >= self.feed.home_us + HOME_US {
+            self.feed.home_us = now_us;
+            self.feed_home(outputs);
+        }
         self.feed_checkpoint(now_us, outputs);
+    }
+
+    fn feed_home(&mut self, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let revision = mind.brain().map().revision();
+        if revision != self.feed.home_revision {
+            self.feed.home_revision = revision;
+            followers(Topic::Home, Update::Home(to_api::home(mind.brain())), outputs);
+        }
     }
 
     fn feed_status(&mut self, now_us: u64, outputs: &mut Outputs) {
@@ -155,7 +172,8 @@ impl Core {
             });
         }
         let map = mind.brain().map().snapshot();
-        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len()) as u64;
+        let home_cells = mind.brain().map().knowledge().values().len();
+        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len() + home_cells / 8) as u64;
         self.feed.checkpoint_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
     }
 
@@ -188,6 +206,13 @@ impl Core {
                 if let Some(mind) = &self.mind {
                     let map = to_api::map_snapshot(mind.map_number(), &mind.brain().map().snapshot());
                     outputs.deliveries.push(one(Update::Map(map)));
+                }
+            }
+            Topic::Home => {
+                if let Some(mind) = &self.mind {
+                    outputs
+                        .deliveries
+                        .push(one(Update::Home(to_api::home(mind.brain()))));
                 }
             }
             Topic::Packets => {}

@@ -1,0 +1,77 @@
+//! What the robot knows of the home, over all of its jobs.
+
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::{Pose, Rle};
+
+/// The home as far as the robot knows it, in the frame of its poses.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HomeView {
+    /// Grows when something is known that was not.
+    pub revision: u32,
+    /// Metres per cell.
+    pub cell_m: f64,
+    /// Column of the lowest cell, which spans `x*cell_m` to `(x+1)*cell_m`.
+    pub x: i32,
+    /// Row of the lowest cell.
+    pub y: i32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// What each cell is: 0 not known, 1 free floor, 2 an obstacle, 3 the end of the floor, 4 not to be entered.
+    pub cells: Rle,
+    /// Room of each cell, 0 = none.
+    pub room_cells: Rle,
+    /// The rooms, by their identities.
+    pub rooms: Vec<RoomView>,
+    /// The doors between them.
+    pub doors: Vec<DoorView>,
+    /// Straight walls.
+    pub walls: Vec<WallView>,
+    /// Pose of a robot that stands on the dock, if that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dock: Option<Pose>,
+    /// Standard deviation of the robot's present place, metres.
+    pub pose_sigma_m: f64,
+    /// The robot does not know where it is.
+    pub lost: bool,
+}
+
+/// A room.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomView {
+    /// Identity, from 1; the same when the home is mapped again.
+    pub id: u16,
+    /// Its floor in square metres.
+    pub area_m2: f64,
+    /// A place in the middle of it, metres.
+    pub x: f64,
+    /// A place in the middle of it, metres.
+    pub y: f64,
+}
+
+/// A door between two rooms.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DoorView {
+    /// Identities of the rooms.
+    pub rooms: [u16; 2],
+    /// Its middle, metres.
+    pub x: f64,
+    /// Its middle, metres.
+    pub y: f64,
+    /// Its width, metres.
+    pub width_m: f64,
+}
+
+/// A straight wall.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallView {
+    /// One end, metres.
+    pub from: [f64; 2],
+    /// The other end, metres.
+    pub to: [f64; 2],
+    /// How sure its place is: standard deviation across, metres.
+    pub sigma_m: f64,
+}
