@@ -1,6 +1,7 @@
 //! Chromium, driven as a person drives it.
 
-use std::io::{BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -33,25 +34,50 @@ pub(crate) enum Screen {
 pub(crate) struct Browser {
     client: Client,
     driver: Child,
+    /// Host and port of the driver.
+    driver_at: String,
+    session: String,
+}
+
+impl Drop for Browser {
+    /// After a test that failed too: the driver itself would leave the browser running for ever.
+    fn drop(&mut self) {
+        self.end_session().ok(); // A session that ended before is as good.
+        self.driver.kill().ok(); // It may have ended by itself.
+        self.driver.wait().ok();
+    }
 }
 
 impl Browser {
     pub(crate) async fn open(stack: &Stack, screen: Screen) -> Self {
-        let (driver, address) = start_driver();
+        let (driver, driver_at) = start_driver();
         let capabilities = capabilities(screen).as_object().cloned().unwrap();
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities)
-            .connect(&address)
+            .connect(&format!("http://{driver_at}"))
             .await
             .unwrap();
-        client.goto(&stack.address).await.unwrap();
-        Self { client, driver }
+        let session = client.session_id().await.unwrap().expect("a session has a name");
+        let browser = Self {
+            client,
+            driver,
+            driver_at,
+            session,
+        };
+        browser.client.goto(&stack.address).await.unwrap();
+        browser
     }
 
-    pub(crate) async fn close(mut self) {
-        self.client.clone().close().await.unwrap();
-        self.driver.kill().ok(); // It may have ended by itself.
-        self.driver.wait().ok();
+    fn end_session(&self) -> io::Result<()> {
+        let mut stream = TcpStream::connect(&self.driver_at)?;
+        let (session, host) = (&self.session, &self.driver_at);
+        write!(
+            stream,
+            "DELETE /session/{session} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+        )?;
+        stream.set_read_timeout(Some(PATIENCE))?;
+        stream.read_to_end(&mut Vec::new())?;
+        Ok(())
     }
 
     pub(crate) async fn reload(&self) {
@@ -179,13 +205,6 @@ impl Browser {
     }
 }
 
-impl Drop for Browser {
-    fn drop(&mut self) {
-        self.driver.kill().ok(); // It may have ended by itself.
-        self.driver.wait().ok();
-    }
-}
-
 /// Starts the driver on a port that it chooses itself; gives its address.
 fn start_driver() -> (Child, String) {
     let mut command = Command::new("chromedriver");
@@ -203,7 +222,7 @@ fn start_driver() -> (Child, String) {
                 .map(|(_, port)| port.trim_end_matches('.').to_owned())
         })
         .expect("chromedriver names its port");
-    (child, format!("http://127.0.0.1:{port}"))
+    (child, format!("127.0.0.1:{port}"))
 }
 
 fn capabilities(screen: Screen) -> Value {

@@ -82,7 +82,6 @@ async fn start_cleans_and_stop_stands() {
     let witness = Witness::watch(&visit.stack.simulator_socket());
     let stood = witness.stands_within(Duration::from_secs(3));
     assert!(stood.is_some(), "the robot still moves three seconds after Stop");
-    visit.browser.close().await;
 }
 
 #[tokio::test]
@@ -107,7 +106,6 @@ async fn a_hidden_tab_stops_the_wheels() {
         after.as_millis()
     );
     assert!(after < Duration::from_millis(1000), "{after:?}");
-    visit.browser.close().await;
 }
 
 /// Holds a key until the robot turns on the spot, which is possible wherever the short job has left it. On a machine
@@ -147,7 +145,6 @@ async fn the_keyboard_is_enough() {
     browser.tab_to("stop").await;
     browser.press_enter().await;
     browser.until_state(&["idle", "docked"]).await;
-    visit.browser.close().await;
 }
 
 #[tokio::test]
@@ -177,7 +174,6 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
     assert_eq!(small, "", "controls that a thumb misses");
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
-    visit.browser.close().await;
 }
 
 /// Names of controls that are seen and smaller than 44 pixels in a direction.
@@ -213,7 +209,6 @@ async fn the_dark_look_is_kept() {
         .until("return document.querySelectorAll('#device-table tr').length > 20")
         .await;
     browser.shot("desktop-dark").await;
-    visit.browser.close().await;
 }
 
 #[tokio::test]
@@ -231,5 +226,4 @@ async fn a_daemon_that_dies_is_told_and_found_again() {
     browser.shot("desktop-disconnected").await;
     visit.stack.start_vthal();
     browser.until_state(&["idle", "docked"]).await;
-    visit.browser.close().await;
 }

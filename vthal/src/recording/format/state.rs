@@ -119,13 +119,15 @@ impl BrainState {
                 .collect(),
             marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
             home,
-            tracking: self.tracking.map(|[sigma_m, sigma_rad, lost, scale, bias]| TrackingCheckpoint {
-                sigma_m,
-                sigma_rad,
-                lost: lost != 0.0,
-                gyro_scale: scale,
-                gyro_bias_rad_per_s: bias,
-            }),
+            tracking: self
+                .tracking
+                .map(|[sigma_m, sigma_rad, lost, scale, bias]| TrackingCheckpoint {
+                    sigma_m,
+                    sigma_rad,
+                    lost: lost != 0.0,
+                    gyro_scale: scale,
+                    gyro_bias_rad_per_s: bias,
+                }),
         })
     }
 }

@@ -19,6 +19,8 @@ const CONNECT_MS: u64 = 5_000;
 /// Life of a motion command. It is renewed every [`RENEW_MS`].
 const LEASE_MS: u16 = 250;
 const RENEW_MS: u64 = 50;
+/// At full load the host's driver always holds so much, about five milliseconds of the fastest line.
+const AHEAD_BYTES: usize = 128;
 /// Where a circle is free in the two-room flat.
 const START: Pose = Pose {
     x_m: 3.7,
@@ -73,15 +75,16 @@ impl Shop {
             rate: Rate::exact(baud),
             ..EmulatedSettings::default()
         };
+        let robot = EmulatedRobot::new(&self.blueprint, world, &settings);
         Desk {
-            robot: EmulatedRobot::new(&self.blueprint, world, &settings),
+            empty_room: robot.line_room(),
+            robot,
             session: HostSession::new(BinaryKinds::NONE, Tick(0)),
             from_robot: Vec::new(),
             packet: PacketBuffer::new(),
             info: None,
             heard_bytes: 0,
             sent_bytes: 0,
-            owed_bytes: 0.0,
         }
     }
 }
@@ -96,8 +99,8 @@ pub(crate) struct Desk {
     info: Option<Info>,
     heard_bytes: u64,
     sent_bytes: u64,
-    /// What the line could have taken and was not given yet, at full load.
-    owed_bytes: f64,
+    /// What the host's driver takes while it holds nothing.
+    empty_room: usize,
 }
 
 impl Desk {
@@ -183,22 +186,20 @@ impl Desk {
         }
     }
 
-    /// Fills both ways of the line for so long: commands at the line's rate, and state reports asked for without pause.
-    pub(crate) fn flood_ms(&mut self, baud: u32, ms: u64) {
+    /// Fills both ways of the line for so long: commands as fast as the line takes them, and state reports asked for
+    /// without pause. The session's own packets share the line.
+    pub(crate) fn flood_ms(&mut self, ms: u64) {
         for _ in 0..ms {
-            self.owed_bytes += f64::from(baud) / 10_000.0;
-            while self.owed_bytes > 0.0 {
+            while self.robot.line_room() + AHEAD_BYTES > self.empty_room {
                 let before = self.sent_bytes;
                 self.send(if self.robot.now_ms().is_multiple_of(4) {
                     Command::State
                 } else {
                     Command::Drive(CIRCLE)
                 });
-                let sent = self.sent_bytes - before;
-                if sent == 0 {
+                if self.sent_bytes == before {
                     break;
                 }
-                self.owed_bytes -= sent as f64;
             }
             self.tick();
         }

@@ -74,7 +74,7 @@ pub(crate) fn profile(plan: &Plan) -> anyhow::Result<()> {
     let situations: [(&str, Pass); 3] = [
         ("standing", |desk| desk.pass_ms(1)),
         ("driving", |desk| desk.circle_ms(1)),
-        ("full load of the serial line", |desk| desk.flood_ms(BAUD, 1)),
+        ("full load of the serial line", |desk| desk.flood_ms(1)),
     ];
     for (name, pass) in situations {
         let mut desk = shop.desk(BAUD);
@@ -143,10 +143,10 @@ fn driving(shop: &Shop, report: &mut Report) -> anyhow::Result<()> {
 fn line(shop: &Shop, baud: u32) -> anyhow::Result<Line> {
     let mut desk = shop.desk(baud);
     desk.connect()?;
-    desk.flood_ms(baud, 1_000);
+    desk.flood_ms(1_000);
     desk.restart_accounts();
     let (heard, sent) = desk.bytes();
-    desk.flood_ms(baud, RATE_MS);
+    desk.flood_ms(RATE_MS);
     let (heard_after, sent_after) = desk.bytes();
     let account = desk.machine().accounting();
     let total = account.total_cycles(desk.cycle()) as f64;
@@ -172,7 +172,7 @@ fn flood(shop: &Shop, ms: u64, report: &mut Report) -> anyhow::Result<()> {
     desk.connect()?;
     let before = desk.ask_info()?.link;
     desk.restart_accounts();
-    desk.flood_ms(BAUD, ms);
+    desk.flood_ms(ms);
     desk.pass_ms(1_000);
     let after = desk.ask_info()?.link;
     let host = desk.counters();
