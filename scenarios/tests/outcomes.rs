@@ -17,7 +17,8 @@ fn table_of_outcomes() {
     for home in HOMES {
         for noise in ["ideal", "nominal", "bad"] {
             let settings = settings(1, MINUTES * 60_000);
-            let report = run(&mut household(&scene(home, noise), &settings), &settings, |_| {});
+            let report =
+                run(&mut household(&scene(home, noise), &settings), &settings, |_| {}).expect("an answer");
             writeln!(
                 table,
                 "{home:<16} {noise:<8} {:>7.1} % {:>6} {:>6} {:>11}",

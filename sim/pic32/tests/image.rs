@@ -1,15 +1,21 @@
 //! The SR8730's own image in the emulated chip: mistakes of the original project that only the whole program could repeat.
 //!
-//! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`.
+//! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`, and the one with
+//! `--features link-sampled` in `RVAC_FIRMWARE_SAMPLED`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
+use pic32::board::serial::Rate;
 use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Motor, Record};
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, Machine};
 use pic32::pins::{Level, Pin};
+use rvac_protocol::PacketBuffer;
+use rvac_protocol::message::{BinaryKinds, Command, Info, Report};
+use rvac_protocol::session::{HostEvent, HostSession};
+use rvac_units::Tick;
 
 /// Lines that switch something on: wheels, main brush, side brushes, suction, charger, speaker.
 const ENABLES: [&str; 7] = ["RD0", "RD3", "RD1", "RA4", "RD5", "RD2", "RD13"];
@@ -36,10 +42,17 @@ const HIGH_FOR_GOOD: u32 = 0x8001;
 const CYCLES_PER_MS: u64 = 80_000;
 const ROOM: &str = "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]\n";
 
-/// The image, if it was built. Where it must be there, it is named.
+/// The usual image, if it was built.
 fn image() -> Option<Image> {
-    let named = std::env::var_os("RVAC_FIRMWARE").map(PathBuf::from);
-    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/firmware/sr8730.elf");
+    image_of("RVAC_FIRMWARE", "sr8730.elf")
+}
+
+/// An image, if it was built. Where it must be there, it is named.
+fn image_of(variable: &str, file: &str) -> Option<Image> {
+    let named = std::env::var_os(variable).map(PathBuf::from);
+    let built = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../target/firmware")
+        .join(file);
     let path = named.clone().unwrap_or(built);
     if named.is_none() && !path.is_file() {
         println!("skipped: the firmware is not built (cargo xtask firmware sr8730 builds it)");
@@ -50,15 +63,15 @@ fn image() -> Option<Image> {
 }
 
 fn robot() -> Option<EmulatedRobot> {
-    let blueprint = Blueprint::sr8730(image()?, &Record::Complete).expect("the project's board is sound");
+    Some(robot_with(image()?, &EmulatedSettings::default()))
+}
+
+fn robot_with(image: Image, settings: &EmulatedSettings) -> EmulatedRobot {
+    let blueprint = Blueprint::sr8730(image, &Record::Complete).expect("the project's board is sound");
     let model = RobotModel::by_name("sr8730").expect("it comes with the project");
     let home = Arc::new(Home::from_floorplan("room", ROOM, &model).expect("a valid home"));
     let world = World::new(home, &model, &Noise::nominal(), 1, None);
-    Some(EmulatedRobot::new(
-        &blueprint,
-        world,
-        &EmulatedSettings::default(),
-    ))
+    EmulatedRobot::new(&blueprint, world, settings)
 }
 
 /// Gives the number of bytes that the host has heard.
@@ -167,5 +180,62 @@ fn a_robot_at_rest_is_interrupted_by_what_it_needs_only() {
             (999..=1_001).contains(&count),
             "vector {vector}: {count} in a second"
         );
+    }
+}
+
+/// The one rate of the sampled line.
+const SAMPLED_BAUD: u32 = 57_600;
+/// The host's driver always holds about so much: the line is never idle.
+const AHEAD_BYTES: usize = 64;
+
+/// A host that asks for the state as fast as the line takes it; gives the last slow facts that it was told.
+fn flood(robot: &mut EmulatedRobot, ms: u32) -> Option<Info> {
+    let mut session = HostSession::new(BinaryKinds::NONE, Tick(0));
+    let empty_room = robot.line_room();
+    let (mut packet, mut heard, mut told) = (PacketBuffer::new(), Vec::new(), None);
+    for now in (0..ms).map(Tick) {
+        let full = |robot: &EmulatedRobot| robot.line_room() + AHEAD_BYTES <= empty_room;
+        while session.is_open() && !full(robot) && session.send(Command::State, now, &mut packet).is_ok() {
+            robot.send(packet.as_bytes());
+        }
+        heard.clear();
+        robot.tick(&mut heard);
+        let mut events: Vec<_> = heard
+            .iter()
+            .filter_map(|byte| session.receive(*byte, now))
+            .collect();
+        events.extend(std::iter::from_fn(|| session.poll(now)));
+        while session.next_packet(&mut packet) {
+            robot.send(packet.as_bytes());
+        }
+        for event in events {
+            if let HostEvent::Report(Report::Info(info)) = event {
+                told = Some(info);
+            }
+        }
+    }
+    told
+}
+
+#[test]
+fn the_sampled_line_loses_nothing_at_full_load() {
+    for error_permille in [-15.0, 0.0, 15.0] {
+        let Some(image) = image_of("RVAC_FIRMWARE_SAMPLED", "sr8730-link-sampled.elf") else {
+            return;
+        };
+        let rate = Rate {
+            baud: SAMPLED_BAUD,
+            error_permille,
+        };
+        let settings = EmulatedSettings {
+            rate,
+            ..EmulatedSettings::default()
+        };
+        let link = flood(&mut robot_with(image, &settings), 8_000)
+            .expect("slow facts")
+            .link;
+        let damaged = link.bad_seal + link.framing + link.overrun + link.malformed;
+        assert_eq!(damaged, 0, "{error_permille} permille: {link:?}");
+        assert!(link.accepted > 500, "{error_permille} permille: {link:?}");
     }
 }

@@ -63,6 +63,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         progress.show(share);
     });
     progress.clear();
+    let report = report?;
     let report = Report {
         wall_seconds: started.elapsed().as_secs_f64(),
         ..report

@@ -46,6 +46,14 @@ impl RunEnd {
     }
 }
 
+/// The robot said nothing that its host understood.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the robot did not answer within {} s: the image must be a robot's whole firmware, with a link at 230,400 baud",
+    CONNECT_MS / 1000
+)]
+pub struct NoAnswer;
+
 /// Milliseconds that handshake and description may take.
 const CONNECT_MS: u64 = 5_000;
 
@@ -84,17 +92,29 @@ pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool
 }
 
 /// Cleans until the time is over. After each simulated second `progress` is told the share of the time that has passed.
-pub fn run(household: &mut Household, settings: &RunSettings, progress: impl FnMut(f64)) -> Report {
+///
+/// # Errors
+/// [`NoAnswer`] when the robot cannot be asked to clean.
+pub fn run(
+    household: &mut Household,
+    settings: &RunSettings,
+    progress: impl FnMut(f64),
+) -> Result<Report, NoAnswer> {
     run_until(household, (settings, RunEnd::Time), progress)
 }
 
 /// Cleans until the run's end. After each simulated second `progress` is told the share of the longest time that has passed.
+///
+/// # Errors
+/// [`NoAnswer`] when the robot cannot be asked to clean.
 pub fn run_until(
     household: &mut Household,
     (settings, end): (&RunSettings, RunEnd),
     mut progress: impl FnMut(f64),
-) -> Report {
-    start_cleaning(household, settings.strategy);
+) -> Result<Report, NoAnswer> {
+    if !start_cleaning(household, settings.strategy) {
+        return Err(NoAnswer);
+    }
     while household.robot().now_ms() < settings.duration_ms {
         household.tick();
         let now_ms = household.robot().now_ms();
@@ -105,5 +125,5 @@ pub fn run_until(
             }
         }
     }
-    household.report()
+    Ok(household.report())
 }

@@ -114,6 +114,14 @@ pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
     Ok(build(board(ROBOT)?, &Options::default(), None)?.elf)
 }
 
+/// The same for a board on which the link's input must be sampled.
+pub(crate) fn sampled_elf() -> anyhow::Result<PathBuf> {
+    let options = Options {
+        features: vec!["link-sampled".to_owned()],
+    };
+    Ok(build(board(ROBOT)?, &options, None)?.elf)
+}
+
 /// Builds the firmware in a place; gives the bytes of the ELF file, sealed.
 fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u8>> {
     let tools = toolchain::choose(&toolchain::MIPS)?;

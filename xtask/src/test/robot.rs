@@ -49,6 +49,7 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 pub(super) fn of_emulator(_long: bool) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
+    let sampled = firmware::sampled_elf()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     let programs = build_others(
         "the emulator's proof",
@@ -65,7 +66,8 @@ pub(super) fn of_emulator(_long: bool) -> Result {
         .args(["test", "--locked", "--package", "pic32", "--no-fail-fast"])
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
-        .env("RVAC_FIRMWARE", &elf);
+        .env("RVAC_FIRMWARE", &elf)
+        .env("RVAC_FIRMWARE_SAMPLED", sampled);
     let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
     let mut pace = robot_command(&pace);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));

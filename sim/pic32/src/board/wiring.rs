@@ -113,8 +113,8 @@ pub struct Wiring {
     pub sound_tone: Line,
     /// Amplifier.
     pub sound_enable: Line,
-    /// Serial line from the host.
-    pub link_receive: Line,
+    /// Serial line from the host: it reaches both inputs, and the firmware listens on one of them.
+    pub link_receive: [Line; 2],
     /// Serial line to the host.
     pub link_transmit: Line,
     /// Power of the gyro module.
@@ -245,7 +245,7 @@ impl Wiring {
             sound_select: lines(pinout, ["sound-select-a", "sound-select-b", "sound-select-c"])?,
             sound_tone: line("sound-tone")?,
             sound_enable: line("sound-enable")?,
-            link_receive: line("link-receive")?,
+            link_receive: lines(pinout, ["link-receive", "link-receive-sampled"])?,
             link_transmit: line("link-transmit")?,
             gyro_power: line("gyro-power")?,
             pulled_up: pulled_up(pinout),

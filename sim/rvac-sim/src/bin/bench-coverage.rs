@@ -31,6 +31,9 @@ struct Arguments {
     /// Cleaning strategy by name.
     #[arg(long, default_value = "bounce")]
     strategy: String,
+    /// The robot has a perfect map of the home, which `systematic` needs.
+    #[arg(long)]
+    known_map: bool,
     /// Noise class: ideal, good, nominal or bad.
     #[arg(long, default_value = "nominal")]
     noise: String,
@@ -131,14 +134,20 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
             seed,
             duration_ms: arguments.minutes * 60_000,
         };
-        run(&mut household(scene, &settings), &settings, |_| {})
+        let household = household(scene, &settings);
+        let mut household = if arguments.known_map {
+            household.with_known_map()
+        } else {
+            household
+        };
+        run(&mut household, &settings, |_| {})
     };
     let mut pairs = Vec::new();
     for seed in 1..=arguments.seeds {
         let pair = Pair {
             seed,
-            built_in: clean(&built_in, seed),
-            emulated: clean(&emulated, seed),
+            built_in: clean(&built_in, seed)?,
+            emulated: clean(&emulated, seed)?,
         };
         tell(&pair);
         pairs.push(pair);

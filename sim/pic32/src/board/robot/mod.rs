@@ -136,7 +136,8 @@ impl EmulatedRobot {
             self.machine.set_input(pin, level);
         }
         let idle_lines = self.wiring.uart_receive.into_iter();
-        for pin in idle_lines.chain([self.wiring.link_receive.pin]) {
+        let link = self.wiring.link_receive.map(|line| line.pin);
+        for pin in idle_lines.chain(link) {
             self.machine.set_input(pin, Level::High);
         }
         let emitter = self.wiring.sensor_select.map(|line| line.pin);
@@ -211,9 +212,11 @@ impl EmulatedRobot {
         self.line_edges.clear();
         self.to_robot.pass_ms(from, &mut self.line_edges);
         let mut arrivals = Vec::new();
-        let pin = self.wiring.link_receive.pin;
+        let pins = self.wiring.link_receive.map(|line| line.pin);
         for (cycle, level) in &self.line_edges {
-            self.machine.schedule_input(*cycle, pin, *level);
+            for pin in pins {
+                self.machine.schedule_input(*cycle, pin, *level);
+            }
             self.robot_hears.edge(*cycle, *level, &mut arrivals);
         }
         self.robot_hears.advance(from + CYCLES_PER_MS, &mut arrivals);
