@@ -1,6 +1,6 @@
 //! Chromium, driven as a person drives it.
 
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -76,7 +76,8 @@ impl Browser {
             "DELETE /session/{session} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
         )?;
         stream.set_read_timeout(Some(PATIENCE))?;
-        stream.read_to_end(&mut Vec::new())?;
+        // It answers when the browser has ended, and keeps the connection all the same.
+        BufReader::new(stream).read_line(&mut String::new())?;
         Ok(())
     }
 
