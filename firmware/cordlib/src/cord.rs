@@ -24,7 +24,7 @@ use crate::reflex::Reflexes;
 use crate::report::Reporter;
 use crate::senses::Senses;
 use crate::sound::Sound;
-use crate::timing::LongClock;
+use crate::timing::{Held, LongClock};
 use crate::transmitter::Transmitter;
 use crate::watch::{Supervisor, Watch};
 
@@ -56,6 +56,8 @@ pub struct Cord<P: Parts> {
     pub(crate) charge_output: ChargeOutput,
     pub(crate) probing: Probing,
     pub(crate) leaving: Leaving,
+    /// Nothing moves.
+    pub(crate) rest: Held,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
@@ -107,6 +109,7 @@ impl<P: Parts> Cord<P> {
             applied: (WheelDrive::Brake, WheelDrive::Brake),
             renew: false,
             stepped: false,
+            rest: Held::default(),
             board,
             parameters,
             session,

@@ -8,6 +8,10 @@ use crate::cord::Cord;
 use crate::motion::Ending;
 use crate::reflex::{DockChange, Findings};
 
+/// A press is believed some 10 ms after the finger came down, more if the contact bounces: what moved then may have come to
+/// its end by itself since, and the person meant it all the same.
+const PRESS_MS: u32 = 30;
+
 impl<P: Parts> Cord<P> {
     /// Carries out what the contact rules found.
     pub(crate) fn react(&mut self, findings: &Findings, now: Tick) {
@@ -18,7 +22,9 @@ impl<P: Parts> Cord<P> {
             }
             Some(DockChange::Left) | None => {}
         }
-        if findings.buttons.any_pressed && self.is_in_motion() {
+        let rests = !self.is_in_motion();
+        let rested = self.rest.for_at_least(rests, now, PRESS_MS);
+        if findings.buttons.any_pressed && !rested {
             self.reflexes.host.button();
             self.stop_all(MoveEnd::Inhibited);
         }

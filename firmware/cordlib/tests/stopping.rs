@@ -561,6 +561,24 @@ fn s28_a_button_stops_within_50_ms_and_until_arming() {
     assert!(!rig.wheels_off());
 }
 
+/// The lease ends between the press and the moment in which it is believed.
+#[test]
+fn s28_a_press_in_the_last_moment_of_motion_counts() {
+    let fallen_silent = || {
+        let mut rig = cleaning(0);
+        rig.repeated.clear();
+        rig
+    };
+    let end_ms = fallen_silent().run_until(3_000, |rig| rig.wheels_off() && rig.cleaners_off());
+    for before_ms in 1..=12 {
+        let mut rig = fallen_silent();
+        rig.run(end_ms - before_ms);
+        rig.cord.board_mut().buttons.down = 4;
+        rig.run(40);
+        assert!(rig.has(Inhibit::ButtonStop), "pressed {before_ms} ms before");
+    }
+}
+
 #[test]
 fn s28_a_button_of_a_resting_robot_is_an_event_only() {
     let mut rig = Rig::armed(0);
