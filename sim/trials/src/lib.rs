@@ -9,11 +9,13 @@
 mod campaign;
 mod catalog;
 pub mod charges;
+mod ending;
 pub mod flips;
 mod stage;
 mod trial;
 
 pub use campaign::{Theatre, Verdict};
 pub use catalog::trials;
+pub use ending::{CampaignError, conclude};
 pub use stage::{Stage, StageError, Workshop};
 pub use trial::{Aim, Outcome, Scene, Trial};

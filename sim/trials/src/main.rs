@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use serde::Serialize;
-use trials::{StageError, Theatre, Trial, Verdict, Workshop, trials};
+use trials::{CampaignError, Theatre, Trial, Verdict, Workshop, conclude, trials};
 
 /// Tries every safety rule on a firmware.
 #[derive(Debug, Parser)]
@@ -40,39 +40,10 @@ struct Report {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => complain("a rule was broken"),
-        Err(Failure::Stage(error)) => complain(&error.to_string()),
-        Err(Failure::Output(error)) => complain(&error.to_string()),
-    }
+    conclude("bench-safety", run(&Arguments::parse()), "a rule was broken")
 }
 
-enum Failure {
-    Stage(StageError),
-    Output(io::Error),
-}
-
-impl From<StageError> for Failure {
-    fn from(error: StageError) -> Self {
-        Self::Stage(error)
-    }
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::Output(error)
-    }
-}
-
-fn complain(what: &str) -> ExitCode {
-    // When even standard error is gone there is nobody left to tell.
-    writeln!(io::stderr(), "bench-safety: {what}").ok();
-    ExitCode::FAILURE
-}
-
-fn run(arguments: &Arguments) -> Result<bool, Failure> {
+fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     let wanted = |trial: &Trial| {
         arguments.rule.is_empty()
             || arguments

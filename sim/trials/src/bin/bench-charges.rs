@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use trials::charges::charge;
-use trials::{StageError, Workshop};
+use trials::{CampaignError, Workshop, conclude};
 
 /// Charges packs with a firmware.
 #[derive(Debug, Parser)]
@@ -27,39 +27,15 @@ struct Arguments {
     json: bool,
 }
 
-enum Failure {
-    Stage(StageError),
-    Output(io::Error),
-}
-
-impl From<StageError> for Failure {
-    fn from(error: StageError) -> Self {
-        Self::Stage(error)
-    }
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::Output(error)
-    }
-}
-
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => complain("a charge was not as it must be"),
-        Err(Failure::Stage(error)) => complain(&error.to_string()),
-        Err(Failure::Output(error)) => complain(&error.to_string()),
-    }
+    conclude(
+        "bench-charges",
+        run(&Arguments::parse()),
+        "a charge was not as it must be",
+    )
 }
 
-fn complain(what: &str) -> ExitCode {
-    // When even standard error is gone there is nobody left to tell.
-    writeln!(io::stderr(), "bench-charges: {what}").ok();
-    ExitCode::FAILURE
-}
-
-fn run(arguments: &Arguments) -> Result<bool, Failure> {
+fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     let workshop = Workshop::open(&arguments.firmware)?;
     let mut out = io::stdout().lock();
     let mut all_good = arguments.count > 0;

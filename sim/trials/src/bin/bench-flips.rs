@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use trials::flips::{Breach, Fate, Plan, Storage, Tally, flip_bits};
-use trials::{StageError, Workshop};
+use trials::{CampaignError, Workshop, conclude};
 
 /// Flips bits of a firmware's memory.
 #[derive(Debug, Parser)]
@@ -37,39 +37,14 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => complain("a flipped bit was unsafe, or not what was foreseen"),
-        Err(Failure::Stage(error)) => complain(&error.to_string()),
-        Err(Failure::Output(error)) => complain(&error.to_string()),
-    }
+    conclude(
+        "bench-flips",
+        run(&Arguments::parse()),
+        "a flipped bit was unsafe, or not what was foreseen",
+    )
 }
 
-enum Failure {
-    Stage(StageError),
-    Output(io::Error),
-}
-
-impl From<StageError> for Failure {
-    fn from(error: StageError) -> Self {
-        Self::Stage(error)
-    }
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::Output(error)
-    }
-}
-
-fn complain(what: &str) -> ExitCode {
-    // When even standard error is gone there is nobody left to tell.
-    writeln!(io::stderr(), "bench-flips: {what}").ok();
-    ExitCode::FAILURE
-}
-
-fn run(arguments: &Arguments) -> Result<bool, Failure> {
+fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     let workshop = Workshop::open(&arguments.firmware)?;
     let plan = Plan {
         count: arguments.count,
@@ -118,13 +93,27 @@ fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
         writeln!(out, "{:<16}{}", situation.name(), row(fates))?;
     }
     let (checked, wrong) = tally.foreseen_checked;
-    let (left, missed) = tally.image_checked;
     writeln!(
         out,
         "{} flips, {} of them tried; {checked} tried though foreseen, {wrong} of them otherwise; \
-         {left} left to the image check, {missed} not found",
-        tally.flips, tally.tried
+         {} left to the image check, {} of them in \
+         start-up code that starts over and over with all off, {} not found",
+        tally.flips,
+        tally.tried,
+        tally.image_checked,
+        tally.starting_over.len(),
+        tally.image_missed.len()
     )?;
+    for unreported in tally.starting_over.iter().chain(&tally.image_missed) {
+        writeln!(
+            out,
+            "not reported: {:?} in {}; {} resets, motors and charger {}",
+            unreported.place,
+            unreported.name,
+            unreported.resets,
+            if unreported.is_off { "off" } else { "on" }
+        )?;
+    }
     tell_breaches(out, &tally.breaches)
 }
 

@@ -466,7 +466,7 @@ enum Next {
 }
 
 /// Neither a motor nor the charger is driven.
-fn is_off(stage: &Stage) -> bool {
+pub(super) fn is_off(stage: &Stage) -> bool {
     let robot = stage.robot();
     let charges = robot.world().truth().battery_a > 0.0;
     !charges && Motor::ALL.into_iter().all(|motor| robot.duty(motor) == 0.0)

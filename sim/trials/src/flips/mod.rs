@@ -31,6 +31,8 @@ const DRAWS: u64 = 0xF11B;
 const CHECKED_EACH: u32 = 50;
 /// A flipped bit in flash must be found within this time, ms: the image is gone over every ten seconds.
 const FOUND_MS: u64 = 13_000;
+/// A chip that was reset so often in that time gets no further than its start-up code.
+const STARTS_OVER: u64 = 10;
 
 /// How a campaign is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +68,19 @@ pub struct Breach {
     pub breach: String,
 }
 
+/// A flip of flash that was left alone and not reported in time.
+#[derive(Clone, Debug, Serialize)]
+pub struct Unreported {
+    /// Which bit.
+    pub place: Place,
+    /// The function or variable that it belongs to.
+    pub name: String,
+    /// Resets of the chip since the flip.
+    pub resets: u64,
+    /// Whether motors and charger were off at the end.
+    pub is_off: bool,
+}
+
 /// What came of a campaign.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Tally {
@@ -79,8 +94,13 @@ pub struct Tally {
     pub situations: BTreeMap<Situation, BTreeMap<Fate, u32>>,
     /// Flips that were certain and were tried all the same, and how many of them were not as foreseen.
     pub foreseen_checked: (u32, u32),
-    /// Flips of flash that were left until the check of the image had to find them, and how many it did not find.
-    pub image_checked: (u32, u32),
+    /// Flips of flash that were left until the check of the image had to find them.
+    pub image_checked: u32,
+    /// Those of them that the robot could not report, since its start-up code is what was hit: the check found them, and the
+    /// chip has been starting over and over since, with motors and charger off.
+    pub starting_over: Vec<Unreported>,
+    /// Those of them that were neither reported nor ended the program.
+    pub image_missed: Vec<Unreported>,
     /// Flips that broke a rule.
     pub breaches: Vec<Breach>,
 }
@@ -95,7 +115,7 @@ impl Tally {
     /// Whether nothing is left to explain.
     #[must_use]
     pub fn is_safe(&self) -> bool {
-        self.of(Fate::Unsafe) == 0 && self.foreseen_checked.1 == 0 && self.image_checked.1 == 0
+        self.of(Fate::Unsafe) == 0 && self.foreseen_checked.1 == 0 && self.image_missed.is_empty()
     }
 
     fn count(&mut self, situation: Situation, storage: Storage, fate: Fate) {
@@ -209,6 +229,25 @@ impl Ground<'_> {
         }
     }
 
+    /// Leaves a flipped bit alone until the robot reports it; what became of the robot if it does not.
+    fn leave(&self, place: Place) -> Option<Unreported> {
+        let mut stage = self.course.first()?;
+        let resets = stage.robot().machine().reset_count();
+        place.flip(stage.robot_mut().machine_mut());
+        for _ in 0..FOUND_MS {
+            stage.tick();
+            if stage.inhibits().contains(Inhibit::Memory) {
+                return None;
+            }
+        }
+        Some(Unreported {
+            place,
+            name: name_of(self.image, place),
+            resets: stage.robot().machine().reset_count() - resets,
+            is_off: course::is_off(&stage),
+        })
+    }
+
     /// Leaves flipped bits of flash alone until the robot has found them.
     fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut Tally) {
         while left > 0 {
@@ -218,15 +257,16 @@ impl Ground<'_> {
                 continue;
             }
             left -= 1;
-            tally.image_checked.0 += 1;
-            let found = self.course.first().is_some_and(|mut stage| {
-                place.flip(stage.robot_mut().machine_mut());
-                (0..FOUND_MS).any(|_| {
-                    stage.tick();
-                    stage.inhibits().contains(Inhibit::Memory)
-                })
-            });
-            tally.image_checked.1 += u32::from(!found);
+            tally.image_checked += 1;
+            if let Some(unreported) = self.leave(place) {
+                let starts_over = unreported.is_off && unreported.resets >= STARTS_OVER;
+                let list = if starts_over {
+                    &mut tally.starting_over
+                } else {
+                    &mut tally.image_missed
+                };
+                list.push(unreported);
+            }
         }
     }
 }
