@@ -50,6 +50,7 @@ impl Household {
         let floor = Floor {
             reachable_m2: home.reachable_area_m2(),
             t0_s: home.t0_s(),
+            cruise_m_per_s: robot.model().drive.cruise_m_per_s,
         };
         Self {
             robot,

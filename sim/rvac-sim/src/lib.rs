@@ -23,7 +23,7 @@ mod sensors;
 pub mod serve;
 pub mod trace;
 
-pub use figures::Figures;
+pub use figures::{Figures, TimeSpent};
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use household::{Household, PoseSource, TICK_US};

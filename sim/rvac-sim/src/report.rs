@@ -88,6 +88,22 @@ impl std::fmt::Display for Report {
         if let Some(error_m) = self.pose_rmse_m {
             writeln!(formatter, "pose error    {error_m:.3} m (root mean square)")?;
         }
+        if let Some(figures) = &self.figures {
+            let spent = figures.time_spent;
+            writeln!(
+                formatter,
+                "job's seconds cruise {:.0}, slow {:.0}, arcs {:.0}, turns on the spot {:.0}, back {:.0}, still {:.0}, \
+                 contacts {:.0}; again {:.0}",
+                spent.cruise_s,
+                spent.slow_s,
+                spent.arc_s,
+                spent.spot_turn_s,
+                spent.back_s,
+                spent.still_s,
+                spent.contact_s,
+                spent.again_s
+            )?;
+        }
         writeln!(formatter, "violations    {}", self.monitor_violations)?;
         write!(
             formatter,

@@ -15,6 +15,15 @@ pub(super) enum Axis {
     Y,
 }
 
+impl Axis {
+    pub(super) const fn other(self) -> Self {
+        match self {
+            Self::X => Self::Y,
+            Self::Y => Self::X,
+        }
+    }
+}
+
 /// Cells with a margin wide enough that no window around a free cell leaves the arrays.
 #[derive(Clone, Debug)]
 pub(super) struct Ground {
@@ -29,6 +38,8 @@ pub(super) struct Ground {
     pub(super) free: Vec<bool>,
     /// Floor that can be swept and was not yet.
     pub(super) open: Vec<bool>,
+    /// Steps, diagonal ones too, from each cell to the nearest one that is not free; at most 255. Made by `keep_connected`.
+    clearance: Vec<u8>,
 }
 
 impl Ground {
@@ -43,6 +54,7 @@ impl Ground {
             reach,
             free: vec![false; width * height],
             open: vec![false; width * height],
+            clearance: Vec::new(),
         };
         for (row, values) in reachable
             .values()
@@ -56,6 +68,14 @@ impl Ground {
         }
         ground.open_floor();
         ground
+    }
+
+    /// Cells along an axis.
+    pub(super) const fn length(&self, axis: Axis) -> usize {
+        match axis {
+            Axis::X => self.width,
+            Axis::Y => self.height,
+        }
     }
 
     /// Closes what was swept before.
@@ -191,12 +211,37 @@ impl Ground {
                 }
             }
         }
-        if reached == self.free {
-            return;
+        if reached != self.free {
+            self.free = reached;
+            self.open.fill(false);
+            self.open_floor();
         }
-        self.free = reached;
-        self.open.fill(false);
-        self.open_floor();
+        self.measure_clearance();
+    }
+
+    /// Two sweeps over the cells: from above and the left, then from below and the right.
+    fn measure_clearance(&mut self) {
+        let width = self.width;
+        self.clearance = self
+            .free
+            .iter()
+            .map(|free| if *free { u8::MAX } else { 0 })
+            .collect();
+        let clearance = &mut self.clearance;
+        for index in width + 1..clearance.len().saturating_sub(width + 1) {
+            if clearance[index] > 0 {
+                let before = [index - 1, index - width - 1, index - width, index - width + 1];
+                let least = before.map(|neighbour| clearance[neighbour]).into_iter().min();
+                clearance[index] = least.unwrap_or(0).saturating_add(1);
+            }
+        }
+        for index in (width + 1..clearance.len().saturating_sub(width + 1)).rev() {
+            if clearance[index] > 0 {
+                let after = [index + 1, index + width + 1, index + width, index + width - 1];
+                let least = after.map(|neighbour| clearance[neighbour]).into_iter().min();
+                clearance[index] = clearance[index].min(least.unwrap_or(0).saturating_add(1));
+            }
+        }
     }
 
     /// Whether the straight way between two points leads over free cells only.
@@ -223,10 +268,17 @@ impl Ground {
         let (dx, dy) = (x1 as f64 - x0 as f64, y1 as f64 - y0 as f64);
         let steps = (2.0 * dx.abs().max(dy.abs())) as usize;
         let (step_x, step_y) = (dx / steps.max(1) as f64, dy / steps.max(1) as f64);
-        (1..steps).all(|step| {
+        let mut step = 0;
+        while step < steps {
             let x = x0 as f64 + 0.5 + step as f64 * step_x;
             let y = y0 as f64 + 0.5 + step as f64 * step_y;
-            self.free[y as usize * self.width + x as usize]
-        })
+            let clearance = self.clearance[y as usize * self.width + x as usize];
+            if clearance == 0 {
+                return false;
+            }
+            // A step is half a cell; all cells nearer than the clearance are free.
+            step += (2 * usize::from(clearance - 1)).max(1);
+        }
+        true
     }
 }

@@ -10,10 +10,11 @@ use std::collections::BinaryHeap;
 use super::PlanSettings;
 use super::bits::BitGrid;
 use super::ground::{Axis, Ground};
+use super::stretches::{Stretch, Stretches};
 use crate::mapping::CELL_M;
 
 /// Cells that one edge less of border is worth.
-const BORDER_CELLS: f64 = 2.0;
+const BORDER_CELLS: i16 = 2;
 /// Least share of what a lane over wholly open floor gains in the same time, for each round.
 const ROUND_SHARES: [f64; 2] = [0.35, 0.12];
 /// Turning to enter and leave a lane, in radians: added to a lane's time.
@@ -32,21 +33,22 @@ pub(super) struct Lane {
 pub(super) struct Picker<'ground> {
     ground: &'ground mut Ground,
     bits: [BitGrid; 2],
-    versions: [Vec<u32>; 2],
+    window: Window,
+    /// What sweeping each place of a lane gains, in cells; the places along a line lie side by side.
+    gains: [Vec<i16>; 2],
+    stretches: Stretches,
     queue: BinaryHeap<Candidate>,
     cell_s: f64,
     enter_s: f64,
     disc: Vec<(isize, usize)>,
 }
 
-/// The best lane of one line.
+/// The best lane of one stretch.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     /// Gain for each second.
     rate: f64,
-    axis: Axis,
-    /// Row of lanes along x, column of lanes along y.
-    line: usize,
+    stretch: usize,
     /// First and last place along the line.
     span: (usize, usize),
     version: u32,
@@ -54,18 +56,26 @@ struct Candidate {
 
 impl<'ground> Picker<'ground> {
     pub(super) fn new(ground: &'ground mut Ground, settings: &PlanSettings) -> Self {
-        Self {
+        let cells = ground.free.len();
+        let mut picker = Self {
             bits: [
                 BitGrid::of_open(ground, Axis::X),
                 BitGrid::of_open(ground, Axis::Y),
             ],
-            versions: [vec![0; ground.height], vec![0; ground.width]],
+            window: Window::new(ground.reach),
+            gains: [vec![0; cells], vec![0; cells]],
+            stretches: Stretches::of(ground),
             queue: BinaryHeap::new(),
             cell_s: CELL_M / settings.cruise_m_per_s,
             enter_s: ENTER_RAD / settings.turn_rad_per_s,
             disc: ground.disc(),
             ground,
+        };
+        for number in 0..picker.stretches.all.len() {
+            let stretch = picker.stretches.all[number];
+            picker.weigh(stretch.axis, stretch.line, (stretch.first, stretch.last));
         }
+        picker
     }
 
     /// The lanes of each round.
@@ -77,17 +87,14 @@ impl<'ground> Picker<'ground> {
         let full = (2 * self.ground.reach + 1) as f64 / self.cell_s;
         let least = share * full;
         self.queue.clear();
-        let margin = self.ground.reach + 2;
-        for line in margin..self.ground.height - margin {
-            self.offer(Axis::X, line, least);
-        }
-        for line in margin..self.ground.width - margin {
-            self.offer(Axis::Y, line, least);
+        for number in 0..self.stretches.all.len() {
+            self.offer(number, least);
         }
         let mut lanes = Vec::new();
         while let Some(candidate) = self.next(least) {
-            lanes.push(self.take(candidate));
-            self.refresh(candidate, least);
+            let stretch = self.stretches.all[candidate.stretch];
+            lanes.push(self.take(&stretch, candidate.span));
+            self.refresh(&stretch, candidate.span, least);
         }
         lanes
     }
@@ -95,10 +102,15 @@ impl<'ground> Picker<'ground> {
     /// The best candidate whose figures are of now.
     fn next(&mut self, least: f64) -> Option<Candidate> {
         while let Some(old) = self.queue.pop() {
-            if old.version != self.versions[old.axis as usize][old.line] {
+            let stretch = &mut self.stretches.all[old.stretch];
+            if old.version != stretch.version {
                 continue;
             }
-            let Some(now) = self.best_of(old.axis, old.line, least) else {
+            if !stretch.is_changed {
+                return Some(old);
+            }
+            stretch.is_changed = false;
+            let Some(now) = self.best_of(old.stretch, least) else {
                 continue;
             };
             if self.queue.peek().is_none_or(|second| second.rate <= now.rate) {
@@ -110,18 +122,14 @@ impl<'ground> Picker<'ground> {
     }
 
     /// Closes the floor that a lane sweeps.
-    fn take(&mut self, candidate: Candidate) -> Lane {
-        let (first, last) = candidate.span;
-        let index = |along: usize| match candidate.axis {
-            Axis::X => candidate.line * self.ground.width + along,
-            Axis::Y => along * self.ground.width + candidate.line,
+    fn take(&mut self, stretch: &Stretch, (first, last): (usize, usize)) -> Lane {
+        let index = |along: usize| match stretch.axis {
+            Axis::X => stretch.line * self.ground.width + along,
+            Axis::Y => along * self.ground.width + stretch.line,
         };
-        let (from, to) = (index(first), index(last));
-        for along in first..=last {
-            self.close_disc(match candidate.axis {
-                Axis::X => candidate.line * self.ground.width + along,
-                Axis::Y => along * self.ground.width + candidate.line,
-            });
+        let (from, to, step) = (index(first), index(last), index(1) - index(0));
+        for index in (from..=to).step_by(step) {
+            self.close_disc(index);
         }
         Lane { from, to }
     }
@@ -141,64 +149,84 @@ impl<'ground> Picker<'ground> {
         }
     }
 
-    /// Offers the lanes again that gained by a lane beside them; those that lost are found out when their turn comes.
-    fn refresh(&mut self, taken: Candidate, least: f64) {
+    /// Weighs all places anew whose surroundings a lane has changed. Offers the stretches again that gained by it, which lie
+    /// beside it and beyond its ends; those that lost are found out when their turn comes.
+    fn refresh(&mut self, taken: &Stretch, (first, last): (usize, usize), least: f64) {
         let reach = self.ground.reach;
-        let lines = self.versions[taken.axis as usize].len();
-        self.offer(taken.axis, taken.line, least);
-        for away in reach + 1..=2 * reach + 2 {
-            if taken.line >= away + reach + 2 {
-                self.offer(taken.axis, taken.line - away, least);
+        let around = 2 * reach + 2;
+        let (low, high) = (first.saturating_sub(around), last + around);
+        for line in taken.line.saturating_sub(around)..=taken.line + around {
+            self.renew((taken.axis, line), (low, high), Some(least));
+        }
+        let span = (taken.line.saturating_sub(around), taken.line + around);
+        for line in low..=high {
+            let is_beyond = line < first || line > last;
+            self.renew((taken.axis.other(), line), span, is_beyond.then_some(least));
+        }
+    }
+
+    /// Weighs a part of a line anew and offers its stretches again, or notes that they changed.
+    fn renew(&mut self, (axis, line): (Axis, usize), (low, high): (usize, usize), offer: Option<f64>) {
+        for number in self.stretches.on(axis, line) {
+            let stretch = self.stretches.all[number];
+            if stretch.last < low || stretch.first > high {
+                continue;
             }
-            if taken.line + away + reach + 2 < lines {
-                self.offer(taken.axis, taken.line + away, least);
+            self.weigh(axis, line, (stretch.first.max(low), stretch.last.min(high)));
+            match offer {
+                Some(least) => self.offer(number, least),
+                None => self.stretches.all[number].is_changed = true,
             }
         }
     }
 
-    fn offer(&mut self, axis: Axis, line: usize, least: f64) {
-        self.versions[axis as usize][line] += 1;
-        if let Some(candidate) = self.best_of(axis, line, least) {
+    /// Finds what the places of a line gain.
+    fn weigh(&mut self, axis: Axis, line: usize, (first, last): (usize, usize)) {
+        let bits = &self.bits[axis as usize];
+        let low = line - self.ground.reach - 1;
+        let start = line * self.ground.length(axis);
+        let mut ahead = bits.window(first, low);
+        for along in first..=last {
+            let here = ahead;
+            ahead = bits.window(along + 1, low);
+            self.gains[axis as usize][start + along] = self.window.gain(here, ahead);
+        }
+    }
+
+    fn offer(&mut self, number: usize, least: f64) {
+        let stretch = &mut self.stretches.all[number];
+        stretch.version += 1;
+        stretch.is_changed = false;
+        if let Some(candidate) = self.best_of(number, least) {
             self.queue.push(candidate);
         }
     }
 
-    /// The lane of a line with most gain beyond `least` for each second.
-    fn best_of(&self, axis: Axis, line: usize, least: f64) -> Option<Candidate> {
-        let bits = &self.bits[axis as usize];
-        let window = Window::new(self.ground.reach);
-        let (length, start, step) = match axis {
-            Axis::X => (self.ground.width, line * self.ground.width, 1),
-            Axis::Y => (self.ground.height, line, self.ground.width),
-        };
-        let low = line - self.ground.reach - 1;
-        let mut best: Option<(f64, f64, (usize, usize))> = None;
-        let (mut profit, mut gain, mut first) = (0.0, 0.0, 0);
-        let mut ahead = bits.window(0, low);
-        for along in 0..length - 1 {
-            let here = ahead;
-            ahead = bits.window(along + 1, low);
-            if !self.ground.free[start + along * step] {
-                (profit, gain, first) = (0.0, 0.0, along + 1);
-                continue;
-            }
-            let more = window.gain(here, ahead);
-            gain += more;
-            profit += more - least * self.cell_s;
+    /// The lane of a stretch with most gain beyond `least` for each second.
+    fn best_of(&self, number: usize, least: f64) -> Option<Candidate> {
+        let stretch = &self.stretches.all[number];
+        let start = stretch.line * self.ground.length(stretch.axis);
+        let cost = least * self.cell_s;
+        let (mut most, mut best) = (least * self.enter_s, None);
+        let (mut profit, mut gain, mut first) = (0.0, 0, stretch.first);
+        let gains = &self.gains[stretch.axis as usize][start + stretch.first..=start + stretch.last];
+        for (along, more) in (stretch.first..).zip(gains) {
+            gain += i32::from(*more);
+            profit += f64::from(*more) - cost;
             if profit <= 0.0 {
-                (profit, gain, first) = (0.0, 0.0, along + 1);
-            } else if best.is_none_or(|(most, _, _)| profit > most) {
-                best = Some((profit, gain, (first, along)));
+                (profit, gain, first) = (0.0, 0, along + 1);
+            } else if profit > most {
+                most = profit;
+                best = Some((gain, (first, along)));
             }
         }
-        let (profit, gain, span) = best?;
+        let (gain, span) = best?;
         let cells = (span.1 - span.0 + 1) as f64;
-        (profit > least * self.enter_s).then(|| Candidate {
-            rate: gain / (cells * self.cell_s + self.enter_s),
-            axis,
-            line,
+        Some(Candidate {
+            rate: f64::from(gain) / (cells * self.cell_s + self.enter_s),
+            stretch: number,
             span,
-            version: self.versions[axis as usize][line],
+            version: stretch.version,
         })
     }
 }
@@ -221,15 +249,16 @@ impl Window {
     }
 
     /// What sweeping one place of a lane gains in cells.
-    fn gain(&self, here: u64, ahead: u64) -> f64 {
+    fn gain(&self, here: u64, ahead: u64) -> i16 {
         let swept = (here & self.swath).count_ones();
         if swept == 0 {
-            return 0.0;
+            return 0;
         }
         let gone =
             ((here ^ here >> 1) & self.pairs).count_ones() + ((here ^ ahead) & self.swath).count_ones();
         let new = (here & self.sides).count_ones();
-        f64::from(swept) + BORDER_CELLS * (f64::from(gone) - f64::from(new))
+        // At most a few hundred cells: a window has 64.
+        swept as i16 + BORDER_CELLS * (gone as i16 - new as i16)
     }
 }
 
@@ -251,8 +280,7 @@ impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
         self.rate
             .total_cmp(&other.rate)
-            .then_with(|| other.line.cmp(&self.line))
-            .then_with(|| (other.axis as u8).cmp(&(self.axis as u8)))
+            .then_with(|| other.stretch.cmp(&self.stretch))
             .then_with(|| self.version.cmp(&other.version))
     }
 }

@@ -13,6 +13,7 @@ mod heading;
 mod lanes;
 mod route;
 mod smooth;
+mod stretches;
 mod tour;
 
 use crate::geometry::{Point2, Pose2};

@@ -19,6 +19,8 @@ pub(super) struct Router<'ground> {
     columns: usize,
     /// A free cell for each block, `NONE` if it has none.
     anchors: Vec<u32>,
+    /// Bit n: the body gets from the block to the nth of those around it.
+    doors: Vec<u8>,
 }
 
 /// Costs and parents of the blocks around a place.
@@ -35,6 +37,7 @@ impl<'ground> Router<'ground> {
             ground,
             columns,
             anchors: vec![NONE; columns * (ground.height / BLOCK + 1)],
+            doors: Vec::new(),
         };
         // The free cell nearest to the middle of its block stands for it.
         let mut best = vec![u32::MAX; router.anchors.len()];
@@ -49,7 +52,24 @@ impl<'ground> Router<'ground> {
                 router.anchors[block] = index as u32;
             }
         }
+        router.doors = (0..router.anchors.len())
+            .map(|block| router.doors_of(block))
+            .collect();
         router
+    }
+
+    fn doors_of(&self, block: usize) -> u8 {
+        if self.anchors[block] == NONE {
+            return 0;
+        }
+        let mut doors = 0;
+        for (number, (next, step)) in self.around(block).into_iter().enumerate() {
+            let is_ground = self.anchors.get(next).is_some_and(|anchor| *anchor != NONE);
+            if is_ground && self.joined(block, next, step) {
+                doors |= 1 << number;
+            }
+        }
+        doors
     }
 
     pub(super) fn ground(&self) -> &Ground {
@@ -83,12 +103,12 @@ impl<'ground> Router<'ground> {
             if enough(block) {
                 return;
             }
-            for (next, step) in self.around(block) {
-                if self.anchors.get(next).is_none_or(|anchor| *anchor == NONE) {
+            for (number, (next, step)) in self.around(block).into_iter().enumerate() {
+                if self.doors[block] & 1 << number == 0 {
                     continue;
                 }
                 let through = cost + step;
-                if through < spread.costs[next] && self.joined(block, next, step) {
+                if through < spread.costs[next] {
                     spread.set(next, through, block as u32);
                     queue.push(Reverse((through, next)));
                 }

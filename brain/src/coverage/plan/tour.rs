@@ -127,12 +127,15 @@ impl<'plan> Tour<'plan> {
             .collect();
         at_block.sort_unstable();
         let mut spread = self.router.spread();
+        let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
             let out = (!self.is_point(2 * base + a)).then(|| self.out_rad(2 * base + a));
             for b in self.near(cells[a], &mut spread, &at_block) {
-                if b / 2 == a / 2 {
+                // The way back is as long; it was looked for already if the other end found this one.
+                if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
                 }
+                is_known[a * ends + b] = true;
                 let way = self.router.way(&spread, cells[a], cells[b]);
                 let back = (!self.is_point(2 * base + b)).then(|| self.out_rad(2 * base + b));
                 let seconds = self.way_s(&way, out, back);

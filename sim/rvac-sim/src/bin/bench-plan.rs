@@ -2,6 +2,7 @@
 //! error at cruise speed and turns at its turn rate, with no time to speed up; so only the planner is measured.
 #![forbid(unsafe_code)]
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -12,6 +13,8 @@ use clap::Parser;
 use home::{Home, RobotModel};
 use serde::Serialize;
 
+/// How often a plan is made; the fastest counts.
+const TRIES: u32 = 5;
 /// Way between two places at which the ideal robot sweeps, metres.
 const STEP_M: f64 = 0.01;
 
@@ -73,9 +76,7 @@ fn measured(home: &Home, model: &RobotModel, sigma_m: f64) -> Figures {
         y_m: pose.y_m,
         heading_rad: pose.heading_rad,
     };
-    let began = Instant::now();
-    let plan = plan_coverage(&ground, |_| false, start, &settings);
-    let planning_s = began.elapsed().as_secs_f64();
+    let (plan, planning_s) = timed_plan(&ground, start, &settings);
     let curve = curve(home, &plan, &settings);
     let t0_s = home.t0_s();
     let reached = |share: f64| {
@@ -103,6 +104,30 @@ fn measured(home: &Home, model: &RobotModel, sigma_m: f64) -> Figures {
         lanes: plan.lanes,
         planning_s,
     }
+}
+
+/// The plan, and the least time that it took in a few tries.
+fn timed_plan(ground: &Raster<bool>, start: Pose2, settings: &PlanSettings) -> (CoveragePlan, f64) {
+    let mut best = (CoveragePlan::default(), f64::INFINITY);
+    for _ in 0..TRIES {
+        let (began, began_s) = (Instant::now(), processor_s());
+        let plan = plan_coverage(ground, |_| false, start, settings);
+        let planning_s = match (began_s, processor_s()) {
+            (Some(began_s), Some(ended_s)) => ended_s - began_s,
+            _ => began.elapsed().as_secs_f64(),
+        };
+        if planning_s < best.1 {
+            best = (plan, planning_s);
+        }
+    }
+    best
+}
+
+/// Seconds that this thread has had a processor, where the system tells: others may use the machine, too.
+fn processor_s() -> Option<f64> {
+    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: u64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds as f64 * 1e-9)
 }
 
 /// Cells of the brain's size on which the middle of the body can be.

@@ -6,6 +6,7 @@
 
 mod lost;
 mod pose_error;
+mod time_spent;
 
 use brain::BehaviorState;
 use home::{Pose, Truth};
@@ -13,6 +14,8 @@ use serde::Serialize;
 
 use lost::LostWatch;
 use pose_error::PoseError;
+pub use time_spent::TimeSpent;
+use time_spent::TimeWatch;
 
 /// Shares of the reachable floor whose moments are noted.
 const SHARES: [f64; 3] = [0.80, 0.90, 0.95];
@@ -39,6 +42,8 @@ pub struct Figures {
     pub job_over_t0: Option<f64>,
     /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
     pub away_s: Option<f64>,
+    /// What the job's seconds were spent on.
+    pub time_spent: TimeSpent,
     /// Turning during the job for each square metre of reachable floor, degrees.
     pub turn_deg_per_m2: f64,
     /// Contacts during the job for each square metre of reachable floor.
@@ -85,6 +90,8 @@ pub(crate) struct Belief {
 pub(crate) struct Floor {
     pub(crate) reachable_m2: f64,
     pub(crate) t0_s: f64,
+    /// Speed at which the robot cleans.
+    pub(crate) cruise_m_per_s: f64,
 }
 
 /// Collects what the figures need.
@@ -102,6 +109,7 @@ pub(crate) struct Collector {
     contacts: u32,
     pose_error: PoseError,
     lost: LostWatch,
+    time: TimeWatch,
     last: Option<BehaviorState>,
     docked: bool,
 }
@@ -147,6 +155,7 @@ impl Collector {
             contacts: 0,
             pose_error: PoseError::default(),
             lost: LostWatch::default(),
+            time: TimeWatch::new(&floor),
             last: None,
             docked: false,
         }
@@ -174,6 +183,7 @@ impl Collector {
                 self.away_s.get_or_insert(job_s);
             }
         }
+        self.time.sample(truth, self.job.runs());
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
@@ -218,6 +228,7 @@ impl Collector {
             share_at_1_8_t0: self.share_at(1, now),
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
             away_s: self.away_s,
+            time_spent: self.time.spent(),
             turn_deg_per_m2: per_m2(self.turn_rad.to_degrees()),
             bumps_per_m2: per_m2(f64::from(self.contacts)),
             pose_rmse_10_min_m: at_10,
@@ -282,6 +293,7 @@ mod tests {
         let mut collector = Collector::new(Floor {
             reachable_m2: 2.0,
             t0_s: 10.0,
+            cruise_m_per_s: 0.25,
         });
         let mut truth = truth();
         let states = [

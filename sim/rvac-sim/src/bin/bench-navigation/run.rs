@@ -120,6 +120,7 @@ fn household(scene: &Scene, mode: Mode, seed: u64) -> Household {
     let robot = scene.robot(seed, &settings);
     let config = CoreConfig {
         task_budget_s: BUDGET_S,
+        sensors: scene.sensors(),
         ..Host::config(seed, mode.strategy())
     };
     let household = Household::new(robot, Host::start(0, config));
