@@ -43,11 +43,13 @@ pub enum StrategyName {
     Bounce,
     /// `systematic`: lanes over a home whose map is known, with few turns.
     Systematic,
+    /// `wall-bounce`: bouncing with stretches along the walls and spirals on open floor.
+    WallBounce,
 }
 
 impl StrategyName {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Bounce, Self::Systematic];
+    pub const ALL: [Self; 3] = [Self::Bounce, Self::Systematic, Self::WallBounce];
 
     /// The name people type.
     #[must_use]
@@ -55,6 +57,7 @@ impl StrategyName {
         match self {
             Self::Bounce => "bounce",
             Self::Systematic => "systematic",
+            Self::WallBounce => "wall-bounce",
         }
     }
 

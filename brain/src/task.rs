@@ -23,6 +23,8 @@ pub(crate) struct Situation<'step> {
     pub(crate) estimate: PoseEstimate,
     /// What is known of the home.
     pub(crate) map: &'step Map,
+    /// What is seen is compared with a map of the home that is good enough for it.
+    pub(crate) is_tracked: bool,
     /// Way for which backing may still be commanded, in metres.
     pub(crate) way_back_m: f64,
     pub(crate) config: &'step BrainConfig,
@@ -45,6 +47,7 @@ impl<'step> Situation<'step> {
             pose: localization.pose(),
             estimate: localization.estimate(),
             map,
+            is_tracked: localization.explained().is_some(),
             way_back_m: localization.way_back_m(),
             config,
             touching: observation.is_touching(),

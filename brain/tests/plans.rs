@@ -194,21 +194,3 @@ fn a_known_room_is_covered_in_less_than_twice_the_least_time_and_the_job_ends() 
     assert_eq!(brain.status().state, BehaviorState::Idle, "{:?}", brain.status());
     assert_eq!(world.violations, Vec::<String>::new());
 }
-
-#[test]
-fn without_a_map_the_job_ends_by_its_reason() {
-    let mut brain = Brain::new(config(), 1);
-    let mut world = World::new(
-        furnished(),
-        Pose2 {
-            x_m: 2.6,
-            y_m: 2.6,
-            heading_rad: 0.0,
-        },
-    );
-    let clean = Command::Clean {
-        strategy: StrategyName::Systematic,
-    };
-    run(&mut world, &mut brain, Some(clean), 20.0);
-    assert_eq!(brain.status().reason.name(), "no-map");
-}

@@ -432,7 +432,7 @@ mod tests {
             ),
             (
                 "[robot]\nstrategy = \"b\"",
-                "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce, systematic",
+                "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce, systematic, wall-bounce",
             ),
         ] {
             assert_eq!(parse(text).expect_err("invalid").to_string(), message);

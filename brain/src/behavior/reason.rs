@@ -79,6 +79,20 @@ reasons! {
     BoxedIn => "boxed-in",
     /// A straight run without an encounter for longer than any home is.
     LongRun => "long-run",
+    /// Something stands ahead of a robot that follows a wall.
+    WallAhead => "wall-ahead",
+    /// The wall that is followed ends here.
+    WallEnded => "wall-ended",
+    /// Way enough in this manner; another one follows.
+    Alternation => "alternation",
+    /// Nothing was met for long: open floor.
+    OpenFloor => "open-floor",
+    /// Back where the way along the walls began.
+    BackAtStart => "back-at-start",
+    /// The way led round something that stands free in the room.
+    Island => "island",
+    /// The way along the walls takes too long.
+    LongLap => "long-lap",
     /// Floor that was not swept yet.
     UnsweptFloor => "unswept-floor",
     /// Too far from the planned way.

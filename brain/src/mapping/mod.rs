@@ -27,6 +27,7 @@ pub use distance::{DistanceField, FAR_M};
 pub use home::{Entry, Keyframe};
 pub use layers::CellKnowledge;
 pub use raster::Raster;
+pub(crate) use reach::neighbours;
 pub use reach::reachable;
 pub use rooms::{Door, Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};

@@ -50,7 +50,7 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
 }
 
 /// The cells beside, below and above.
-pub(super) fn neighbours(cell: Cell) -> [Cell; 4] {
+pub(crate) fn neighbours(cell: Cell) -> [Cell; 4] {
     [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(x, y)| Cell {
         x: cell.x.saturating_add(x),
         y: cell.y.saturating_add(y),

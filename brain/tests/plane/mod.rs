@@ -5,6 +5,9 @@
     reason = "every test file is a crate of its own and uses another part of this"
 )]
 
+pub(crate) mod beams;
+
+use beams::Sight;
 use brain::observation::{Cliffs, Contacts};
 use brain::{Actions, Body, Brain, BrainConfig, Command, Motion, Observation, Point2, Pose2, Speeds};
 
@@ -81,7 +84,7 @@ impl Room {
         self
     }
 
-    fn clearance(&self, point: Point2) -> (f64, Point2) {
+    pub(crate) fn clearance(&self, point: Point2) -> (f64, Point2) {
         let nearest = self
             .furniture
             .iter()
@@ -98,6 +101,8 @@ pub(crate) struct World {
     pub(crate) observation: Observation,
     pub(crate) violations: Vec<String>,
     pub(crate) swept: Vec<bool>,
+    /// Infrared eyes, if the robot has any.
+    pub(crate) sight: Option<Sight>,
     columns: usize,
     motion: (f64, f64),
 }
@@ -115,6 +120,7 @@ impl World {
             },
             violations: Vec::new(),
             swept: vec![false; columns * rows],
+            sight: None,
             columns,
             motion: (0.0, 0.0),
         }
@@ -193,6 +199,10 @@ impl World {
             middle: hole(0.0),
             right: hole(-0.1),
         };
+        if let Some(sight) = &self.sight {
+            let moment = self.observation.time_us;
+            self.observation.proximity = sight.look(self.pose, &self.room.furniture, moment);
+        }
         self.observation.contacts = contacts;
         self.observation.cliffs = cliffs;
         self.observation.inhibits.clear();

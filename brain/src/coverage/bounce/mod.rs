@@ -61,6 +61,11 @@ impl Bounce {
         self.evasion.is_some()
     }
 
+    /// Way since the last encounter, metres.
+    pub(crate) fn run_m(&self) -> f64 {
+        self.run_m
+    }
+
     fn run(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         self.run_m += situation.advance.distance_m.max(0.0);
         let Some((reason, evasion)) = self.encounter(situation, mind) else {

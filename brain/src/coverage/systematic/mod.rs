@@ -1,22 +1,27 @@
-//! `systematic`: lanes over the whole known home, few turns, then what was left over.
+//! `systematic`: lanes over the whole home, few turns, then what was left over.
+//!
+//! In a home that it does not know it first drives a lap along the walls, which shows the outline, and then plans over what
+//! lies within as if it were floor, until something is met there.
 //!
 //! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
 //! lost, and when the plan is at its end. Where plan after plan brings nothing it bounces out of the place. It is done when
 //! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
+mod frontier;
 mod obstructions;
 mod passed;
 mod reachable;
 
-use super::Bounce;
+use super::astray::Astray;
+use super::perimeter::{LapStep, Perimeter};
 use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
-use crate::geometry::Point2;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
-use crate::mapping::Raster;
+use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::task::{Mind, Plan, Situation, Task};
+use frontier::hopeful;
 use obstructions::Obstructions;
 use passed::Passed;
 use reachable::reachable;
@@ -41,10 +46,6 @@ const VAIN_PLANS_MAX: u32 = 4;
 const FRESH_STARTS_MAX: u32 = 2;
 /// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
 const STRAYS_MAX: u32 = 6;
-/// It bounces this far, metres.
-const ASTRAY_M: f64 = 0.6;
-/// It bounces for this long at most, seconds.
-const ASTRAY_S: f64 = 20.0;
 /// Floor that makes a fresh start worth it, square metres.
 const FRESH_WON_M2: f64 = 0.5;
 /// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
@@ -59,9 +60,27 @@ const BESIDE_LEVEL: f32 = 0.85;
 /// How far the robot evades what nearly touches its side.
 const ASIDE_M: f64 = 0.02;
 
+/// A robot that sees nothing plans in a map that shows this much free floor, square metres.
+const KNOWN_M2: f64 = 4.0;
+/// Floor is hoped for so far beyond what is known, metres, after a lap along the walls that closed and after one that did not.
+const BEYOND_M: f64 = 0.3;
+const BEYOND_OPEN_M: f64 = 1.0;
+
+/// What is known of the home.
+#[derive(Debug)]
+enum Outline {
+    /// All of it, since before the job.
+    Known,
+    /// Nothing: the walls come first.
+    Lap(Box<Perimeter>),
+    /// The walls; the rest is found out on the way. Floor is hoped for so many metres beyond what is known.
+    Growing { beyond_m: f64 },
+}
+
 /// The strategy.
 #[derive(Debug, Default)]
 pub(crate) struct Systematic {
+    outline: Option<Outline>,
     follower: Option<Follower>,
     evasion: Option<Evasion>,
     passed: Option<Passed>,
@@ -83,9 +102,12 @@ impl Task for Systematic {
         if let Some(passed) = &mut self.passed {
             passed.follow(situation.pose.position());
         }
+        if let Some(plan) = self.lap(situation, mind) {
+            return plan;
+        }
         if let Some(astray) = &mut self.astray {
-            if !astray.is_over(situation) {
-                return astray.bounce.step(situation, mind);
+            if let Some(plan) = astray.step(situation, mind) {
+                return plan;
             }
             self.astray = None;
         }
@@ -106,31 +128,44 @@ impl Task for Systematic {
     }
 
     fn interrupted(&mut self) {
+        if let Some(Outline::Lap(lap)) = &mut self.outline {
+            lap.interrupted();
+        }
         self.evasion = None;
         self.follower = None;
         if let Some(astray) = &mut self.astray {
-            astray.bounce.interrupted();
+            astray.interrupted();
         }
     }
 }
 
-/// Bouncing out of a place where no plan works.
-#[derive(Debug)]
-struct Astray {
-    bounce: Bounce,
-    from: Point2,
-    left_s: f64,
-}
-
-impl Astray {
-    fn is_over(&mut self, situation: &Situation<'_>) -> bool {
-        self.left_s -= situation.advance.time_s;
-        let is_away = self.from.distance_m(situation.pose.position()) > ASTRAY_M;
-        (is_away || self.left_s <= 0.0) && !self.bounce.is_evading() && situation.is_free()
-    }
-}
-
 impl Systematic {
+    /// The lap along the walls of an unknown home; `None` when there is none to drive.
+    fn lap(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+        let outline = self.outline.get_or_insert_with(|| {
+            if knows_home(situation) {
+                Outline::Known
+            } else {
+                mind.decide("lap", Reason::NoMap, 0.0);
+                Outline::Lap(Box::default())
+            }
+        });
+        let Outline::Lap(lap) = outline else { return None };
+        let reason = match lap.step(situation, mind) {
+            LapStep::Going(motion) => return Some(Plan::Go(motion)),
+            LapStep::Trouble(reason) => return Some(Plan::Trouble(reason)),
+            LapStep::Over(reason) => reason,
+        };
+        let (what, beyond_m) = if reason == Reason::BackAtStart {
+            ("contour-closed", BEYOND_M)
+        } else {
+            ("end-lap", BEYOND_OPEN_M)
+        };
+        mind.decide(what, reason, lap.way_m());
+        self.outline = Some(Outline::Growing { beyond_m });
+        None
+    }
+
     /// Backs off from what was met, and remembers it.
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         mind.decide("back-off", reason, 0.0);
@@ -167,7 +202,11 @@ impl Systematic {
     fn make_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
         let blocked = self.obstructions.points(situation.observation.time_us);
         let radius_m = situation.config.body.radius_m + KEEP_OFF_M;
-        let ground = reachable(situation.map.knowledge(), radius_m, &blocked);
+        let knowledge = match self.outline {
+            Some(Outline::Growing { beyond_m }) => &hopeful(situation.map.knowledge(), beyond_m),
+            _ => situation.map.knowledge(),
+        };
+        let ground = reachable(knowledge, radius_m, &blocked);
         let plan = self.plan_over(&ground, situation);
         mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
@@ -231,11 +270,7 @@ impl Systematic {
             return Plan::Finished(Reason::RestOutOfReach);
         }
         mind.decide("bounce", Reason::BoxedIn, f64::from(self.strays));
-        self.astray = Some(Astray {
-            bounce: Bounce::default(),
-            from: situation.pose.position(),
-            left_s: ASTRAY_S,
-        });
+        self.astray = Some(Astray::from(situation.pose.position()));
         Plan::Go(Motion::Halt)
     }
 
@@ -243,10 +278,22 @@ impl Systematic {
         let settings = settings(situation);
         let passed = self
             .passed
-            .get_or_insert_with(|| Passed::new(ground, reach_cells(&settings)));
+            .get_or_insert_with(|| Passed::along(situation.map, ground, reach_cells(&settings)));
         passed.cover(ground);
         plan_coverage(ground, |cell| passed.contains(cell), situation.pose, &settings)
     }
+}
+
+/// Whether the map was good enough to plan in it when the job began.
+fn knows_home(situation: &Situation<'_>) -> bool {
+    let is_blind = situation.config.sensors.proximity.sensors().is_empty();
+    let knowledge = situation.map.knowledge().values();
+    let free = knowledge
+        .iter()
+        .filter(|kind| **kind == CellKnowledge::Free)
+        .count();
+    let shows_home = free as f64 * CELL_M * CELL_M > KNOWN_M2;
+    situation.is_tracked || (is_blind && shows_home)
 }
 
 fn settings(situation: &Situation<'_>) -> PlanSettings {

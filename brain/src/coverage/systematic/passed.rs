@@ -5,7 +5,7 @@
 
 use super::reachable::Disc;
 use crate::geometry::Point2;
-use crate::mapping::{CELL_M, Cell, Raster};
+use crate::mapping::{CELL_M, Cell, Map, Raster};
 
 /// Way after which the disc is painted again.
 const STEP_M: f64 = 0.5 * CELL_M;
@@ -20,12 +20,24 @@ pub(super) struct Passed {
 
 impl Passed {
     /// Nothing passed, in the window of `like`. `reach` cells to either side of the middle count.
-    pub(super) fn new(like: &Raster<bool>, reach: usize) -> Self {
+    fn new(like: &Raster<bool>, reach: usize) -> Self {
         Self {
             cells: Raster::filled(like.origin(), like.width(), like.height(), false),
             disc: Disc::of_radius(reach as f64 + 0.6),
             last: None,
         }
+    }
+
+    /// What the way of this job has passed so far.
+    pub(super) fn along(map: &Map, like: &Raster<bool>, reach: usize) -> Self {
+        let mut passed = Self::new(like, reach);
+        for point in map.snapshot().path {
+            passed.follow(Point2 {
+                x_m: 0.001 * f64::from(point.x_mm),
+                y_m: 0.001 * f64::from(point.y_mm),
+            });
+        }
+        passed
     }
 
     /// Takes over another window; what lies outside of it is forgotten.

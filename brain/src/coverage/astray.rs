@@ -1,0 +1,42 @@
+//! Bouncing out of a place where nothing else works.
+
+use super::Bounce;
+use crate::geometry::Point2;
+use crate::task::{Mind, Plan, Situation, Task};
+
+/// It is away from the place at this distance, metres.
+const ASTRAY_M: f64 = 0.6;
+/// It bounces for this long at most, seconds.
+const ASTRAY_S: f64 = 20.0;
+
+/// A bounded stretch of bouncing.
+#[derive(Debug)]
+pub(super) struct Astray {
+    bounce: Bounce,
+    from: Point2,
+    left_s: f64,
+}
+
+impl Astray {
+    /// Away from here.
+    pub(super) fn from(place: Point2) -> Self {
+        Self {
+            bounce: Bounce::default(),
+            from: place,
+            left_s: ASTRAY_S,
+        }
+    }
+
+    /// What to do; `None` when the robot is away from the place, or the time is over.
+    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+        self.left_s -= situation.advance.time_s;
+        let is_away = self.from.distance_m(situation.pose.position()) > ASTRAY_M;
+        let is_over = (is_away || self.left_s <= 0.0) && !self.bounce.is_evading() && situation.is_free();
+        (!is_over).then(|| self.bounce.step(situation, mind))
+    }
+
+    /// Half-done movements are void.
+    pub(super) fn interrupted(&mut self) {
+        self.bounce.interrupted();
+    }
+}

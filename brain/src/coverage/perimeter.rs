@@ -1,0 +1,208 @@
+//! One lap along the walls of a home that nobody knows yet: it cleans the edges and shows the outline.
+//!
+//! Terms. *Lap*: the way along everything that hangs together with the first wall that is met. *Island*: something that
+//! stands free; the way round it turns right in sum. *Track*: places of the lap, one every few centimetres.
+//!
+//! The lap is closed when the robot goes along its own track for a while, in the same direction: then it has seen all of
+//! this outline. When the sum of turns since the first time is a full turn to the right, it was an island; it leaves that
+//! and looks for another wall. A lap that never closes ends by its length.
+
+use core::f64::consts::TAU;
+
+use super::astray::Astray;
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::geometry::{Pose2, normalize_rad};
+use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
+use crate::task::{Mind, Plan, Situation};
+
+/// Places of the track are so far apart, metres.
+const TRACK_STEP_M: f64 = 0.1;
+/// A place nearer than this was passed before, metres; less sure poses have more.
+const SAME_M: f64 = 0.14;
+/// Farthest that a place is taken for one that was passed before, metres.
+const SAME_MAX_M: f64 = 0.5;
+/// As `SAME_M`, for the heading, radians.
+const SAME_RAD: f64 = 0.6;
+/// A lap round an island is at least so long, metres: a body's width round nothing.
+const ISLAND_MIN_M: f64 = 1.0;
+/// A lap along walls is at least so long, metres.
+const LAP_MIN_M: f64 = 4.0;
+/// So much way on the own track closes a lap, metres.
+const AGAIN_M: f64 = 0.4;
+/// A lap longer than this is ended, metres: twice that of a large home.
+const LAP_MAX_M: f64 = 400.0;
+/// So many islands in one lap and no walls: enough.
+const ISLANDS_MAX: u32 = 12;
+/// Turn away from an island, radians.
+const AWAY_RAD: f64 = 1.5;
+/// Troubles in one lap until it is ended.
+const TROUBLES_MAX: u32 = 6;
+
+/// The lap.
+#[derive(Debug, Default)]
+pub(super) struct Perimeter {
+    wall: WallFollower,
+    away: Option<Turn>,
+    astray: Option<Astray>,
+    track: Vec<Footprint>,
+    way_m: f64,
+    turned_rad: f64,
+    again_m: f64,
+    islands: u32,
+    troubles: u32,
+}
+
+/// A place of the track.
+#[derive(Clone, Copy, Debug)]
+struct Footprint {
+    pose: Pose2,
+    sigma_m: f64,
+    way_m: f64,
+    turned_rad: f64,
+}
+
+/// State of the lap after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum LapStep {
+    /// On it.
+    Going(Motion),
+    /// It cannot go on by its own means.
+    Trouble(Reason),
+    /// It is over.
+    Over(Reason),
+}
+
+impl Perimeter {
+    /// Half-done movements are void; the track stays.
+    pub(super) fn interrupted(&mut self) {
+        self.wall.interrupted();
+        self.away = None;
+        if let Some(astray) = &mut self.astray {
+            astray.interrupted();
+        }
+    }
+
+    /// Way that was made, metres.
+    pub(super) fn way_m(&self) -> f64 {
+        self.way_m
+    }
+
+    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> LapStep {
+        self.turned_rad += situation.advance.turn_rad;
+        self.way_m += situation.advance.distance_m.max(0.0);
+        if self.way_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
+            return LapStep::Over(Reason::LongLap);
+        }
+        if let Some(turn) = &mut self.away {
+            match turn.step(situation) {
+                Leg::Going(motion) if situation.is_free() => return LapStep::Going(motion),
+                _ => self.away = None,
+            }
+        }
+        if let Some(step) = self.bounce(situation, mind) {
+            return step;
+        }
+        if !self.wall.is_evading() && situation.is_free() {
+            match self.passed_before(situation) {
+                Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, mind)),
+                Some(reason) => return LapStep::Over(reason),
+                None => {}
+            }
+        }
+        match self.wall.step(situation, mind) {
+            WallStep::Going(motion) => LapStep::Going(motion),
+            WallStep::Trouble(reason) => {
+                self.troubles += 1;
+                if reason != Reason::BoxedIn {
+                    return LapStep::Trouble(reason);
+                }
+                mind.decide("bounce", reason, f64::from(self.troubles));
+                self.astray = Some(Astray::from(situation.pose.position()));
+                LapStep::Going(Motion::Halt)
+            }
+        }
+    }
+
+    /// Bounces out of a place where following leads nowhere.
+    fn bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<LapStep> {
+        match self.astray.as_mut()?.step(situation, mind) {
+            Some(Plan::Go(motion)) => Some(LapStep::Going(motion)),
+            Some(Plan::Trouble(reason)) => Some(LapStep::Trouble(reason)),
+            Some(Plan::Finished(_)) | None => {
+                self.astray = None;
+                None
+            }
+        }
+    }
+
+    /// Turns its back to an island; what is met next is another wall, or another island.
+    fn leave_island(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        mind.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
+        self.islands += 1;
+        self.again_m = 0.0;
+        self.wall.interrupted();
+        self.away = Some(Turn::by(AWAY_RAD));
+        Motion::Halt
+    }
+
+    /// Lengthens the track, and says what it means that the robot goes along it.
+    fn passed_before(&mut self, situation: &Situation<'_>) -> Option<Reason> {
+        if !self.wall.is_following() {
+            return None;
+        }
+        let step_m = self
+            .track
+            .last()
+            .map_or(f64::INFINITY, |last| self.way_m - last.way_m);
+        if step_m < TRACK_STEP_M {
+            return None;
+        }
+        let here = Footprint {
+            pose: situation.pose,
+            sigma_m: situation.estimate.sigma_m,
+            way_m: self.way_m,
+            turned_rad: self.turned_rad,
+        };
+        let before = self
+            .track
+            .iter()
+            .rev()
+            .find(|before| here.repeats(before))
+            .copied();
+        self.track.push(here);
+        let Some(before) = before else {
+            self.again_m = 0.0;
+            return None;
+        };
+        self.again_m += step_m.min(2.0 * TRACK_STEP_M);
+        if self.again_m < AGAIN_M {
+            return None;
+        }
+        Some(if here.turns_since(&before) < 0.0 {
+            Reason::Island
+        } else {
+            Reason::BackAtStart
+        })
+    }
+}
+
+impl Footprint {
+    /// Full turns to the left since an earlier place with the same heading.
+    fn turns_since(&self, before: &Self) -> f64 {
+        libm::round((self.turned_rad - before.turned_rad) / TAU)
+    }
+
+    fn repeats(&self, before: &Self) -> bool {
+        let way_m = self.way_m - before.way_m;
+        let least_m = if self.turns_since(before) < 0.0 {
+            ISLAND_MIN_M
+        } else {
+            LAP_MIN_M
+        };
+        let same_m = (SAME_M + 0.3 * (self.sigma_m - before.sigma_m)).clamp(SAME_M, SAME_MAX_M);
+        way_m > least_m
+            && self.pose.position().distance_m(before.pose.position()) < same_m
+            && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs() < SAME_RAD
+    }
+}

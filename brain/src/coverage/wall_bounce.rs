@@ -1,0 +1,161 @@
+//! `wall-bounce`: what cheap robots without a map do. A spiral while the floor is open, bouncing, and now and then a stretch
+//! along the walls, where bouncing alone sweeps last.
+
+use core::f64::consts::TAU;
+
+use super::Bounce;
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
+use crate::task::{Mind, Plan, Situation, Task};
+
+/// Way of bouncing before the next stretch along a wall, metres.
+const BOUNCE_M: (f64, f64) = (12.0, 30.0);
+/// Way along a wall, metres.
+const WALL_M: (f64, f64) = (5.0, 12.0);
+/// Turn away from the wall after it, radians.
+const AWAY_RAD: (f64, f64) = (0.5, 2.4);
+/// A run this long without an encounter is on open floor, metres.
+const OPEN_RUN_M: f64 = 1.8;
+/// Way between two spirals, metres.
+const SPIRAL_EVERY_M: f64 = 30.0;
+/// Radius of curvature at the start of a spiral and at its end, metres.
+const SPIRAL_M: (f64, f64) = (0.08, 1.0);
+/// Share of the swath by which the turns of a spiral lie apart.
+const SPACING: f64 = 0.9;
+/// Share of the highest turn rate that a spiral uses.
+const TURN_SHARE: f64 = 0.8;
+
+/// The strategy.
+#[derive(Clone, Debug)]
+pub(crate) struct WallBounce {
+    manner: Manner,
+    bounce: Bounce,
+    wall: WallFollower,
+    /// Way since the last spiral, metres.
+    since_spiral_m: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Manner {
+    /// In widening turns to the left.
+    Spiral { turned_rad: f64 },
+    /// Bouncing for some way.
+    Bounce { left_m: f64 },
+    /// Along what stands on the right for some way.
+    Wall { left_m: f64 },
+    /// Away from the wall.
+    Away(Turn),
+}
+
+impl Default for WallBounce {
+    fn default() -> Self {
+        Self {
+            manner: Manner::Spiral { turned_rad: 0.0 },
+            bounce: Bounce::default(),
+            wall: WallFollower::default(),
+            since_spiral_m: 0.0,
+        }
+    }
+}
+
+impl Task for WallBounce {
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let way_m = situation.advance.distance_m.max(0.0);
+        self.since_spiral_m += way_m;
+        match &mut self.manner {
+            Manner::Spiral { turned_rad } => {
+                *turned_rad += situation.advance.turn_rad.max(0.0);
+                let turned_rad = *turned_rad;
+                self.spiral(turned_rad, situation, mind)
+            }
+            Manner::Bounce { left_m } => {
+                *left_m -= way_m;
+                let left_m = *left_m;
+                self.bounce(left_m, situation, mind)
+            }
+            Manner::Wall { left_m } => {
+                if self.wall.is_following() {
+                    *left_m -= way_m;
+                }
+                let left_m = *left_m;
+                self.follow_wall(left_m, situation, mind)
+            }
+            Manner::Away(turn) => match turn.step(situation) {
+                Leg::Going(motion) if situation.is_free() => Plan::Go(motion),
+                _ => {
+                    self.begin_bounce(mind);
+                    self.bounce.step(situation, mind)
+                }
+            },
+        }
+    }
+
+    fn interrupted(&mut self) {
+        self.bounce.interrupted();
+        self.wall.interrupted();
+        if let Manner::Spiral { .. } | Manner::Away(_) = self.manner {
+            self.manner = Manner::Bounce { left_m: BOUNCE_M.0 };
+        }
+    }
+}
+
+impl WallBounce {
+    fn begin_bounce(&mut self, mind: &mut Mind) {
+        self.bounce.interrupted();
+        let left_m = mind.random.between(BOUNCE_M.0, BOUNCE_M.1);
+        self.manner = Manner::Bounce { left_m };
+    }
+
+    fn spiral(&mut self, turned_rad: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.since_spiral_m = 0.0;
+        let config = situation.config;
+        let radius_m = SPIRAL_M.0 + SPACING * config.body.swath_m * turned_rad / TAU;
+        if !situation.is_free() || radius_m > SPIRAL_M.1 {
+            self.begin_bounce(mind);
+            return self.bounce.step(situation, mind);
+        }
+        let speeds = config.speeds;
+        let speed_m_per_s = speeds
+            .cruise_m_per_s
+            .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
+        Plan::Go(Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: speed_m_per_s / radius_m,
+        })
+    }
+
+    fn bounce(&mut self, left_m: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if !self.bounce.is_evading() {
+            if left_m <= 0.0 && !situation.is_free() {
+                mind.decide("follow-wall", Reason::Alternation, 0.0);
+                self.wall = WallFollower::default();
+                let left_m = mind.random.between(WALL_M.0, WALL_M.1);
+                self.manner = Manner::Wall { left_m };
+                return self.follow_wall(left_m, situation, mind);
+            }
+            if self.bounce.run_m() > OPEN_RUN_M && self.since_spiral_m > SPIRAL_EVERY_M {
+                mind.decide("spiral", Reason::OpenFloor, self.bounce.run_m());
+                self.manner = Manner::Spiral { turned_rad: 0.0 };
+                return self.spiral(0.0, situation, mind);
+            }
+        }
+        self.bounce.step(situation, mind)
+    }
+
+    fn follow_wall(&mut self, left_m: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if left_m <= 0.0 && situation.is_free() && !self.wall.is_evading() {
+            let turn_rad = mind.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            mind.decide("leave-wall", Reason::Alternation, turn_rad);
+            self.manner = Manner::Away(Turn::by(turn_rad));
+            return Plan::Go(Motion::Halt);
+        }
+        match self.wall.step(situation, mind) {
+            WallStep::Going(motion) => Plan::Go(motion),
+            WallStep::Trouble(reason) => {
+                self.begin_bounce(mind);
+                Plan::Trouble(reason)
+            }
+        }
+    }
+}
