@@ -142,6 +142,12 @@ pub(crate) struct RunArguments {
     /// Give the host a perfect map of the home at the start.
     #[arg(long)]
     pub(crate) known_map: bool,
+    /// Give the host this map at the start, which an earlier run in the same home saved, from the same starting place.
+    #[arg(long, value_name = "FILE", conflicts_with = "known_map")]
+    pub(crate) map: Option<PathBuf>,
+    /// Save the map that the host has in the end, for --map.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save_map: Option<PathBuf>,
     /// Tell the host its true pose: shows a planner without the errors of localization.
     #[arg(long)]
     perfect_pose: bool,
@@ -175,6 +181,9 @@ impl RunArguments {
         );
         if self.known_map {
             title.push_str(", known map");
+        }
+        if self.map.is_some() {
+            title.push_str(", learnt map");
         }
         if self.perfect_pose {
             title.push_str(", perfect pose");

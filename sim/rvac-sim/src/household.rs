@@ -94,6 +94,12 @@ impl Household {
     #[must_use]
     pub fn with_known_map(self) -> Self {
         let map = known_map(self.robot.world().home(), self.map_from_plan);
+        self.with_map(map)
+    }
+
+    /// The same household whose host has this map of the home as soon as it knows its robot.
+    #[must_use]
+    pub fn with_map(self, map: StoredMap) -> Self {
         Self {
             known_home: Some(map),
             ..self

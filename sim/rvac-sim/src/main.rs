@@ -12,6 +12,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments};
+use brain::StoredMap;
 use clap::Parser;
 use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
@@ -21,7 +22,7 @@ use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{Firmware, Record, Report, Scene};
+use rvac_sim::{Firmware, Host, Household, Record, Report, Scene};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -59,6 +60,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     if arguments.known_map {
         household = household.with_known_map();
     }
+    if let Some(path) = &arguments.map {
+        household = household.with_map(read_map(path)?);
+    }
     let report = run_until(&mut household, (&settings, arguments.end()), |share| {
         progress.show(share);
     });
@@ -71,6 +75,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     if let Some(folder) = &arguments.keep {
         household.kept_run(arguments.title())?.keep(folder)?;
     }
+    if let Some(path) = &arguments.save_map {
+        save_map(path, &household)?;
+    }
     if arguments.json {
         print(&serde_json::to_string(&report)?)?;
     } else {
@@ -80,6 +87,17 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         writeln!(io::stderr(), "violation: {violation}")?;
     }
     Ok(verdict(u64::from(report.monitor_violations)))
+}
+
+fn read_map(path: &Path) -> anyhow::Result<StoredMap> {
+    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    StoredMap::decode(&bytes).with_context(|| format!("{} is no map that can be used", path.display()))
+}
+
+fn save_map(path: &Path, household: &Household) -> anyhow::Result<()> {
+    let brain = household.host().and_then(Host::brain);
+    let brain = brain.context("the host never knew its robot, so there is no map to save")?;
+    fs::write(path, brain.map().stored().encode()).with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn write_homes(folder: &Path) -> anyhow::Result<ExitCode> {
