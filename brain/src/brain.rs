@@ -7,7 +7,7 @@ use crate::command::Command;
 use crate::config::BrainConfig;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, Map, Mark, MarkKind, StoredMap};
+use crate::mapping::{Brushes, Map, Mark, MarkKind, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::random::Random;
 use crate::task::{Mind, Situation};
@@ -34,9 +34,11 @@ impl Brain {
     pub fn new(config: BrainConfig, seed: u64) -> Self {
         let rim_max_m_per_s =
             config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
+        let mut localization = Localization::new(config.body.track_m, rim_max_m_per_s);
+        localization.survey(&config);
         Self {
             config,
-            localization: Localization::new(config.body.track_m, rim_max_m_per_s),
+            localization,
             map: Map::new(config.body, config.sensors),
             behavior: Behavior::new(config),
             mind: Mind {
@@ -65,10 +67,13 @@ impl Brain {
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
         self.localization.refine(observation, advance);
-        self.map
-            .insert(&self.localization.estimate(), observation, advance);
-        let pose = self.localization.pose();
-        self.note_encounters(observation, pose);
+        if let Some(keyframes) = self.localization.take_redraw(observation.time_us) {
+            self.map.redraw(&keyframes);
+        }
+        let estimate = self.localization.estimate();
+        let pose = estimate.pose;
+        self.map.insert(&estimate, observation, advance);
+        self.note_encounters(observation, &estimate);
         let situation = Situation::new(
             observation,
             advance,
@@ -194,26 +199,39 @@ impl Brain {
     }
 
     /// Marks and counts contacts and cliffs as they begin.
-    fn note_encounters(&mut self, observation: &Observation, pose: Pose2) {
+    fn note_encounters(&mut self, observation: &Observation, estimate: &PoseEstimate) {
         let (contacts, cliffs) = (observation.contacts, observation.cliffs);
+        let time_us = observation.time_us;
         if contacts.any() && !self.contacts_before.any() {
             self.behavior.count_bump();
-            self.mark(MarkKind::Contact, pose, (contacts.left, contacts.right));
+            let sides = (contacts.left, contacts.right);
+            self.mark(MarkKind::Contact, (time_us, estimate), sides);
         }
         if cliffs.any() && !self.cliffs_before.any() {
-            self.mark(MarkKind::Cliff, pose, (cliffs.left, cliffs.right));
+            let sides = (cliffs.left, cliffs.right);
+            self.mark(MarkKind::Cliff, (time_us, estimate), sides);
         }
         (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
     }
 
-    fn mark(&mut self, kind: MarkKind, pose: Pose2, (left, right): (bool, bool)) {
+    fn mark(
+        &mut self,
+        kind: MarkKind,
+        (time_us, estimate): (u64, &PoseEstimate),
+        (left, right): (bool, bool),
+    ) {
         let bearing_rad = SIDE_RAD * (f64::from(u8::from(left)) - f64::from(u8::from(right)));
         let (sin, cos) = libm::sincos(bearing_rad);
         let radius_m = self.config.body.radius_m;
-        let at = pose.transform(Point2 {
+        let in_base = Point2 {
             x_m: radius_m * cos,
             y_m: radius_m * sin,
-        });
-        self.map.mark(Mark { at, kind });
+        };
+        let seen = SeenAt {
+            time_us,
+            odom: estimate.odom.transform(in_base),
+        };
+        let at = estimate.pose.transform(in_base);
+        self.map.mark(Mark { at, kind }, seen);
     }
 }

@@ -116,7 +116,7 @@ fn the_lap_stays_near_the_walls_and_closes_where_it_began() {
     // The first seconds announce the start and look for a wall.
     let near = gaps_m.iter().skip(500).filter(|gap_m| **gap_m < 0.08).count();
     let share = near as f64 / (gaps_m.len() - 500) as f64;
-    assert!(share > 0.9, "{share} of the time near a wall");
+    assert!(share > 0.8, "{share} of the time near a wall");
     assert_eq!(run.world.violations, Vec::<String>::new());
 }
 

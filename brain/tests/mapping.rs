@@ -69,6 +69,7 @@ impl Fed {
         self.time_us += 20_000;
         let estimate = PoseEstimate {
             pose,
+            odom: pose,
             sigma_m: 0.01,
             ..PoseEstimate::default()
         };
@@ -224,6 +225,8 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
         .chain([keyframe(299)])
         .collect();
     drifted.map.redraw(&keyframes);
+    drifted.map.finish_redraw();
+    assert_eq!(drifted.map.redrawn(), 1);
     let mut right = Fed::new(sensors());
     drive_along_wall(&mut right, |pose| pose);
     right.map.refresh();

@@ -80,6 +80,11 @@ impl Calibration {
         libm::sqrt(self.covariance[0].max(0.0))
     }
 
+    /// Deviation of the bias, rad/s.
+    pub(super) fn bias_sigma_rad_per_s(&self) -> f64 {
+        libm::sqrt(self.covariance[2].max(0.0))
+    }
+
     /// The true turn for one that was counted in `time_s`.
     pub(super) fn corrected_rad(&self, counted_rad: f64, time_s: f64) -> f64 {
         counted_rad * (1.0 + self.scale) - self.bias_rad_per_s * time_s

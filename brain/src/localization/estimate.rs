@@ -15,6 +15,9 @@ pub struct PoseEstimate {
     /// The robot does not know where it is: `pose` is where odometry has carried the last one that was believed, and nothing
     /// may be built on it.
     pub lost: bool,
+    /// Pose by odometry alone, in a frame that never jumps: what was seen is kept with it, so that it can be drawn again with
+    /// another pose in the map.
+    pub odom: Pose2,
 }
 
 /// Standard deviations of a pose that nothing but odometry carries on.

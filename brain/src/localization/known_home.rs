@@ -210,6 +210,50 @@ fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
 }
 
 #[test]
+fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_better_ones() {
+    let home = flat();
+    let mut truth = Truth::new(&home, START);
+    let mut localization = Localization::new(TRACK_M, 0.5);
+    localization.place_at(START);
+    localization.survey(&config());
+    let mut odometry = Localization::new(TRACK_M, 0.5);
+    odometry.place_at(START);
+    let mut drawn = Map::new(config().body, config().sensors);
+    let (mut squares, mut counted_squares) = (0.0, 0.0);
+    let steps = 60 * 50 * 20;
+    for _ in 0..steps {
+        let view = truth.step().clone();
+        let advance = localization.update(&view);
+        localization.refine(&view, advance);
+        if let Some(keyframes) = localization.take_redraw(view.time_us) {
+            drawn.redraw(&keyframes);
+        }
+        drawn.insert(&localization.estimate(), &view, advance);
+        odometry.update(&view);
+        squares += truth.off_m(&localization) * truth.off_m(&localization);
+        counted_squares += truth.off_m(&odometry) * truth.off_m(&odometry);
+    }
+    let rmse_m = (squares / f64::from(steps)).sqrt();
+    let counted_rmse_m = (counted_squares / f64::from(steps)).sqrt();
+    assert!(rmse_m < 0.1, "{rmse_m} m");
+    assert!(counted_rmse_m > 3.0 * rmse_m, "{counted_rmse_m} m by odometry");
+    assert!(drawn.redrawn() > 2, "{} times", drawn.redrawn());
+    let mut off_m = Vec::new();
+    for (index, kind) in drawn.knowledge().values().iter().enumerate() {
+        if *kind == CellKnowledge::Occupied {
+            let cell = drawn.knowledge().cell(index);
+            off_m.push(home.distance_field().cell_m(cell).abs());
+        }
+    }
+    let mean_m = off_m.iter().sum::<f64>() / off_m.len() as f64;
+    assert!(
+        off_m.len() > 300 && mean_m < 0.06,
+        "{} cells, {mean_m} m",
+        off_m.len()
+    );
+}
+
+#[test]
 fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
     let map = flat();
     let mut truth = Truth::new(&map, START);

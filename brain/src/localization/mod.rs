@@ -14,6 +14,7 @@ mod odometry;
 mod particles;
 mod retreat;
 mod search;
+mod survey;
 mod terrain;
 mod tracker;
 mod trail;
@@ -23,13 +24,14 @@ use estimate::{Drift, WHEEL_TURN_SCALE};
 pub use odometry::Advance;
 use odometry::Odometry;
 use retreat::Retreat;
+use survey::{Survey, TurnSigmas};
 use terrain::Terrain;
 use tracker::{Moved, Tracker};
 
 use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;
 use crate::geometry::{Pose2, normalize_rad};
-use crate::mapping::Map;
+use crate::mapping::{Keyframe, Map};
 use crate::observation::Observation;
 
 /// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
@@ -65,6 +67,7 @@ pub struct Localization {
     retreat: Retreat,
     drift: Drift,
     tracked: Option<Box<Tracked>>,
+    survey: Option<Box<Survey>>,
     was_docked: bool,
 }
 
@@ -78,6 +81,7 @@ impl Localization {
             retreat: Retreat::default(),
             drift: Drift::default(),
             tracked: None,
+            survey: None,
             was_docked: false,
         }
     }
@@ -96,6 +100,7 @@ impl Localization {
     /// odometry alone has drawn.
     pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
         self.tracked = None;
+        self.survey = None;
         if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
             return;
         }
@@ -109,6 +114,20 @@ impl Localization {
             tracker,
             terrain: Terrain::of(map),
         }));
+    }
+
+    /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
+    /// robot stands. Nothing happens for a robot without proximity sensors.
+    pub fn survey(&mut self, config: &BrainConfig) {
+        let layout = config.sensors.proximity;
+        self.tracked = None;
+        self.survey = (!layout.sensors().is_empty())
+            .then(|| Box::new(Survey::new(layout, self.pose(), self.odometry.odom_from_base())));
+    }
+
+    /// Poses of the past that turned out to have been others, when the map should be drawn again for them.
+    pub fn take_redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
+        self.survey.as_mut()?.redraw(time_us)
     }
 
     /// What must survive a restart of a robot that is tracked.
@@ -158,7 +177,7 @@ impl Localization {
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         let Some(tracked) = &mut self.tracked else {
-            return;
+            return self.follow_walls(observation, advance);
         };
         let Tracked { tracker, terrain } = &mut **tracked;
         if docks && let Some(dock) = terrain.dock() {
@@ -168,6 +187,34 @@ impl Localization {
         } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
             self.adopt(estimate);
         }
+    }
+
+    fn follow_walls(&mut self, observation: &Observation, advance: Advance) {
+        let odom = self.odometry.odom_from_base();
+        let turns = match advance.gyro_turn_rad {
+            Some(_) => TurnSigmas {
+                scale: self.odometry.calibration.scale_sigma(),
+                bias_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
+            },
+            None => TurnSigmas {
+                scale: WHEEL_TURN_SCALE,
+                bias_rad_per_s: 0.0,
+            },
+        };
+        let Some(fix) = self
+            .survey
+            .as_mut()
+            .and_then(|survey| survey.follow(odom, (advance, turns), observation))
+        else {
+            return;
+        };
+        let variance_rad2 = fix.sigma_rad * fix.sigma_rad;
+        self.odometry.calibration.correct(fix.turned_rad, variance_rad2);
+        self.correct(fix.map_from_odom);
+        self.drift = Drift {
+            sigma_m: fix.sigma_m,
+            sigma_rad: fix.sigma_rad,
+        };
     }
 
     /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
@@ -181,6 +228,7 @@ impl Localization {
                 .tracked
                 .as_ref()
                 .is_some_and(|tracked| tracked.tracker.is_lost()),
+            odom: self.odometry.odom_from_base(),
         }
     }
 
@@ -240,6 +288,9 @@ impl Localization {
     pub fn place_at(&mut self, pose: Pose2) {
         let before = self.pose();
         self.put_at(pose);
+        if let Some(survey) = &mut self.survey {
+            survey.begin_at(pose, self.odometry.odom_from_base());
+        }
         let is_there = before.position().distance_m(pose.position()) < PLACED_M
             && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
         if let Some(tracked) = &mut self.tracked

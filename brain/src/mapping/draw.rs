@@ -26,8 +26,13 @@ const LEVEL_MIN: f64 = 0.045;
 const MARGIN_M: f64 = 1.5 * CELL_M;
 /// Evidence of a contact whose place on the bumper is known from infrared.
 const CONTACT_SURE: u8 = 4;
-/// Evidence of a contact that may be anywhere on half of the bumper.
-const CONTACT_VAGUE: u8 = 2;
+/// Evidence of a contact that may be anywhere on a short piece of the bumper, up to [`SHORT_ARC_M`].
+const CONTACT_NARROW: u8 = 2;
+/// Evidence of a contact that may be anywhere on half of the bumper: most of these cells are free, so that only those are
+/// believed in which two such contacts meet.
+const CONTACT_VAGUE: u8 = 1;
+/// Pieces of the bumper up to this length say where the thing is, metres.
+const SHORT_ARC_M: f64 = 0.08;
 /// Most contact and cliff evidence.
 const COUNT_MAX: u8 = 8;
 /// A contact is looked for within this angle of the sensor that sees it, radians: half of the angle between two sensors.
@@ -122,6 +127,10 @@ impl Pencil {
     }
 
     fn draw_contacts(&self, sighting: &Sighting, layers: &mut Layers) {
+        // While the bumper stays pressed it tells nothing new, and the robot backs away from what it met.
+        if !sighting.touched.begins() {
+            return;
+        }
         let Some((from_rad, to_rad)) = self.touched_arc(sighting) else {
             return;
         };
@@ -132,6 +141,9 @@ impl Pencil {
                 (at_rad + CONTACT_SPREAD_RAD).min(to_rad),
                 CONTACT_SURE,
             ),
+            None if (to_rad - from_rad) * self.body.radius_m <= SHORT_ARC_M => {
+                (from_rad, to_rad, CONTACT_NARROW)
+            }
             None => (from_rad, to_rad, CONTACT_VAGUE),
         };
         let radius_m = self.body.radius_m + 0.5 * CELL_M;

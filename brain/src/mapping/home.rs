@@ -9,7 +9,7 @@ use super::sighting::Sighting;
 use super::walls::{WallSegment, walls};
 use super::{Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
-use crate::geometry::{Pose2, normalize_rad};
+use crate::geometry::Pose2;
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
 
@@ -22,26 +22,15 @@ const SIGHTINGS_MAX: usize = 100_000;
 /// Turn rates of wheels and gyro are compared over ways of this length, metres.
 const SLIP_WAY_M: f64 = 0.1;
 
-/// A pose of the past that turned out to have been another one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Keyframe {
-    /// Time of the observation at which the robot was there, in microseconds.
-    pub time_us: u64,
-    /// Where it was believed to be then.
-    pub was: Pose2,
-    /// Where it was, as far as is known now.
-    pub is: Pose2,
-}
-
 /// What is known of the home.
 #[derive(Clone, Debug)]
 pub(super) struct HomeMap {
-    pencil: Pencil,
+    pub(super) pencil: Pencil,
     layers: Layers,
     derived: Derived,
     /// What was known before the first of the sightings.
-    base: Layers,
-    sightings: Vec<Sighting>,
+    pub(super) base: Layers,
+    pub(super) sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
     rooms: Rooms,
@@ -49,6 +38,7 @@ pub(super) struct HomeMap {
     slip: SlipMeter,
     dock: Option<Pose2>,
     revision: u32,
+    redrawn: u32,
 }
 
 impl HomeMap {
@@ -66,6 +56,7 @@ impl HomeMap {
             slip: SlipMeter::default(),
             dock: None,
             revision: 0,
+            redrawn: 0,
         }
     }
 
@@ -78,15 +69,17 @@ impl HomeMap {
         if observation.docked && self.dock.is_none() {
             self.dock = Some(estimate.pose);
         }
-        let sighting = Sighting {
+        let mut sighting = Sighting {
             slip,
-            ..Sighting::new(estimate.pose, estimate.sigma_m, observation)
+            ..Sighting::new(estimate, observation)
         };
+        let before = self.last.map(|last| last.touched).unwrap_or_default();
+        sighting.touched = sighting.touched.after(before);
         if self.last.is_some_and(|last| sighting.repeats(&last)) {
             return;
         }
         self.last = Some(sighting);
-        self.keep(sighting);
+        self.sightings.push(sighting);
         self.pencil.draw(&sighting, &mut self.layers);
         if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
             self.refreshed_us = observation.time_us;
@@ -103,13 +96,24 @@ impl HomeMap {
         self.rooms = self.rooms.renewed(&self.derived.knowledge);
     }
 
-    fn keep(&mut self, sighting: Sighting) {
-        if self.sightings.len() >= SIGHTINGS_MAX {
-            // What is so old stays where it is.
-            self.base = self.layers.clone();
-            self.sightings.clear();
+    /// Whether there is no room for another sighting.
+    pub(super) fn is_full(&self) -> bool {
+        self.sightings.len() >= SIGHTINGS_MAX
+    }
+
+    /// What was seen up to now stays where it is.
+    pub(super) fn settle(&mut self) {
+        self.base = self.layers.clone();
+        self.sightings.clear();
+    }
+
+    /// Notes that the cleaning parts run where the robot was seen last.
+    pub(super) fn note_sweeping(&mut self) {
+        if self.last.is_some()
+            && let Some(newest) = self.sightings.last_mut()
+        {
+            newest.touched.note_sweeping();
         }
-        self.sightings.push(sighting);
     }
 
     fn refresh(&mut self) {
@@ -119,17 +123,11 @@ impl HomeMap {
         }
     }
 
-    fn redraw(&mut self, keyframes: &[Keyframe]) {
-        if keyframes.is_empty() {
-            return;
-        }
-        self.layers = self.base.clone();
-        for sighting in &mut self.sightings {
-            sighting.pose = corrected(keyframes, sighting.time_us, sighting.pose);
-            self.pencil.draw(sighting, &mut self.layers);
-        }
-        self.last = None;
+    /// Takes up layers that were drawn again; what was seen meanwhile is in them.
+    pub(super) fn take_redrawn(&mut self, layers: Layers) {
+        self.layers = layers;
         self.derive_anew();
+        self.redrawn = self.redrawn.wrapping_add(1);
     }
 
     fn restore(&mut self, stored: &StoredMap) {
@@ -155,31 +153,6 @@ fn is_of_use(estimate: &PoseEstimate, observation: &Observation) -> bool {
     let pose = estimate.pose;
     let is_finite = (pose.x_m + pose.y_m + pose.heading_rad).is_finite();
     is_finite && !estimate.lost && observation.link_up && !observation.wheel_drop
-}
-
-/// Where a robot was at `time_us` that believed to be at `pose`, by the keyframes before and after.
-fn corrected(keyframes: &[Keyframe], time_us: u64, pose: Pose2) -> Pose2 {
-    let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
-    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * pose);
-    let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
-    match (before, keyframes.get(after)) {
-        (Some(before), Some(after)) => {
-            let span_us = after.time_us.saturating_sub(before.time_us).max(1) as f64;
-            let share = time_us.saturating_sub(before.time_us) as f64 / span_us;
-            between(by(before), by(after), share)
-        }
-        (Some(only), None) | (None, Some(only)) => by(only),
-        (None, None) => pose,
-    }
-}
-
-fn between(one: Pose2, other: Pose2, share: f64) -> Pose2 {
-    let turn_rad = normalize_rad(other.heading_rad - one.heading_rad);
-    Pose2 {
-        x_m: one.x_m + share * (other.x_m - one.x_m),
-        y_m: one.y_m + share * (other.y_m - one.y_m),
-        heading_rad: normalize_rad(one.heading_rad + share * turn_rad),
-    }
 }
 
 /// Compares what wheels and gyro say of turning.
@@ -213,7 +186,12 @@ impl Map {
     /// Takes in what was perceived at a pose. Nothing is taken from a robot that is lost, lifted or silent, and nothing
     /// twice while it stands still.
     pub fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation, advance: Advance) {
+        if self.home.is_full() {
+            self.finish_redraw();
+            self.settle();
+        }
         self.home.insert(estimate, observation, advance);
+        self.redraw_on();
     }
 
     /// What is known of each cell. Up to two seconds old; [`Self::refresh`] brings it up to date.
@@ -237,6 +215,12 @@ impl Map {
     #[must_use]
     pub fn revision(&self) -> u32 {
         self.home.revision
+    }
+
+    /// Grows whenever the map was drawn again with other poses of the past: whoever has a plan in it needs another one.
+    #[must_use]
+    pub fn redrawn(&self) -> u32 {
+        self.home.redrawn
     }
 
     /// Rooms and doors, up to two minutes old; [`Self::survey`] brings them up to date.
@@ -294,12 +278,6 @@ impl Map {
             .then(|| 0.01 * f64::from(evidence.sigma_cm))
     }
 
-    /// Draws the home again with other poses of the past, in the order of their times; poses between two keyframes are
-    /// moved by both. The swept layer of the job and the way stay as they are.
-    pub fn redraw(&mut self, keyframes: &[Keyframe]) {
-        self.home.redraw(keyframes);
-    }
-
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
@@ -308,6 +286,8 @@ impl Map {
 
     /// Takes up a stored home in place of what is known.
     pub fn take_up(&mut self, stored: &StoredMap) {
+        self.redrawing = None;
+        self.settle();
         self.home.restore(stored);
     }
 

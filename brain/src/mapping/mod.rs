@@ -7,7 +7,7 @@
 //! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first painted.
 //! *Mark*: a place where a contact or a cliff was met. *Cursor*: how much of the map somebody has already seen; the map
 //! of a job only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a
-//! new one.
+//! new one, and so does a map that was drawn again with better poses.
 
 mod derived;
 mod distance;
@@ -16,6 +16,7 @@ mod home;
 mod layers;
 mod raster;
 mod reach;
+mod redraw;
 mod rooms;
 mod sighting;
 mod stored;
@@ -24,11 +25,12 @@ mod traces;
 mod walls;
 
 pub use distance::{DistanceField, FAR_M};
-pub use home::{Entry, Keyframe};
+pub use home::Entry;
 pub use layers::CellKnowledge;
 pub use raster::Raster;
 pub(crate) use reach::neighbours;
 pub use reach::reachable;
+pub use redraw::Keyframe;
 pub use rooms::{Door, Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};
 pub use swept::{CELL_M, Cell, SweptRun};
@@ -38,7 +40,9 @@ pub use walls::WallSegment;
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use home::HomeMap;
+use redraw::Redrawing;
 use swept::{Swath, SweptLayer};
+pub(crate) use traces::SeenAt;
 use traces::{Marks, Path};
 
 /// The map of the home and of one job in it.
@@ -50,6 +54,18 @@ pub struct Map {
     path: Path,
     marks: Marks,
     home: HomeMap,
+    job_base: JobBase,
+    /// The map with better poses, while it is being drawn.
+    redrawing: Option<Box<Redrawing>>,
+}
+
+/// What of a job does not come from the sightings that are kept.
+#[derive(Clone, Debug, Default)]
+struct JobBase {
+    swept: SweptLayer,
+    path: Path,
+    /// Its first sighting.
+    sightings: usize,
 }
 
 /// How much of a map somebody has seen.
@@ -85,6 +101,8 @@ impl Map {
             path: Path::default(),
             marks: Marks::default(),
             home: HomeMap::new(body, sensors),
+            job_base: JobBase::default(),
+            redrawing: None,
         }
     }
 
@@ -146,20 +164,23 @@ impl Map {
         self.path = Path::default();
         self.marks = Marks::default();
         self.swath.lift();
+        self.job_base = JobBase {
+            sightings: self.home.sightings.len(),
+            ..JobBase::default()
+        };
+        self.redrawing = None;
     }
 
     /// Follows the robot; with `Brushes::Sweeping` the floor under the swath becomes swept.
     pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes) {
         self.path.follow(pose.position());
         match brushes {
-            Brushes::Sweeping => self.swath.sweep_to(pose, &mut self.swept),
+            Brushes::Sweeping => {
+                self.home.note_sweeping();
+                self.swath.sweep_to(pose, &mut self.swept);
+            }
             Brushes::Still => self.swath.lift(),
         }
-    }
-
-    /// Notes a place where something was met.
-    pub(crate) fn mark(&mut self, mark: Mark) {
-        self.marks.add(mark);
     }
 
     /// Takes up an earlier map as a new generation.
@@ -170,8 +191,10 @@ impl Map {
         }
         self.path.extend(path);
         for mark in marks {
-            self.marks.add(*mark);
+            self.marks.add(*mark, None);
         }
+        self.job_base.swept = self.swept.clone();
+        self.job_base.path = self.path.clone();
     }
 }
 

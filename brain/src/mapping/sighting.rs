@@ -5,6 +5,7 @@
 
 use crate::config::PROXIMITY_MAX;
 use crate::geometry::Pose2;
+use crate::localization::PoseEstimate;
 use crate::observation::Observation;
 
 /// An observation as far as the map needs it.
@@ -12,6 +13,8 @@ use crate::observation::Observation;
 pub(super) struct Sighting {
     pub(super) time_us: u64,
     pub(super) pose: Pose2,
+    /// Pose by odometry.
+    pub(super) odom: Pose2,
     /// Standard deviation of the pose in centimetres.
     pub(super) sigma_cm: u8,
     /// Levels of the proximity sensors, 255 = touching.
@@ -49,6 +52,35 @@ impl Touched {
         self.bits & (1 << place) != 0
     }
 
+    /// The cleaning parts ran.
+    pub(super) fn sweeps(self) -> bool {
+        self.bit(6)
+    }
+
+    /// Notes that the cleaning parts run.
+    pub(super) fn note_sweeping(&mut self) {
+        self.bits |= 1 << 6;
+    }
+
+    /// Without what came of the sighting before.
+    fn switches(self) -> u8 {
+        self.bits & 0b1_1111
+    }
+
+    /// The contact was not there at the sighting before.
+    pub(super) fn begins(self) -> bool {
+        self.bit(5)
+    }
+
+    /// The same after a sighting with those switches.
+    pub(super) fn after(self, before: Self) -> Self {
+        const CONTACTS: u8 = 0b11;
+        let begins = self.bits & CONTACTS & !before.bits != 0;
+        Self {
+            bits: self.bits | u8::from(begins) << 5,
+        }
+    }
+
     /// Left and right half of the bumper.
     pub(super) fn contacts(self) -> (bool, bool) {
         (self.bit(0), self.bit(1))
@@ -61,15 +93,16 @@ impl Touched {
 }
 
 impl Sighting {
-    pub(super) fn new(pose: Pose2, sigma_m: f64, observation: &Observation) -> Self {
+    pub(super) fn new(estimate: &PoseEstimate, observation: &Observation) -> Self {
         let mut levels = [0; PROXIMITY_MAX];
         for (kept, level) in levels.iter_mut().zip(&observation.proximity) {
             *kept = (255.0 * level) as u8;
         }
         Self {
             time_us: observation.time_us,
-            pose,
-            sigma_cm: (100.0 * sigma_m) as u8,
+            pose: estimate.pose,
+            odom: estimate.odom,
+            sigma_cm: (100.0 * estimate.sigma_m) as u8,
             levels,
             touched: Touched::of(observation),
             slip: u8::MAX,
@@ -84,6 +117,6 @@ impl Sighting {
         const TURN_RAD: f64 = 0.03;
         let way_m = self.pose.position().distance_m(before.pose.position());
         let turn_rad = crate::geometry::normalize_rad(self.pose.heading_rad - before.pose.heading_rad);
-        self.touched == before.touched && way_m < STEP_M && turn_rad.abs() < TURN_RAD
+        self.touched.switches() == before.touched.switches() && way_m < STEP_M && turn_rad.abs() < TURN_RAD
     }
 }

@@ -72,10 +72,19 @@ fn millimetres(length_m: f64) -> i32 {
     libm::round(length_m * 1000.0) as i32
 }
 
+/// When something was met, and where by odometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SeenAt {
+    pub(crate) time_us: u64,
+    pub(crate) odom: Point2,
+}
+
 /// Places where something was met.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Marks {
     marks: Vec<Mark>,
+    /// For each mark how it was met; `None` = it stays where it is.
+    seen: Vec<Option<SeenAt>>,
 }
 
 impl Marks {
@@ -83,10 +92,25 @@ impl Marks {
         &self.marks
     }
 
-    pub(super) fn add(&mut self, mark: Mark) {
+    pub(super) fn add(&mut self, mark: Mark, seen: Option<SeenAt>) {
         if self.marks.len() < MARKS_MAX {
             self.marks.push(mark);
+            self.seen.push(seen);
         }
+    }
+
+    /// Puts the marks where the robot met them as far as is known now.
+    pub(super) fn moved(&mut self, place: impl Fn(u64, Point2) -> Point2) {
+        for (mark, seen) in self.marks.iter_mut().zip(&self.seen) {
+            if let Some(seen) = seen {
+                mark.at = place(seen.time_us, seen.odom);
+            }
+        }
+    }
+
+    /// The marks up to now stay where they are.
+    pub(super) fn settle(&mut self) {
+        self.seen.fill(None);
     }
 }
 

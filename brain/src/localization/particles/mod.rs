@@ -373,7 +373,7 @@ fn mean(particles: &[Particle]) -> PoseEstimate {
         pose,
         sigma_m: libm::sqrt(greatest),
         sigma_rad: libm::sqrt(rad2),
-        lost: false,
+        ..PoseEstimate::default()
     }
 }
 

@@ -1,0 +1,236 @@
+//! Where the robot is in a home that it does not know yet: the walls that it passes tell.
+//!
+//! The infrared sensors see pieces of wall ([`stroke`]) on short ways along them ([`visit`]). A piece of wall that lies where
+//! one was seen before corrects the pose at once ([`kalman`]), and now and then all poses and walls are fitted anew
+//! ([`graph`]), with right angles where the home has them ([`square`]). The map is then drawn again with the better poses.
+
+mod graph;
+mod kalman;
+mod linear;
+mod square;
+mod stroke;
+mod visit;
+mod walls;
+
+use graph::{Graph, Node};
+use kalman::{Belief, StepVariance};
+use visit::{Visit, VisitLog};
+
+use super::Advance;
+use crate::config::ProximityLayout;
+use crate::geometry::Pose2;
+use crate::mapping::Keyframe;
+use crate::observation::Observation;
+
+/// Slip along the way, square metres per metre, and what each step adds.
+const SLIP_M2_PER_M: f64 = 2.0e-4;
+const STEP_M2: f64 = 4.0e-6;
+/// Noise of a gyro's heading, square radians per second: 0.02 degrees per square root of a second.
+const GYRO_RAD2_PER_S: f64 = 1.2e-7;
+/// Slip in heading where there is no gyro, square radians per metre.
+const SLIP_RAD2_PER_M: f64 = 7.6e-5;
+/// Most nodes; what comes later is placed by the walls that are known by then.
+const NODES_MAX: usize = 2_000;
+/// All is fitted anew when so many marks have come: a share of those there are, or this number.
+const FIT_SHARE: f64 = 0.03;
+const FIT_MARKS: usize = 2;
+/// The map is drawn again when a pose has moved by this much since, metres.
+const REDRAW_M: f64 = 0.025;
+/// At least this long after the last time, microseconds,
+const REDRAW_US: u64 = 60_000_000;
+/// and this share of the time since the survey began: drawing takes the longer the more there is.
+const REDRAW_SHARE: u64 = 5;
+
+/// What the survey found out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fix {
+    pub(super) map_from_odom: Pose2,
+    /// By how much the walls have turned the pose, radians.
+    pub(super) turned_rad: f64,
+    pub(super) sigma_m: f64,
+    pub(super) sigma_rad: f64,
+}
+
+/// The survey of a home.
+#[derive(Clone, Debug)]
+pub(super) struct Survey {
+    layout: ProximityLayout,
+    log: VisitLog,
+    graph: Graph,
+    belief: Belief,
+    /// Where the belief is, by odometry.
+    odom: Pose2,
+    /// The node of the newest visit; beyond the nodes when there are too many.
+    here: usize,
+    pending: Pending,
+    marks_fitted: usize,
+    drawn_us: u64,
+    /// Poses of the nodes with which the map was drawn.
+    drawn: Vec<Pose2>,
+}
+
+/// Deviations of what counts turns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TurnSigmas {
+    /// Of its scale, relative.
+    pub(super) scale: f64,
+    /// Of its bias, radians per second.
+    pub(super) bias_rad_per_s: f64,
+}
+
+/// What the robot moved since the last node.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pending {
+    way_m: f64,
+    turn_rad: f64,
+    noise_rad2: f64,
+    time_s: f64,
+}
+
+impl Pending {
+    fn add(&mut self, advance: Advance) {
+        self.way_m += advance.distance_m.abs();
+        self.turn_rad += advance.turn_rad;
+        self.time_s += advance.time_s;
+        self.noise_rad2 += match advance.gyro_turn_rad {
+            Some(_) => GYRO_RAD2_PER_S * advance.time_s,
+            None => SLIP_RAD2_PER_M * advance.distance_m.abs(),
+        };
+    }
+
+    fn variance(self, step: Pose2, turns: TurnSigmas) -> StepVariance {
+        let bias_rad = turns.bias_rad_per_s * self.time_s;
+        let scale_rad = turns.scale * self.turn_rad;
+        let turn_rad2 = self.noise_rad2 + bias_rad * bias_rad + scale_rad * scale_rad + 1e-7;
+        let slip_m2 = SLIP_M2_PER_M * self.way_m + STEP_M2;
+        let length_m2 = step.x_m * step.x_m + step.y_m * step.y_m;
+        StepVariance {
+            along_m2: slip_m2,
+            across_m2: slip_m2 + turn_rad2 * length_m2 / 3.0,
+            turn_rad2,
+        }
+    }
+}
+
+impl Survey {
+    /// Of a robot that stands at `pose`, and at `odom` by odometry.
+    pub(super) fn new(layout: ProximityLayout, pose: Pose2, odom: Pose2) -> Self {
+        Self {
+            layout,
+            log: VisitLog::default(),
+            graph: Graph::default(),
+            belief: Belief {
+                pose,
+                covariance: [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1e-4]],
+            },
+            odom,
+            here: 0,
+            pending: Pending::default(),
+            marks_fitted: 0,
+            drawn_us: 0,
+            drawn: Vec::new(),
+        }
+    }
+
+    /// Somebody knows where the robot is: what came before is not to be moved any more.
+    pub(super) fn begin_at(&mut self, pose: Pose2, odom: Pose2) {
+        *self = Self::new(self.layout, pose, odom);
+    }
+
+    /// Takes in where the robot is by odometry and what it sees. Gives what that says of the pose, now and then.
+    pub(super) fn follow(
+        &mut self,
+        odom: Pose2,
+        (advance, turns): (Advance, TurnSigmas),
+        observation: &Observation,
+    ) -> Option<Fix> {
+        self.pending.add(advance);
+        let visit = self.log.follow((odom, advance), observation, &self.layout)?;
+        if visit.strokes.is_empty() {
+            return None;
+        }
+        self.step_to(&visit, turns);
+        let before_rad = self.belief.pose.heading_rad;
+        self.place_strokes(&visit.strokes);
+        if let Some(node) = self.graph.nodes.get_mut(self.here) {
+            node.pose = self.belief.pose;
+            self.drawn.push(node.pose);
+        }
+        self.fit();
+        let (sigma_m, sigma_rad) = self.belief.sigmas();
+        Some(Fix {
+            map_from_odom: self.belief.pose * self.odom.inverse(),
+            turned_rad: crate::geometry::normalize_rad(self.belief.pose.heading_rad - before_rad),
+            sigma_m,
+            sigma_rad,
+        })
+    }
+
+    /// The belief moves to the visit's end, where there is a new node while there may be more.
+    fn step_to(&mut self, visit: &Visit, turns: TurnSigmas) {
+        let step = self.odom.inverse() * visit.odom;
+        let variance = core::mem::take(&mut self.pending).variance(step, turns);
+        self.belief.step(step, variance);
+        self.odom = visit.odom;
+        self.here = self.graph.nodes.len();
+        if self.here < NODES_MAX {
+            self.graph.nodes.push(Node {
+                time_us: visit.time_us,
+                odom: visit.odom,
+                pose: self.belief.pose,
+                step,
+                variance,
+            });
+        }
+    }
+
+    /// Fits all poses and walls anew when enough is new.
+    fn fit(&mut self) {
+        let marks = self.graph.marks.len();
+        let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
+        if marks < self.marks_fitted + due {
+            return;
+        }
+        let before = self.graph.clone();
+        self.tidy();
+        square::square(&mut self.graph);
+        if self.graph.optimize() {
+            self.tidy();
+            if let Some(here) = self.graph.nodes.get(self.here) {
+                self.belief.pose = here.pose;
+            }
+        } else {
+            self.graph = before;
+        }
+        self.marks_fitted = self.graph.marks.len();
+    }
+
+    /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
+    pub(super) fn redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
+        let began_us = self.graph.nodes.first()?.time_us;
+        let pause_us = REDRAW_US.max(self.drawn_us.saturating_sub(began_us) / REDRAW_SHARE);
+        if time_us < self.drawn_us.max(began_us).saturating_add(pause_us) {
+            return None;
+        }
+        let nodes = &self.graph.nodes;
+        let moved = nodes
+            .iter()
+            .zip(&self.drawn)
+            .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
+        if !moved {
+            return None;
+        }
+        self.drawn_us = time_us;
+        self.drawn = nodes.iter().map(|node| node.pose).collect();
+        Some(
+            nodes
+                .iter()
+                .map(|node| Keyframe {
+                    time_us: node.time_us,
+                    was: node.odom,
+                    is: node.pose,
+                })
+                .collect(),
+        )
+    }
+}

@@ -1,0 +1,326 @@
+//! Straight pieces of wall from what the infrared sensors saw along a short way.
+//!
+//! *Visit*: a short way on which something was seen; odometry is as good as true on it. *Glimpse*: what one sensor saw at one
+//! moment of it. *Stroke*: a straight line that many glimpses of a visit agree on. The beams are cones: what they meet first
+//! is nearer than the wall in their middle, which the fit takes into account for the line at hand.
+
+use crate::config::ProximityResponse;
+use crate::geometry::{Point2, Pose2, normalize_rad};
+
+/// What a sensor saw, in the frame of the visit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Glimpse {
+    /// The sensor and its direction.
+    pub(super) beam: Pose2,
+    /// Distance to what was seen, metres.
+    pub(super) seen_m: f64,
+}
+
+/// A straight piece of wall, in the frame of the visit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stroke {
+    /// Its middle.
+    pub(super) middle: Point2,
+    /// Direction from the wall into the free space, radians.
+    pub(super) normal_rad: f64,
+    /// Half of its length, metres.
+    pub(super) half_m: f64,
+    /// Standard deviation of its direction, radians.
+    pub(super) sigma_rad: f64,
+    /// Standard deviation of its place across, metres.
+    pub(super) sigma_m: f64,
+}
+
+/// Directions that are tried: 5 degrees.
+const DIRECTIONS: usize = 72;
+/// Lines side by side, metres.
+const LINE_STEP_M: f64 = 0.02;
+/// Most lines side by side on either side of the visit's middle.
+const LINES: usize = 60;
+/// Glimpses this far from a line may belong to it, metres.
+const NEAR_M: f64 = 0.035;
+/// After the fit they must lie this near, metres.
+const FIT_M: f64 = 0.025;
+/// Fewest glimpses and least length of a stroke, metres.
+const GLIMPSES_MIN: usize = 8;
+const LENGTH_MIN_M: f64 = 0.12;
+/// Longest gap within a stroke, metres.
+const GAP_M: f64 = 0.2;
+/// Largest scatter of a stroke, metres.
+const SCATTER_MAX_M: f64 = 0.013;
+/// Beams that meet a wall at a smaller cosine say little of where it is.
+const COSINE_MIN: f64 = 0.35;
+/// Strokes of one visit.
+const STROKES_MAX: usize = 4;
+/// Deviations that no number of glimpses makes smaller: walls reflect differently along their length.
+const SIGMA_M: f64 = 0.012;
+const SIGMA_RAD: f64 = 0.015;
+
+/// A line: points whose way along the normal is `offset_m`.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    normal_rad: f64,
+    offset_m: f64,
+}
+
+impl Line {
+    /// By how much a glimpse shows the wall nearer (positive) or farther than the line, and its slope by the normal's
+    /// direction; `None` when its beam does not meet the line's front.
+    fn off_m(self, glimpse: &Glimpse, cone: f64) -> Option<(f64, f64)> {
+        let (sin, cos) = libm::sincos(self.normal_rad);
+        let (beam_y, beam_x) = libm::sincos(glimpse.beam.heading_rad);
+        let toward = -(cos * beam_x + sin * beam_y);
+        if toward < COSINE_MIN {
+            return None;
+        }
+        let share = (toward + cone) / (1.0 + cone);
+        let (x_m, y_m) = (glimpse.beam.x_m, glimpse.beam.y_m);
+        let clear_m = cos * x_m + sin * y_m - self.offset_m;
+        let toward_slope = sin * beam_x - cos * beam_y;
+        let slope = cos * y_m - sin * x_m - glimpse.seen_m * toward_slope / (1.0 + cone);
+        Some((clear_m - glimpse.seen_m * share, slope))
+    }
+
+    /// Where along the line a glimpse saw it.
+    fn along_m(self, glimpse: &Glimpse) -> f64 {
+        let at = hit(glimpse);
+        let (sin, cos) = libm::sincos(self.normal_rad);
+        cos * at.y_m - sin * at.x_m
+    }
+}
+
+fn hit(glimpse: &Glimpse) -> Point2 {
+    glimpse.beam.transform(Point2 {
+        x_m: glimpse.seen_m,
+        y_m: 0.0,
+    })
+}
+
+/// The strokes of a visit, the one that most glimpses agree on first.
+pub(super) fn strokes(glimpses: &[Glimpse], response: &ProximityResponse) -> Vec<Stroke> {
+    let cone = libm::tan(response.half_angle_rad);
+    let mut left: Vec<Glimpse> = glimpses.to_vec();
+    let mut found = Vec::new();
+    for _ in 0..2 * STROKES_MAX {
+        if left.len() < GLIMPSES_MIN || found.len() >= STROKES_MAX {
+            break;
+        }
+        let Some(line) = strongest(&left, cone) else { break };
+        let line = fitted(&left, line, cone);
+        let lies_on = |glimpse: &Glimpse, near_m: f64| {
+            line.off_m(glimpse, cone)
+                .is_some_and(|(off_m, _)| off_m.abs() <= near_m)
+        };
+        let on_it: Vec<Glimpse> = left
+            .iter()
+            .filter(|glimpse| lies_on(glimpse, FIT_M))
+            .copied()
+            .collect();
+        let before = left.len();
+        left.retain(|glimpse| !lies_on(glimpse, NEAR_M));
+        found.extend(stroke(&on_it, line, cone));
+        if left.len() == before {
+            break;
+        }
+    }
+    found
+}
+
+/// The line with most glimpses near it.
+fn strongest(glimpses: &[Glimpse], cone: f64) -> Option<Line> {
+    let middle = glimpses.get(glimpses.len() / 2)?.beam.position();
+    let mut votes = vec![0_u32; DIRECTIONS * (2 * LINES + 1)];
+    for glimpse in glimpses {
+        for direction in 0..DIRECTIONS {
+            let line = line_of(direction, middle, 0.0);
+            let Some((off_m, _)) = line.off_m(glimpse, cone) else {
+                continue;
+            };
+            let step = libm::round(off_m / LINE_STEP_M) + LINES as f64;
+            if (0.0..=2.0 * LINES as f64).contains(&step)
+                && let Some(vote) = votes.get_mut(direction * (2 * LINES + 1) + step as usize)
+            {
+                *vote += 1;
+            }
+        }
+    }
+    let (place, count) = votes
+        .iter()
+        .enumerate()
+        .max_by_key(|(place, count)| (**count, core::cmp::Reverse(*place)))?;
+    let (direction, step) = (place / (2 * LINES + 1), place % (2 * LINES + 1));
+    (*count as usize >= GLIMPSES_MIN / 2)
+        .then(|| line_of(direction, middle, (step as f64 - LINES as f64) * LINE_STEP_M))
+}
+
+fn line_of(direction: usize, middle: Point2, beyond_m: f64) -> Line {
+    let normal_rad = core::f64::consts::TAU * direction as f64 / DIRECTIONS as f64;
+    let (sin, cos) = libm::sincos(normal_rad);
+    Line {
+        normal_rad,
+        offset_m: cos * middle.x_m + sin * middle.y_m + beyond_m,
+    }
+}
+
+/// Moves a line to where the glimpses near it want it, the far ones less.
+fn fitted(glimpses: &[Glimpse], mut line: Line, cone: f64) -> Line {
+    for round in 0..6 {
+        let near_m = if round < 2 { 2.0 * NEAR_M } else { NEAR_M };
+        let [mut aa, mut ab, mut bb, mut ra, mut rb] = [0.0; 5];
+        for glimpse in glimpses {
+            let Some((off_m, slope)) = line.off_m(glimpse, cone) else {
+                continue;
+            };
+            if off_m.abs() > near_m {
+                continue;
+            }
+            let far = glimpse.seen_m / 0.1;
+            let tail = off_m / 0.015;
+            let weight = 1.0 / ((1.0 + far * far) * (1.0 + tail * tail));
+            aa += weight * slope * slope;
+            ab -= weight * slope;
+            bb += weight;
+            ra -= weight * slope * off_m;
+            rb += weight * off_m;
+        }
+        let determinant = aa * bb - ab * ab;
+        if determinant <= 1e-9 {
+            return line;
+        }
+        let turn_rad = ((ra * bb - rb * ab) / determinant).clamp(-0.1, 0.1);
+        let shift_m = (rb - ab * turn_rad) / bb;
+        line = Line {
+            normal_rad: normalize_rad(line.normal_rad + turn_rad),
+            offset_m: line.offset_m + shift_m.clamp(-0.05, 0.05),
+        };
+    }
+    line
+}
+
+/// A stroke of the glimpses of one line, if they are enough, near enough and one piece.
+fn stroke(glimpses: &[Glimpse], line: Line, cone: f64) -> Option<Stroke> {
+    let mut along_m: Vec<f64> = glimpses.iter().map(|glimpse| line.along_m(glimpse)).collect();
+    along_m.sort_by(f64::total_cmp);
+    let piece = along_m
+        .chunk_by(|one, next| next - one <= GAP_M)
+        .max_by_key(|piece| piece.len())?;
+    let (low_m, high_m) = (*piece.first()?, *piece.last()?);
+    let squares_m2: f64 = glimpses
+        .iter()
+        .filter_map(|glimpse| line.off_m(glimpse, cone))
+        .map(|(off_m, _)| off_m * off_m)
+        .sum();
+    let scatter_m = libm::sqrt(squares_m2 / glimpses.len().max(1) as f64);
+    let length_m = high_m - low_m;
+    if piece.len() < GLIMPSES_MIN || length_m < LENGTH_MIN_M || scatter_m > SCATTER_MAX_M {
+        return None;
+    }
+    let (sin, cos) = libm::sincos(line.normal_rad);
+    let along_m = 0.5 * (low_m + high_m);
+    let turn_rad = 0.02 / length_m;
+    Some(Stroke {
+        middle: Point2 {
+            x_m: cos * line.offset_m - sin * along_m,
+            y_m: sin * line.offset_m + cos * along_m,
+        },
+        normal_rad: line.normal_rad,
+        half_m: 0.5 * length_m,
+        sigma_rad: libm::sqrt(turn_rad * turn_rad + SIGMA_RAD * SIGMA_RAD),
+        sigma_m: SIGMA_M,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Glimpse, strokes};
+    use crate::config::ProximityResponse;
+    use crate::geometry::Pose2;
+    use core::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+
+    const RESPONSE: ProximityResponse = ProximityResponse {
+        range_m: 0.25,
+        half_angle_rad: 0.087,
+        half_level_m: 0.06,
+        skin_m: 0.01,
+    };
+
+    /// What seven sensors see of a wall at x = 1 and one at y = `left_m`, both infinitely long.
+    fn look(pose: Pose2, left_m: f64, glimpses: &mut Vec<Glimpse>) {
+        let cone = RESPONSE.half_angle_rad.tan();
+        for number in -3..=3 {
+            let heading_rad = f64::from(number) * FRAC_PI_6;
+            let mount = Pose2 {
+                x_m: 0.165 * heading_rad.cos(),
+                y_m: 0.165 * heading_rad.sin(),
+                heading_rad,
+            };
+            let beam = pose * mount;
+            let seen_m = [
+                (1.0 - beam.x_m, beam.heading_rad.cos()),
+                (left_m - beam.y_m, beam.heading_rad.sin()),
+            ]
+            .into_iter()
+            .filter(|(_, toward)| *toward > 0.0)
+            .map(|(clear_m, toward)| clear_m * (1.0 + cone) / (toward + cone))
+            .fold(f64::INFINITY, f64::min);
+            if seen_m < RESPONSE.range_m {
+                glimpses.push(Glimpse { beam, seen_m });
+            }
+        }
+    }
+
+    #[test]
+    fn a_robot_that_drives_at_a_wall_askew_sees_where_it_is() {
+        let mut glimpses = Vec::new();
+        for step in 0..15 {
+            let pose = Pose2 {
+                x_m: 0.65 + 0.01 * f64::from(step),
+                y_m: 0.0,
+                heading_rad: 0.35,
+            };
+            look(pose, 9.0, &mut glimpses);
+        }
+        let found = strokes(&glimpses, &RESPONSE);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(
+            (found[0].normal_rad.abs() - core::f64::consts::PI).abs() < 0.01,
+            "{found:?}"
+        );
+        assert!((found[0].middle.x_m - 1.0).abs() < 0.004, "{found:?}");
+    }
+
+    #[test]
+    fn a_corner_is_two_strokes() {
+        let mut glimpses = Vec::new();
+        for step in 0..60 {
+            let pose = Pose2 {
+                x_m: 0.2 + 0.01 * f64::from(step),
+                y_m: 0.0,
+                heading_rad: 0.0,
+            };
+            look(pose, 0.25, &mut glimpses);
+        }
+        let mut found = strokes(&glimpses, &RESPONSE);
+        found.sort_by(|one, other| one.normal_rad.abs().total_cmp(&other.normal_rad.abs()));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!((found[0].normal_rad + FRAC_PI_2).abs() < 0.02, "{found:?}");
+        assert!((found[0].middle.y_m - 0.25).abs() < 0.005, "{found:?}");
+        assert!((found[1].middle.x_m - 1.0).abs() < 0.006, "{found:?}");
+    }
+
+    #[test]
+    fn scattered_things_and_nothing_are_no_strokes() {
+        assert_eq!(strokes(&[], &RESPONSE), []);
+        let glimpses: Vec<Glimpse> = (0..40)
+            .map(|number| Glimpse {
+                beam: Pose2 {
+                    x_m: 0.013 * f64::from(number * 17 % 41),
+                    y_m: 0.011 * f64::from(number * 23 % 37),
+                    heading_rad: f64::from(number),
+                },
+                seen_m: 0.05 + 0.005 * f64::from(number * 7 % 31),
+            })
+            .collect();
+        assert_eq!(strokes(&glimpses, &RESPONSE), []);
+    }
+}

@@ -1,0 +1,162 @@
+//! The map drawn again with other poses of the past: the home and the job in it.
+//!
+//! Some ten thousand sightings are drawn, piece by piece over many steps, so that no step takes long; until all of it is there
+//! the map stays as it is.
+
+use super::home::HomeMap;
+use super::layers::Layers;
+use super::swept::{Swath, SweptLayer};
+use super::traces::Path;
+use super::{Map, Mark};
+use crate::geometry::{Pose2, normalize_rad};
+
+/// Sightings that are drawn in one step: about a millisecond of a desktop's core.
+const SIGHTINGS_A_STEP: usize = 150;
+
+/// A pose of the past that turned out to have been another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keyframe {
+    /// Time of the observation at which the robot was there, in microseconds.
+    pub time_us: u64,
+    /// Where it was by odometry, [`crate::PoseEstimate::odom`].
+    pub was: Pose2,
+    /// Where it was, as far as is known now.
+    pub is: Pose2,
+}
+
+/// A map that is being drawn again.
+#[derive(Clone, Debug)]
+pub(super) struct Redrawing {
+    keyframes: Vec<Keyframe>,
+    next: usize,
+    layers: Layers,
+    swept: SweptLayer,
+    swath: Swath,
+    path: Path,
+}
+
+impl Redrawing {
+    /// Draws up to `most` sightings; `true` when none is left.
+    fn go_on(&mut self, home: &HomeMap, job_from: usize, most: usize) -> bool {
+        let sightings = home.sightings.get(self.next..).unwrap_or_default();
+        for sighting in sightings.iter().take(most) {
+            let mut sighting = *sighting;
+            sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
+            home.pencil.draw(&sighting, &mut self.layers);
+            if self.next >= job_from {
+                self.path.follow(sighting.pose.position());
+                if sighting.touched.sweeps() {
+                    self.swath.sweep_to(sighting.pose, &mut self.swept);
+                } else {
+                    self.swath.lift();
+                }
+            }
+            self.next += 1;
+        }
+        self.next >= home.sightings.len()
+    }
+}
+
+impl Map {
+    /// Begins to draw the map again with other poses of the past, in the order of their times; poses between two keyframes are
+    /// moved by both. It is done after some more calls of [`Self::insert`].
+    pub fn redraw(&mut self, keyframes: &[Keyframe]) {
+        if keyframes.is_empty() {
+            return;
+        }
+        let mut swath = self.swath.clone();
+        swath.lift();
+        self.redrawing = Some(Box::new(Redrawing {
+            keyframes: keyframes.to_vec(),
+            next: 0,
+            layers: self.home.base.clone(),
+            swept: self.job_base.swept.clone(),
+            swath,
+            path: self.job_base.path.clone(),
+        }));
+    }
+
+    /// Draws what is left of a map that is being drawn again.
+    pub fn finish_redraw(&mut self) {
+        self.draw_up_to(usize::MAX);
+    }
+
+    pub(super) fn redraw_on(&mut self) {
+        self.draw_up_to(SIGHTINGS_A_STEP);
+    }
+
+    fn draw_up_to(&mut self, most: usize) {
+        let Some(redrawing) = &mut self.redrawing else {
+            return;
+        };
+        if !redrawing.go_on(&self.home, self.job_base.sightings, most) {
+            return;
+        }
+        let Some(redrawing) = self.redrawing.take() else {
+            return;
+        };
+        let Redrawing {
+            keyframes,
+            layers,
+            swept,
+            path,
+            ..
+        } = *redrawing;
+        self.home.take_redrawn(layers);
+        self.swept = swept;
+        self.path = path;
+        self.swath.lift();
+        self.marks.moved(|time_us, odom| {
+            corrected(
+                &keyframes,
+                time_us,
+                Pose2 {
+                    x_m: odom.x_m,
+                    y_m: odom.y_m,
+                    heading_rad: 0.0,
+                },
+            )
+            .position()
+        });
+        self.generation += 1;
+    }
+
+    /// From now on nothing of what was seen and swept up to now is drawn again.
+    pub(super) fn settle(&mut self) {
+        self.home.settle();
+        self.job_base.swept = self.swept.clone();
+        self.job_base.path = self.path.clone();
+        self.job_base.sightings = 0;
+        self.marks.settle();
+    }
+
+    /// Notes a place where something was met, at `time_us` and at the place `odom` by odometry.
+    pub(crate) fn mark(&mut self, mark: Mark, seen: super::traces::SeenAt) {
+        self.marks.add(mark, Some(seen));
+    }
+}
+
+/// Where a robot was at `time_us` that was at `odom` by odometry, by the keyframes before and after.
+fn corrected(keyframes: &[Keyframe], time_us: u64, odom: Pose2) -> Pose2 {
+    let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
+    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * odom);
+    let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
+    match (before, keyframes.get(after)) {
+        (Some(before), Some(after)) => {
+            let span_us = after.time_us.saturating_sub(before.time_us).max(1) as f64;
+            let share = time_us.saturating_sub(before.time_us) as f64 / span_us;
+            between(by(before), by(after), share)
+        }
+        (Some(only), None) | (None, Some(only)) => by(only),
+        (None, None) => odom,
+    }
+}
+
+fn between(one: Pose2, other: Pose2, share: f64) -> Pose2 {
+    let turn_rad = normalize_rad(other.heading_rad - one.heading_rad);
+    Pose2 {
+        x_m: one.x_m + share * (other.x_m - one.x_m),
+        y_m: one.y_m + share * (other.y_m - one.y_m),
+        heading_rad: normalize_rad(one.heading_rad + share * turn_rad),
+    }
+}
