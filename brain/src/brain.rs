@@ -5,6 +5,7 @@ use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::Checkpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
+use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
 use crate::mapping::{Brushes, Map, Mark, MarkKind, SeenAt, StoredMap};
@@ -148,6 +149,12 @@ impl Brain {
         }
     }
 
+    /// What driving and cleaning take from the pack, as far as the robot has learnt it.
+    #[must_use]
+    pub fn energy(&self) -> EnergyModel {
+        self.behavior.energy()
+    }
+
     /// What the running or waiting job is for, if there is one.
     #[must_use]
     pub fn job_kind(&self) -> Option<JobKind> {
@@ -164,6 +171,7 @@ impl Brain {
             random_state: self.mind.random.state(),
             backed_m: self.localization.backed_m(),
             job: self.behavior.checkpoint(),
+            energy: self.behavior.energy(),
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
             marks: map.marks.to_vec(),
@@ -187,6 +195,7 @@ impl Brain {
             self.track();
             self.localization.resume_tracking(tracking);
         }
+        self.behavior.learn_energy(checkpoint.energy);
         if let Some(job) = checkpoint.job {
             self.behavior.restore(job);
         }

@@ -1,6 +1,7 @@
 //! What must survive a restart of the daemon, as plain data: the shell writes and reads it in a form of its own.
 
 use crate::behavior::{JobFigures, JobKind};
+use crate::energy::EnergyModel;
 use crate::geometry::Pose2;
 use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
 
@@ -23,6 +24,8 @@ pub struct Checkpoint {
     pub marks: Vec<Mark>,
     /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
     pub home: Option<StoredMap>,
+    /// What driving and cleaning take from the pack.
+    pub energy: EnergyModel,
     /// How the pose is followed in the map of the home; `None` = by odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
 }
@@ -51,4 +54,6 @@ pub struct JobCheckpoint {
     pub figures: JobFigures,
     /// It was in motion or about to be (then it goes on by itself), else it waited for a person.
     pub running: bool,
+    /// The job that goes on when this one has brought the robot to its dock and the pack is charged.
+    pub goes_on: Option<JobKind>,
 }

@@ -148,11 +148,13 @@ pub struct BrainConfig {
     pub dock_budget_s: f64,
     /// Battery charge, 0..1, below which a job ends and the robot looks for its dock.
     pub battery_low: f32,
+    /// Battery charge, 0..1, from which on a job goes on that was put off for the pack's sake.
+    pub battery_charged: f32,
 }
 
 impl BrainConfig {
-    /// A configuration with the project's budgets: 120 minutes of cleaning (S26), 20 minutes of dock search, low at 15 %, and
-    /// no sensors but a bumper.
+    /// A configuration with the project's budgets: 120 minutes of cleaning (S26), 20 minutes of dock search, low at 15 %,
+    /// charged at 90 %, and no sensors but a bumper.
     #[must_use]
     pub fn new(body: Body, speeds: Speeds) -> Self {
         Self {
@@ -162,6 +164,7 @@ impl BrainConfig {
             task_budget_s: 7200.0,
             dock_budget_s: 1200.0,
             battery_low: 0.15,
+            battery_charged: 0.9,
         }
     }
 }

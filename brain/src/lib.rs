@@ -12,6 +12,7 @@ pub mod command;
 pub mod config;
 pub mod coverage;
 mod docking;
+pub mod energy;
 pub mod geometry;
 pub mod localization;
 mod manoeuvre;
@@ -28,6 +29,7 @@ pub use brain::Brain;
 pub use checkpoint::{Checkpoint, JobCheckpoint, TrackingCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
+pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
 pub use localization::PoseEstimate;
 pub use mapping::{

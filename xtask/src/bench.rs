@@ -28,6 +28,8 @@ enum Subject {
     Coverage,
     /// How fast and how surely the robot covers homes, against the lower bound and against bounce.
     Navigation,
+    /// How surely, how fast and how exactly the robot comes home to its dock.
+    Docking,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -146,6 +148,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--package", "trials", "--bin", "bench-charges"],
         Subject::Coverage => &["--package", "rvac-sim", "--bin", "bench-coverage"],
         Subject::Navigation => &["--package", "rvac-sim", "--bin", "bench-navigation"],
+        Subject::Docking => &["--package", "rvac-sim", "--bin", "bench-docking"],
         Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
     }
 }
@@ -171,6 +174,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Flips
         | Subject::Charges
         | Subject::Navigation
+        | Subject::Docking
         | Subject::Coverage => &[],
     }
 }
@@ -183,6 +187,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
+        Subject::Docking => &["--runs", "1000"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],

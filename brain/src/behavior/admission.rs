@@ -74,7 +74,7 @@ impl Behavior {
 
     fn admit_pause(&self) -> Result<(), Reason> {
         let pausable = match self.mode {
-            Mode::Starting { .. } | Mode::Working => true,
+            Mode::Starting { .. } | Mode::Working | Mode::Recharging => true,
             Mode::Disconnected { resume, .. } => resume,
             _ => false,
         };
@@ -86,12 +86,18 @@ impl Behavior {
     }
 
     fn admit_resume(&self) -> Result<(), Reason> {
-        let waits = matches!(self.mode, Mode::Paused | Mode::Stuck | Mode::Manual(_));
+        let waits = matches!(
+            self.mode,
+            Mode::Paused | Mode::Stuck | Mode::Manual(_) | Mode::Recharging
+        );
         match self.mode {
             Mode::Starting { .. } | Mode::Working => Err(Reason::AlreadyRunning),
             _ if self.job.is_none() => Err(Reason::NoJob),
             _ => {
                 self.startable()?;
+                if self.mode == Mode::Recharging && self.facts.battery_low {
+                    return Err(Reason::BatteryLow);
+                }
                 if waits { Ok(()) } else { Err(Reason::NoJob) }
             }
         }

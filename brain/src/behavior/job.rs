@@ -2,7 +2,7 @@
 
 use super::{JobFigures, JobKind};
 use crate::coverage;
-use crate::docking::DockSearch;
+use crate::docking::Docking;
 use crate::geometry::TurnSide;
 use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
 use crate::random::Random;
@@ -29,6 +29,8 @@ pub(super) struct Job {
     pub(super) gyro_rest_us: Option<u64>,
     /// Brushes may run: the bumper was free since the job last started (S29).
     pub(super) brushes: bool,
+    /// On its way back to where it was put off: brushes stay off over floor that was swept before.
+    pub(super) returns: bool,
 }
 
 /// Movements that come before the task.
@@ -52,7 +54,7 @@ impl Job {
         let task: Box<dyn Task> = match kind {
             JobKind::Clean(strategy) => coverage::strategy(strategy),
             JobKind::Spot => Box::new(Spot::default()),
-            JobKind::Dock => Box::new(DockSearch::default()),
+            JobKind::Dock => Box::new(Docking::default()),
         };
         Self {
             kind,
@@ -64,6 +66,7 @@ impl Job {
             detour: None,
             gyro_rest_us: None,
             brushes: false,
+            returns: false,
         }
     }
 

@@ -5,9 +5,9 @@ use super::job::Job;
 use super::manual::ManualDrive;
 use super::{BehaviorState, JobFigures, JobKind, Reason, Status};
 use crate::action::{Arm, Motion, Tone};
-use crate::checkpoint::JobCheckpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
+use crate::energy::EnergyWatch;
 use crate::manoeuvre::BACK_AT_CLIFF_M_PER_S;
 use crate::task::{Mind, Situation};
 
@@ -28,6 +28,8 @@ pub(super) enum Mode {
     Working,
     /// On the dock.
     Docked,
+    /// On the dock; the job goes on when the pack is charged.
+    Recharging,
     /// A person drives.
     Manual(ManualDrive),
     /// The job waits.
@@ -64,6 +66,11 @@ pub(crate) struct Behavior {
     pub(super) mode: Mode,
     pub(super) reason: Reason,
     pub(super) job: Option<Job>,
+    /// A job that was put off for the pack's sake while the robot drives home.
+    pub(super) put_off: Option<Job>,
+    pub(super) energy: EnergyWatch,
+    /// When the way home was looked at last.
+    pub(super) way_home_us: Option<u64>,
     pub(super) facts: Facts,
     pub(super) cliff_sensor_since_us: Option<u64>,
     pub(super) starved_since_us: Option<u64>,
@@ -88,6 +95,9 @@ impl Behavior {
             },
             reason: Reason::StartUp,
             job: None,
+            put_off: None,
+            energy: EnergyWatch::default(),
+            way_home_us: None,
             facts: Facts::default(),
             cliff_sensor_since_us: None,
             starved_since_us: None,
@@ -126,7 +136,7 @@ impl Behavior {
                 Some(JobKind::Dock) => BehaviorState::Docking,
                 Some(JobKind::Clean(_)) | None => BehaviorState::Cleaning,
             },
-            Mode::Docked => BehaviorState::Docked,
+            Mode::Docked | Mode::Recharging => BehaviorState::Docked,
             Mode::Manual(_) => BehaviorState::Manual,
             Mode::Paused => BehaviorState::Paused,
             Mode::Stuck => BehaviorState::Stuck,
@@ -137,28 +147,6 @@ impl Behavior {
     /// Figures of the running or last job; the swept area is the map's business.
     pub(crate) fn figures(&self) -> JobFigures {
         self.job.as_ref().map_or(self.figures, |job| job.figures)
-    }
-
-    pub(crate) fn checkpoint(&self) -> Option<JobCheckpoint> {
-        let running = match self.mode {
-            Mode::Starting { .. } | Mode::Working => true,
-            Mode::Disconnected { resume, .. } => resume,
-            _ => false,
-        };
-        self.job.as_ref().map(|job| JobCheckpoint {
-            kind: job.kind,
-            figures: job.figures,
-            running,
-        })
-    }
-
-    pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
-        self.job = Some(Job::new(checkpoint.kind, checkpoint.figures));
-        self.mode = Mode::Disconnected {
-            since_us: None,
-            resume: checkpoint.running,
-        };
-        self.reason = Reason::Restored;
     }
 
     /// One step: commands, perceptions, motion.
@@ -176,13 +164,14 @@ impl Behavior {
                 Err(reason) => mind.decide("refuse", reason, 0.0),
             }
         }
-        self.react(mind);
+        self.watch_energy(situation);
+        self.react(situation, mind);
         let wish = self.act(situation, mind);
         let motion = self.permitted(wish, situation);
         self.last_motion = motion;
         Intent {
             motion,
-            cleaners: self.cleaners(),
+            cleaners: self.runs_cleaners(),
             arm: self.arm.take(),
             tones: core::mem::take(&mut self.tones),
             job_start: core::mem::replace(&mut self.job_start, JobStart::None),
@@ -192,7 +181,12 @@ impl Behavior {
     fn act(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
         match self.mode {
             Mode::Disconnected { .. } => Motion::Rest,
-            Mode::Idle | Mode::Docked | Mode::Paused | Mode::Stuck | Mode::Error { .. } => self.rest(),
+            Mode::Idle
+            | Mode::Docked
+            | Mode::Recharging
+            | Mode::Paused
+            | Mode::Stuck
+            | Mode::Error { .. } => self.rest(),
             Mode::Starting { since_us } => self.start(since_us, mind),
             Mode::Working => self.work(situation, mind),
             Mode::Manual(drive) => self.drive_manually(drive),
@@ -229,6 +223,7 @@ impl Behavior {
         if let Some(job) = self.job.take() {
             self.figures = job.figures;
         }
+        self.put_off = None;
         self.enter(self.mode_without_job(), reason, mind);
     }
 
@@ -250,19 +245,12 @@ impl Behavior {
         self.enter(mode, reason, mind);
     }
 
-    /// The running job becomes a search for the dock and keeps its figures.
-    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut Mind) {
-        let figures = self.figures();
-        self.job = Some(Job::new(JobKind::Dock, figures));
-        self.enter(Mode::Working, reason, mind);
-    }
-
-    fn cleaners(&self) -> bool {
+    /// Whether brushes and suction run.
+    pub(super) fn runs_cleaners(&self) -> bool {
         match self.mode {
-            Mode::Working => self
-                .job
-                .as_ref()
-                .is_some_and(|job| job.kind != JobKind::Dock && job.brushes && !job.is_departing()),
+            Mode::Working => self.job.as_ref().is_some_and(|job| {
+                job.kind != JobKind::Dock && job.brushes && !job.returns && !job.is_departing()
+            }),
             Mode::Manual(drive) => drive.cleaners,
             _ => false,
         }

@@ -11,6 +11,7 @@ mod machine;
 mod manual;
 mod reaction;
 mod reason;
+mod recharge;
 mod start;
 mod state;
 mod work;

@@ -2,7 +2,7 @@
 
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
-use crate::task::Mind;
+use crate::task::{Mind, Situation};
 
 /// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
 const SHORT_OUTAGE_US: u64 = 5_000_000;
@@ -23,7 +23,7 @@ impl Behavior {
     }
 
     /// Changes the mode where what was perceived demands it.
-    pub(super) fn react(&mut self, mind: &mut Mind) {
+    pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         if !self.facts.link_up {
             self.lose_link(mind);
             return;
@@ -35,14 +35,18 @@ impl Behavior {
             return;
         }
         self.react_to_person(mind);
-        self.react_to_dock(mind);
-        self.react_to_budgets(mind);
+        self.react_to_dock(situation, mind);
+        self.react_to_budgets(situation, mind);
     }
 
     fn lose_link(&mut self, mind: &mut Mind) {
         let resume = match self.mode {
             Mode::Disconnected { .. } => return,
             Mode::Starting { .. } | Mode::Working => true,
+            Mode::Recharging => {
+                self.put_off_again();
+                true
+            }
             Mode::Manual(_) => {
                 self.centre_first = true;
                 false
@@ -57,6 +61,8 @@ impl Behavior {
         let short =
             since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
         match (&self.job, resume) {
+            // It was on its way home or there already.
+            (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(mind),
             (Some(_), true) if short && !self.facts.disarmed.not_armed => {
                 self.enter(Mode::Working, Reason::LinkRestored, mind);
             }
@@ -117,19 +123,28 @@ impl Behavior {
         self.hold(reason, mind);
     }
 
-    fn react_to_dock(&mut self, mind: &mut Mind) {
+    fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         match self.mode {
             Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
             Mode::Docked if !self.facts.docked => self.enter(Mode::Idle, Reason::Released, mind),
+            Mode::Recharging => self.watch_charge(situation, mind),
+            // Carried home by a person.
+            Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
+                self.arrive(mind);
+            }
             Mode::Starting { .. } | Mode::Working if self.facts.docked => {
-                if self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock) {
-                    self.end_job(Reason::Docked, mind);
+                if self.drives_home() {
+                    self.arrive(mind);
                 } else if self.mode == Mode::Working && self.facts.disarmed.docked {
                     self.leave_dock(mind);
                 }
             }
             _ => {}
         }
+    }
+
+    fn drives_home(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock)
     }
 
     /// Strayed onto the dock while cleaning: off again.
@@ -142,7 +157,7 @@ impl Behavior {
         }
     }
 
-    fn react_to_budgets(&mut self, mind: &mut Mind) {
+    fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         if self.mode != Mode::Working {
             return;
         }
@@ -153,7 +168,7 @@ impl Behavior {
             // It has a budget of its own.
         } else if job.figures.time_s >= self.config.task_budget_s {
             self.turn_home(Reason::TaskBudget, mind);
-        } else if self.facts.battery_low {
+        } else if self.must_go_home(situation) {
             self.turn_home(Reason::BatteryLow, mind);
         }
     }

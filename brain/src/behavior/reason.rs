@@ -115,8 +115,24 @@ reasons! {
     BatteryLow => "battery-low",
     /// The dock was not found in time.
     DockNotFound => "dock-not-found",
+    /// The job waits on the dock for charge and goes on by itself.
+    Recharging => "recharging",
+    /// The pack holds enough to go on.
+    Charged => "charged",
     /// A beam of the dock is heard.
     DockBeam => "dock-beam",
+    /// The map tells where the dock is, and the robot knows where it is itself.
+    DockKnown => "dock-known",
+    /// Contact, but not with the contacts of the dock.
+    DockMissed => "dock-missed",
+    /// No beam of the dock is heard where one should be.
+    NoBeam => "no-beam",
+    /// Nobody knows where the dock is.
+    DockUnknown => "dock-unknown",
+    /// The robot does not know where it is in the map.
+    PlaceUnknown => "place-unknown",
+    /// No way is left to where it wants to go.
+    WayBlocked => "way-blocked",
     /// The lease of the person who drives ended.
     LeaseEnded => "lease-ended",
     /// The person let go.

@@ -63,6 +63,9 @@ impl Behavior {
 
     /// Announces and starts the present job (S24).
     pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
+        if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
+            job.returns = true;
+        }
         self.enter(
             Mode::Starting {
                 since_us: self.facts.now_us,
@@ -76,6 +79,7 @@ impl Behavior {
     /// Begins a new job; the old one is forgotten.
     pub(super) fn begin(&mut self, kind: JobKind, mind: &mut Mind) {
         self.job = Some(Job::new(kind, JobFigures::default()));
+        self.put_off = None;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
         }

@@ -37,6 +37,7 @@ impl Behavior {
         job.figures.path_m += situation.advance.distance_m.abs();
         job.ladder.watch(situation.pose.position());
         job.brushes |= !self.facts.touching;
+        job.returns &= situation.map.is_swept(situation.pose.position());
         if self.facts.disarmed.any() {
             return self.wait_for_arm(mind);
         }
@@ -137,7 +138,7 @@ impl Behavior {
             Plan::Go(motion) => return motion,
             Plan::Trouble(reason) => self.escape(reason, situation, mind),
             Plan::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
-            Plan::Finished(reason) => self.end_job(reason, mind),
+            Plan::Finished(reason) => self.give_up_home(reason, mind),
         }
         Motion::Halt
     }

@@ -4,7 +4,7 @@ mod astray;
 mod bounce;
 mod perimeter;
 pub mod plan;
-mod systematic;
+pub(crate) mod systematic;
 mod wall_bounce;
 
 pub(crate) use bounce::Bounce;

@@ -34,6 +34,6 @@ pub use pcg::Pcg;
 pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};
 pub use world::{
-    Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell, Pack, PackMake,
-    SensorFault, SensorId, Sensors, Supply, Truth, World,
+    Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, DockBeams, GyroReading, LidarScan, OddCell, Pack,
+    PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
 };

@@ -4,7 +4,7 @@ use brain::command::StrategyName;
 use brain::mapping::StoredMap;
 use brain::{BehaviorState, Brain, Pose2};
 use home::Pose as TruePose;
-use rvac_api::{Pose, Request, RequestBody, Status};
+use rvac_api::{LogEntry, Pose, Request, RequestBody, Status};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
 /// A core and the shell's duties towards it.
@@ -15,6 +15,8 @@ pub struct Host {
     /// Bytes for the robot that its line has not taken yet.
     pending: Vec<u8>,
     checkpoint: Option<Checkpoint>,
+    /// Lines of its log, if somebody wants them.
+    log: Option<Vec<LogEntry>>,
     born_us: u64,
 }
 
@@ -29,6 +31,7 @@ impl Host {
             outputs: Outputs::default(),
             pending: Vec::new(),
             checkpoint: None,
+            log: None,
             born_us: now_us,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -78,7 +81,21 @@ impl Host {
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.checkpoint = Some(checkpoint);
         }
+        if let Some(log) = &mut self.log {
+            log.append(&mut self.outputs.log);
+        }
         self.outputs.clear();
+    }
+
+    /// From now on its log is kept.
+    pub fn keep_log(&mut self) {
+        self.log.get_or_insert_default();
+    }
+
+    /// What it has logged since somebody wanted to know.
+    #[must_use]
+    pub fn log(&self) -> &[LogEntry] {
+        self.log.as_deref().unwrap_or_default()
     }
 
     /// Bytes for the robot; what is not taken stays.

@@ -27,6 +27,8 @@ pub struct Household {
     pose_source: PoseSource,
     /// A map that the host shall get when it knows its robot.
     known_home: Option<StoredMap>,
+    /// With that map it is told where in it the robot stands.
+    tells_place: bool,
     /// What happened, if somebody wants to know.
     trace: Option<Trace>,
 }
@@ -61,6 +63,7 @@ impl Household {
             stuck: StuckWatch::default(),
             pose_source: PoseSource::Own,
             known_home: None,
+            tells_place: false,
             trace: None,
         }
     }
@@ -82,6 +85,10 @@ impl Household {
                 .is_some_and(|home| host.take_up_home(home))
             {
                 self.known_home = None;
+                if self.tells_place {
+                    let truth = self.robot.world().truth();
+                    host.place(self.map_from_plan.then(truth.pose));
+                }
             }
             deliver(&mut self.robot, host.pending());
         }
@@ -93,8 +100,12 @@ impl Household {
     /// The same household whose host has a perfect map of the home as soon as it knows its robot.
     #[must_use]
     pub fn with_known_map(self) -> Self {
-        let map = known_map(self.robot.world().home(), self.map_from_plan);
-        self.with_map(map)
+        let world = self.robot.world();
+        let map = known_map(world.home(), self.map_from_plan, world.docked_pose());
+        Self {
+            tells_place: true,
+            ..self.with_map(map)
+        }
     }
 
     /// The same household whose host has this map of the home as soon as it knows its robot.

@@ -1,11 +1,12 @@
 //! The plan of a home as a map that a robot could have made of it.
 
 use brain::mapping::{CellKnowledge, StoredMap};
-use brain::{CELL_M, Cell, Raster};
+use brain::{CELL_M, Cell, Pose2, Raster};
 use home::{Cell as PlanCell, Home, Pose};
 
-/// The home in the map frame of a robot, every cell as it is in truth.
-pub(crate) fn known_map(home: &Home, map_from_plan: Pose) -> StoredMap {
+/// The home in the map frame of a robot, every cell as it is in truth. `docked` is the pose of a robot on the dock in the
+/// plan, if there is a dock.
+pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) -> StoredMap {
     let grid = home.grid();
     let (width_m, height_m) = (grid.width as f64 * grid.cell_m, grid.height as f64 * grid.cell_m);
     let corners = [(0.0, 0.0), (width_m, 0.0), (0.0, height_m), (width_m, height_m)]
@@ -36,5 +37,13 @@ pub(crate) fn known_map(home: &Home, map_from_plan: Pose) -> StoredMap {
             };
         }
     }
-    StoredMap::from_raster(&knowledge, None)
+    let dock = docked.map(|docked| {
+        let pose = map_from_plan.then(docked);
+        Pose2 {
+            x_m: pose.x_m,
+            y_m: pose.y_m,
+            heading_rad: home::wrap_angle(pose.heading_rad),
+        }
+    });
+    StoredMap::from_raster(&knowledge, dock)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::generate::GeneratedHome;
-use home::{Home, HomeError, ModelError, Noise, RobotModel, World};
+use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
 
@@ -77,7 +77,13 @@ impl Scene {
     /// A robot that was just switched on at its starting place.
     #[must_use]
     pub fn robot(&self, seed: u64, settings: &RobotSettings) -> Robot {
-        let world = World::new(Arc::clone(&self.home), &self.model, &self.noise, seed, None);
+        self.robot_at(None, seed, settings)
+    }
+
+    /// As [`Self::robot`], at another place of the plan.
+    #[must_use]
+    pub fn robot_at(&self, start: Option<Pose>, seed: u64, settings: &RobotSettings) -> Robot {
+        let world = World::new(Arc::clone(&self.home), &self.model, &self.noise, seed, start);
         self.firmware.robot(world, settings)
     }
 

@@ -252,6 +252,11 @@ impl Ground {
         }
     }
 
+    /// The free cell under a point, if there is one.
+    pub(super) fn free_under(&self, point: Point2) -> Option<usize> {
+        self.index_under(point).filter(|index| self.free[*index])
+    }
+
     fn index_under(&self, point: Point2) -> Option<usize> {
         let cell = Cell::under(point);
         let margin = self.margin as i64;

@@ -15,6 +15,7 @@ mod route;
 mod smooth;
 mod stretches;
 mod tour;
+mod way;
 
 use crate::geometry::{Point2, Pose2};
 use crate::mapping::{CELL_M, Cell, Raster};
@@ -23,6 +24,7 @@ use lanes::Picker;
 use route::Router;
 pub use smooth::Piece;
 use tour::Tour;
+pub(crate) use way::{Goal, plan_way};
 
 /// What a plan depends on besides the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@ use core::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
 use super::ground::Ground;
+use crate::mapping::CELL_M;
 
 /// Cells along the edge of a block of the coarse graph.
 const BLOCK: usize = 4;
@@ -238,6 +239,12 @@ impl<'ground> Router<'ground> {
 }
 
 impl Spread {
+    /// Length of the way to a block in metres; `None` when it was not reached.
+    pub(super) fn way_m(&self, block: usize) -> Option<f64> {
+        let cost = self.costs.get(block).filter(|cost| **cost != u32::MAX)?;
+        Some(f64::from(*cost) / f64::from(STEP) * BLOCK as f64 * CELL_M)
+    }
+
     fn set(&mut self, block: usize, cost: u32, parent: u32) {
         self.costs[block] = cost;
         self.parents[block] = parent;

@@ -22,9 +22,9 @@ use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::task::{Mind, Plan, Situation, Task};
 use frontier::hopeful;
-use obstructions::Obstructions;
+pub(crate) use obstructions::Obstructions;
 use passed::Passed;
-use reachable::reachable;
+pub(crate) use reachable::reachable;
 
 /// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
 const KEEP_OFF_M: f64 = 0.01;
@@ -305,7 +305,8 @@ fn settings(situation: &Situation<'_>) -> PlanSettings {
     }
 }
 
-fn encounter(situation: &Situation<'_>) -> Option<Reason> {
+/// What was just met, if anything was.
+pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
     if situation.at_cliff {
         Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))
     } else if situation.touching {
@@ -316,7 +317,7 @@ fn encounter(situation: &Situation<'_>) -> Option<Reason> {
 }
 
 /// What the infrared sensors advise. They are ordered from the right side counter-clockwise.
-fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
+pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
     let proximity = &situation.observation.proximity;
     let third = proximity.len() / 3;
     let highest = |levels: &[f32]| levels.iter().copied().fold(0.0, f32::max);

@@ -22,7 +22,7 @@ const TOUCH_LEVEL: f32 = 0.5;
 
 /// The contacts of the last minutes.
 #[derive(Debug, Default)]
-pub(super) struct Obstructions {
+pub(crate) struct Obstructions {
     met: Vec<Met>,
 }
 
@@ -35,7 +35,7 @@ struct Met {
 
 impl Obstructions {
     /// Notes what was met.
-    pub(super) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
+    pub(crate) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
         let (sin, cos) = libm::sincos(bearing_rad(reason, situation));
         let radius_m = situation.config.body.radius_m;
         let at = situation.pose.transform(Point2 {
@@ -54,12 +54,12 @@ impl Obstructions {
     }
 
     /// Forgets all.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.met.clear();
     }
 
     /// Where plans must not lead over.
-    pub(super) fn points(&mut self, now_us: u64) -> Vec<Point2> {
+    pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
         self.met
             .retain(|met| now_us < met.since_us.saturating_add(BELIEVED_US));
         self.met

@@ -28,15 +28,20 @@ impl Passed {
         }
     }
 
-    /// What the way of this job has passed so far.
+    /// What the way of this job has passed so far, where it cleaned: the map remembers it, and a job that goes on after a
+    /// restart has no other memory.
     pub(super) fn along(map: &Map, like: &Raster<bool>, reach: usize) -> Self {
         let mut passed = Self::new(like, reach);
         for point in map.snapshot().path {
-            passed.follow(Point2 {
+            let at = Point2 {
                 x_m: 0.001 * f64::from(point.x_mm),
                 y_m: 0.001 * f64::from(point.y_mm),
-            });
+            };
+            if map.is_swept(at) {
+                passed.follow(at);
+            }
         }
+        passed.last = None;
         passed
     }
 

@@ -5,7 +5,7 @@ use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 
 /// Cells that the middle of a body of `radius_m` can take without coming over anything but free floor, nor over one of the
 /// `blocked` points. The window is that of the knowledge.
-pub(super) fn reachable(
+pub(crate) fn reachable(
     knowledge: &Raster<CellKnowledge>,
     radius_m: f64,
     blocked: &[Point2],

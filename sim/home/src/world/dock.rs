@@ -4,6 +4,7 @@ use super::body::Body;
 use super::sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT};
 use crate::home::Home;
 use crate::model::RobotModel;
+use crate::pcg::Pcg;
 use crate::plan::{DistanceField, docked_pose};
 use crate::pose::{Pose, wrap_angle};
 
@@ -24,6 +25,26 @@ const CONTACT_RAD: f64 = 0.2;
 /// Most steps of a line of sight.
 const SIGHT_MAX: usize = 200;
 
+/// What becomes of the dock's beams on their way; all zero is a dock in a dark room with black walls.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DockBeams {
+    /// Share of the words that a receiver misses.
+    pub lost: f64,
+    /// Share of the words in which a receiver that looks elsewhere hears one of the lobes from a wall.
+    pub reflected: f64,
+    /// How ragged the edges of the lobes are: standard deviation of their angle, radians.
+    pub ragged_rad: f64,
+}
+
+impl DockBeams {
+    /// A sunny room with white walls.
+    pub const POOR: Self = Self {
+        lost: 0.1,
+        reflected: 0.05,
+        ragged_rad: 0.03,
+    };
+}
+
 /// The dock as the robot meets it.
 #[derive(Clone, Debug)]
 pub(crate) struct Dock {
@@ -31,6 +52,8 @@ pub(crate) struct Dock {
     plan_cos: f64,
     plan_sin: f64,
     docked: Pose,
+    beams: DockBeams,
+    random: Pcg,
     /// What the receivers hear.
     pub(crate) symbols: [u8; 4],
     /// The contacts touch.
@@ -38,17 +61,41 @@ pub(crate) struct Dock {
 }
 
 impl Dock {
-    pub(crate) fn of(home: &Home, model: &RobotModel) -> Option<Self> {
+    pub(crate) fn of(home: &Home, model: &RobotModel, random: Pcg) -> Option<Self> {
         let pose = home.dock()?;
-        let (plan_sin, plan_cos) = libm::sincos(pose.heading_rad);
-        Some(Self {
+        let mut dock = Self {
             pose,
-            plan_cos,
-            plan_sin,
-            docked: docked_pose(pose, model.body.radius_m),
+            plan_cos: 0.0,
+            plan_sin: 0.0,
+            docked: pose,
+            beams: DockBeams::default(),
+            random,
             symbols: [0; 4],
             docked_now: false,
-        })
+        };
+        dock.stand_at(pose, model);
+        Some(dock)
+    }
+
+    fn stand_at(&mut self, pose: Pose, model: &RobotModel) {
+        self.pose = pose;
+        (self.plan_sin, self.plan_cos) = libm::sincos(pose.heading_rad);
+        self.docked = docked_pose(pose, model.body.radius_m);
+    }
+
+    /// Somebody pushed it along its wall, left positive as it looks into the room, and turned it.
+    pub(crate) fn push(&mut self, aside_m: f64, turn_rad: f64, model: &RobotModel) {
+        let (x_m, y_m) = self.pose.point(0.0, aside_m);
+        self.stand_at(Pose::new(x_m, y_m, self.pose.heading_rad + turn_rad), model);
+    }
+
+    pub(crate) fn set_beams(&mut self, beams: DockBeams) {
+        self.beams = beams;
+    }
+
+    /// Pose of a robot on the contacts.
+    pub(crate) const fn docked(&self) -> Pose {
+        self.docked
     }
 
     /// A place relative to the dock: metres into the room and to the dock's left.
@@ -73,7 +120,8 @@ impl Dock {
     pub(crate) fn sample_beams(&mut self, model: &RobotModel, solid: &DistanceField, body: &Body) {
         self.symbols = [0; 4];
         let (along, aside) = self.relative(body.x_m, body.y_m);
-        let symbol = beams_at(along - EMITTER_M, aside);
+        let (along, aside) = self.ragged(along - EMITTER_M, aside);
+        let symbol = beams_at(along, aside);
         if symbol == 0 {
             return;
         }
@@ -86,6 +134,34 @@ impl Dock {
             if wrap_angle(direction - mount.heading_rad).abs() <= mount.half_angle_rad {
                 *heard = symbol;
             }
+            if self.beams != DockBeams::default() {
+                *heard = self.beams.heard(*heard, symbol, &mut self.random);
+            }
+        }
+    }
+
+    /// The place at which beams with ragged edges are met.
+    fn ragged(&mut self, along: f64, aside: f64) -> (f64, f64) {
+        if self.beams.ragged_rad <= 0.0 {
+            return (along, aside);
+        }
+        let (sin, cos) = libm::sincos(self.beams.ragged_rad * self.random.normal());
+        (along * cos - aside * sin, along * sin + aside * cos)
+    }
+}
+
+impl DockBeams {
+    /// What a receiver hears that should hear `heard` where the beams say `symbol`.
+    fn heard(self, heard: u8, symbol: u8, random: &mut Pcg) -> u8 {
+        let (fate, lobe) = (random.unit(), random.below(2));
+        if heard != 0 {
+            return if fate < self.lost { 0 } else { heard };
+        }
+        let reflected = [DOCK_LEFT, DOCK_RIGHT][usize::from(lobe != 0)];
+        if symbol != 0 && fate < self.reflected {
+            reflected
+        } else {
+            0
         }
     }
 }

@@ -20,6 +20,7 @@ use std::sync::Arc;
 
 pub use actuation::{Actuation, Bridge};
 pub use battery::{OddCell, Pack, PackMake, Supply};
+pub use dock::DockBeams;
 pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
@@ -71,6 +72,7 @@ enum Stream {
     Run = 2,
     Dirt = 3,
     Faults = 4,
+    Dock = 5,
 }
 
 impl World {
@@ -97,7 +99,7 @@ impl World {
                 .as_ref()
                 .map(|part| Proximity::new(part, model.body.radius_m, noise, random)),
             gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
-            dock: Dock::of(&home, model),
+            dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             dirt: Dirt::new(
                 &home,
@@ -151,6 +153,26 @@ impl World {
     #[must_use]
     pub const fn home(&self) -> &Arc<Home> {
         &self.home
+    }
+
+    /// Pose of a robot on the dock's contacts, if there is a dock.
+    #[must_use]
+    pub fn docked_pose(&self) -> Option<Pose> {
+        self.dock.as_ref().map(Dock::docked)
+    }
+
+    /// Somebody pushes the dock along its wall (left positive, as it looks into the room) and turns it.
+    pub fn push_dock(&mut self, aside_m: f64, turn_rad: f64) {
+        if let Some(dock) = &mut self.dock {
+            dock.push(aside_m, turn_rad, &self.model);
+        }
+    }
+
+    /// What becomes of the dock's beams on their way.
+    pub fn set_dock_beams(&mut self, beams: DockBeams) {
+        if let Some(dock) = &mut self.dock {
+            dock.set_beams(beams);
+        }
     }
 
     /// The robot.

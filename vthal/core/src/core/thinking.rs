@@ -147,6 +147,7 @@ impl Core {
         self.arbiter.preempt();
         let command = match status.state {
             BehaviorState::Paused => Command::Resume,
+            BehaviorState::Docked if status.resumable => Command::Resume,
             BehaviorState::Idle | BehaviorState::Docked => Command::Clean {
                 strategy: self.config.strategy,
             },

@@ -76,9 +76,17 @@ pub struct BrainSettings {
     task_budget_s: f64,
     dock_budget_s: f64,
     battery_low: f32,
+    /// Absent in recordings of earlier versions, whose brains did not go on by themselves.
+    #[serde(default = "never")]
+    battery_charged: f32,
     /// Absent in recordings of earlier versions.
     #[serde(default)]
     sensors: SensorSettings,
+}
+
+/// More charge than a pack can have.
+fn never() -> f32 {
+    2.0
 }
 
 impl From<&BrainConfig> for BrainSettings {
@@ -93,6 +101,7 @@ impl From<&BrainConfig> for BrainSettings {
             task_budget_s: config.task_budget_s,
             dock_budget_s: config.dock_budget_s,
             battery_low: config.battery_low,
+            battery_charged: config.battery_charged,
             sensors: SensorSettings::from(&config.sensors),
         }
     }
@@ -116,6 +125,7 @@ impl BrainSettings {
             task_budget_s: self.task_budget_s,
             dock_budget_s: self.dock_budget_s,
             battery_low: self.battery_low,
+            battery_charged: self.battery_charged,
             sensors: self.sensors.to_brain(),
         }
     }

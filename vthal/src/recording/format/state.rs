@@ -2,7 +2,7 @@
 
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
-use brain::{Checkpoint, JobCheckpoint, JobFigures, JobKind, StrategyName, TrackingCheckpoint};
+use brain::{Checkpoint, EnergyModel, JobCheckpoint, JobFigures, JobKind, StrategyName, TrackingCheckpoint};
 use serde::{Deserialize, Serialize};
 
 /// [`Checkpoint`]
@@ -25,6 +25,9 @@ pub struct BrainState {
     /// Deviations of place and heading, whether lost (not 0), scale and bias of the gyro.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tracking: Option<[f64; 5]>,
+    /// Shares of the charge that a second of cleaning and of driving takes, and the seconds from which that was learnt.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    energy: Option<[f64; 3]>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -35,6 +38,8 @@ struct JobState {
     path_m: f64,
     bumps: u32,
     running: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    goes_on: Option<JobName>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -78,6 +83,9 @@ impl From<&Checkpoint> for BrainState {
                 let (scale, bias) = (tracking.gyro_scale, tracking.gyro_bias_rad_per_s);
                 [tracking.sigma_m, tracking.sigma_rad, lost, scale, bias]
             }),
+            energy: Some(checkpoint.energy)
+                .filter(|energy| energy.seen_s > 0.0)
+                .map(|energy| [energy.cleaning_per_s, energy.driving_per_s, energy.seen_s]),
         }
     }
 }
@@ -128,6 +136,17 @@ impl BrainState {
                     gyro_scale: scale,
                     gyro_bias_rad_per_s: bias,
                 }),
+            energy: self.energy.map_or_else(
+                EnergyModel::default,
+                |[cleaning_per_s, driving_per_s, seen_s]| {
+                    EnergyModel {
+                        cleaning_per_s,
+                        driving_per_s,
+                        seen_s,
+                    }
+                    .checked()
+                },
+            ),
         })
     }
 }
@@ -166,26 +185,43 @@ fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
 impl From<&JobCheckpoint> for JobState {
     fn from(job: &JobCheckpoint) -> Self {
         Self {
-            kind: match job.kind {
-                JobKind::Clean(strategy) => JobName::Clean(strategy.name().to_owned()),
-                JobKind::Spot => JobName::Spot,
-                JobKind::Dock => JobName::Dock,
-            },
+            kind: JobName::from(job.kind),
             time_s: job.figures.time_s,
             swept_m2: job.figures.swept_m2,
             path_m: job.figures.path_m,
             bumps: job.figures.bumps,
             running: job.running,
+            goes_on: job.goes_on.map(JobName::from),
         }
+    }
+}
+
+impl From<JobKind> for JobName {
+    fn from(kind: JobKind) -> Self {
+        match kind {
+            JobKind::Clean(strategy) => Self::Clean(strategy.name().to_owned()),
+            JobKind::Spot => Self::Spot,
+            JobKind::Dock => Self::Dock,
+        }
+    }
+}
+
+impl JobName {
+    fn to_brain(&self) -> Option<JobKind> {
+        Some(match self {
+            Self::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
+            Self::Spot => JobKind::Spot,
+            Self::Dock => JobKind::Dock,
+        })
     }
 }
 
 impl JobState {
     fn to_brain(&self) -> Option<JobCheckpoint> {
-        let kind = match &self.kind {
-            JobName::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
-            JobName::Spot => JobKind::Spot,
-            JobName::Dock => JobKind::Dock,
+        let kind = self.kind.to_brain()?;
+        let goes_on = match &self.goes_on {
+            None => None,
+            Some(kind) => Some(kind.to_brain()?),
         };
         let figures = JobFigures {
             time_s: self.time_s,
@@ -197,13 +233,17 @@ impl JobState {
             kind,
             figures,
             running: self.running,
+            goes_on,
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use brain::{Cell, CellKnowledge, Checkpoint, Pose2, Raster, StoredMap, TrackingCheckpoint};
+    use brain::{
+        Cell, CellKnowledge, Checkpoint, EnergyModel, JobCheckpoint, JobFigures, JobKind, Pose2, Raster,
+        StoredMap, StrategyName, TrackingCheckpoint,
+    };
 
     use super::{BrainState, from_hex, to_hex};
 
@@ -219,6 +259,17 @@ mod tests {
                 gyro_scale: -0.004,
                 ..TrackingCheckpoint::default()
             }),
+            job: Some(JobCheckpoint {
+                kind: JobKind::Dock,
+                figures: JobFigures::default(),
+                running: true,
+                goes_on: Some(JobKind::Clean(StrategyName::Systematic)),
+            }),
+            energy: EnergyModel {
+                cleaning_per_s: 2e-4,
+                driving_per_s: 1e-4,
+                seen_s: 300.0,
+            },
             ..Checkpoint::default()
         };
         let text = serde_json::to_string(&BrainState::from(&checkpoint)).expect("plain");

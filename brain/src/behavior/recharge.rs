@@ -1,0 +1,159 @@
+//! Home for charge, and on with the job afterwards.
+//!
+//! A cleaning job that ends for the pack's sake is *put off*: a job that looks for the dock takes its place, and on the dock
+//! it comes back and waits until the pack is charged. A lost dock leaves it with a person.
+
+use super::job::Job;
+use super::machine::{Behavior, Mode};
+use super::{JobKind, Reason};
+use crate::checkpoint::JobCheckpoint;
+use crate::docking;
+use crate::energy::{Activity, EnergyModel, EnergyWatch};
+use crate::task::{Mind, Situation};
+
+/// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
+const LOOK_BELOW: f32 = 0.5;
+const LOOK_US: u64 = 20_000_000;
+
+impl Behavior {
+    /// What driving and cleaning take, as far as it was learnt.
+    pub(crate) fn energy(&self) -> EnergyModel {
+        self.energy.model()
+    }
+
+    /// Takes up what was learnt earlier.
+    pub(crate) fn learn_energy(&mut self, model: EnergyModel) {
+        self.energy = EnergyWatch::of(model);
+    }
+
+    /// Learns from what the pack lost since the last step.
+    pub(super) fn watch_energy(&mut self, situation: &Situation<'_>) {
+        let activity = match self.mode {
+            Mode::Working if self.runs_cleaners() => Activity::Cleaning,
+            Mode::Working => Activity::Driving,
+            _ => Activity::Other,
+        };
+        let charge = situation.observation.battery_charge;
+        self.energy.follow(situation.advance.time_s, activity, charge);
+    }
+
+    /// Whether so little charge is left that the way home might become too long.
+    pub(super) fn must_go_home(&mut self, situation: &Situation<'_>) -> bool {
+        if self.facts.battery_low {
+            return true;
+        }
+        let charge = situation.observation.battery_charge;
+        let Some(charge) = charge.filter(|charge| *charge < LOOK_BELOW) else {
+            return false;
+        };
+        let now_us = self.facts.now_us;
+        if self
+            .way_home_us
+            .is_some_and(|looked_us| now_us < looked_us + LOOK_US)
+        {
+            return false;
+        }
+        self.way_home_us = Some(now_us);
+        let Some(way_m) = docking::way_home_m(situation) else {
+            return false;
+        };
+        let cruise_m_per_s = self.config.speeds.cruise_m_per_s;
+        f64::from(charge) < self.energy.model().charge_to_return(way_m, cruise_m_per_s)
+    }
+
+    /// The running job becomes a search for the dock and keeps its figures. One that ends for the pack's sake is put off.
+    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut Mind) {
+        let figures = self.figures();
+        let before = self.job.replace(Job::new(JobKind::Dock, figures));
+        self.put_off = before.filter(|job| reason == Reason::BatteryLow && job.kind != JobKind::Dock);
+        if let Some(job) = &mut self.put_off {
+            job.interrupt();
+        }
+        self.enter(Mode::Working, reason, mind);
+    }
+
+    /// On the dock at the end of the way home.
+    pub(super) fn arrive(&mut self, mind: &mut Mind) {
+        let figures = self.figures();
+        match self.put_off.take() {
+            None => self.end_job(Reason::Docked, mind),
+            Some(job) => {
+                self.job = Some(Job { figures, ..job });
+                self.enter(Mode::Recharging, Reason::Recharging, mind);
+            }
+        }
+    }
+
+    /// Nobody can see the dock: the job waits as it did on the way home.
+    pub(super) fn put_off_again(&mut self) {
+        let figures = self.figures();
+        self.put_off = self.job.replace(Job::new(JobKind::Dock, figures));
+    }
+
+    /// The way home has ended elsewhere: what was put off waits for a person.
+    pub(super) fn give_up_home(&mut self, reason: Reason, mind: &mut Mind) {
+        let figures = self.figures();
+        match self.put_off.take() {
+            None => self.end_job(reason, mind),
+            Some(job) => {
+                self.job = Some(Job { figures, ..job });
+                self.enter(Mode::Paused, reason, mind);
+            }
+        }
+    }
+
+    /// Goes on when the pack is charged; waits for a person when somebody took the robot off its dock.
+    pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        let charged = situation
+            .observation
+            .battery_charge
+            .is_some_and(|charge| charge >= self.config.battery_charged);
+        if !self.facts.docked {
+            self.hold(Reason::Released, mind);
+        } else if charged && !self.facts.battery_low && !self.facts.wheel_drop {
+            self.announce(Reason::Charged, mind);
+        }
+    }
+
+    /// What must survive a restart of the job. One that waits for charge is told as one that drives home: its successor finds
+    /// itself on the dock.
+    pub(crate) fn checkpoint(&self) -> Option<JobCheckpoint> {
+        let running = match self.mode {
+            Mode::Starting { .. } | Mode::Working | Mode::Recharging => true,
+            Mode::Disconnected { resume, .. } => resume,
+            _ => false,
+        };
+        self.job.as_ref().map(|job| {
+            let goes_on = self.put_off.as_ref().map(|put_off| put_off.kind);
+            let plain = JobCheckpoint {
+                kind: job.kind,
+                figures: job.figures,
+                running,
+                goes_on,
+            };
+            if self.mode == Mode::Recharging {
+                JobCheckpoint {
+                    kind: JobKind::Dock,
+                    goes_on: Some(job.kind),
+                    ..plain
+                }
+            } else {
+                plain
+            }
+        })
+    }
+
+    /// Takes up a job after a restart.
+    pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
+        self.job = Some(Job::new(checkpoint.kind, checkpoint.figures));
+        self.put_off = checkpoint.goes_on.map(|kind| Job {
+            returns: true,
+            ..Job::new(kind, checkpoint.figures)
+        });
+        self.mode = Mode::Disconnected {
+            since_us: None,
+            resume: checkpoint.running,
+        };
+        self.reason = Reason::Restored;
+    }
+}

@@ -1,0 +1,465 @@
+//! The way in by the two beams: scan for the dock, drive along the line between the lobes, and try again beside it.
+//!
+//! Terms. *Line*: where both lobes are heard; it leads straight in. *Base*: direction of the line by the robot's own
+//! count of its turns. *Trim*: what is added to the base while one lobe alone is heard. *Try*: one drive along the line.
+
+use core::f64::consts::PI;
+
+use super::hearing::{Hearing, Lobe};
+use super::scan::{Scan, ScanStep};
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::geometry::normalize_rad;
+use crate::manoeuvre::{Evasion, EvasionStep};
+use crate::task::{Mind, Situation};
+
+/// Speed on the line far from the dock, and while one lobe alone is heard.
+const LINE_M_PER_S: f64 = 0.2;
+const TRIM_M_PER_S: f64 = 0.12;
+/// Speed in the near field: contacts are met softly.
+const FINAL_M_PER_S: f64 = 0.05;
+/// Speed beside the line.
+const ASIDE_M_PER_S: f64 = 0.18;
+/// Turn back to the line while one lobe alone is heard, radians; less in the near field, where nothing has time to straighten.
+const TRIM_RAD: f64 = 0.22;
+const TRIM_NEAR_RAD: f64 = 0.14;
+/// What a base that beams alone have told learns when the line was lost and found again, radians.
+const LEARN_RAD: f64 = 0.02;
+/// Way to the side by which the robot goes on into the line after it has found it again, metres: to its middle.
+const MIDDLE_M: f64 = 0.05;
+const MIDDLE_NEAR_M: f64 = 0.02;
+/// From this way into the near field on it drives straight, metres: 0.1 m before the contacts.
+const STRAIGHT_M: f64 = 0.26;
+/// Steering, rad/s for each radian.
+const STEER_PER_S: f64 = 2.5;
+/// Greater errors of the heading are turned away on the spot.
+const TURN_FIRST_RAD: f64 = 0.3;
+/// Rates of such a turn, rad/s.
+const TURN_RAD_PER_S: (f64, f64) = (0.4, 1.2);
+/// The near field begins 0.36 m before the contacts; who has driven so far in it has missed them, metres.
+const NEAR_MAX_M: f64 = 0.6;
+/// Longest way on the line, metres: beams reach 3 m.
+const LINE_MAX_M: f64 = 4.0;
+/// Silence in front for so long means that the line is lost, seconds.
+const SILENCE_S: f64 = 1.0;
+/// Way back and turn of a wiggle at the contacts: 5 degrees.
+const WIGGLE_BACK_M: f64 = 0.03;
+const WIGGLE_RAD: f64 = 0.087;
+/// Wiggles of one try.
+const WIGGLES_MAX: u32 = 2;
+/// Way back before the robot turns round to leave for another try; no more is known to be floor.
+const RETRY_BACK_M: f64 = 0.08;
+/// Way off for another try, metres.
+const RETRY_AWAY_M: f64 = 0.5;
+/// Tries of one approach.
+pub(super) const TRIES_MAX: u32 = 5;
+/// Scans that may fail or lead nowhere in one approach.
+const SCANS_MAX: u32 = 8;
+/// Angle between the dock and the way to the line, seen from beside the line.
+const ASIDE_RAD: f64 = 0.9;
+/// The same from so near that the line is too short: away from the dock.
+const ASIDE_NEAR_RAD: f64 = 2.2;
+/// Longest way to the line, and from a place where only the near field is heard, metres.
+const ASIDE_MAX_M: f64 = 1.5;
+const ASIDE_NEAR_M: f64 = 0.5;
+
+/// An approach.
+#[derive(Clone, Debug)]
+pub(super) struct Approach {
+    phase: Phase,
+    /// Angle turned since the start, radians.
+    heading_rad: f64,
+    tries: u32,
+    scans: u32,
+    wiggles: u32,
+    wiggle_side: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    Scan(Scan),
+    Line(Line),
+    Leg(Leg),
+    Evade(Evasion, After),
+}
+
+/// The drive along the line.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    base_rad: f64,
+    /// The base is the map's.
+    is_known: bool,
+    lobe: Lobe,
+    /// Way to the side that is left to the middle of the line.
+    middle_m: f64,
+    silent_s: f64,
+    way_m: f64,
+    near_m: f64,
+}
+
+/// A straight way in some direction.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    heading_rad: f64,
+    left_m: f64,
+    /// It ends where the line is met.
+    to_line: bool,
+}
+
+/// What follows an evasion.
+#[derive(Clone, Copy, Debug)]
+enum After {
+    Scan,
+    Line(f64),
+    Leg(f64),
+}
+
+/// State of an approach after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ApproachStep {
+    /// On the way.
+    Going(Motion),
+    /// The beams are lost.
+    Silent,
+    /// All tries were made.
+    Spent,
+    /// Something holds the robot.
+    Held(Reason),
+}
+
+impl Approach {
+    /// An approach by the beams alone.
+    pub(super) fn by_beams() -> Self {
+        Self::beginning(Phase::Scan(Scan::new()))
+    }
+
+    /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
+    pub(super) fn from_map(bearing_rad: f64) -> Self {
+        Self::beginning(Phase::Line(Line {
+            is_known: true,
+            ..Line::along(bearing_rad)
+        }))
+    }
+
+    fn beginning(phase: Phase) -> Self {
+        Self {
+            phase,
+            heading_rad: 0.0,
+            tries: 0,
+            scans: 0,
+            wiggles: 0,
+            wiggle_side: 1.0,
+        }
+    }
+
+    pub(super) fn step(
+        &mut self,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> ApproachStep {
+        self.heading_rad += situation.advance.turn_rad;
+        match self.phase {
+            Phase::Evade(evasion, after) => self.evade(evasion, after, situation),
+            _ if situation.at_cliff => {
+                let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
+                self.turn_round(Evasion::from_cliff, reason, mind)
+            }
+            Phase::Scan(scan) => self.scan(scan, hearing, (situation, mind)),
+            Phase::Line(line) => self.line(line, hearing, (situation, mind)),
+            Phase::Leg(leg) => self.leg(leg, hearing, (situation, mind)),
+        }
+    }
+
+    fn evade(&mut self, mut evasion: Evasion, after: After, situation: &Situation<'_>) -> ApproachStep {
+        match evasion.step(situation) {
+            EvasionStep::Going(motion) => {
+                self.phase = Phase::Evade(evasion, after);
+                ApproachStep::Going(motion)
+            }
+            EvasionStep::Held(reason) => ApproachStep::Held(reason),
+            EvasionStep::Free => {
+                self.phase = match after {
+                    After::Scan => Phase::Scan(Scan::new()),
+                    After::Line(base_rad) => Phase::Line(Line::along(base_rad)),
+                    After::Leg(heading_rad) => Phase::Leg(Leg {
+                        heading_rad,
+                        left_m: RETRY_AWAY_M,
+                        to_line: false,
+                    }),
+                };
+                ApproachStep::Going(Motion::Halt)
+            }
+        }
+    }
+
+    fn scan(
+        &mut self,
+        mut scan: Scan,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> ApproachStep {
+        if situation.touching {
+            return self.free_oneself(mind);
+        }
+        match scan.step(hearing, situation.advance.turn_rad) {
+            ScanStep::Going(motion) => {
+                self.phase = Phase::Scan(scan);
+                ApproachStep::Going(motion)
+            }
+            ScanStep::Failed => ApproachStep::Silent,
+            ScanStep::Found(bearing_rad) => {
+                self.scans += 1;
+                if self.scans > SCANS_MAX {
+                    return ApproachStep::Spent;
+                }
+                mind.decide("dock-scan", Reason::DockBeam, bearing_rad);
+                self.phase = self.after_scan(self.heading_rad + bearing_rad, hearing, mind);
+                ApproachStep::Going(Motion::Halt)
+            }
+        }
+    }
+
+    /// Where to go from a place from which the dock lies in direction `dock_rad`.
+    fn after_scan(&mut self, dock_rad: f64, hearing: &Hearing, mind: &mut Mind) -> Phase {
+        // To a robot that faces the dock the line lies on the right when it hears the left lobe.
+        let to_line = match hearing.lobe() {
+            Lobe::Both => return Phase::Line(Line::along(dock_rad)),
+            Lobe::Left => -1.0,
+            Lobe::Right => 1.0,
+            Lobe::None if mind.random.coin() => 1.0,
+            Lobe::None => -1.0,
+        };
+        let is_near = hearing.is_near();
+        mind.decide("dock-line", Reason::DockBeam, to_line);
+        Phase::Leg(Leg {
+            heading_rad: dock_rad + to_line * if is_near { ASIDE_NEAR_RAD } else { ASIDE_RAD },
+            left_m: if is_near { ASIDE_NEAR_M } else { ASIDE_MAX_M },
+            to_line: !is_near,
+        })
+    }
+
+    fn leg(
+        &mut self,
+        mut leg: Leg,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> ApproachStep {
+        if situation.touching {
+            return self.free_oneself(mind);
+        }
+        leg.left_m -= situation.advance.distance_m.max(0.0);
+        if leg.left_m <= 0.0 || (leg.to_line && hearing.lobe() == Lobe::Both) {
+            self.phase = Phase::Scan(Scan::new());
+            return ApproachStep::Going(Motion::Halt);
+        }
+        self.phase = Phase::Leg(leg);
+        ApproachStep::Going(self.toward(leg.heading_rad, ASIDE_M_PER_S))
+    }
+
+    fn line(
+        &mut self,
+        mut line: Line,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> ApproachStep {
+        if situation.touching {
+            return self.miss(line, hearing, (situation, mind));
+        }
+        line.follow(hearing, situation.advance.distance_m, situation.advance.time_s);
+        self.phase = Phase::Line(line);
+        if line.near_m > NEAR_MAX_M || line.way_m > LINE_MAX_M {
+            return self.leave(line.base_rad, mind);
+        }
+        let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
+        if line.silent_s > SILENCE_S && error_rad.abs() < TURN_FIRST_RAD {
+            self.phase = Phase::Scan(Scan::new());
+            return ApproachStep::Going(Motion::Halt);
+        }
+        ApproachStep::Going(self.toward(line.setpoint_rad(), line.speed_m_per_s()))
+    }
+
+    /// Hit something before the contacts closed.
+    fn miss(
+        &mut self,
+        line: Line,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> ApproachStep {
+        let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
+        if !hearing.is_near() {
+            // Something stands in the way.
+            return self.turn_round(Evasion::from_contact, reason, mind);
+        }
+        if self.wiggles >= WIGGLES_MAX {
+            return self.leave(line.base_rad, mind);
+        }
+        self.wiggles += 1;
+        mind.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
+        let base_rad = line.base_rad + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
+        self.wiggle_side = -self.wiggle_side;
+        let turn_rad = normalize_rad(base_rad - self.heading_rad);
+        self.phase = Phase::Evade(
+            Evasion::from_contact(WIGGLE_BACK_M, turn_rad),
+            After::Line(base_rad),
+        );
+        ApproachStep::Going(Motion::Halt)
+    }
+
+    /// Leaves the dock in order to try again.
+    fn leave(&mut self, base_rad: f64, mind: &mut Mind) -> ApproachStep {
+        self.tries += 1;
+        self.wiggles = 0;
+        if self.tries >= TRIES_MAX {
+            return ApproachStep::Spent;
+        }
+        mind.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
+        let away_rad = base_rad + PI + mind.random.between(-0.3, 0.3);
+        let turn_rad = normalize_rad(away_rad - self.heading_rad);
+        self.phase = Phase::Evade(
+            Evasion::from_contact(RETRY_BACK_M, turn_rad),
+            After::Leg(away_rad),
+        );
+        ApproachStep::Going(Motion::Halt)
+    }
+
+    /// Away from something that is not the dock, and a try less.
+    fn turn_round(
+        &mut self,
+        evasion: fn(f64, f64) -> Evasion,
+        reason: Reason,
+        mind: &mut Mind,
+    ) -> ApproachStep {
+        self.tries += 1;
+        if self.tries >= TRIES_MAX {
+            return ApproachStep::Spent;
+        }
+        mind.decide("dock-retry", reason, f64::from(self.tries));
+        let side = match reason {
+            Reason::BumpLeft | Reason::CliffLeft => -1.0,
+            Reason::BumpRight | Reason::CliffRight => 1.0,
+            _ if mind.random.coin() => 1.0,
+            _ => -1.0,
+        };
+        let turn_rad = side * mind.random.between(1.0, 1.8);
+        self.phase = Phase::Evade(
+            evasion(RETRY_BACK_M, turn_rad),
+            After::Leg(self.heading_rad + turn_rad),
+        );
+        ApproachStep::Going(Motion::Halt)
+    }
+
+    /// Touched while looking round or on the way to the line.
+    fn free_oneself(&mut self, mind: &mut Mind) -> ApproachStep {
+        self.scans += 1;
+        if self.scans > SCANS_MAX {
+            return ApproachStep::Spent;
+        }
+        let turn_rad = mind.random.between(-0.6, 0.6);
+        self.phase = Phase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), After::Scan);
+        ApproachStep::Going(Motion::Halt)
+    }
+
+    /// The motion in a direction, after a turn on the spot if that is far from straight ahead.
+    fn toward(&self, target_rad: f64, speed_m_per_s: f64) -> Motion {
+        let error_rad = normalize_rad(target_rad - self.heading_rad);
+        if error_rad.abs() > TURN_FIRST_RAD {
+            let (least, most) = TURN_RAD_PER_S;
+            return Motion::Drive {
+                speed_m_per_s: 0.0,
+                turn_rad_per_s: (STEER_PER_S * error_rad.abs())
+                    .clamp(least, most)
+                    .copysign(error_rad),
+            };
+        }
+        Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: STEER_PER_S * error_rad,
+        }
+    }
+}
+
+impl Line {
+    fn along(base_rad: f64) -> Self {
+        Self {
+            base_rad,
+            is_known: false,
+            lobe: Lobe::Both,
+            middle_m: 0.0,
+            silent_s: 0.0,
+            way_m: 0.0,
+            near_m: 0.0,
+        }
+    }
+
+    fn follow(&mut self, hearing: &Hearing, distance_m: f64, time_s: f64) {
+        self.silent_s = if hearing.is_in_front() {
+            0.0
+        } else {
+            self.silent_s + time_s
+        };
+        self.way_m += distance_m.max(0.0);
+        if hearing.is_near() || self.near_m > 0.0 {
+            self.near_m += distance_m.max(1e-6);
+        }
+        self.take_lobe(hearing.lobe(), distance_m);
+    }
+
+    fn take_lobe(&mut self, lobe: Lobe, distance_m: f64) {
+        match lobe {
+            Lobe::None => {}
+            Lobe::Left | Lobe::Right => {
+                self.lobe = lobe;
+                self.middle_m = if self.near_m > 0.0 {
+                    MIDDLE_NEAR_M
+                } else {
+                    MIDDLE_M
+                };
+            }
+            Lobe::Both if self.lobe != Lobe::Both => {
+                self.middle_m -= self.trim_rad() * distance_m.max(0.0);
+                if self.middle_m <= 0.0 {
+                    if !self.is_known {
+                        self.base_rad += LEARN_RAD * toward_line(self.lobe);
+                    }
+                    self.lobe = Lobe::Both;
+                }
+            }
+            Lobe::Both => {}
+        }
+    }
+
+    fn trim_rad(&self) -> f64 {
+        if self.near_m > 0.0 {
+            TRIM_NEAR_RAD
+        } else {
+            TRIM_RAD
+        }
+    }
+
+    fn setpoint_rad(&self) -> f64 {
+        if self.near_m > STRAIGHT_M {
+            self.base_rad
+        } else {
+            self.base_rad + self.trim_rad() * toward_line(self.lobe)
+        }
+    }
+
+    fn speed_m_per_s(&self) -> f64 {
+        if self.near_m > 0.0 {
+            FINAL_M_PER_S
+        } else if self.lobe == Lobe::Both && self.silent_s == 0.0 {
+            LINE_M_PER_S
+        } else {
+            TRIM_M_PER_S
+        }
+    }
+}
+
+/// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.
+fn toward_line(lobe: Lobe) -> f64 {
+    match lobe {
+        Lobe::Left => -1.0,
+        Lobe::Right => 1.0,
+        Lobe::Both | Lobe::None => 0.0,
+    }
+}

@@ -1,0 +1,149 @@
+//! Turning on the spot to find out in which direction the dock lies.
+//!
+//! The two front receivers look to the left and to the right of straight ahead. As the robot turns there is an angle from
+//! which on both hear the dock, and one from which on they do not any more; the dock is in the middle of the two.
+
+use core::f64::consts::TAU;
+
+use super::hearing::Hearing;
+use crate::action::Motion;
+
+/// Rate of the turn, rad/s: less than the fastest, so that an edge is not smeared over many degrees.
+const SCAN_RAD_PER_S: f64 = 0.8;
+/// A scan that turned so far without the two edges has failed.
+const GIVE_UP_RAD: f64 = 1.6 * TAU;
+/// Both receivers hear over an angle of some 70 degrees; much less or more is not one dock, radians.
+const WIDTH_RAD: core::ops::Range<f64> = 0.35..2.8;
+
+/// A turn of the head.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scan {
+    /// +1 turns left, -1 right.
+    side: f64,
+    /// Angle turned since the start, left positive, and the sum of its parts.
+    turned_rad: f64,
+    way_rad: f64,
+    /// Where both receivers began to hear; `None` before.
+    from_rad: Option<f64>,
+    was_ahead: bool,
+    is_begun: bool,
+}
+
+/// State of a scan after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ScanStep {
+    /// It turns on.
+    Going(Motion),
+    /// The dock lies in this direction, left of straight ahead, radians.
+    Found(f64),
+    /// Nothing that looks like a dock.
+    Failed,
+}
+
+impl Scan {
+    pub(super) fn new() -> Self {
+        Self {
+            side: 1.0,
+            turned_rad: 0.0,
+            way_rad: 0.0,
+            from_rad: None,
+            was_ahead: false,
+            is_begun: false,
+        }
+    }
+
+    /// One step in which the robot has turned by `turn_rad`.
+    pub(super) fn step(&mut self, hearing: &Hearing, turn_rad: f64) -> ScanStep {
+        let ahead = hearing.is_ahead();
+        if !self.is_begun {
+            self.begin(hearing, ahead);
+        } else {
+            self.turned_rad += turn_rad;
+            self.way_rad += turn_rad.abs();
+        }
+        if self.was_ahead && !ahead {
+            self.was_ahead = false;
+            match self.from_rad {
+                None => {
+                    // It began in the middle: this was one edge, the other one lies on the other side.
+                    self.side = -self.side;
+                }
+                Some(from_rad) => {
+                    let width_rad = (self.turned_rad - from_rad).abs();
+                    if WIDTH_RAD.contains(&width_rad) {
+                        return ScanStep::Found(0.5 * (self.turned_rad + from_rad) - self.turned_rad);
+                    }
+                    self.from_rad = None;
+                }
+            }
+        } else if ahead && !self.was_ahead {
+            self.was_ahead = true;
+            self.from_rad = Some(self.turned_rad);
+        }
+        if self.way_rad > GIVE_UP_RAD {
+            return ScanStep::Failed;
+        }
+        ScanStep::Going(Motion::Drive {
+            speed_m_per_s: 0.0,
+            turn_rad_per_s: self.side * SCAN_RAD_PER_S,
+        })
+    }
+
+    fn begin(&mut self, hearing: &Hearing, ahead: bool) {
+        self.is_begun = true;
+        self.was_ahead = ahead;
+        if hearing.side() != 0.0 {
+            self.side = hearing.side();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Scan, ScanStep};
+    use crate::action::Motion;
+    use crate::docking::hearing::Hearing;
+
+    /// Turns where a dock lies at `dock_rad`, and gives the direction that is found then.
+    fn scanned(dock_rad: f64, symbols: u8) -> Option<f64> {
+        let (mut scan, mut hearing, mut heading_rad) = (Scan::new(), Hearing::default(), 0.0_f64);
+        let mut turn_rad = 0.0;
+        let word = |heading_rad: f64| {
+            [0.436, -0.436, 2.618, -2.618].map(|mount_rad: f64| {
+                let off = (dock_rad - heading_rad - mount_rad)
+                    .sin()
+                    .atan2((dock_rad - heading_rad - mount_rad).cos());
+                if off.abs() < 1.047 { symbols } else { 0 }
+            })
+        };
+        for _ in 0..20 {
+            hearing.take(&word(heading_rad));
+        }
+        for _ in 0..2_000 {
+            hearing.take(&word(heading_rad));
+            match scan.step(&hearing, turn_rad) {
+                ScanStep::Going(Motion::Drive { turn_rad_per_s, .. }) => turn_rad = 0.02 * turn_rad_per_s,
+                ScanStep::Going(_) => return None,
+                ScanStep::Found(bearing_rad) => return Some(heading_rad + bearing_rad),
+                ScanStep::Failed => return None,
+            }
+            heading_rad += turn_rad;
+        }
+        None
+    }
+
+    #[test]
+    fn the_dock_is_found_in_any_direction() {
+        for step in 0..24 {
+            let dock_rad = f64::from(step) * 0.26 - 3.1;
+            let found_rad = scanned(dock_rad, 3).unwrap();
+            let off_rad = (found_rad - dock_rad).sin().atan2((found_rad - dock_rad).cos());
+            assert!(off_rad.abs() < 0.08, "{found_rad} instead of {dock_rad}");
+        }
+    }
+
+    #[test]
+    fn silence_is_given_up() {
+        assert_eq!(scanned(0.0, 0), None);
+    }
+}

@@ -1,0 +1,184 @@
+//! The way to a place in front of the dock, by the map.
+//!
+//! What stands in the way is remembered for some minutes and gone round; when no way is left the memory is cleared, because
+//! people and chairs move, and the way is tried again. All of it is bounded by counts.
+
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::coverage::plan::{Goal, plan_way};
+use crate::coverage::systematic::{Obstructions, caution, encounter, reachable};
+use crate::geometry::{Point2, Pose2};
+use crate::manoeuvre::{Evasion, EvasionStep, FollowStep, Follower};
+use crate::task::{Mind, Situation};
+
+/// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
+/// not touch.
+const KEEP_OFF_M: [f64; 2] = [0.05, 0.01];
+/// Distances from the dock at which the beams are taken up, metres: the best one first.
+const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
+/// Places beside the line are worse than places on it: detour for each metre.
+const ASIDE_DETOUR: f64 = 6.0;
+/// The same for distances from the dock.
+const FRONT_DETOUR: f64 = 1.5;
+/// Places beside the line, metres.
+const ASIDE_M: [f64; 5] = [0.0, 0.12, -0.12, 0.25, -0.25];
+/// Way back after a contact, and what is added with each plan that made no way.
+const CONTACT_BACK_M: f64 = 0.03;
+const MORE_BACK_M: f64 = 0.02;
+/// Way back at a cliff.
+const CLIFF_BACK_M: f64 = 0.08;
+/// Nearer than this to where the last plan began, the plan was vain, metres.
+const VAIN_M: f64 = 0.15;
+/// Vain plans in a row, and plans in all, until the way counts as blocked.
+const VAIN_MAX: u32 = 6;
+const PLANS_MAX: u32 = 40;
+/// Times that obstructions are forgotten.
+const FORGET_MAX: u32 = 2;
+
+/// The way to the dock.
+#[derive(Debug)]
+pub(super) struct Travel {
+    dock: Pose2,
+    follower: Option<Follower>,
+    evasion: Option<Evasion>,
+    obstructions: Obstructions,
+    plans: u32,
+    vain: u32,
+    forgotten: u32,
+    planned_from: Option<Point2>,
+}
+
+/// State of the way after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TravelStep {
+    /// On it.
+    Going(Motion),
+    /// In front of the dock.
+    Arrived,
+    /// No way is left.
+    Blocked,
+    /// Something holds the robot.
+    Held(Reason),
+}
+
+impl Travel {
+    /// To the place in front of `dock`, the pose of a robot on its contacts.
+    pub(super) fn to(dock: Pose2) -> Self {
+        Self {
+            dock,
+            follower: None,
+            evasion: None,
+            obstructions: Obstructions::default(),
+            plans: 0,
+            vain: 0,
+            forgotten: 0,
+            planned_from: None,
+        }
+    }
+
+    /// The robot was moved by somebody else.
+    pub(super) fn interrupted(&mut self) {
+        self.follower = None;
+        self.evasion = None;
+    }
+
+    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+        if let Some(evasion) = &mut self.evasion {
+            match evasion.step(situation) {
+                EvasionStep::Going(motion) => return TravelStep::Going(motion),
+                EvasionStep::Free => self.evasion = None,
+                EvasionStep::Held(reason) => {
+                    self.interrupted();
+                    return TravelStep::Held(reason);
+                }
+            }
+        }
+        if let Some(reason) = encounter(situation) {
+            return self.evade(reason, situation, mind);
+        }
+        if let Some(follower) = &mut self.follower {
+            match follower.step(situation, caution(situation, follower)) {
+                FollowStep::Going(motion) => return TravelStep::Going(motion),
+                FollowStep::Arrived => return TravelStep::Arrived,
+                FollowStep::Off => {
+                    mind.decide("leave-way", Reason::OffTheWay, 0.0);
+                    self.follower = None;
+                }
+            }
+        }
+        self.plan(situation, mind)
+    }
+
+    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+        mind.decide("back-off", reason, 0.0);
+        self.obstructions.add(reason, situation);
+        self.follower = None;
+        self.evasion = Some(if situation.at_cliff {
+            Evasion::from_cliff(CLIFF_BACK_M, 0.0)
+        } else {
+            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain), 0.0)
+        });
+        TravelStep::Going(Motion::Halt)
+    }
+
+    fn plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+        let here = situation.pose.position();
+        let is_vain = self
+            .planned_from
+            .is_some_and(|from| from.distance_m(here) < VAIN_M);
+        self.vain = if is_vain { self.vain + 1 } else { 0 };
+        self.planned_from = Some(here);
+        self.plans += 1;
+        if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
+            return TravelStep::Blocked;
+        }
+        let goals = goals(self.dock);
+        let blocked = self.obstructions.points(situation.observation.time_us);
+        for keep_off_m in KEEP_OFF_M {
+            let radius_m = situation.config.body.radius_m + keep_off_m;
+            let ground = reachable(situation.map.knowledge(), radius_m, &blocked);
+            if let Some(pieces) = plan_way(&ground, situation.pose, &goals) {
+                let way_m = pieces.iter().map(|piece| piece.length_m).sum();
+                mind.decide("dock-way", Reason::DockKnown, way_m);
+                self.follower = Some(Follower::new(pieces));
+                return TravelStep::Going(Motion::Halt);
+            }
+        }
+        if blocked.is_empty() || self.forgotten >= FORGET_MAX {
+            return TravelStep::Blocked;
+        }
+        mind.decide(
+            "forget-obstructions",
+            Reason::WayBlocked,
+            f64::from(self.forgotten),
+        );
+        self.forgotten += 1;
+        self.obstructions.clear();
+        TravelStep::Going(Motion::Halt)
+    }
+}
+
+/// Length of the way to the place in front of `dock`, metres; `None` when the map knows none.
+pub(super) fn way_m(dock: Pose2, situation: &Situation<'_>) -> Option<f64> {
+    let radius_m = situation.config.body.radius_m + KEEP_OFF_M[1];
+    let ground = reachable(situation.map.knowledge(), radius_m, &[]);
+    let pieces = plan_way(&ground, situation.pose, &goals(dock))?;
+    Some(pieces.iter().map(|piece| piece.length_m).sum())
+}
+
+/// Places in front of the dock, those on the line at a good distance first.
+pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
+    let mut goals = Vec::with_capacity(FRONT_M.len() * ASIDE_M.len());
+    for (rank, front_m) in FRONT_M.into_iter().enumerate() {
+        for aside_m in ASIDE_M {
+            goals.push(Goal {
+                at: dock.transform(Point2 {
+                    x_m: -front_m,
+                    y_m: aside_m,
+                }),
+                detour_m: FRONT_DETOUR * 0.2 * rank as f64 + ASIDE_DETOUR * aside_m.abs(),
+            });
+        }
+    }
+    goals
+}
