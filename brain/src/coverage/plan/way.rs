@@ -18,8 +18,9 @@ pub(crate) struct Goal {
 /// The way over `reachable` to the goal that is best to reach: the shortest, with what the goals are worth. `None` when none
 /// of them can be reached.
 pub(crate) fn plan_way(reachable: &Raster<bool>, start: Pose2, goals: &[Goal]) -> Option<Vec<Piece>> {
-    let ground = Ground::new(reachable, 1);
+    let mut ground = Ground::new(reachable, 1);
     let origin = ground.origin_near(start.position())?;
+    ground.keep_connected(origin);
     let router = Router::new(&ground);
     let mut spread = router.spread();
     router.explore(origin, &mut spread, |_| false);

@@ -17,6 +17,10 @@ pub(crate) struct Dirt {
     /// Cells of the reachable floor that the disc has passed.
     pub(crate) swept: Vec<bool>,
     pub(crate) swept_cells: u32,
+    /// Stretch of the job in which a cell was cleaned last, 0 = in none; empty while nobody counts.
+    stretches: Vec<u8>,
+    stretch: u8,
+    again_cells: u32,
     dirt: Vec<u8>,
     total: u64,
     taken: u64,
@@ -49,9 +53,39 @@ impl Dirt {
             last: None,
             swept: vec![false; grid.cells.len()],
             swept_cells: 0,
+            stretches: Vec::new(),
+            stretch: 0,
+            again_cells: 0,
             total: dirt.iter().map(|amount| u64::from(*amount)).sum(),
             dirt,
             taken: 0,
+        }
+    }
+
+    /// A stretch of a job begins. From the first one on it is counted how many cells are cleaned again in a later one.
+    pub(crate) fn begin_stretch(&mut self) {
+        self.stretches.resize(self.swept.len(), 0);
+        self.stretch = self.stretch.saturating_add(1);
+    }
+
+    /// Cells of the reachable floor that were cleaned again in a later stretch.
+    pub(crate) fn again_cells(&self) -> u32 {
+        self.again_cells
+    }
+
+    fn count_again(&mut self, home: &Home, cells: core::ops::Range<usize>) {
+        let (Some(stretches), Some(reachable)) =
+            (self.stretches.get_mut(cells.clone()), home.reachable().get(cells))
+        else {
+            return;
+        };
+        for (stretch, _) in stretches
+            .iter_mut()
+            .zip(reachable)
+            .filter(|(_, reachable)| **reachable)
+        {
+            self.again_cells += u32::from(*stretch != 0 && *stretch != self.stretch);
+            *stretch = self.stretch;
         }
     }
 
@@ -93,6 +127,9 @@ impl Dirt {
                 *swept = true;
                 self.swept_cells += 1;
             }
+        }
+        if cleaning && !self.stretches.is_empty() {
+            self.count_again(home, cells.clone());
         }
         if cleaning && let Some(dirt) = self.dirt.get_mut(cells) {
             for amount in dirt.iter_mut().filter(|amount| **amount > 0) {

@@ -52,6 +52,7 @@ pub struct World {
     gyro: Option<Gyro>,
     dock: Option<Dock>,
     battery: Pack,
+    charging_speed: f64,
     dirt: Dirt,
     lidar: Option<Lidar>,
     faults: Faults,
@@ -101,6 +102,7 @@ impl World {
             gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
             dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
+            charging_speed: 1.0,
             dirt: Dirt::new(
                 &home,
                 model.body.swath_m,
@@ -187,6 +189,17 @@ impl World {
         &self.dirt.swept
     }
 
+    /// A stretch of a job begins: after a charge, for instance. See [`Self::cleaned_again_share`].
+    pub fn begin_stretch(&mut self) {
+        self.dirt.begin_stretch();
+    }
+
+    /// Share of the reachable floor that was cleaned (brush and suction running) in one stretch and again in a later one.
+    #[must_use]
+    pub fn cleaned_again_share(&self) -> f64 {
+        f64::from(self.dirt.again_cells()) / f64::from(self.home.reachable_cells().max(1))
+    }
+
     /// Somebody lifts the robot: both wheels hang, it does not move any more.
     pub fn lift(&mut self) {
         self.truth.lifted = true;
@@ -254,6 +267,12 @@ impl World {
             charge.clamp(0.0, 1.0),
             ROOM_C,
         ));
+    }
+
+    /// Lets the pack fill so many times as fast as its current would, up to 95 %: what the charger sees of temperature and time
+    /// stays as it is. For simulations that cannot wait for a charge.
+    pub fn set_charging_speed(&mut self, times: f64) {
+        self.charging_speed = times.max(1.0);
     }
 
     /// Puts another pack in.

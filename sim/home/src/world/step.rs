@@ -19,6 +19,8 @@ const SURFACE_MS: u64 = 8;
 const BATTERY_MS: u64 = 10;
 /// Milliseconds between two samples of the dock's beams.
 const DOCK_MS: u64 = 40;
+/// Less than this into the pack is a trickle, which is not hastened, ampere.
+const HASTE_FROM_A: f64 = 0.1;
 /// Milliseconds between two looks at the doors.
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
@@ -232,6 +234,9 @@ impl World {
         };
         self.battery
             .step(dock_a - (self.model.battery.electronics_a + motors_a), dt_s);
+        if self.charging_speed > 1.0 && dock_a > HASTE_FROM_A {
+            self.battery.hasten((self.charging_speed - 1.0) * dock_a * dt_s);
+        }
         self.publish_battery(brush_a);
     }
 

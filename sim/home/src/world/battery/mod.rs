@@ -51,6 +51,8 @@ const NOMINAL_CELL_V: f64 = 1.2;
 const NEIGHBOUR_W_PER_K: f64 = 0.45;
 const SECONDS_PER_H: f64 = 3_600.0;
 const SECONDS_PER_DAY: f64 = 86_400.0;
+/// Charge up to which a charge can be hastened.
+const HASTE_MAX: f64 = 0.95;
 
 /// A pack.
 #[derive(Clone, Debug)]
@@ -125,6 +127,15 @@ impl Pack {
         self.temperature_c += heat_w * dt_s / self.make.heat_j_per_k;
         let lag = (dt_s / self.make.sensor_lag_s.max(dt_s)).min(1.0);
         self.sensor_c += (self.temperature_c - self.sensor_c) * lag;
+    }
+
+    /// Stores what so many ampere seconds more would store, without their time and heat: for simulations that cannot wait for
+    /// a charge. Above `HASTE_MAX` nothing is hastened, so that the signs of a full pack come as they do.
+    pub(crate) fn hasten(&mut self, ampere_s: f64) {
+        if self.charge < HASTE_MAX {
+            let per_as = 1.0 / (SECONDS_PER_H * self.make.capacity_ah);
+            self.charge = (self.charge + ampere_s.max(0.0) * per_as).min(HASTE_MAX);
+        }
     }
 
     /// Current in parts of the capacity an hour, while it charges.

@@ -1,6 +1,7 @@
 //! `bench-docking`: how surely, how fast and how exactly the robot comes home. `cargo xtask bench docking` builds and runs it.
 #![forbid(unsafe_code)]
 
+mod low_battery;
 mod place;
 #[path = "../../progress.rs"]
 mod progress;
@@ -8,14 +9,16 @@ mod run;
 mod table;
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Context;
 use clap::Parser;
 use home::generate::{GeneratedHome, PUBLISHED};
-use home::{Noise, RobotModel};
+use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
+use low_battery::{Job, Summary};
 use progress::Progress;
 use run::{Obstacle, Run, Situation};
 use table::Table;
@@ -23,7 +26,7 @@ use table::Table;
 /// Measures docking in generated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes: `tune` or `report` (odd and even numbers of the published set).
+    /// Homes: `tune` or `report` (odd and even numbers of the published set), or `small` (two homes of the project).
     #[arg(long, default_value = "report")]
     homes: String,
     /// Runs of each situation, spread over the homes.
@@ -40,6 +43,12 @@ struct Arguments {
     /// and turned by 3 degrees since the map was made), `bad-noise`.
     #[arg(long, default_value = "")]
     faults: String,
+    /// Instead: jobs of `systematic` for which one charge is not enough, in a known home.
+    #[arg(long)]
+    low_battery: bool,
+    /// How many times as fast the pack fills in those.
+    #[arg(long, default_value_t = 20.0)]
+    charging_speed: f64,
     /// Print one JSON object, with each run.
     #[arg(long)]
     json: bool,
@@ -57,26 +66,65 @@ fn main() -> anyhow::Result<()> {
     } else {
         Noise::nominal()
     };
-    let situations = Situation::list(&arguments.situations)?;
-    let homes: Vec<u32> = match arguments.homes.as_str() {
-        "tune" => PUBLISHED.filter(|number| number % 2 == 1).collect(),
-        "report" => PUBLISHED.filter(|number| number % 2 == 0).collect(),
-        other => anyhow::bail!("`{other}` is no set of homes: give tune or report"),
+    let homes = arguments.homes()?;
+    let scene_of = |number: usize| -> anyhow::Result<Scene> {
+        let place = homes.get(number).context("a home of the set")?;
+        let home = match place {
+            Place::Generated(number) => GeneratedHome::number(*number).home(&model)?,
+            Place::File(path) => Home::load(Path::new(path), &model)?,
+        };
+        Ok(Scene::new(Arc::new(home), model.clone(), noise))
     };
+    let output = if arguments.low_battery {
+        low_batteries(&arguments, homes.len(), scene_of)?
+    } else {
+        ways_home(&arguments, homes.len(), (obstacle, &scene_of))?
+    };
+    writeln!(io::stdout(), "{output}").context("cannot write to standard output")
+}
+
+/// Where a home comes from.
+enum Place {
+    Generated(u32),
+    File(&'static str),
+}
+
+/// Homes that are cleaned in minutes.
+const SMALL: [&str; 2] = ["homes/furnished-room.toml", "homes/two-room-flat.toml"];
+
+impl Arguments {
+    fn homes(&self) -> anyhow::Result<Vec<Place>> {
+        let numbers = |rest: u32| {
+            PUBLISHED
+                .filter(move |number| number % 2 == rest)
+                .map(Place::Generated)
+        };
+        Ok(match self.homes.as_str() {
+            "tune" => numbers(1).collect(),
+            "report" => numbers(0).collect(),
+            "small" => SMALL.into_iter().map(Place::File).collect(),
+            other => anyhow::bail!("`{other}` is no set of homes: give tune, report or small"),
+        })
+    }
+
+    /// The seeds that fall to a home.
+    fn seeds(&self, number: usize, homes: usize) -> impl Iterator<Item = u64> {
+        (self.first..self.first + self.runs).skip(number).step_by(homes)
+    }
+}
+
+fn ways_home(
+    arguments: &Arguments,
+    homes: usize,
+    (obstacle, scene_of): (Obstacle, &dyn Fn(usize) -> anyhow::Result<Scene>),
+) -> anyhow::Result<String> {
+    let situations = Situation::list(&arguments.situations)?;
     let progress = Progress::new("docking");
-    let mut runs = Vec::new();
     let count = situations.len() as f64 * arguments.runs as f64;
-    for number in (0..homes.len()).take(arguments.runs as usize) {
-        let home = homes.get(number).context("a home of the set")?;
-        let scene = Scene::new(
-            Arc::new(GeneratedHome::number(*home).home(&model)?),
-            model.clone(),
-            noise,
-        );
-        let seeds = (arguments.first..arguments.first + arguments.runs)
-            .skip(number)
-            .step_by(homes.len());
-        for seed in seeds {
+    let mut runs = Vec::new();
+    for number in (0..homes).take(arguments.runs as usize) {
+        let scene = scene_of(number)?;
+        for seed in arguments.seeds(number, homes) {
             for situation in &situations {
                 let run = Run::of(&scene, (*situation, seed), obstacle);
                 if arguments.explain && !run.docked {
@@ -89,17 +137,38 @@ fn main() -> anyhow::Result<()> {
     }
     progress.clear();
     let table = Table::of(&runs, &situations);
-    let mut out = io::stdout().lock();
-    if arguments.json {
-        let object = serde_json::json!({
+    Ok(if arguments.json {
+        serde_json::json!({
             "homes": arguments.homes,
             "faults": arguments.faults,
             "situations": table,
             "runs": runs,
-        });
-        writeln!(out, "{object}")?;
+        })
+        .to_string()
     } else {
-        writeln!(out, "{table}")?;
+        table.to_string()
+    })
+}
+
+fn low_batteries(
+    arguments: &Arguments,
+    homes: usize,
+    scene_of: impl Fn(usize) -> anyhow::Result<Scene>,
+) -> anyhow::Result<String> {
+    let progress = Progress::new("low battery");
+    let mut jobs = Vec::new();
+    for number in (0..homes).take(arguments.runs as usize) {
+        let scene = scene_of(number)?;
+        for seed in arguments.seeds(number, homes) {
+            jobs.push(Job::of(&scene, seed, arguments.charging_speed));
+            progress.show(jobs.len() as f64 / arguments.runs as f64);
+        }
     }
-    Ok(())
+    progress.clear();
+    let summary = Summary::of(&jobs);
+    Ok(if arguments.json {
+        serde_json::json!({ "homes": arguments.homes, "low_battery": summary, "runs": jobs }).to_string()
+    } else {
+        summary.to_string()
+    })
 }

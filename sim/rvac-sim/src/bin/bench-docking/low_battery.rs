@@ -1,0 +1,235 @@
+//! Jobs that one charge is not enough for: home, charged, and on where they stopped.
+
+use std::fmt;
+
+use brain::command::StrategyName;
+use brain::{BehaviorState, JobKind};
+use robot::RobotSettings;
+use rvac_sim::run::start_cleaning;
+use rvac_sim::{Host, Household, Scene};
+use serde::Serialize;
+use vthal_core::CoreConfig;
+
+/// What came of one job.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Job {
+    pub(crate) home: String,
+    pub(crate) seed: u64,
+    /// Ways home for charge, those that ended on the dock, and those after which the job went on.
+    pub(crate) put_off: u32,
+    pub(crate) came_home: u32,
+    pub(crate) went_on: u32,
+    /// Least true charge off the dock.
+    pub(crate) least_charge: f64,
+    /// Seconds on the dock in the middle of the job.
+    pub(crate) charging_s: f64,
+    /// Share of the reachable floor at the end, and when the battery was low first.
+    pub(crate) swept: f64,
+    pub(crate) swept_before: f64,
+    /// Share of it that was cleaned in one stretch and again in a later one.
+    pub(crate) again: f64,
+    pub(crate) job_s: f64,
+    pub(crate) state: String,
+    pub(crate) reason: String,
+    pub(crate) violations: usize,
+}
+
+/// Cleaning empties the simulated pack in so many seconds.
+const EMPTIES_S: f64 = 3_430.0;
+/// A job takes so many T0.
+const JOB_OVER_T0: f64 = 1.4;
+/// The host turns home at this charge.
+const LOW: f64 = 0.15;
+/// Longest simulated time of a job.
+const LONGEST_MS: u64 = 4 * 3_600_000;
+
+impl Job {
+    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would.
+    pub(crate) fn of(scene: &Scene, seed: u64, speed: f64) -> Self {
+        let settings = RobotSettings {
+            seed,
+            ..RobotSettings::default()
+        };
+        let robot = scene.robot(seed, &settings);
+        let config = CoreConfig {
+            sensors: scene.sensors(),
+            ..Host::config(seed, StrategyName::Systematic)
+        };
+        let mut household = Household::new(robot, Host::start(0, config)).with_known_map();
+        let half_s = 0.5 * JOB_OVER_T0 * scene.home().t0_s();
+        let world = household.robot_mut().world_mut();
+        world.set_battery_charge(LOW + half_s / EMPTIES_S);
+        world.set_charging_speed(speed);
+        world.begin_stretch();
+        start_cleaning(&mut household, StrategyName::Systematic);
+        Self::finish(&mut household, seed)
+    }
+
+    fn finish(household: &mut Household, seed: u64) -> Self {
+        let mut watch = Watch::default();
+        while household.robot().now_ms() < LONGEST_MS {
+            household.pass_ms(1_000);
+            if watch.second(household) {
+                break;
+            }
+        }
+        let world = household.robot().world();
+        let status = household.host().map(Host::status);
+        Self {
+            home: world.home().name().to_owned(),
+            seed,
+            put_off: watch.put_off,
+            came_home: watch.came_home,
+            went_on: watch.went_on,
+            least_charge: watch.least_charge.unwrap_or(1.0),
+            charging_s: watch.charging_s,
+            swept: world.truth().swept_share,
+            swept_before: watch.swept_before.unwrap_or(0.0),
+            again: world.cleaned_again_share(),
+            job_s: household.robot().now_ms() as f64 / 1_000.0,
+            state: status
+                .as_ref()
+                .map_or_else(String::new, |status| status.state.clone()),
+            reason: status
+                .as_ref()
+                .map_or_else(String::new, |status| status.reason.clone()),
+            violations: household.robot().monitor().violations().len(),
+        }
+    }
+}
+
+/// What is noted each second.
+#[derive(Default)]
+struct Watch {
+    goes_home: bool,
+    waits: bool,
+    put_off: u32,
+    came_home: u32,
+    went_on: u32,
+    charging_s: f64,
+    least_charge: Option<f64>,
+    swept_before: Option<f64>,
+}
+
+impl Watch {
+    /// A second is over; `true` when the job is.
+    fn second(&mut self, household: &mut Household) -> bool {
+        let Some(brain) = household.host().and_then(Host::brain) else {
+            return false;
+        };
+        let (status, kind) = (brain.status(), brain.job_kind());
+        let truth = *household.robot().world().truth();
+        let goes_home = status.state == BehaviorState::Docking && status.reason.name() == "battery-low";
+        let waits = status.reason.name() == "recharging";
+        let cleans = status.state == BehaviorState::Cleaning;
+        if goes_home && !self.goes_home {
+            self.put_off += 1;
+            self.swept_before.get_or_insert(truth.swept_share);
+        }
+        self.came_home += u32::from(waits && !self.waits && truth.docked);
+        if cleans && self.came_home > self.went_on {
+            self.went_on += 1;
+            household.robot_mut().world_mut().begin_stretch();
+        }
+        if waits {
+            self.charging_s += 1.0;
+        }
+        if !truth.docked {
+            let least = self.least_charge.get_or_insert(truth.battery_charge);
+            *least = least.min(truth.battery_charge);
+        }
+        (self.goes_home, self.waits) = (goes_home, waits);
+        let rests = matches!(
+            status.state,
+            BehaviorState::Idle
+                | BehaviorState::Docked
+                | BehaviorState::Paused
+                | BehaviorState::Stuck
+                | BehaviorState::Error
+        );
+        rests
+            && !waits
+            && (kind.is_none() || kind != Some(JobKind::Dock) || status.state != BehaviorState::Docked)
+    }
+}
+
+/// The figures of all jobs.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Summary {
+    runs: usize,
+    /// Jobs whose battery was low before their end.
+    put_off: usize,
+    /// Those that came home each time.
+    came_home: usize,
+    /// Those that went on each time, and ended by themselves.
+    went_on: usize,
+    finished: usize,
+    /// Those that cleaned less than 5 % of the floor again.
+    again_below_5_percent: usize,
+    again_median: f64,
+    again_most: f64,
+    swept_median: f64,
+    swept_before_median: f64,
+    least_charge: f64,
+    violations: usize,
+}
+
+const AGAIN_MAX: f64 = 0.05;
+
+impl Summary {
+    pub(crate) fn of(jobs: &[Job]) -> Self {
+        let put_off: Vec<&Job> = jobs.iter().filter(|job| job.put_off > 0).collect();
+        let count = |is: fn(&Job) -> bool| put_off.iter().filter(|job| is(job)).count();
+        let sorted = |figure: fn(&Job) -> f64| {
+            let mut values: Vec<f64> = put_off.iter().map(|job| figure(job)).collect();
+            values.sort_by(f64::total_cmp);
+            values
+        };
+        let median = |figure: fn(&Job) -> f64| {
+            let values = sorted(figure);
+            values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+        };
+        let again = sorted(|job| job.again);
+        Self {
+            runs: jobs.len(),
+            put_off: put_off.len(),
+            came_home: count(|job| job.came_home == job.put_off),
+            went_on: count(|job| job.went_on == job.put_off),
+            finished: count(|job| job.went_on == job.put_off && job.state == "docked"),
+            again_below_5_percent: count(|job| job.again < AGAIN_MAX),
+            again_median: median(|job| job.again),
+            again_most: again.last().copied().unwrap_or(f64::NAN),
+            swept_median: median(|job| job.swept),
+            swept_before_median: median(|job| job.swept_before),
+            least_charge: sorted(|job| job.least_charge)
+                .first()
+                .copied()
+                .unwrap_or(f64::NAN),
+            violations: jobs.iter().map(|job| job.violations).sum(),
+        }
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            formatter,
+            "{} jobs, battery low in {}: came home {}, went on {}, ended on the dock {}",
+            self.runs, self.put_off, self.came_home, self.went_on, self.finished
+        )?;
+        writeln!(
+            formatter,
+            "cleaned again: below 5 % in {}, median {:.3}, most {:.3}; swept {:.3}, {:.3} when the battery was low",
+            self.again_below_5_percent,
+            self.again_median,
+            self.again_most,
+            self.swept_median,
+            self.swept_before_median
+        )?;
+        write!(
+            formatter,
+            "least charge off the dock {:.3}; violations {}",
+            self.least_charge, self.violations
+        )
+    }
+}
