@@ -84,6 +84,15 @@ impl Default for SensorLayout {
     }
 }
 
+impl SensorLayout {
+    /// Places of cliff sensors, from left to right, as far as the brain understands them: three, or none.
+    #[must_use]
+    pub fn three_cliffs(places: impl IntoIterator<Item = Point2>) -> Option<[Point2; 3]> {
+        let places: Vec<Point2> = places.into_iter().collect();
+        places.try_into().ok()
+    }
+}
+
 impl ProximityLayout {
     /// Sensors at `poses` in the body's frame, each looking along its x axis, in the order of
     /// [`crate::Observation::proximity`]. What exceeds [`PROXIMITY_MAX`] is left out.
@@ -98,6 +107,25 @@ impl ProximityLayout {
             count: poses.len().min(PROXIMITY_MAX),
             response,
         }
+    }
+
+    /// Sensors that look outward from a circle of `mount_radius_m` around the middle of the body, the first ones of
+    /// `headings_rad` first; zero is ahead, counter-clockwise.
+    #[must_use]
+    pub fn ring(headings_rad: &[f64], mount_radius_m: f64, response: ProximityResponse) -> Self {
+        let outward = |&heading_rad: &f64| {
+            let turn = Pose2 {
+                heading_rad,
+                ..Pose2::IDENTITY
+            };
+            let out = Pose2 {
+                x_m: mount_radius_m,
+                ..Pose2::IDENTITY
+            };
+            turn * out
+        };
+        let poses: Vec<Pose2> = headings_rad.iter().map(outward).collect();
+        Self::new(&poses, response)
     }
 
     /// Poses of the sensors in the body's frame.

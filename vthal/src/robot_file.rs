@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use brain::{BumperLayout, Point2, Pose2, ProximityLayout, ProximityResponse, SensorLayout};
+use brain::{BumperLayout, Point2, ProximityLayout, ProximityResponse, SensorLayout};
 use serde::Deserialize;
 
 /// Why the sensors are not known.
@@ -108,25 +108,11 @@ fn layout(file: &File) -> SensorLayout {
 
 fn proximity(part: &Proximity, radius_m: f64) -> ProximityLayout {
     let mount_m = part.mount_radius.value;
-    let poses: Vec<Pose2> = part
+    let headings_rad: Vec<f64> = part
         .headings
         .values
         .iter()
-        .map(|degrees| {
-            let outward = Pose2 {
-                heading_rad: degrees.to_radians(),
-                ..Pose2::IDENTITY
-            };
-            let place = outward.transform(Point2 {
-                x_m: mount_m,
-                y_m: 0.0,
-            });
-            Pose2 {
-                x_m: place.x_m,
-                y_m: place.y_m,
-                ..outward
-            }
-        })
+        .map(|degrees| degrees.to_radians())
         .collect();
     let response = ProximityResponse {
         range_m: part.range.value,
@@ -134,19 +120,13 @@ fn proximity(part: &Proximity, radius_m: f64) -> ProximityLayout {
         half_level_m: part.half_level.value,
         skin_m: radius_m - mount_m,
     };
-    ProximityLayout::new(&poses, response)
+    ProximityLayout::ring(&headings_rad, mount_m, response)
 }
 
 /// Places of three cliff sensors; other numbers are not mapped.
 fn cliffs(part: &Cliffs) -> Option<[Point2; 3]> {
-    let places: Vec<Point2> = part
-        .x
-        .values
-        .iter()
-        .zip(&part.y.values)
-        .map(|(&x_m, &y_m)| Point2 { x_m, y_m })
-        .collect();
-    places.try_into().ok()
+    let places = part.x.values.iter().zip(&part.y.values);
+    SensorLayout::three_cliffs(places.map(|(&x_m, &y_m)| Point2 { x_m, y_m }))
 }
 
 #[cfg(test)]
