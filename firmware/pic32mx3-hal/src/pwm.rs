@@ -16,7 +16,9 @@
 
 use crate::gpio::{Output, Pin};
 use crate::interrupt::Source;
-use crate::register::map::{compare_control, compare_primary, compare_secondary, timer_period};
+use crate::register::map::{
+    compare_control, compare_primary, compare_secondary, timer_control, timer_period,
+};
 use crate::timer::{Prescaler, Timer};
 use core::convert::Infallible;
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
@@ -152,8 +154,7 @@ impl<const COMPARE: u8, const TIMER: u8, P> PwmChannel<COMPARE, TIMER, P> {
         compare_control(COMPARE).write(0);
         compare_primary(COMPARE).write(0);
         compare_secondary(COMPARE).write(0);
-        let timer = if TIMER == 3 { USE_TIMER_3 } else { 0 };
-        compare_control(COMPARE).write(ON | MODE_PWM | timer);
+        compare_control(COMPARE).write(pulses_by(TIMER));
     }
 
     /// Whether the pin has pulses.
@@ -190,6 +191,45 @@ impl<const COMPARE: u8, const TIMER: u8, P> SetDutyCycle for PwmChannel<COMPARE,
 #[inline(always)]
 pub fn stop(compare: u8) {
     compare_control(compare.clamp(1, 5)).write(0);
+}
+
+/// What [`PwmTimer`] was set up to be. Between motors a register may change by itself, and without its timer an output
+/// compare leaves its pin where it is, whatever width is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TimeBase<const TIMER: u8> {
+    control: u32,
+    period: u32,
+}
+
+impl<const TIMER: u8> TimeBase<TIMER> {
+    /// As the registers of `timer` are now.
+    #[must_use]
+    pub fn of(_timer: &PwmTimer<TIMER>) -> Self {
+        Self {
+            control: timer_control(TIMER).read(),
+            period: timer_period(TIMER).read(),
+        }
+    }
+
+    /// Whether the timer still runs as it did then.
+    #[inline(always)]
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        timer_control(TIMER).read() == self.control && timer_period(TIMER).read() == self.period
+    }
+
+    /// Whether an output, 1 to 5, makes pulses by this timer or is off.
+    #[inline(always)]
+    #[must_use]
+    pub fn governs(&self, compare: u8) -> bool {
+        let control = compare_control(compare.clamp(1, 5)).read();
+        control == 0 || control == pulses_by(TIMER)
+    }
+}
+
+const fn pulses_by(timer: u8) -> u32 {
+    let by_timer_3 = if timer == 3 { USE_TIMER_3 } else { 0 };
+    ON | MODE_PWM | by_timer_3
 }
 
 fn period(timer: u8) -> u32 {

@@ -37,6 +37,12 @@ const IEC0_CLEAR: u32 = 0xBF88_1064;
 const IEC1_CLEAR: u32 = 0xBF88_1074;
 const CORE_TIMER_ENABLE: u32 = 1;
 const CONVERTER_ENABLE: u32 = 1 << 1;
+/// T3CON and its bit TCS, with which the timer counts edges of a pin (pic32mx360.md section 10); LATD and the left wheel's
+/// ENABLE. Physical addresses.
+const TIMER_3_CONTROL: u32 = 0x1F80_0A00;
+const COUNTS_PIN: u32 = 1 << 1;
+const LATCH_D: u32 = 0x1F88_60E0;
+const LEFT_ENABLE: u32 = 1;
 /// Where a runaway program loops: free flash before the calibration page.
 const LOOP: u32 = 0x9D03_E000;
 const LOOP_PHYSICAL: u32 = 0x1D03_E000;
@@ -65,6 +71,12 @@ fn heat_up(stage: &mut Stage, _: u64) {
         read(stage, THERMISTOR, counts, now);
         stage.run(HEATING_MS / u64::from(WARM - HOT));
     }
+}
+
+fn flip_register(stage: &mut Stage, address: u32, mask: u32) {
+    let machine = stage.robot_mut().machine_mut();
+    let value = machine.peek_register(address).unwrap_or_default();
+    machine.write_register(address, value ^ mask);
 }
 
 /// Flips a bit of a text that the program says on another fault only: what it does goes on, and its memory is wrong.
@@ -389,7 +401,7 @@ fn battery() -> [Trial; 6] {
     ]
 }
 
-fn others() -> [Trial; 3] {
+fn others() -> [Trial; 5] {
     [
         trial(
             ("S19", "the dock's contacts close"),
@@ -402,6 +414,18 @@ fn others() -> [Trial; 3] {
             Scene::Cleaning,
             |stage, _| stage.robot_mut().machine_mut().fail_oscillator(),
             (Aim::AllOff, 10),
+        ),
+        trial(
+            ("S21", "the timer of the motors' pulses stops"),
+            Scene::Cleaning,
+            |stage, _| flip_register(stage, TIMER_3_CONTROL, COUNTS_PIN),
+            (Aim::AllOff, 20),
+        ),
+        trial(
+            ("S21", "the latch beneath a wheel's pulses is set"),
+            Scene::Driving,
+            |stage, _| flip_register(stage, LATCH_D, LEFT_ENABLE),
+            (Aim::AllOff, 20),
         ),
         trial(
             ("S21", "a bit of the program memory flips"),

@@ -1,11 +1,13 @@
-//! What the firmware checks of itself while it runs (S20, S21): clock, image, memory, stack.
+//! What the firmware checks of itself while it runs (S20, S21): clock, image, memory, stack, registers of the motors.
 
 use pic32mx3_hal::clock::{self, Running};
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
+use pic32mx3_hal::pwm::{PwmTimer, TimeBase};
 use pic32mx3_hal::{cpu, interrupt, memory, stack};
 
 use super::bus_clock::BusClock;
 use super::{off, tick};
+use crate::generated::pins::{self, Signal};
 use crate::logic::image_check::{ImageCheck, Verdict};
 use crate::logic::image_sums::{ImageSums, sum};
 use crate::logic::pace::{Look, Pace, PaceCheck};
@@ -13,6 +15,15 @@ use crate::logic::reset_log::Trouble;
 
 /// Words of memory tested in one millisecond: 32 KiB in four seconds.
 const RAM_WORDS: u32 = 2;
+
+/// Signals that output compares drive with pulses of the motors' time base, and the number of each one's output compare.
+/// All are on one port. The latches beneath stay low, so that a pin is low when its output compare is off.
+const PULSED: [(u8, Signal); 4] = [
+    (1, pins::WHEEL_LEFT_ENABLE),
+    (2, pins::BRUSH_MAIN_ENABLE),
+    (3, pins::CHARGE_ENABLE),
+    (4, pins::WHEEL_RIGHT_ENABLE),
+];
 
 /// The crystal has failed and the chip runs on its internal oscillator, at a tenth of its speed: everything off at once.
 fn on_clock_failure(_: &mut Context<vector::CLOCK_MONITOR>) {
@@ -42,14 +53,15 @@ pub struct SelfChecks {
     ram_place: u32,
     ram_size: u32,
     bus: BusClock,
+    pulses: TimeBase<3>,
     pace: PaceCheck,
     started: bool,
 }
 
 impl SelfChecks {
-    /// With the second clock.
+    /// With the second clock, and the time base of motors and charger.
     #[must_use]
-    pub fn take(bus: BusClock) -> Self {
+    pub fn take(bus: BusClock, pulses: &PwmTimer<3>) -> Self {
         interrupt::set_priority(Vector::ClockMonitor, Priority::Level6, SubPriority::Sub3).ok();
         Source::ClockMonitor.enable();
         let program = memory::image::program();
@@ -63,6 +75,7 @@ impl SelfChecks {
             ram_place: 0,
             ram_size: memory::ram_size(),
             bus,
+            pulses: TimeBase::of(pulses),
             pace: PaceCheck::new(Look::default(), BusClock::HALVES_PER_COUNT),
             started: false,
         }
@@ -94,9 +107,21 @@ impl SelfChecks {
         if !stack::canary_is_alive() {
             return Some(Finding::Broken(Trouble::Stack));
         }
+        if !self.pulses_hold() {
+            return Some(Finding::Broken(Trouble::Register));
+        }
         let clock_has_failed = off::clock_has_failed() || clock::has_failed();
         let clock_is_other = clock::running() != Running::PrimaryPll || !self.pace_is_even();
         (clock_has_failed || clock_is_other).then_some(Finding::Clock)
+    }
+
+    /// Whether a width of 0 still switches motors and charger off.
+    fn pulses_hold(&self) -> bool {
+        let obeys = |(compare, signal): (u8, Signal)| {
+            let latched_high = off::port(signal).latch() & off::mask(signal) != 0;
+            self.pulses.governs(compare) && !latched_high
+        };
+        self.pulses.holds() && PULSED.into_iter().all(obeys)
     }
 
     fn pace_is_even(&mut self) -> bool {

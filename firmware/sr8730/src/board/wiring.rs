@@ -291,7 +291,7 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
         buttons: ButtonLines::take(pin!(p.re9 is BUTTON_ANY).into_input(), calibration.ladder()),
         probe: RawReadings::take(ports),
     };
-    (board, SelfChecks::take(bus_clock!(chip)))
+    (board, SelfChecks::take(bus_clock!(chip), &motor_time))
 }
 
 #[cfg(test)]

@@ -27,10 +27,12 @@ pub enum Trouble {
     Variable,
     /// The crystal failed; the chip ran on its own oscillator.
     Clock,
+    /// A register of the chip that decides about motors or charger was not as it had been set up.
+    Register,
 }
 
 impl Trouble {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::None,
         Self::Panic,
         Self::Exception,
@@ -40,6 +42,7 @@ impl Trouble {
         Self::Stack,
         Self::Variable,
         Self::Clock,
+        Self::Register,
     ];
 
     /// The number in memory.
@@ -68,6 +71,7 @@ impl Trouble {
             Self::Stack => "last run ended by a stack overflow",
             Self::Variable => "last run ended by a damaged variable",
             Self::Clock => "last run ended by a clock failure",
+            Self::Register => "last run ended by a changed register",
         }
     }
 }
