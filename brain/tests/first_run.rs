@@ -177,34 +177,11 @@ fn an_island_is_left_for_the_walls() {
     assert_eq!(reason, Some("back-at-start"), "{:?}", run.decisions);
 }
 
-#[test]
-fn the_edge_of_stairs_is_followed_and_never_crossed() {
-    let mut room = two_rooms();
-    room.holes.push(Rectangle::new((4.3, 0.0), (5.0, 3.0)));
-    let mut run = Run::new(room, at(1.5, 1.0), Some(ring()));
-    run.start(StrategyName::Systematic);
-    let reason = run.until("contour-closed", 300.0);
-    assert_eq!(reason, Some("back-at-start"), "{:?}", run.decisions);
-    assert_eq!(run.world.violations, Vec::<String>::new());
-}
-
-/// Times at which cliffs were met: three in five seconds would latch the firmware (S8).
-#[test]
-fn edges_are_not_met_too_often() {
-    let mut room = Room::empty((4.0, 4.0));
-    room.holes.push(Rectangle::new((1.8, 1.8), (2.4, 2.4)));
-    let mut run = Run::new(
-        room,
-        Pose2 {
-            x_m: 1.0,
-            y_m: 2.0,
-            heading_rad: 0.0,
-        },
-        Some(ring()),
-    );
-    run.start(StrategyName::Systematic);
+/// Runs until a decision, and asserts that edges were met, but never three within five seconds: that would latch the
+/// firmware (S8).
+fn until_by_edges(run: &mut Run, what: &str, seconds: f64) -> Option<&'static str> {
     let (mut met_us, mut before) = (Vec::new(), false);
-    run.until_with("contour-closed", 200.0, |world| {
+    let reason = run.until_with(what, seconds, |world| {
         let now = world.observation.cliffs.any();
         if now && !before {
             met_us.push(world.observation.time_us);
@@ -218,6 +195,27 @@ fn edges_are_not_met_too_often() {
         .count();
     assert_eq!(quick, 0, "{met_us:?}");
     assert_eq!(run.world.violations, Vec::<String>::new());
+    reason
+}
+
+#[test]
+fn the_edge_of_stairs_is_followed_and_never_crossed() {
+    let mut room = two_rooms();
+    room.holes.push(Rectangle::new((4.3, 0.0), (5.0, 3.0)));
+    let mut run = Run::new(room, at(1.5, 1.0), Some(ring()));
+    run.start(StrategyName::Systematic);
+    let reason = until_by_edges(&mut run, "contour-closed", 300.0);
+    assert_eq!(reason, Some("back-at-start"), "{:?}", run.decisions);
+}
+
+#[test]
+fn lanes_that_end_at_an_unknown_hole_wait_before_they_meet_it_a_third_time() {
+    let mut room = Room::empty((4.0, 4.0));
+    room.holes.push(Rectangle::new((1.8, 1.8), (2.4, 2.4)));
+    let mut run = Run::new(room, at(1.0, 1.0), Some(ring()));
+    run.start(StrategyName::Systematic);
+    let reason = until_by_edges(&mut run, "state-idle", 900.0);
+    assert_eq!(reason, Some("finished"), "{:?}", run.decisions);
 }
 
 #[test]

@@ -73,6 +73,8 @@ reasons! {
     CliffFront => "cliff-front",
     /// The bumper stays pressed though the robot backed off.
     ContactHeld => "contact-held",
+    /// Two edges of the floor in short time: a third one would latch the firmware (S8).
+    CliffAgain => "cliff-again",
     /// The floor does not come back though the robot backed off.
     CliffHeld => "cliff-held",
     /// Many short runs in a row: a pocket it cannot find out of.
@@ -89,6 +91,8 @@ reasons! {
     OpenFloor => "open-floor",
     /// Back where the way along the walls began.
     BackAtStart => "back-at-start",
+    /// It has been along this wall before.
+    KnownWall => "known-wall",
     /// The way led round something that stands free in the room.
     Island => "island",
     /// The way along the walls takes too long.

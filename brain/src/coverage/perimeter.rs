@@ -2,10 +2,11 @@
 //!
 //! Terms. *Lap*: the way along everything that hangs together with the first wall that is met. *Island*: something that
 //! stands free; the way round it turns right in sum. *Track*: places of the lap, one every few centimetres.
+//! *Stretch*: part of the track on which it never lost what it follows.
 //!
-//! The lap is closed when the robot goes along its own track for a while, in the same direction: then it has seen all of
-//! this outline. When the sum of turns since the first time is a full turn to the right, it was an island; it leaves that
-//! and looks for another wall. A lap that never closes ends by its length.
+//! The lap is closed when the robot goes along the track of its stretch for a while, in the same direction: then it has seen
+//! all of this outline. When the sum of turns since the first time is a full turn to the right, it was an island; it leaves
+//! that and looks for another wall. A lap that never closes ends by its length, or on the track of an earlier stretch.
 
 use core::f64::consts::TAU;
 
@@ -30,6 +31,8 @@ const ISLAND_MIN_M: f64 = 1.0;
 const LAP_MIN_M: f64 = 4.0;
 /// So much way on the own track closes a lap, metres.
 const AGAIN_M: f64 = 0.4;
+/// So much way on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
+const AGAIN_ELSEWHERE_M: f64 = 5.0;
 /// A lap longer than this is ended, metres: twice that of a large home.
 const LAP_MAX_M: f64 = 400.0;
 /// So many islands in one lap and no walls: enough.
@@ -49,6 +52,8 @@ pub(super) struct Perimeter {
     way_m: f64,
     turned_rad: f64,
     again_m: f64,
+    /// Number of the present stretch: a new one begins wherever it leaves what it followed.
+    stretch: u32,
     islands: u32,
     troubles: u32,
 }
@@ -60,6 +65,7 @@ struct Footprint {
     sigma_m: f64,
     way_m: f64,
     turned_rad: f64,
+    stretch: u32,
 }
 
 /// State of the lap after a step.
@@ -114,12 +120,13 @@ impl Perimeter {
             WallStep::Going(motion) => LapStep::Going(motion),
             WallStep::Trouble(reason) => {
                 self.troubles += 1;
-                if reason != Reason::BoxedIn {
-                    return LapStep::Trouble(reason);
-                }
                 mind.decide("bounce", reason, f64::from(self.troubles));
                 self.astray = Some(Astray::from(situation.pose.position()));
-                LapStep::Going(Motion::Halt)
+                if reason == Reason::BoxedIn {
+                    LapStep::Going(Motion::Halt)
+                } else {
+                    LapStep::Trouble(reason)
+                }
             }
         }
     }
@@ -149,6 +156,8 @@ impl Perimeter {
     /// Lengthens the track, and says what it means that the robot goes along it.
     fn passed_before(&mut self, situation: &Situation<'_>) -> Option<Reason> {
         if !self.wall.is_following() {
+            self.stretch = self.track.last().map_or(0, |last| last.stretch + 1);
+            self.again_m = 0.0;
             return None;
         }
         let step_m = self
@@ -163,6 +172,7 @@ impl Perimeter {
             sigma_m: situation.estimate.sigma_m,
             way_m: self.way_m,
             turned_rad: self.turned_rad,
+            stretch: self.stretch,
         };
         let before = self
             .track
@@ -176,13 +186,15 @@ impl Perimeter {
             return None;
         };
         self.again_m += step_m.min(2.0 * TRACK_STEP_M);
-        if self.again_m < AGAIN_M {
-            return None;
+        if before.stretch != here.stretch {
+            return (self.again_m > AGAIN_ELSEWHERE_M).then_some(Reason::KnownWall);
         }
-        Some(if here.turns_since(&before) < 0.0 {
-            Reason::Island
-        } else {
-            Reason::BackAtStart
+        (self.again_m > AGAIN_M).then(|| {
+            if here.turns_since(&before) < 0.0 {
+                Reason::Island
+            } else {
+                Reason::BackAtStart
+            }
         })
     }
 }
@@ -195,7 +207,7 @@ impl Footprint {
 
     fn repeats(&self, before: &Self) -> bool {
         let way_m = self.way_m - before.way_m;
-        let least_m = if self.turns_since(before) < 0.0 {
+        let least_m = if self.stretch == before.stretch && self.turns_since(before) < 0.0 {
             ISLAND_MIN_M
         } else {
             LAP_MIN_M

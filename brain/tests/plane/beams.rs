@@ -2,7 +2,7 @@
 
 use brain::{Point2, Pose2, ProximityLayout, ProximityResponse, SensorLayout};
 
-use super::{BODY, Rectangle};
+use super::{BODY, CLIFF_LEAD_M, Rectangle};
 
 const MOUNT_M: f64 = 0.165;
 
@@ -25,8 +25,13 @@ pub(crate) fn sensors_at(headings_deg: &[f64]) -> SensorLayout {
         half_level_m: 0.06,
         skin_m: BODY.radius_m - MOUNT_M,
     };
+    let cliff = |y_m| Point2 {
+        x_m: CLIFF_LEAD_M,
+        y_m,
+    };
     SensorLayout {
         proximity: ProximityLayout::new(&poses, response),
+        cliffs: Some([cliff(0.1), cliff(0.0), cliff(-0.1)]),
         ..SensorLayout::default()
     }
 }

@@ -8,6 +8,7 @@
 //! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
+mod edges;
 mod frontier;
 mod obstructions;
 mod passed;
@@ -21,6 +22,7 @@ use crate::behavior::Reason;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::task::{Mind, Plan, Situation, Task};
+use edges::Edges;
 use frontier::hopeful;
 pub(crate) use obstructions::Obstructions;
 use passed::Passed;
@@ -38,6 +40,8 @@ const CONTACT_BACK_M: f64 = 0.03;
 const MORE_BACK_M: f64 = 0.02;
 /// Way back at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
+/// Turn away from an edge that nobody knew, radians.
+const AWAY_RAD: f64 = 1.2;
 /// A plan that swept less than this brought nothing, square metres.
 const NOTHING_M2: f64 = 0.02;
 /// Plans in a row that brought nothing until the robot bounces out of the place.
@@ -84,7 +88,10 @@ pub(crate) struct Systematic {
     follower: Option<Follower>,
     evasion: Option<Evasion>,
     passed: Option<Passed>,
+    /// Generation of the map in which it plans.
+    generation: u32,
     obstructions: Obstructions,
+    edges: Edges,
     vain_plans: u32,
     fresh_starts: u32,
     astray: Option<Astray>,
@@ -99,6 +106,7 @@ pub(crate) struct Systematic {
 
 impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.heed_redrawing(situation);
         if let Some(passed) = &mut self.passed {
             passed.follow(situation.pose.position());
         }
@@ -123,6 +131,9 @@ impl Task for Systematic {
         }
         if let Some(reason) = encounter(situation) {
             return self.evade(reason, situation, mind);
+        }
+        if self.edges.must_wait(situation.observation.time_us, mind) {
+            return Plan::Go(Motion::Halt);
         }
         self.drive(situation, mind)
     }
@@ -166,17 +177,38 @@ impl Systematic {
         None
     }
 
+    /// Forgets what it remembers in places of a map that was drawn again with other poses.
+    fn heed_redrawing(&mut self, situation: &Situation<'_>) {
+        let generation = situation.map.snapshot().generation;
+        if generation != self.generation {
+            self.generation = generation;
+            self.passed = None;
+            self.obstructions.clear();
+        }
+    }
+
     /// Backs off from what was met, and remembers it.
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         mind.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
         self.follower = None;
         self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(CLIFF_BACK_M, 0.0)
+            self.edges.note(situation.observation.time_us);
+            Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason))
         } else {
             Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain_plans), 0.0)
         });
         Plan::Go(Motion::Halt)
+    }
+
+    /// Turn after an edge: where edges are not known yet the robot looks away from one before it drives on, because way
+    /// forward is what lets it back off again.
+    fn away_rad(&self, reason: Reason) -> f64 {
+        match (&self.outline, reason) {
+            (Some(Outline::Known), _) => 0.0,
+            (_, Reason::CliffLeft) => -AWAY_RAD,
+            _ => AWAY_RAD,
+        }
     }
 
     fn drive(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
