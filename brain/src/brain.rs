@@ -122,6 +122,12 @@ impl Brain {
         self.localization.estimate()
     }
 
+    /// Share of what the sensors see lately that the map explains, 0..=1; `None` while nothing is compared with a map.
+    #[must_use]
+    pub fn map_agreement(&self) -> Option<f64> {
+        self.localization.explained()
+    }
+
     /// Somebody knows where the robot stood at the last observation: a simulator that tries a planner without the estimator's
     /// error. Not part of a recording, so such a run cannot be replayed.
     pub fn place_at(&mut self, pose: Pose2) {
@@ -159,6 +165,13 @@ impl Brain {
     #[must_use]
     pub fn job_kind(&self) -> Option<JobKind> {
         self.behavior.job_kind()
+    }
+
+    /// Corners of the way that the running or waiting job means to drive from here on, in the map frame; none where the
+    /// robot decides as it goes. For people who look at it.
+    #[must_use]
+    pub fn planned_way(&self) -> Vec<Point2> {
+        self.behavior.planned_way()
     }
 
     /// Everything that must survive a restart of the shell. Sorts all swept cells: for every few seconds, not for every

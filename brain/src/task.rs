@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use crate::action::{Decision, Motion};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, Localization, PoseEstimate};
 use crate::mapping::Map;
 use crate::observation::Observation;
@@ -97,4 +97,9 @@ pub(crate) trait Task: Debug + Send {
 
     /// The robot was moved by somebody else (a person, the recovery ladder) or stood still: half-done manoeuvres are void.
     fn interrupted(&mut self);
+
+    /// Corners of the way that it means to drive from here on, for people who look; none where it decides as it goes.
+    fn way(&self) -> Vec<Point2> {
+        Vec::new()
+    }
 }

@@ -1,4 +1,4 @@
-//! The thread that writes checkpoints and maps, so that flushing a slow disk never delays a wheel.
+//! The thread that writes checkpoints and maps and reads maps, so that a slow disk never delays a wheel.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,41 +6,67 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use brain::StoredMap;
-use vthal_core::Checkpoint;
+use rvac_api::KeptMap;
+use tokio::sync::mpsc::Sender;
+use vthal_core::{Checkpoint, ClientId, MapOrder};
 
 use crate::checkpoint_file::{self, BootTime};
-use crate::home_file;
+use crate::event::Event;
+use crate::map_folder::MapFolder;
 
 /// Where to write.
 pub(crate) struct KeptPaths {
     /// The checkpoint.
     pub(crate) checkpoint: PathBuf,
-    /// The map of the home.
-    pub(crate) home: PathBuf,
+    /// The versions of the map of the home.
+    pub(crate) maps: MapFolder,
 }
 
-/// Something to be kept.
+/// Something to be kept, or asked of what is kept.
 enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<StoredMap>),
+    Order(MapOrder),
 }
 
-/// Sends checkpoints and maps to the thread.
+/// What came of an order for the kept maps.
+#[derive(Debug)]
+pub(crate) struct MapAnswer {
+    /// Who asked.
+    pub(crate) client: ClientId,
+    /// Number of the request.
+    pub(crate) id: Option<u32>,
+    /// What came of it.
+    pub(crate) outcome: MapOutcome,
+}
+
+/// See [`MapAnswer`].
+#[derive(Debug)]
+pub(crate) enum MapOutcome {
+    /// The versions, newest first.
+    Listed(Vec<KeptMap>),
+    /// The version with this number is the newest now.
+    Restored(u64, Box<StoredMap>),
+    /// It could not be done: name and sentence.
+    Refused(&'static str, String),
+}
+
+/// Sends checkpoints, maps and orders to the thread.
 #[derive(Debug)]
 pub(crate) struct CheckpointHandle {
     queue: Option<SyncSender<Kept>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// Starts the thread.
+/// Starts the thread. Answers to orders become events.
 ///
 /// # Errors
 /// When the system gives no thread.
-pub(crate) fn start(paths: KeptPaths) -> io::Result<CheckpointHandle> {
+pub(crate) fn start(paths: KeptPaths, events: Sender<Event>) -> io::Result<CheckpointHandle> {
     let (sender, queue) = sync_channel(8);
     let thread = std::thread::Builder::new()
         .name("checkpoint".to_owned())
-        .spawn(move || serve(&paths, &queue))?;
+        .spawn(move || serve(&paths, &queue, &events))?;
     Ok(CheckpointHandle {
         queue: Some(sender),
         thread: Some(thread),
@@ -58,13 +84,19 @@ impl CheckpointHandle {
         self.try_send(Kept::Home(Box::new(home)));
     }
 
-    fn try_send(&self, kept: Kept) {
-        if let Some(queue) = &self.queue {
-            queue.try_send(kept).ok();
-        }
+    /// Hands an order over; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn order(&self, order: MapOrder) -> bool {
+        self.try_send(Kept::Order(order))
     }
 
-    /// Waits until the newest ones are on disk.
+    fn try_send(&self, kept: Kept) -> bool {
+        self.queue
+            .as_ref()
+            .is_some_and(|queue| queue.try_send(kept).is_ok())
+    }
+
+    /// Waits until the newest ones are on disk. Nobody must wait for answers any more: the receiver of events is gone.
     pub(crate) fn finish(mut self) {
         self.queue = None;
         if let Some(thread) = self.thread.take()
@@ -75,14 +107,15 @@ impl CheckpointHandle {
     }
 }
 
-fn serve(paths: &KeptPaths, queue: &Receiver<Kept>) {
+fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
     let mut healthy = true;
     while let Ok(first) = queue.recv() {
-        let (mut checkpoint, mut home) = (None, None);
+        let (mut checkpoint, mut home, mut orders) = (None, None, Vec::new());
         for kept in core::iter::once(first).chain(queue.try_iter()) {
             match kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
                 Kept::Home(newer) => home = Some(newer),
+                Kept::Order(order) => orders.push(order),
             }
         }
         if let Some(checkpoint) = checkpoint {
@@ -99,12 +132,34 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>) {
             healthy = result.is_ok();
         }
         if let Some(home) = home
-            && let Err(error) = home_file::save(&paths.home, &home)
+            && let Err(error) = paths.maps.save(&home)
         {
             tracing::error!(
-                "cannot write the map {}: {error}; the robot will have to make it again",
-                paths.home.display()
+                "cannot write a map in {}: {error}; the robot will have to make it again",
+                paths.maps.path().display()
             );
         }
+        for order in orders {
+            // Nobody is left to hear it when the daemon ends.
+            events.blocking_send(Event::Maps(obey(order, &paths.maps))).ok();
+        }
+    }
+}
+
+fn obey(order: MapOrder, maps: &MapFolder) -> MapAnswer {
+    match order {
+        MapOrder::List { client, id } => MapAnswer {
+            client,
+            id,
+            outcome: MapOutcome::Listed(maps.list()),
+        },
+        MapOrder::Restore { client, id, number } => MapAnswer {
+            client,
+            id,
+            outcome: match maps.restore(number) {
+                Ok(home) => MapOutcome::Restored(number, Box::new(home)),
+                Err(error) => MapOutcome::Refused(error.name(), error.to_string()),
+            },
+        },
     }
 }

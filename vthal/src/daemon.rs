@@ -10,9 +10,9 @@ use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
+use vthal_core::{ClientId, Core, Delivery, Input, MapOrder, Outputs, Recipients};
 
-use crate::checkpoint_thread::CheckpointHandle;
+use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome};
 use crate::client::{self, Client, Flushed, Incoming};
 use crate::client_stream::ClientStream;
 use crate::clock::Clock;
@@ -129,6 +129,7 @@ impl Daemon {
                 }
             }
             Event::ClientClosed(client) => self.disconnect(client),
+            Event::Maps(answer) => self.take_map_answer(answer),
             Event::Terminate(signal) => self.terminate(signal),
         }
     }
@@ -146,6 +147,38 @@ impl Daemon {
         }
     }
 
+    /// Tells a client what came of its order, and the core what it has to know.
+    fn take_map_answer(&mut self, MapAnswer { client, id, outcome }: MapAnswer) {
+        let answer = match outcome {
+            MapOutcome::Listed(maps) => Some(Update::Maps { maps }),
+            MapOutcome::Restored(number, home) => {
+                self.handle(Input::MapRestored { number, home: *home });
+                None
+            }
+            MapOutcome::Refused(reason, text) => {
+                self.tell(client, &refusal(id, reason, text));
+                return;
+            }
+        };
+        for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
+            self.tell(client, &update);
+        }
+    }
+
+    fn tell(&mut self, client: ClientId, update: &Update) {
+        if let Some(client) = self.clients.get_mut(&client) {
+            client.push(Class::Lossless, client::spell(update));
+        }
+    }
+
+    fn order_map(&mut self, order: MapOrder) {
+        if !self.wiring.checkpoints.order(order) {
+            let (MapOrder::List { client, id } | MapOrder::Restore { client, id, .. }) = order;
+            let text = "The disk is too slow to answer now; ask again.".to_owned();
+            self.tell(client, &refusal(id, "disk-busy", text));
+        }
+    }
+
     fn terminate(&mut self, signal: &'static str) {
         if self.ends_at.is_none() {
             tracing::info!(part = "vthal", "{signal}: stops the wheels and ends");
@@ -157,12 +190,8 @@ impl Daemon {
     fn connect(&mut self, stream: UnixStream) {
         if self.clients.len() >= self.wiring.clients_max {
             let text = "As many clients are connected as may be: close one, or raise socket.clients_max.";
-            let failure = Failure {
-                id: None,
-                reason: "too-many-clients".to_owned(),
-                text: text.to_owned(),
-            };
-            socket::turn_away(&stream, &client::spell(&Update::Failed(failure)));
+            let failure = refusal(None, "too-many-clients", text.to_owned());
+            socket::turn_away(&stream, &client::spell(&failure));
             return;
         }
         let stream = match ClientStream::new(stream) {
@@ -246,6 +275,9 @@ impl Daemon {
         if let Some(home) = self.outputs.home.take() {
             self.wiring.checkpoints.send_home(home);
         }
+        for order in std::mem::take(&mut self.outputs.map_orders) {
+            self.order_map(order);
+        }
         self.outputs.clear();
     }
 
@@ -279,11 +311,20 @@ impl Daemon {
             );
         }
         std::fs::remove_file(&self.wiring.socket).ok();
+        drop(self.wiring.events);
         self.wiring.checkpoints.finish();
         if let Some(recorder) = self.wiring.recorder {
             recorder.finish();
         }
     }
+}
+
+fn refusal(id: Option<u32>, reason: &str, text: String) -> Update {
+    Update::Failed(Failure {
+        id,
+        reason: reason.to_owned(),
+        text,
+    })
 }
 
 /// Spells an update once for all who get it.

@@ -3,6 +3,7 @@
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
+use crate::checkpoint_thread::MapAnswer;
 use crate::imu::ImuEvent;
 use crate::serial::OpenError;
 
@@ -21,6 +22,8 @@ pub(crate) enum Event {
     ClientClosed(ClientId),
     /// From the gyro of the Linux board.
     Imu(ImuEvent),
+    /// What came of an order for the kept maps.
+    Maps(MapAnswer),
     /// The core asked to be called now.
     Wake,
     /// The daemon is told to end, by the named signal.

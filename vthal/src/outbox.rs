@@ -31,6 +31,12 @@ pub(crate) enum StateKind {
     Pose,
     /// [`Update::Device`]
     Device,
+    /// [`Update::Home`]
+    Home,
+    /// [`Update::Estimate`]
+    Estimate,
+    /// [`Update::Way`]
+    Way,
 }
 
 impl Class {
@@ -41,6 +47,9 @@ impl Class {
             Update::Status(_) => Self::Newest(StateKind::Status),
             Update::Pose(_) => Self::Newest(StateKind::Pose),
             Update::Device(_) => Self::Newest(StateKind::Device),
+            Update::Home(_) => Self::Newest(StateKind::Home),
+            Update::Estimate(_) => Self::Newest(StateKind::Estimate),
+            Update::Way(_) => Self::Newest(StateKind::Way),
             _ => Self::Lossless,
         }
     }

@@ -16,19 +16,20 @@ use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::instance::{self, InstanceError};
+use crate::map_folder::MapFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
-use crate::{checkpoint_thread, home_file, imu, logging};
+use crate::{checkpoint_thread, imu, logging};
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
 /// Batches of bytes that may wait for the serial line.
 const TO_ROBOT_MAX: usize = 64;
 
-/// Name of the map of the home in the state folder.
-const HOME_FILE: &str = "home.map";
+/// Name of the folder of maps in the state folder.
+const MAPS: &str = "maps";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -76,8 +77,8 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         Some(path) => robot_file::load(path)?,
         None => SensorLayout::default(),
     };
-    let home_path = config.state.join(HOME_FILE);
-    let (home, complaints) = home_file::load(&home_path);
+    let maps = MapFolder::new(config.state.join(MAPS));
+    let (home, complaints) = maps.newest();
     for complaint in complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
@@ -108,10 +109,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         event_sender: event_sender.clone(),
         to_robot,
         recorder: recorder(config)?,
-        checkpoints: checkpoint_thread::start(KeptPaths {
-            checkpoint,
-            home: home_path,
-        })?,
+        checkpoints: checkpoint_thread::start(KeptPaths { checkpoint, maps }, event_sender.clone())?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
     };

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{LogEntry, Update};
 use rvac_protocol::message::{self, BinaryKinds};
 
@@ -400,6 +401,59 @@ fn garbage_is_answered_and_endless_garbage_ends_the_connection() {
         .wait_for(soon(), |update| matches!(update, Update::Done { id: 1 }))
         .expect("reads");
     assert!(done.is_some(), "the daemon lives on");
+}
+
+fn kept_numbers(desk: &mut Desk) -> Vec<u64> {
+    desk.client.send(r#"{"c":"maps","id":9}"#).expect("sends");
+    let is_list = |update: &Update| matches!(update, Update::Maps { .. });
+    match desk.client.wait_for(soon(), is_list).expect("reads") {
+        Some(Update::Maps { maps }) => maps.iter().map(|map| map.number).collect(),
+        other => panic!("no list: {other:?}"),
+    }
+}
+
+/// The answer to request 9: the reason of a refusal, if it is one.
+fn refused(desk: &mut Desk) -> Option<String> {
+    let fits = |update: &Update| match update {
+        Update::Done { id } => *id == 9,
+        Update::Failed(failure) => failure.id == Some(9),
+        _ => false,
+    };
+    match desk.client.wait_for(soon(), fits).expect("reads") {
+        Some(Update::Done { .. }) => None,
+        Some(Update::Failed(failure)) => Some(failure.reason),
+        other => panic!("no answer: {other:?}"),
+    }
+}
+
+fn map_of(width: usize) -> Vec<u8> {
+    let floor = Raster::filled(Cell { x: 0, y: 0 }, width, 8, CellKnowledge::Free);
+    StoredMap::from_raster(&floor, None).encode()
+}
+
+#[test]
+fn a_kept_map_is_listed_and_taken_up_again_over_the_socket() {
+    let mut desk = Desk::idle();
+    assert!(kept_numbers(&mut desk).is_empty(), "nothing was kept yet");
+    assert_eq!(refused(&mut desk), None);
+    let maps = desk.scratch.join("state/maps");
+    fs::create_dir_all(&maps).expect("creates");
+    fs::write(maps.join("000003.map"), map_of(8)).expect("writes");
+    fs::write(maps.join("000004.map"), map_of(16)).expect("writes");
+    fs::write(maps.join("000005.map"), b"garbage").expect("writes");
+    assert_eq!(
+        kept_numbers(&mut desk),
+        [4, 3],
+        "what is not whole is not offered"
+    );
+    assert_eq!(refused(&mut desk), None);
+    for (number, reason) in [(3, None), (5, Some("map-unreadable")), (77, Some("no-such-map"))] {
+        let request = format!(r#"{{"c":"restore-map","number":{number},"id":9}}"#);
+        desk.client.send(&request).expect("sends");
+        assert_eq!(refused(&mut desk).as_deref(), reason, "{number}");
+    }
+    assert_eq!(kept_numbers(&mut desk), [6, 4, 3], "the spoilt one is not lost");
+    assert_eq!(fs::read(maps.join("000006.map")).expect("reads"), map_of(8));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::job::{Detour, Purpose};
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::action::Motion;
+use crate::geometry::Point2;
 use crate::localization::Advance;
 use crate::recovery::{self, Traction};
 use crate::task::{Mind, Plan, Situation};
@@ -156,6 +157,11 @@ impl Behavior {
             sequence,
             purpose: Purpose::Escape,
         });
+    }
+
+    /// Corners of the way that the running or waiting job means to drive.
+    pub(crate) fn planned_way(&self) -> Vec<Point2> {
+        self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
     }
 
     /// Kind of the running or waiting job.

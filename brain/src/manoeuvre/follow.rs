@@ -4,7 +4,7 @@
 
 use crate::action::Motion;
 use crate::coverage::plan::Piece;
-use crate::geometry::{Pose2, normalize_rad};
+use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::task::Situation;
 
 /// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.4 m
@@ -78,6 +78,22 @@ impl Follower {
             current: 0,
             turn_left_rad: None,
         }
+    }
+
+    /// Corners of what is left of the way, arcs by their ends and middles.
+    pub(crate) fn way(&self) -> Vec<Point2> {
+        let left = self.pieces.get(self.current..).unwrap_or_default();
+        let mut corners = Vec::with_capacity(left.len() + 1);
+        for piece in left.iter().filter(|piece| !is_turn(piece)) {
+            if corners.is_empty() {
+                corners.push(piece.start.position());
+            }
+            if piece.turn_rad != 0.0 {
+                corners.push(piece.at(0.5).position());
+            }
+            corners.push(piece.at(1.0).position());
+        }
+        corners
     }
 
     /// Whether a turn on the spot is being made.

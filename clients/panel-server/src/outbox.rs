@@ -20,10 +20,13 @@ enum Reading {
     Pose,
     Truth,
     Device,
+    Home,
+    Estimate,
+    Way,
 }
 
 impl Reading {
-    const COUNT: usize = 3;
+    const COUNT: usize = 6;
 
     fn of(text: &str) -> Option<Self> {
         #[derive(Deserialize)]
@@ -35,6 +38,9 @@ impl Reading {
             "pose" => Some(Self::Pose),
             "simulated-truth" => Some(Self::Truth),
             "device" => Some(Self::Device),
+            "home" => Some(Self::Home),
+            "estimate" => Some(Self::Estimate),
+            "way" => Some(Self::Way),
             _ => None,
         }
     }

@@ -6,6 +6,7 @@ mod app;
 mod device_view;
 mod drive_pad;
 mod header;
+mod home_view;
 mod icons;
 mod link;
 mod log_view;
@@ -14,6 +15,7 @@ mod status_view;
 mod store;
 mod tabs;
 mod theme;
+mod why_view;
 
 fn main() {
     leptos::mount::mount_to_body(app::App);

@@ -1,7 +1,7 @@
 //! What the robot is doing and why, in words, and the figures of the job.
 
 use leptos::prelude::*;
-use panel_logic::{area_text, clock_text, distance_text, explain, percent_text, state_title};
+use panel_logic::{area_text, clock_text, distance_text, explain, percent_text, place_text, state_title};
 use rvac_api::Status;
 
 use crate::icons::{Icon, icon};
@@ -28,6 +28,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
                 <p id="reason">{move || reason.get()}</p>
             </div>
             <Inhibits store />
+            <Lately store />
             <Figures store />
         </section>
     }
@@ -95,6 +96,31 @@ fn Inhibits(store: Store) -> impl IntoView {
     }
 }
 
+/// The last decision, while a job runs: the answer to "why did you turn".
+#[component]
+fn Lately(store: Store) -> impl IntoView {
+    let works = move || {
+        store.status.with(|status| {
+            status
+                .as_ref()
+                .is_some_and(|status| matches!(status.state.as_str(), "cleaning" | "spot" | "docking"))
+        })
+    };
+    let text = Memo::new(move |_| {
+        store.decisions.with(|book| {
+            book.newest_first()
+                .next()
+                .map(|entry| entry.text.clone())
+                .unwrap_or_default()
+        })
+    });
+    view! {
+        <Show when=works>
+            <p id="lately">{move || text.get()}</p>
+        </Show>
+    }
+}
+
 #[component]
 fn Figures(store: Store) -> impl IntoView {
     let figure = move |text: fn(&Status) -> String| {
@@ -113,6 +139,16 @@ fn Figures(store: Store) -> impl IntoView {
             .truth
             .with(|truth| truth.map(|truth| percent_text(truth.covered)))
     });
+    let place = Memo::new(move |_| {
+        store
+            .estimate
+            .with(|estimate| estimate.as_ref().map(place_text))
+    });
+    let is_lost = move || {
+        store
+            .estimate
+            .with(|estimate| estimate.is_some_and(|estimate| estimate.lost))
+    };
     view! {
         <dl class="figures">
             <div><dt>"Swept"</dt><dd id="swept">{move || swept.get()}</dd></div>
@@ -120,7 +156,13 @@ fn Figures(store: Store) -> impl IntoView {
             <div><dt>"Way"</dt><dd>{move || path.get()}</dd></div>
             <div><dt>"Bumps"</dt><dd>{move || bumps.get()}</dd></div>
             <Show when=move || covered.get().is_some()>
-                <div><dt>"Covered"</dt><dd title="True share of the reachable floor of the simulated home">{move || covered.get()}</dd></div>
+                <div><dt>"Truly covered"</dt><dd title="True share of the reachable floor of the simulated home">{move || covered.get()}</dd></div>
+            </Show>
+            <Show when=move || place.get().is_some()>
+                <div class:alarming=is_lost>
+                    <dt>"Its place"</dt>
+                    <dd id="place" title="Standard deviation of where the robot believes to be">{move || place.get()}</dd>
+                </div>
             </Show>
         </dl>
     }

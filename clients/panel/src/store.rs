@@ -1,8 +1,11 @@
 //! What the page knows, as signals that the views follow.
 
 use leptos::prelude::*;
-use panel_logic::{Driver, LogBook, Offers};
-use rvac_api::{DeviceTable, Failure, Request, RequestBody, RobotDescription, SimulatedTruth, Status, Topic};
+use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows};
+use rvac_api::{
+    DeviceTable, Estimate, Failure, KeptMap, Request, RequestBody, RobotDescription, SimulatedTruth, Status,
+    Topic,
+};
 
 use rvac_api::Update as Message;
 
@@ -30,6 +33,14 @@ pub(crate) struct Store {
     pub(crate) truth: RwSignal<Option<SimulatedTruth>>,
     /// Name of the simulated home.
     pub(crate) home: RwSignal<Option<String>>,
+    /// Rooms that the robot knows.
+    pub(crate) rooms: RwSignal<Vec<RoomRow>>,
+    /// How sure it is.
+    pub(crate) estimate: RwSignal<Option<Estimate>>,
+    /// What it decided.
+    pub(crate) decisions: RwSignal<DecisionBook>,
+    /// Versions of the map that the daemon keeps, newest first.
+    pub(crate) maps: RwSignal<Vec<KeptMap>>,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
@@ -51,6 +62,10 @@ impl Store {
             device: RwSignal::new(None),
             truth: RwSignal::new(None),
             home: RwSignal::new(None),
+            rooms: RwSignal::new(Vec::new()),
+            estimate: RwSignal::new(None),
+            decisions: RwSignal::new(DecisionBook::default()),
+            maps: RwSignal::new(Vec::new()),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
             driver: StoredValue::new(Driver::default()),
@@ -78,6 +93,11 @@ impl Store {
         self.send(Some(OTHER_ID), body);
     }
 
+    /// Asks for something that nobody pressed a button for.
+    pub(crate) fn ask_quietly(self, body: RequestBody) {
+        self.send(None, body);
+    }
+
     /// Sends what the driver wants now. To be called ten times a second and at each change.
     pub(crate) fn drive(self) {
         let limits = self
@@ -101,6 +121,8 @@ impl Store {
     /// The connection stands: introduces the page.
     pub(crate) fn on_open(self) {
         self.log.update(LogBook::clear);
+        self.decisions.update(DecisionBook::clear);
+        self.estimate.set(None);
         self.send(
             None,
             RequestBody::Hello {
@@ -113,6 +135,9 @@ impl Store {
             Topic::Device,
             Topic::Map,
             Topic::Home,
+            Topic::Estimate,
+            Topic::Way,
+            Topic::Decisions,
             Topic::Log,
         ];
         self.send(None, RequestBody::Watch { topics });
@@ -155,7 +180,20 @@ impl Store {
             Message::Pose(pose) => self.map.with_value(|map| map.on_pose(pose)),
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
             Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
-            Message::Home(home) => self.map.with_value(|map| map.on_home(&home)),
+            Message::Home(home) => {
+                let rows = room_rows(&home);
+                if self.rooms.with_untracked(|rooms| *rooms != rows) {
+                    self.rooms.set(rows);
+                }
+                self.map.with_value(|map| map.on_home(&home));
+            }
+            Message::Estimate(estimate) => {
+                self.map.with_value(|map| map.on_estimate(&estimate));
+                self.estimate.set(Some(estimate));
+            }
+            Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
+            Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
+            Message::Maps { maps } => self.maps.set(maps),
             Message::Done { .. } | Message::Packet { .. } => {}
         }
     }

@@ -1,4 +1,4 @@
-//! Drive, device and log as tabs, with the keys that tabs have everywhere.
+//! Drive, home, decisions, device and log as tabs, with the keys that tabs have everywhere.
 
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -6,10 +6,18 @@ use wasm_bindgen::JsCast;
 
 use crate::device_view::DeviceView;
 use crate::drive_pad::DrivePad;
+use crate::home_view::HomeSheet;
 use crate::log_view::LogView;
 use crate::store::Store;
+use crate::why_view::WhyView;
 
-const TABS: [(&str, &str); 3] = [("drive", "Drive"), ("device", "Device"), ("log", "Log")];
+const TABS: [(&str, &str); 5] = [
+    ("drive", "Drive"),
+    ("home", "Home"),
+    ("why", "Why"),
+    ("device", "Device"),
+    ("log", "Log"),
+];
 
 #[component]
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
@@ -51,11 +59,17 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
             <div role="tabpanel" id="sheet-drive" aria-labelledby="tab-drive" hidden=move || open.get() != 0>
                 <DrivePad store />
             </div>
-            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 1>
-                <Show when=move || open.get() == 1><DeviceView store /></Show>
+            <div role="tabpanel" id="sheet-home" aria-labelledby="tab-home" hidden=move || open.get() != 1>
+                <Show when=move || open.get() == 1><HomeSheet store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 2>
-                <Show when=move || open.get() == 2><LogView store /></Show>
+            <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 2>
+                <Show when=move || open.get() == 2><WhyView store /></Show>
+            </div>
+            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 3>
+                <Show when=move || open.get() == 3><DeviceView store /></Show>
+            </div>
+            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 4>
+                <Show when=move || open.get() == 4><LogView store /></Show>
             </div>
         </section>
     }

@@ -10,7 +10,7 @@ use crate::{Pose, Rle};
 pub struct HomeView {
     /// Grows when something is known that was not.
     pub revision: u32,
-    /// Metres per cell.
+    /// Metres per cell; larger than the robot's own cells when those would be too many to be sent.
     pub cell_m: f64,
     /// Column of the lowest cell, which spans `x*cell_m` to `(x+1)*cell_m`.
     pub x: i32,
@@ -33,10 +33,19 @@ pub struct HomeView {
     /// Pose of a robot that stands on the dock, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dock: Option<Pose>,
-    /// Standard deviation of the robot's present place, metres.
-    pub pose_sigma_m: f64,
-    /// The robot does not know where it is.
-    pub lost: bool,
+}
+
+/// A version of the map of the home that the daemon keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptMap {
+    /// Its number; later versions have higher ones.
+    pub number: u64,
+    /// When it was kept, seconds since 1970.
+    pub kept_s: u64,
+    /// Free floor in it, square metres.
+    pub area_m2: f64,
+    /// Rooms in it.
+    pub rooms: u32,
 }
 
 /// A room.

@@ -10,10 +10,12 @@ extern crate alloc;
 
 mod home;
 mod request;
+mod thought;
 mod update;
 
-pub use home::{DoorView, HomeView, RoomView, WallView};
+pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use request::{Request, RequestBody, Topic};
+pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,
     MapDelta, MapSnapshot, Pose, Rle, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Update,

@@ -29,6 +29,12 @@ pub enum Topic {
     Map,
     /// [`crate::Update::Home`] at once, then when the robot knows more, at most every five seconds.
     Home,
+    /// [`crate::Update::Estimate`] when it changes, at most twice a second.
+    Estimate,
+    /// [`crate::Update::Way`] when it changes, at most every two seconds.
+    Way,
+    /// [`crate::Update::Decision`]: the last 100 at once, then each new one.
+    Decisions,
     /// [`crate::Update::Log`]: the last 200 entries at once, then each new one.
     Log,
     /// [`crate::Update::Packet`]: each packet of the wire, both directions.
@@ -86,6 +92,13 @@ pub enum RequestBody {
     Clear {
         /// Name, as in [`crate::Status::reason`].
         reason: String,
+    },
+    /// Asks which versions of the map of the home are kept; answered by [`crate::Update::Maps`].
+    Maps,
+    /// Takes up a version of the map of the home again, and keeps it as the newest. Refused while a job runs or waits.
+    RestoreMap {
+        /// Number of the version.
+        number: u64,
     },
     /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
     Raw {

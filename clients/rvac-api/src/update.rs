@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::HomeView;
+use crate::{Decision, Estimate, HomeView, KeptMap, PlannedWay};
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +43,17 @@ pub enum Update {
     MapDelta(MapDelta),
     /// What is known of the home.
     Home(HomeView),
+    /// How sure the robot is.
+    Estimate(Estimate),
+    /// Where it means to drive.
+    Way(PlannedWay),
+    /// Something that it decided.
+    Decision(Decision),
+    /// The versions of the map of the home that are kept.
+    Maps {
+        /// Newest first.
+        maps: Vec<KeptMap>,
+    },
     /// A line of the log.
     Log(LogEntry),
     /// A packet of the wire as text; binary ones are shown by their text twin.

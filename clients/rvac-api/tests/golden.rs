@@ -6,9 +6,9 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, DeviceTable, DoorView, Failure, HomeView, LinkReading, LogEntry, LogLevel,
-    MapDelta, MapSnapshot, Pose, Request, RequestBody, RobotDescription, RoomView, SimulatedPlan,
-    SimulatedTruth, Status, Topic, Update, Versions, WallView,
+    BatteryReading, BumpMark, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView, KeptMap,
+    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, PlannedWay, Pose, Request, RequestBody,
+    RobotDescription, RoomView, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -39,12 +39,15 @@ fn requests() {
         Topic::Device,
         Topic::Map,
         Topic::Home,
+        Topic::Estimate,
+        Topic::Way,
+        Topic::Decisions,
         Topic::Log,
         Topic::Packets,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","log","packets"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -52,6 +55,11 @@ fn requests() {
             strategy: Some("bounce".to_owned()),
         },
         r#"{"c":"start","strategy":"bounce"}"#,
+    );
+    request(RequestBody::Maps, r#"{"c":"maps"}"#);
+    request(
+        RequestBody::RestoreMap { number: 12 },
+        r#"{"c":"restore-map","number":12}"#,
     );
     request(RequestBody::Spot, r#"{"c":"spot"}"#);
     request(RequestBody::Pause, r#"{"c":"pause"}"#);
@@ -273,12 +281,51 @@ fn the_home() {
             sigma_m: 0.25,
         }],
         dock: None,
-        pose_sigma_m: 0.5,
-        lost: false,
     };
     check(
         &Update::Home(home),
-        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0}],"doors":[{"rooms":[1,2],"x":3.0,"y":4.0,"width_m":0.75}],"walls":[{"from":[0.0,1.0],"to":[2.0,1.0],"sigma_m":0.25}],"pose_sigma_m":0.5,"lost":false}"#,
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0}],"doors":[{"rooms":[1,2],"x":3.0,"y":4.0,"width_m":0.75}],"walls":[{"from":[0.0,1.0],"to":[2.0,1.0],"sigma_m":0.25}]}"#,
+    );
+}
+
+#[test]
+fn what_the_robot_thinks() {
+    let estimate = Estimate {
+        sigma_m: 0.5,
+        sigma_rad: 0.25,
+        lost: false,
+        agreement: None,
+        covered: Some(0.75),
+    };
+    check(
+        &Update::Estimate(estimate),
+        r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"covered":0.75}"#,
+    );
+    let way = PlannedWay {
+        points_mm: vec![0, -100, 2500, 40],
+    };
+    check(&Update::Way(way), r#"{"e":"way","points_mm":[0,-100,2500,40]}"#);
+    let decision = Decision {
+        number: 3,
+        t: 1.5,
+        what: "back-off".to_owned(),
+        reason: "bump-left".to_owned(),
+        value: 0.0,
+        text: "Backed off.".to_owned(),
+    };
+    check(
+        &Update::Decision(decision),
+        r#"{"e":"decision","number":3,"t":1.5,"what":"back-off","reason":"bump-left","value":0.0,"text":"Backed off."}"#,
+    );
+    let maps = vec![KeptMap {
+        number: 2,
+        kept_s: 1_700_000_000,
+        area_m2: 12.5,
+        rooms: 3,
+    }];
+    check(
+        &Update::Maps { maps },
+        r#"{"e":"maps","maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
     );
 }
 

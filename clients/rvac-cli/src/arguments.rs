@@ -22,6 +22,10 @@ pub(crate) enum Subcommand {
     Status(StatusOptions),
     /// What the robot is doing, line by line, until interrupted.
     Watch(WatchOptions),
+    /// What the robot knows of the home, which versions of its map are kept, and the way back to one of them.
+    Map(MapJob),
+    /// What the robot decided lately, and why.
+    Why(WhyOptions),
     /// Run a recording through the brain again.
     Replay(ReplayOptions),
     /// Measure what nobody knows about a robot's parts; without --port: list it.
@@ -58,7 +62,8 @@ pub(crate) struct Daemon {
         long,
         value_name = "PATH",
         env = "RVAC_SOCKET",
-        default_value = "/run/vthal/vthal.sock"
+        default_value = "/run/vthal/vthal.sock",
+        global = true
     )]
     pub(crate) socket: PathBuf,
 }
@@ -150,6 +155,40 @@ pub(crate) struct WatchOptions {
     /// End after this many lines.
     #[arg(long, value_name = "N")]
     pub(crate) lines: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MapJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<MapVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Print the daemon's own JSON of the home.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, clap::Subcommand)]
+pub(crate) enum MapVerb {
+    /// The versions that are kept, newest first.
+    List,
+    /// Take a version up again; it becomes the newest one, and the others stay.
+    Restore {
+        /// Its number, as `rvac map list` tells it.
+        number: u64,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct WhyOptions {
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Print the daemon's own JSON, one decision a line.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// How many, the newest last.
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub(crate) lines: usize,
 }
 
 #[derive(Debug, Args)]

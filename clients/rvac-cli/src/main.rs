@@ -5,6 +5,7 @@
 mod arguments;
 mod calibrate;
 mod control;
+mod home;
 mod lines;
 mod listen;
 mod packet;
@@ -15,6 +16,7 @@ mod show;
 mod socket;
 mod status;
 mod term;
+mod why;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -29,6 +31,8 @@ fn main() -> ExitCode {
         Subcommand::Packet(job) => packet::run(&job),
         Subcommand::Status(options) => status::print(&options),
         Subcommand::Watch(options) => status::watch(&options),
+        Subcommand::Map(job) => home::run(&job),
+        Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),
         Subcommand::Probe(job) => probe::run(&job),

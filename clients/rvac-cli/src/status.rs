@@ -1,4 +1,4 @@
-//! What the robot is doing, in words.
+//! What the robot is doing and how sure it is, in words.
 
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
@@ -8,6 +8,7 @@ use anyhow::bail;
 use rvac_api::{DeviceTable, Status, Topic, Update};
 
 use crate::arguments::{StatusOptions, WatchOptions};
+use crate::home::sureness;
 use crate::socket::{Connection, Message};
 
 /// Status comes at once, the device table twice a second.
@@ -16,21 +17,23 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// Prints status and device table once.
 pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&options.daemon.socket)?;
-    connection.watch(vec![Topic::Status, Topic::Device])?;
+    // Views come in this order; a daemon without a robot has no estimate.
+    connection.watch(vec![Topic::Status, Topic::Estimate, Topic::Device])?;
     let deadline = Instant::now() + PATIENCE;
-    let (mut status, mut device) = (None, None);
+    let (mut status, mut estimate, mut device) = (None, None, None);
     while status.is_none() || device.is_none() {
         let Some(message) = connection.receive_until(deadline)? else {
             bail!("vthal told no status within {} s", PATIENCE.as_secs());
         };
         match &message.update {
             Some(Update::Status(_)) => status = Some(message),
+            Some(Update::Estimate(_)) => estimate = Some(message),
             Some(Update::Device(_)) => device = Some(message),
             Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
             _ => {}
         }
     }
-    for message in [status, device].into_iter().flatten() {
+    for message in [status, estimate, device].into_iter().flatten() {
         writeln!(
             stdout(),
             "{}",
@@ -47,7 +50,14 @@ pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
 /// Prints changes line by line.
 pub(crate) fn watch(options: &WatchOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&options.daemon.socket)?;
-    connection.watch(vec![Topic::Status, Topic::Device, Topic::Pose, Topic::Log])?;
+    connection.watch(vec![
+        Topic::Status,
+        Topic::Device,
+        Topic::Pose,
+        Topic::Estimate,
+        Topic::Decisions,
+        Topic::Log,
+    ])?;
     let mut lines_left = options.lines.unwrap_or(u64::MAX);
     while lines_left > 0 {
         let message = connection.receive()?;
@@ -74,6 +84,8 @@ fn in_words(message: &Message) -> Option<String> {
             pose.y,
             pose.heading.to_degrees()
         )),
+        Update::Estimate(estimate) => Some(format!("estimate  {}", sureness(estimate))),
+        Update::Decision(decision) => Some(format!("decided   {:.3} {}", decision.t, decision.text)),
         Update::Log(entry) => Some(format!(
             "log       {:.3} {:?} {}: {}",
             entry.t, entry.level, entry.part, entry.text

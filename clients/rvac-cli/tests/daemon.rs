@@ -10,8 +10,8 @@ use std::process::Output;
 use std::thread::JoinHandle;
 
 use rvac_api::{
-    DeviceTable, Failure, LinkReading, LogEntry, LogLevel, Pose, Request, RequestBody, SEPARATOR, Status,
-    Update,
+    Decision, DeviceTable, Estimate, Failure, HomeView, KeptMap, LinkReading, LogEntry, LogLevel, Pose,
+    Request, RequestBody, RoomView, SEPARATOR, Status, Update,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -107,6 +107,12 @@ fn talkative(request: &Request) -> Vec<Update> {
                 swept_m2: 4.2,
                 ..Status::default()
             }),
+            Update::Estimate(Estimate {
+                sigma_m: 0.05,
+                sigma_rad: 0.0175,
+                agreement: Some(0.875),
+                ..Estimate::default()
+            }),
             Update::Device(DeviceTable {
                 link: LinkReading {
                     up: true,
@@ -184,6 +190,10 @@ fn status_is_told_in_words_or_as_json() {
         "{words}"
     );
     assert!(
+        words.contains("sure to 0.05 m and 1 deg, its map explains 88 % of what it sees"),
+        "{words}"
+    );
+    assert!(
         words.contains("link up") && words.contains("on the dock"),
         "{words}"
     );
@@ -206,6 +216,97 @@ fn watch_tells_what_happens_line_by_line() {
         "{lines}"
     );
     assert_eq!(lines.lines().count(), 4);
+}
+
+/// A daemon with a home of one room, two decisions and two kept maps.
+fn at_home(request: &Request) -> Vec<Update> {
+    let decision = |number: u32, text: &str| {
+        Update::Decision(Decision {
+            number: number.into(),
+            t: f64::from(number),
+            what: "back-off".to_owned(),
+            reason: "bump-left".to_owned(),
+            value: 0.0,
+            text: text.to_owned(),
+        })
+    };
+    let kept = |number: u32| KeptMap {
+        number: number.into(),
+        kept_s: 0,
+        area_m2: f64::from(number),
+        rooms: number,
+    };
+    match &request.body {
+        RequestBody::Watch { .. } => vec![
+            Update::Home(HomeView {
+                cell_m: 1.0,
+                width: 3,
+                height: 2,
+                cells: vec![2, 1, 1, 2, 2, 1, 1, 2],
+                rooms: vec![RoomView {
+                    id: 1,
+                    area_m2: 4.0,
+                    x: 1.5,
+                    y: 1.5,
+                }],
+                ..HomeView::default()
+            }),
+            decision(
+                1,
+                "Backed off and turned away: its bumper touched something on the left.",
+            ),
+            decision(
+                2,
+                "Stood still for a moment: its gyro must be measured at rest now and then.",
+            ),
+            Update::Pose(Pose {
+                x: 2.5,
+                y: 0.5,
+                heading: 0.0,
+                t: 5.0,
+            }),
+            Update::Status(Status::default()),
+        ],
+        RequestBody::Maps => vec![Update::Maps {
+            maps: vec![kept(12), kept(11)],
+        }],
+        _ => obedient(request),
+    }
+}
+
+#[test]
+fn the_home_is_told_with_its_rooms_and_a_picture() {
+    let (output, _) = Daemon::start("home", at_home).rvac(&["map"], "");
+    let words = text(&output.stdout);
+    assert!(
+        words.contains("4.0 m2 of free floor, 1 room, 0 doors, 0 walls"),
+        "{words}"
+    );
+    assert!(
+        words.contains("room 1    4.0 m2\n") && words.ends_with("#1>\n"),
+        "{words}"
+    );
+}
+
+#[test]
+fn kept_maps_are_listed_and_one_is_asked_back() {
+    let (output, _) = Daemon::start("maps", at_home).rvac(&["map", "list"], "");
+    let words = text(&output.stdout);
+    let row = words.lines().nth(1).expect("a row");
+    assert!(row.starts_with("12 ") && row.ends_with("12  newest"), "{words}");
+    let (output, asked) = Daemon::start("restore", at_home).rvac(&["map", "restore", "11"], "");
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(asked[1].body, RequestBody::RestoreMap { number: 11 });
+}
+
+#[test]
+fn why_tells_the_newest_decisions_last() {
+    let (output, _) = Daemon::start("why", at_home).rvac(&["why", "--lines", "1"], "");
+    let words = text(&output.stdout);
+    assert_eq!(
+        words.trim(),
+        "3 s ago  Stood still for a moment: its gyro must be measured at rest now and then."
+    );
 }
 
 #[test]

@@ -7,7 +7,7 @@ use rvac_api::Topic;
 use crate::ClientId;
 
 /// All topics.
-pub(crate) const TOPICS: [Topic; 7] = [
+pub(crate) const TOPICS: [Topic; 10] = [
     Topic::Status,
     Topic::Pose,
     Topic::Device,
@@ -15,9 +15,12 @@ pub(crate) const TOPICS: [Topic; 7] = [
     Topic::Log,
     Topic::Packets,
     Topic::Home,
+    Topic::Estimate,
+    Topic::Way,
+    Topic::Decisions,
 ];
 
-const fn bit(topic: Topic) -> u8 {
+const fn bit(topic: Topic) -> u16 {
     match topic {
         Topic::Status => 1,
         Topic::Pose => 2,
@@ -26,13 +29,16 @@ const fn bit(topic: Topic) -> u8 {
         Topic::Log => 16,
         Topic::Packets => 32,
         Topic::Home => 64,
+        Topic::Estimate => 128,
+        Topic::Way => 256,
+        Topic::Decisions => 512,
     }
 }
 
 #[derive(Debug, Default)]
 struct Client {
     name: String,
-    topics: u8,
+    topics: u16,
 }
 
 /// The connected clients.
@@ -40,7 +46,7 @@ struct Client {
 pub(crate) struct Clients {
     clients: BTreeMap<ClientId, Client>,
     /// Topics that anybody follows.
-    followed: u8,
+    followed: u16,
 }
 
 impl Clients {

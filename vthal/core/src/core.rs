@@ -12,6 +12,7 @@ use rvac_api::{Pose, Status, Topic, Update};
 use crate::arbiter::Arbiter;
 use crate::clients::Clients;
 use crate::device::{Device, DeviceCommand, DeviceIo, FirmwareEvent};
+use crate::diary::Diary;
 use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
 use crate::outputs::{Delivery, Recipients};
@@ -31,6 +32,7 @@ pub struct Core {
     clients: Clients,
     arbiter: Arbiter,
     journal: Journal,
+    diary: Diary,
     /// The robot's link, while it is open.
     device: Option<Device>,
     mind: Option<Mind>,
@@ -51,6 +53,7 @@ impl Core {
             clients: Clients::default(),
             arbiter: Arbiter::default(),
             journal: Journal::default(),
+            diary: Diary::default(),
             device: None,
             mind: None,
             facts: LinkFacts::default(),
@@ -77,6 +80,7 @@ impl Core {
             }
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
+            Input::MapRestored { number, home } => self.map_restored(now_us, (number, home), outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),

@@ -1,5 +1,6 @@
 //! Everything that can happen to the core.
 
+use brain::StoredMap;
 use rvac_api::Request;
 
 /// A connected client, numbered by the shell; numbers are never reused.
@@ -31,6 +32,14 @@ pub enum Input<'a> {
         client: ClientId,
         /// What.
         request: Request,
+    },
+    /// A version of the map of the home was read from the disk and is the newest there now, as
+    /// [`crate::MapOrder::Restore`] asked.
+    MapRestored {
+        /// Number that was asked for, for the log.
+        number: u64,
+        /// The map.
+        home: StoredMap,
     },
     /// A client is gone; a driver's seat it held is empty and the wheels stop.
     ClientGone(ClientId),

@@ -196,6 +196,13 @@ impl Mind {
         }
     }
 
+    /// Offers a kept home in place of what is known now, which is not worth keeping any more. It is taken up when the robot
+    /// stands on its dock; a run that has nothing left to do ends before.
+    pub(crate) fn offer(&mut self, now_us: u64, home: StoredMap, recorder: &mut Recorder<'_>) {
+        self.end_run(now_us, RunEnd::Finished, recorder);
+        self.kept_home = KeptHome::Offered(home);
+    }
+
     /// The home as it is worth keeping; `None` while the one that was kept is a better one, or the robot is lost.
     pub(crate) fn home_to_keep(&self) -> Option<StoredMap> {
         match self.kept_home {
@@ -235,7 +242,8 @@ impl Mind {
         actions
     }
 
-    fn rests(&self) -> bool {
+    /// Whether no job runs or waits.
+    pub(crate) fn rests(&self) -> bool {
         let status = self.brain.status();
         let at_rest = matches!(
             status.state,

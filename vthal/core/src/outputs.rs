@@ -21,6 +21,29 @@ pub struct Outputs {
     pub checkpoint: Option<Checkpoint>,
     /// The home after a run, worth keeping for the next start.
     pub home: Option<StoredMap>,
+    /// What clients ask of the kept maps, in order.
+    pub map_orders: Vec<MapOrder>,
+}
+
+/// Something that the shell does with the kept maps of the home; it answers the client itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapOrder {
+    /// Tell the client which versions there are: [`Update::Maps`].
+    List {
+        /// Who asks.
+        client: ClientId,
+        /// Number of the request.
+        id: Option<u32>,
+    },
+    /// Make a version the newest one and give it back as [`crate::Input::MapRestored`].
+    Restore {
+        /// Who asks.
+        client: ClientId,
+        /// Number of the request.
+        id: Option<u32>,
+        /// Number of the version.
+        number: u64,
+    },
 }
 
 impl Outputs {
@@ -32,6 +55,7 @@ impl Outputs {
         self.records.clear();
         self.checkpoint = None;
         self.home = None;
+        self.map_orders.clear();
     }
 }
 

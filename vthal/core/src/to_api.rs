@@ -1,9 +1,9 @@
 //! From the core's types to those of the interface to clients: the only place where a struct exists twice.
 
-use brain::{Brain, CELL_M, CellKnowledge, JobFigures, MapPart, Mark, MarkKind, Pose2};
+use brain::{Brain, CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2};
 use rvac_api::{
-    BatteryReading, BumpMark, ChargerReading, DoorView, HomeView, MapDelta, MapSnapshot, Pose, Rle,
-    RobotDescription, RoomView, WallView,
+    BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
+    RobotDescription,
 };
 use rvac_protocol::message::{Battery, ChargeState, ChargerStatus, LogLevel};
 
@@ -78,82 +78,32 @@ fn bump(mark: &Mark) -> BumpMark {
     }
 }
 
-/// What is known of the home.
-pub(crate) fn home(brain: &Brain) -> HomeView {
-    let (map, estimate) = (brain.map(), brain.estimate());
-    let (knowledge, rooms) = (map.knowledge(), map.rooms());
-    let origin = knowledge.origin();
-    let cells = knowledge.values().iter().map(|kind| cell_number(*kind));
-    let labels = (0..knowledge.values().len()).map(|index| {
-        let label = rooms.labels().get(knowledge.cell(index));
-        label.copied().map_or(0, u32::from)
-    });
-    HomeView {
-        revision: map.revision(),
-        cell_m: CELL_M,
-        x: origin.x,
-        y: origin.y,
-        width: u32::try_from(knowledge.width()).unwrap_or(u32::MAX),
-        height: u32::try_from(knowledge.height()).unwrap_or(u32::MAX),
-        cells: runs(cells),
-        room_cells: runs(labels),
-        rooms: rooms
-            .rooms()
-            .iter()
-            .map(|room| RoomView {
-                id: room.id,
-                area_m2: room.area_m2,
-                x: room.middle.x_m,
-                y: room.middle.y_m,
-            })
-            .collect(),
-        doors: rooms
-            .doors()
-            .iter()
-            .map(|door| DoorView {
-                rooms: door.rooms,
-                x: door.at.x_m,
-                y: door.at.y_m,
-                width_m: door.width_m,
-            })
-            .collect(),
-        walls: map
-            .walls()
-            .iter()
-            .map(|wall| WallView {
-                from: [wall.from.x_m, wall.from.y_m],
-                to: [wall.to.x_m, wall.to.y_m],
-                sigma_m: wall.sigma_m,
-            })
-            .collect(),
-        dock: map.dock().map(|dock| pose(dock, 0)),
-        pose_sigma_m: estimate.sigma_m,
+/// How sure the robot is.
+pub(crate) fn estimate(brain: &Brain) -> Estimate {
+    let estimate = brain.estimate();
+    Estimate {
+        sigma_m: estimate.sigma_m,
+        sigma_rad: estimate.sigma_rad,
         lost: estimate.lost,
+        agreement: brain.map_agreement(),
+        covered: None,
     }
 }
 
-fn cell_number(kind: CellKnowledge) -> u32 {
-    match kind {
-        CellKnowledge::Unknown => 0,
-        CellKnowledge::Free => 1,
-        CellKnowledge::Occupied => 2,
-        CellKnowledge::Cliff => 3,
-        CellKnowledge::NoGo => 4,
-    }
-}
+/// Corners of a planned way that are told at most: some 500 lanes with their links.
+const CORNERS_MAX: usize = 4_000;
 
-/// Equal values side by side as pairs of value and number.
-fn runs(values: impl Iterator<Item = u32>) -> Rle {
-    let mut runs = Rle::new();
-    let mut last: Option<u32> = None;
-    for value in values {
-        match runs.last_mut() {
-            Some(length) if last == Some(value) => *length += 1,
-            _ => runs.extend([value, 1]),
-        }
-        last = Some(value);
+/// Where the robot means to drive; of a very long way its beginning.
+pub(crate) fn way(brain: &Brain) -> PlannedWay {
+    let corners = brain.planned_way();
+    let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
+    PlannedWay {
+        points_mm: corners
+            .iter()
+            .take(CORNERS_MAX)
+            .flat_map(|corner| [millimetres(corner.x_m), millimetres(corner.y_m)])
+            .collect(),
     }
-    runs
 }
 
 /// Battery readings.

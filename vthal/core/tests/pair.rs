@@ -9,7 +9,7 @@ use rvac_protocol::message::{
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
-use vthal_core::{ClientId, Core, CoreConfig, Input, Outputs, Record, Recording};
+use vthal_core::{ClientId, Core, CoreConfig, Input, MapOrder, Outputs, Record, Recording};
 
 const ANNA: ClientId = ClientId(1);
 const BERT: ClientId = ClientId(2);
@@ -29,6 +29,8 @@ struct Pair {
     records: Vec<Record>,
     /// Maps that the shell should keep.
     homes: Vec<StoredMap>,
+    /// What the shell should do with the kept ones.
+    orders: Vec<MapOrder>,
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
@@ -55,6 +57,7 @@ impl Pair {
             updates: Vec::new(),
             records: Vec::new(),
             homes: Vec::new(),
+            orders: Vec::new(),
             to_robot: Vec::new(),
             hears_stop: true,
         };
@@ -80,6 +83,7 @@ impl Pair {
             .extend(outputs.deliveries.into_iter().map(|delivery| delivery.update));
         self.records.extend(outputs.records);
         self.homes.extend(outputs.home);
+        self.orders.extend(outputs.map_orders);
     }
 
     /// Asks and gives the reason of a refusal.
@@ -530,7 +534,7 @@ fn a_kept_home_is_taken_up_on_the_dock_and_kept_again() {
     let free = view.cells.chunks(2).filter(|run| run[0] == 1).map(|run| run[1]);
     assert_eq!(free.sum::<u32>(), 1600);
     assert!(view.rooms.len() == 1 && (view.rooms[0].area_m2 - 1.0).abs() < 1e-9);
-    assert!(!view.lost && view.dock.is_some());
+    assert!(view.dock.is_some());
     pair.handle(Input::Shutdown);
     let kept = pair.homes.pop().expect("a map to keep").knowledge();
     let known = kept.values().iter().filter(|kind| **kind == CellKnowledge::Free);
@@ -547,4 +551,68 @@ fn a_robot_that_never_saw_its_dock_does_not_overwrite_the_home() {
     stranger.run_ms(1000);
     stranger.handle(Input::Shutdown);
     assert_eq!(stranger.homes.len(), 1, "without a home the first map is kept");
+}
+
+#[test]
+fn a_map_is_restored_at_rest_only_and_taken_up_on_the_dock() {
+    let mut pair = Pair::new();
+    let restore = || RequestBody::RestoreMap { number: 4 };
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, restore()).as_deref(), Some("job-runs"));
+    assert_eq!(pair.orders, []);
+    pair.ask(ANNA, RequestBody::Stop);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, restore()), None);
+    let order = MapOrder::Restore {
+        client: ANNA,
+        id: Some(1),
+        number: 4,
+    };
+    assert_eq!(pair.orders, [order]);
+    pair.homes.clear();
+    pair.handle(Input::MapRestored {
+        number: 4,
+        home: kept_home(),
+    });
+    pair.run_ms(200);
+    assert_eq!(
+        pair.core.pose().x,
+        0.0,
+        "off the dock it does not know where in it it is"
+    );
+    pair.state.docked = true;
+    pair.run_ms(200);
+    assert!((pair.core.pose().x - 3.0).abs() < 1e-6, "{:?}", pair.core.pose());
+    assert_eq!(pair.homes, [], "what was drawn before is not kept over it");
+}
+
+#[test]
+fn decisions_and_estimates_are_told_to_who_follows_them() {
+    let mut pair = Pair::new();
+    pair.ask(ANNA, RequestBody::Start { strategy: None });
+    pair.run_ms(200);
+    let topics = vec![Topic::Decisions, Topic::Estimate, Topic::Way];
+    let before = pair.updates.len();
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let told = &pair.updates[before..];
+    let starts = told.iter().filter(|update| match update {
+        Update::Decision(decision) => decision.what == "state-starting" && decision.reason == "command",
+        _ => false,
+    });
+    assert_eq!(starts.count(), 1);
+    let estimate = told.iter().find_map(|update| match update {
+        Update::Estimate(estimate) => Some(estimate),
+        _ => None,
+    });
+    let estimate = estimate.expect("an estimate at once");
+    assert!(!estimate.lost && estimate.agreement.is_none(), "{estimate:?}");
+    let before = pair.updates.len();
+    pair.ask(ANNA, RequestBody::Stop);
+    pair.run_ms(100);
+    let stopped = pair.updates[before..].iter().any(|update| match update {
+        Update::Decision(decision) => decision.text == "Stood still, without a job: somebody asked for it.",
+        _ => false,
+    });
+    assert!(stopped, "{:?}", &pair.updates[before..]);
 }

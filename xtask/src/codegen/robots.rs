@@ -26,6 +26,13 @@ pub(crate) fn names(robots: &Path) -> anyhow::Result<Vec<String>> {
     Ok(names)
 }
 
+/// The description of the robot with this name, if there is one.
+pub(crate) fn description(robots: &Path, name: &str) -> anyhow::Result<Option<PathBuf>> {
+    let found = descriptions(robots)?.into_iter();
+    let mut found = found.filter(|(_, robot)| word(robot, "name") == name);
+    Ok(found.next().map(|(path, _)| path))
+}
+
 /// The page as it should be.
 pub(crate) fn page(root: &Path) -> anyhow::Result<Generated> {
     let mut text = String::from(HEAD);

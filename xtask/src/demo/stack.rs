@@ -3,9 +3,10 @@
 use super::service::{Event, Service};
 use super::state::State;
 use super::{Arguments, preflight};
+use crate::codegen::robots;
 use crate::process;
-use crate::workspace::{Profile, program};
-use anyhow::bail;
+use crate::workspace::{self, Profile, program};
+use anyhow::{Context, bail};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::path::{Path, PathBuf};
@@ -77,6 +78,8 @@ impl Stack {
 
         let mut daemon = Command::new(program("vthal", Profile::Dev));
         daemon
+            .arg("--config")
+            .arg(self.write_configuration(&arguments.robot)?)
             .arg("--serial")
             .arg(self.link())
             .arg("--socket")
@@ -87,6 +90,17 @@ impl Stack {
             .args(["--speed", &speed]);
         self.start("vthal", &daemon)?;
         Ok(())
+    }
+
+    /// Tells the daemon where the robot's sensors sit, so that it maps what they see and not only what it touches.
+    fn write_configuration(&self, robot: &str) -> anyhow::Result<PathBuf> {
+        let description = robots::description(&workspace::root().join("robots"), robot)?
+            .with_context(|| format!("robot {robot:?} is not described in robots/"))?;
+        let description = toml::Value::String(description.display().to_string());
+        let path = self.state.path("vthal.toml");
+        std::fs::write(&path, format!("[robot]\ndescription = {description}\n"))
+            .with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(path)
     }
 
     /// Starts the panel server; gives the address of the page.

@@ -148,6 +148,10 @@ impl Task for Systematic {
             astray.interrupted();
         }
     }
+
+    fn way(&self) -> Vec<Point2> {
+        self.follower.as_ref().map_or_else(Vec::new, Follower::way)
+    }
 }
 
 impl Systematic {

@@ -5,6 +5,8 @@
 
 mod codec;
 
+use std::collections::BTreeSet;
+
 pub use codec::StoredMapError;
 
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
@@ -81,6 +83,13 @@ impl StoredMap {
             *place = unpack(value).knowledge();
         }
         raster
+    }
+
+    /// Number of rooms in it.
+    #[must_use]
+    pub fn room_count(&self) -> usize {
+        let labels: BTreeSet<u16> = self.rooms.iter().map(|run| run.value).collect();
+        labels.iter().filter(|label| **label != 0).count()
     }
 
     /// Whether nothing is known.

@@ -157,7 +157,7 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
     browser
         .until("return Number(document.getElementById('map').dataset.sweptCells) > 100")
         .await;
-    for tab in ["drive", "device", "log"] {
+    for tab in ["drive", "home", "why", "device", "log"] {
         browser.click(&format!("#tab-{tab}")).await;
         browser
             .until(&format!("return !document.getElementById('sheet-{tab}').hidden"))
@@ -209,6 +209,46 @@ async fn the_dark_look_is_kept() {
         .until("return document.querySelectorAll('#device-table tr').length > 20")
         .await;
     browser.shot("desktop-dark").await;
+}
+
+#[tokio::test]
+async fn what_the_robot_knows_and_decides_is_shown() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#start").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return document.getElementById('lately')?.textContent.length > 10")
+        .await;
+    browser.click("#tab-why").await;
+    browser
+        .until("return [...document.querySelectorAll('#decisions li')].some(line => line.textContent.includes('Began to clean'))")
+        .await;
+    browser.click("#tab-home").await;
+    browser
+        .until("return document.querySelector('#home-sheet .sentences li')?.textContent.includes('believes its place')")
+        .await;
+    browser
+        .until("return document.getElementById('place')?.textContent.includes('cm')")
+        .await;
+    let ground = |name: &str| format!("return document.getElementById('map').dataset.ground === '{name}'");
+    browser.until(&ground("True")).await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 400")
+        .await;
+    browser.click("#ground-known").await;
+    browser.until(&ground("Known")).await;
+    browser.shot("desktop-knows").await;
+    browser.click("#ground-true").await;
+    browser.until(&ground("True")).await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle"]).await;
+    // A run that is over leaves a map behind, some seconds later; the list is asked for when its sheet is opened.
+    browser
+        .until("document.getElementById('tab-log').click(); document.getElementById('tab-home').click(); return document.querySelectorAll('#maps li').length > 0")
+        .await;
 }
 
 #[tokio::test]

@@ -73,6 +73,9 @@ impl Stack {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
+        let description = root().join("robots/samsung-sr8730/robot.toml");
+        let configuration = format!("[robot]\ndescription = {:?}\n", description.display().to_string());
+        std::fs::write(folder.join("vthal.toml"), configuration).unwrap();
         let mut stack = Self {
             folder,
             processes: Vec::new(),
@@ -96,6 +99,7 @@ impl Stack {
 
     pub(crate) fn start_vthal(&mut self) {
         let mut command = Command::new(binary("vthal"));
+        command.arg("--config").arg(self.folder.join("vthal.toml"));
         command.arg("--serial").arg(self.folder.join("serial"));
         command.arg("--socket").arg(self.folder.join("vthal.sock"));
         command.arg("--state").arg(self.folder.join("state"));

@@ -49,6 +49,11 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "No robot answers.",
         "Check its cable and whether it is switched on.",
     ),
+    entry(
+        "job-runs",
+        "A job runs or waits.",
+        "Stop it first; a map is taken up again only by a robot at rest.",
+    ),
     entry("start-up", "The software has just started.", ""),
     entry("command", "As you asked.", ""),
     entry("finished", "The job is done.", ""),

@@ -1,22 +1,25 @@
-//! The home as the robot knows it, drawn like the plan of a simulated one.
+//! The home as the robot knows it: as a picture, and as rows for people who read.
 
 use rvac_api::{HomeView, Pose, SimulatedPlan};
 
-/// What is not known and what must not be entered is left out.
-const LEFT_OUT: u32 = 0;
+use crate::figures::area_text;
 
-/// The home as a plan.
+/// Kinds of cells of a plan that only the robot's own map has, beside those of [`SimulatedPlan`]: not to be entered, and
+/// floor of a room. Rooms share the tints in turn.
+pub(crate) const NO_GO: u32 = 5;
+/// First kind for floor of a room.
+pub(crate) const ROOM: u32 = 16;
+/// Tints of rooms.
+pub const ROOM_TINTS: u32 = 6;
+/// Largest window that is drawn, in cells.
+const CELLS_MAX: u64 = 1 << 24;
+/// Rooms, doors and walls that are drawn or listed at most.
+pub const ITEMS_MAX: usize = 1_000;
+
+/// The home as a plan, each room in its tint.
 #[must_use]
 pub fn home_plan(home: &HomeView) -> SimulatedPlan {
-    let cells = home
-        .cells
-        .chunks_exact(2)
-        .flat_map(|run| match *run {
-            [kind @ 1..=3, length] => [kind, length],
-            [_, length] => [LEFT_OUT, length],
-            _ => [LEFT_OUT, 0],
-        })
-        .collect();
+    let total = u64::from(home.width) * u64::from(home.height);
     SimulatedPlan {
         name: String::new(),
         cell_m: home.cell_m,
@@ -28,30 +31,185 @@ pub fn home_plan(home: &HomeView) -> SimulatedPlan {
             heading: 0.0,
             t: 0.0,
         },
-        cells,
+        cells: merged(&home.cells, &home.room_cells, total.min(CELLS_MAX)),
         dock: home.dock,
     }
 }
 
+/// Runs of cells with the rooms in them. Neither needs to be as long as it should.
+fn merged(cells: &[u32], rooms: &[u32], total: u64) -> Vec<u32> {
+    let mut rooms = Runs::new(rooms);
+    let mut merged = Vec::new();
+    let mut left = total;
+    for run in cells.chunks_exact(2) {
+        let &[kind, length] = run else { continue };
+        let mut length = u64::from(length).min(left);
+        left -= length;
+        while length > 0 {
+            let (room, span) = rooms.take(length);
+            let shown = match kind {
+                1 if room > 0 => ROOM + (room - 1) % ROOM_TINTS,
+                1..=3 => kind,
+                4 => NO_GO,
+                _ => 0,
+            };
+            merged.extend([shown, u32::try_from(span).unwrap_or(u32::MAX)]);
+            length -= span;
+        }
+    }
+    merged
+}
+
+/// Runs that are read piece by piece.
+struct Runs<'a> {
+    runs: core::slice::ChunksExact<'a, u32>,
+    value: u32,
+    left: u64,
+}
+
+impl<'a> Runs<'a> {
+    fn new(runs: &'a [u32]) -> Self {
+        Self {
+            runs: runs.chunks_exact(2),
+            value: 0,
+            left: 0,
+        }
+    }
+
+    /// The value of the next cells and for how many of them, at most `most`, it holds.
+    fn take(&mut self, most: u64) -> (u32, u64) {
+        while self.left == 0 {
+            let Some(run) = self.runs.next() else {
+                return (0, most);
+            };
+            if let &[value, length] = run {
+                (self.value, self.left) = (value, length.into());
+            }
+        }
+        let span = self.left.min(most);
+        self.left -= span;
+        (self.value, span)
+    }
+}
+
+/// A room as a row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RoomRow {
+    /// Its identity.
+    pub id: u16,
+    /// `Room 2`
+    pub name: String,
+    /// `12.4 m², doors to rooms 1 and 3`
+    pub words: String,
+}
+
+/// The rooms by their identities.
+#[must_use]
+pub fn room_rows(home: &HomeView) -> Vec<RoomRow> {
+    let mut rows: Vec<RoomRow> = home
+        .rooms
+        .iter()
+        .take(ITEMS_MAX)
+        .map(|room| RoomRow {
+            id: room.id,
+            name: format!("Room {}", room.id),
+            words: format!("{}{}", area_text(room.area_m2), doors_text(home, room.id)),
+        })
+        .collect();
+    rows.sort_by_key(|row| row.id);
+    rows
+}
+
+fn doors_text(home: &HomeView, room: u16) -> String {
+    let beyond = |rooms: [u16; 2]| match rooms {
+        [one, other] if one == room => Some(other),
+        [one, other] if other == room => Some(one),
+        _ => None,
+    };
+    let doors = home.doors.iter().take(ITEMS_MAX);
+    let mut others: Vec<u16> = doors.filter_map(|door| beyond(door.rooms)).collect();
+    others.sort_unstable();
+    others.dedup();
+    let names: Vec<String> = others.iter().map(u16::to_string).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [only] => format!(", door to room {only}"),
+        [first @ .., last] => format!(", doors to rooms {} and {last}", first.join(", ")),
+    }
+}
+
+/// Walls as strokes `[x0,y0,x1,y1,...]` in metres.
+#[must_use]
+pub fn wall_strokes(home: &HomeView) -> Vec<f32> {
+    let walls = home.walls.iter().take(ITEMS_MAX);
+    let ends = walls.flat_map(|wall| [wall.from[0], wall.from[1], wall.to[0], wall.to[1]]);
+    ends.map(|metres| metres as f32).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::home_plan;
-    use rvac_api::HomeView;
+    use super::{home_plan, merged, room_rows};
+    use rvac_api::{DoorView, HomeView, RoomView};
 
     #[test]
-    fn known_cells_are_drawn_and_the_others_left_out() {
+    fn known_cells_are_drawn_each_room_in_its_tint() {
         let home = HomeView {
             cell_m: 0.025,
             x: -40,
             y: 8,
-            width: 5,
+            width: 6,
             height: 1,
-            cells: vec![0, 1, 1, 1, 2, 1, 4, 1, 3, 1],
+            cells: vec![0, 1, 1, 2, 2, 1, 4, 1, 3, 1],
+            room_cells: vec![0, 2, 2, 3, 0, 1],
             ..HomeView::default()
         };
         let plan = home_plan(&home);
-        assert_eq!(plan.cells, [0, 1, 1, 1, 2, 1, 0, 1, 3, 1]);
+        assert_eq!(plan.cells, [0, 1, 1, 1, 17, 1, 2, 1, 5, 1, 3, 1]);
         assert_eq!((plan.origin.x, plan.origin.y), (-1.0, 0.2));
-        assert_eq!((plan.width, plan.height), (5, 1));
+        assert_eq!((plan.width, plan.height), (6, 1));
+    }
+
+    #[test]
+    fn runs_that_do_not_fit_do_no_harm() {
+        assert_eq!(merged(&[1, u32::MAX], &[], 4), [1, 4]);
+        assert_eq!(merged(&[1, 3, 7], &[9, 0, 1, 1], 9), [16, 1, 1, 2]);
+        assert_eq!(
+            merged(&[1, 2, 2, u32::MAX], &[u32::MAX, u32::MAX], 3),
+            [16 + (u32::MAX - 1) % 6, 2, 2, 1]
+        );
+        let huge = HomeView {
+            width: u32::MAX,
+            height: u32::MAX,
+            cells: vec![1, u32::MAX],
+            ..HomeView::default()
+        };
+        assert_eq!(home_plan(&huge).cells, [1, 1 << 24]);
+    }
+
+    #[test]
+    fn rooms_are_rows_with_their_neighbours() {
+        let room = |id| RoomView {
+            id,
+            area_m2: 12.44,
+            x: 0.0,
+            y: 0.0,
+        };
+        let door = |rooms| DoorView {
+            rooms,
+            x: 0.0,
+            y: 0.0,
+            width_m: 0.8,
+        };
+        let home = HomeView {
+            rooms: vec![room(3), room(1), room(2)],
+            doors: vec![door([1, 3]), door([2, 1]), door([1, 2])],
+            ..HomeView::default()
+        };
+        let rows = room_rows(&home);
+        assert_eq!(rows[0].words, "12.4 m², doors to rooms 2 and 3");
+        assert_eq!(
+            (rows[2].name.as_str(), rows[2].words.as_str()),
+            ("Room 3", "12.4 m², door to room 1")
+        );
     }
 }

@@ -1,8 +1,9 @@
-//! The floor plan of a simulated home as a picture.
+//! A floor plan as a picture: that of a simulated home, or the home as the robot knows it.
 
 use rvac_api::{Pose, SimulatedPlan};
 
 use crate::Bounds;
+use crate::home::{NO_GO, ROOM, ROOM_TINTS};
 
 /// Cells that a plan may have: 4096 by 4096, which every WebGL2 takes as a texture.
 const SIDE_MAX: u32 = 4096;
@@ -18,6 +19,10 @@ pub struct PlanPalette {
     pub cliff: [u8; 3],
     /// A rug.
     pub rug: [u8; 3],
+    /// Floor that must not be entered.
+    pub no_go: [u8; 3],
+    /// Floor of rooms, in turn.
+    pub rooms: [[u8; 3]; ROOM_TINTS as usize],
 }
 
 impl PlanPalette {
@@ -28,7 +33,11 @@ impl PlanPalette {
             2 => self.obstacle,
             3 => self.cliff,
             4 => self.rug,
-            _ => return [0; 4],
+            NO_GO => self.no_go,
+            _ => match kind.checked_sub(ROOM).and_then(|room| self.rooms.get(room as usize)) {
+                Some(tint) => *tint,
+                None => return [0; 4],
+            },
         };
         [red, green, blue, 255]
     }
@@ -181,6 +190,8 @@ mod tests {
         obstacle: [2, 2, 2],
         cliff: [3, 3, 3],
         rug: [4, 4, 4],
+        no_go: [5, 5, 5],
+        rooms: [[6, 6, 6]; 6],
     };
 
     fn plan(cells: Vec<u32>) -> SimulatedPlan {
@@ -208,6 +219,9 @@ mod tests {
         assert_eq!(reds, [0, 0, 0, 0, 0, 1, 1, 2, 0, 0, 0, 0]);
         assert_eq!(pixels[5 * 4 + 3], 255);
         assert_eq!(pixels[3], 0);
+        let pixels = plan_pixels(&plan(vec![5, 1, 16, 1, 21, 1, 22, 9]), PALETTE).unwrap();
+        let reds: Vec<u8> = pixels.chunks_exact(4).map(|pixel| pixel[0]).take(4).collect();
+        assert_eq!(reds, [5, 6, 6, 0], "no-go, rooms, and a room without a tint");
     }
 
     #[test]

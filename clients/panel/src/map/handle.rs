@@ -5,12 +5,15 @@ use std::rc::Rc;
 
 use leptos::prelude::{request_animation_frame, window};
 use panel_logic::FrameMeter;
-use rvac_api::{HomeView, MapDelta, MapSnapshot, Pose, RobotDescription, SimulatedPlan};
+use rvac_api::{
+    Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, RobotDescription, SimulatedPlan,
+};
 use wasm_bindgen::JsCast;
-use web_sys::{HtmlCanvasElement, WebGl2RenderingContext, WebGlContextAttributes};
+use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebGlContextAttributes};
 
 use super::gl::GlError;
 use super::renderer::Renderer;
+use super::labels::Labels;
 use super::scene::{Redraw, Scene};
 use crate::theme::Theme;
 
@@ -25,6 +28,7 @@ struct Shared {
     scene: RefCell<Scene>,
     renderer: RefCell<Option<Renderer>>,
     canvas: RefCell<Option<HtmlCanvasElement>>,
+    labels: RefCell<Labels>,
     meter: RefCell<FrameMeter>,
     scheduled: Cell<bool>,
 }
@@ -52,6 +56,7 @@ impl MapHandle {
         self.change(|scene| {
             scene.plan_changed = true;
             scene.path_restarted = true;
+            scene.strokes_changed = true;
         });
         Ok(())
     }
@@ -72,7 +77,22 @@ impl MapHandle {
     }
 
     pub(crate) fn on_home(&self, home: &HomeView) {
+        self.shared.labels.borrow_mut().name(&home.rooms);
         self.change(|scene| scene.on_home(home));
+    }
+
+    pub(crate) fn on_way(&self, way: &PlannedWay) {
+        self.change(|scene| scene.on_way(way));
+    }
+
+    pub(crate) fn on_estimate(&self, estimate: &Estimate) {
+        self.animate(|scene| scene.on_estimate(estimate));
+    }
+
+    /// Names rooms in this element, which lies over the canvas.
+    pub(crate) fn name_rooms_in(&self, place: HtmlElement) {
+        self.shared.labels.borrow_mut().put_into(place);
+        self.change(|_| {});
     }
 
     pub(crate) fn set_theme(&self, theme: Theme) {
@@ -140,6 +160,11 @@ impl MapHandle {
         let set = |name: &str, value: String| {
             canvas.set_attribute(name, &value).ok(); // The names are valid ones.
         };
+        set("data-ground", self.with(|scene| format!("{:?}", scene.ground())));
+        set(
+            "data-way-dashes",
+            self.with(|scene| (scene.way.len() / 4).to_string()),
+        );
         if let Some((rate, longest)) = self.smoothness() {
             set("data-frames-per-second", format!("{rate:.1}"));
             set("data-longest-frame-ms", format!("{longest:.1}"));
@@ -168,6 +193,9 @@ impl MapHandle {
         let (places, redraw) = scene.advance(now);
         if let Some(renderer) = self.shared.renderer.borrow_mut().as_mut() {
             renderer.draw(&mut scene, places, redraw);
+        }
+        if redraw == Redraw::All {
+            self.shared.labels.borrow().place(&scene);
         }
         drop(scene);
         if moving {

@@ -3,6 +3,7 @@
 mod gestures;
 mod gl;
 mod handle;
+mod labels;
 mod palette;
 mod renderer;
 mod scene;

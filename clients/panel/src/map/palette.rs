@@ -18,6 +18,10 @@ pub(crate) struct Palette {
     pub(crate) body: Rgb,
     pub(crate) front: Rgb,
     pub(crate) halo: Rgb,
+    /// Walls that the robot is sure of.
+    pub(crate) wall: Rgb,
+    /// The way it means to drive, and how far it may be from where it believes to be.
+    pub(crate) thought: Rgb,
     pub(crate) plan: PlanPalette,
 }
 
@@ -40,11 +44,22 @@ const LIGHT: Palette = Palette {
     body: rgb(0x14_21_3a),
     front: rgb(0x4c_c9_ad),
     halo: rgb(0xff_ff_ff),
+    wall: rgb(0x14_21_3a),
+    thought: rgb(0x6d_4a_c9),
     plan: PlanPalette {
         floor: bytes(0xff_ff_ff),
         obstacle: bytes(0x8a_96_a6),
         cliff: bytes(0xf0_cf_c2),
         rug: bytes(0xf1_ec_e1),
+        no_go: bytes(0xf3_d6_d6),
+        rooms: [
+            bytes(0xe9_f1_fc),
+            bytes(0xfd_f1_e4),
+            bytes(0xf1_ec_fb),
+            bytes(0xfb_f7_de),
+            bytes(0xfb_ea_f0),
+            bytes(0xea_f2_ea),
+        ],
     },
 };
 
@@ -57,11 +72,22 @@ const DARK: Palette = Palette {
     body: rgb(0xee_f3_f8),
     front: rgb(0x0f_9d_8a),
     halo: rgb(0x0e_13_1a),
+    wall: rgb(0xc9_d4_e0),
+    thought: rgb(0xb7_9c_ff),
     plan: PlanPalette {
         floor: bytes(0x1f_29_36),
         obstacle: bytes(0x59_68_7b),
         cliff: bytes(0x53_34_2c),
         rug: bytes(0x28_31_3b),
+        no_go: bytes(0x45_2a_2e),
+        rooms: [
+            bytes(0x1f_2d_42),
+            bytes(0x35_2d_28),
+            bytes(0x2b_29_42),
+            bytes(0x32_30_25),
+            bytes(0x36_29_32),
+            bytes(0x24_32_2c),
+        ],
     },
 };
 

@@ -1,4 +1,5 @@
-//! Draws the scene: one pass for the ground, one for the path, one for bumps, one for robot and dock.
+//! Draws the scene: one pass for the ground, one each for walls, path and planned way, one for
+//! bumps, one for doors, dock and robot.
 
 use panel_logic::{Bounds, Camera, plan_pixels};
 use rvac_api::Pose;
@@ -6,7 +7,7 @@ use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, Web
 
 use super::gl::{GlError, GrowingBuffer, Look, Program, texture};
 use super::palette::Palette;
-use super::scene::{Places, Redraw, Scene};
+use super::scene::{Ground, Places, Redraw, Scene};
 use super::shaders;
 
 /// Numbers an instance of a mark has: place, heading, size, kind.
@@ -18,6 +19,8 @@ const CLIFF: f32 = 1.0;
 const ROBOT: f32 = 2.0;
 const TRUE_PLACE: f32 = 3.0;
 const DOCK: f32 = 4.0;
+const DOOR: f32 = 5.0;
+const UNCERTAINTY: f32 = 6.0;
 
 /// Marks and lines reach this far beyond their place, in CSS pixels.
 const MARGIN_PX: f64 = 12.0;
@@ -36,6 +39,10 @@ pub(crate) struct Renderer {
     swept: WebGlTexture,
     path: GrowingBuffer,
     path_layout: WebGlVertexArrayObject,
+    walls: GrowingBuffer,
+    walls_layout: WebGlVertexArrayObject,
+    way: GrowingBuffer,
+    way_layout: WebGlVertexArrayObject,
     bumps: GrowingBuffer,
     bumps_layout: WebGlVertexArrayObject,
     bodies: GrowingBuffer,
@@ -92,6 +99,7 @@ impl Renderer {
             "body_colour",
             "front_colour",
             "halo_colour",
+            "thought_colour",
         ];
         let line_uniforms = ["view", "pixel", "half_width", "line_colour"];
         let layout = || {
@@ -111,6 +119,10 @@ impl Renderer {
             swept: texture(gl, Look::Smooth)?,
             path: GrowingBuffer::new(gl)?,
             path_layout: layout()?,
+            walls: GrowingBuffer::new(gl)?,
+            walls_layout: layout()?,
+            way: GrowingBuffer::new(gl)?,
+            way_layout: layout()?,
             bumps: GrowingBuffer::new(gl)?,
             bumps_layout: layout()?,
             bodies: GrowingBuffer::new(gl)?,
@@ -121,7 +133,8 @@ impl Renderer {
         Ok(renderer)
     }
 
-    /// A segment reads two points that overlap with those of its neighbours; a mark reads its five numbers.
+    /// A segment of the path reads two points that overlap with those of its neighbours, one of walls or the planned way two
+    /// of its own; a mark reads its five numbers.
     fn describe_layouts(&self) {
         let gl = &self.gl;
         let attribute = |place: u32, size: i32, [stride, offset]: [i32; 2]| {
@@ -133,6 +146,12 @@ impl Renderer {
         self.path.bind();
         attribute(0, 2, [8, 0]);
         attribute(1, 2, [8, 8]);
+        for (layout, buffer) in [(&self.walls_layout, &self.walls), (&self.way_layout, &self.way)] {
+            gl.bind_vertex_array(Some(layout));
+            buffer.bind();
+            attribute(0, 2, [16, 0]);
+            attribute(1, 2, [16, 8]);
+        }
         for (layout, buffer) in [
             (&self.bumps_layout, &self.bumps),
             (&self.bodies_layout, &self.bodies),
@@ -167,7 +186,7 @@ impl Renderer {
         self.draw_ground(scene, &palette, eye);
         self.gl.enable(Gl::BLEND);
         self.gl.blend_func(Gl::ONE, Gl::ONE_MINUS_SRC_ALPHA);
-        self.draw_path(scene, &palette, eye);
+        self.draw_lines(scene, &palette, eye);
         self.draw_marks(scene, places, (&palette, eye));
         self.gl.bind_vertex_array(None);
     }
@@ -220,7 +239,7 @@ impl Renderer {
             return;
         }
         self.gl.bind_texture(Gl::TEXTURE_2D, Some(&self.plan));
-        let drawn = scene.plan.as_ref().and_then(|plan| {
+        let drawn = scene.plan().and_then(|plan| {
             let pixels = plan_pixels(plan, palette.plan)?;
             Some((plan.width as i32, plan.height as i32, pixels))
         });
@@ -296,7 +315,7 @@ impl Renderer {
         program.set("outside_colour", &palette.outside);
         program.set("grid_colour", &palette.grid);
         program.set("swept_colour", &palette.swept);
-        if let Some(plan) = &scene.plan {
+        if let Some(plan) = scene.plan() {
             let (sin, cos) = plan.origin.heading.sin_cos();
             program.set(
                 "plan_pose",
@@ -324,23 +343,39 @@ impl Renderer {
         self.gl.draw_arrays(Gl::TRIANGLE_STRIP, 0, 4);
     }
 
-    fn draw_path(&mut self, scene: &mut Scene, palette: &Palette, eye: Eye) {
+    fn draw_lines(&mut self, scene: &mut Scene, palette: &Palette, eye: Eye) {
         if std::mem::take(&mut scene.path_restarted) {
             self.path.restart();
         }
         self.path.catch_up(&scene.path);
-        let segments = (scene.path.len() / 2).saturating_sub(1);
-        if segments == 0 {
-            return;
+        if std::mem::take(&mut scene.strokes_changed) {
+            self.walls.restart();
+            self.walls.catch_up(&scene.walls);
+            self.way.restart();
+            self.way.catch_up(&scene.way);
         }
         self.line.select();
         self.line.set("view", &eye.view);
         self.line.set("pixel", &eye.pixel);
-        self.line.set("half_width", &[(0.8 * eye.ratio) as f32]);
-        self.line.set("line_colour", &palette.path);
-        self.gl.bind_vertex_array(Some(&self.path_layout));
-        self.gl
-            .draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, segments as i32);
+        let walls = if scene.ground() == Ground::Known {
+            scene.walls.len() / 4
+        } else {
+            0
+        };
+        let segments = (scene.path.len() / 2).saturating_sub(1);
+        for (layout, segments, (half_width_px, colour)) in [
+            (&self.walls_layout, walls, (1.0, &palette.wall)),
+            (&self.path_layout, segments, (0.8, &palette.path)),
+            (&self.way_layout, scene.way.len() / 4, (1.0, &palette.thought)),
+        ] {
+            if segments > 0 {
+                self.line.set("half_width", &[(half_width_px * eye.ratio) as f32]);
+                self.line.set("line_colour", colour);
+                self.gl.bind_vertex_array(Some(layout));
+                self.gl
+                    .draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, segments as i32);
+            }
+        }
     }
 
     fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&Palette, Eye)) {
@@ -351,6 +386,7 @@ impl Renderer {
         self.mark.set("body_colour", &palette.body);
         self.mark.set("front_colour", &palette.front);
         self.mark.set("halo_colour", &palette.halo);
+        self.mark.set("thought_colour", &palette.thought);
         let bumps = bump_marks(scene, eye.ratio);
         let bodies = body_marks(scene, places);
         self.bumps.restart();
@@ -392,11 +428,24 @@ fn body_marks(scene: &Scene, places: Places) -> Vec<f32> {
         ]
     };
     let dock = scene
-        .plan
-        .as_ref()
+        .plan()
         .and_then(|plan| plan.dock)
         .map(|pose| mark(pose, radius * 0.8, DOCK));
+    let doors = scene.doors().map(|door| {
+        let at = Pose {
+            x: door.x,
+            y: door.y,
+            ..Pose::default()
+        };
+        mark(at, 0.5 * door.width_m, DOOR)
+    });
+    let spread = scene.uncertainty_m();
+    let spread = places
+        .believed
+        .filter(|_| spread > 0.0)
+        .map(|pose| mark(pose, spread, UNCERTAINTY));
     let truth = places.truth.map(|pose| mark(pose, radius, TRUE_PLACE));
     let robot = places.believed.map(|pose| mark(pose, radius, ROBOT));
-    [dock, robot, truth].into_iter().flatten().flatten().collect()
+    let bodies = [dock, spread, robot, truth].into_iter().flatten();
+    doors.chain(bodies).flatten().collect()
 }

@@ -1,12 +1,31 @@
 //! What is to be seen on the map.
 
-use panel_logic::{Bounds, Camera, Playout, SweptGrid, View, home_plan, outlined, plan_bounds};
-use rvac_api::{BumpMark, HomeView, MapDelta, MapSnapshot, Pose, SimulatedPlan};
+use panel_logic::{
+    Bounds, Camera, ITEMS_MAX, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, wall_strokes,
+    way_dashes,
+};
+use rvac_api::{
+    BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
+};
 
 use crate::theme::Theme;
 
 /// The robot is never drawn smaller than this, in CSS pixels.
 const ROBOT_RADIUS_MIN_PX: f64 = 8.0;
+
+/// Length of a dash of the planned way, metres.
+const DASH_M: f64 = 0.06;
+/// Widest uncertainty that is drawn, metres: beyond it only the words help.
+const UNCERTAINTY_MAX_M: f64 = 20.0;
+
+/// What lies under path and robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ground {
+    /// What the robot knows of the home.
+    Known,
+    /// The floor plan of a simulated home.
+    True,
+}
 
 /// Who moves the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,10 +70,16 @@ pub(crate) struct Scene {
     pub(crate) radius_m: f64,
     pub(crate) believed: Playout,
     pub(crate) truth: Playout,
-    pub(crate) plan: Option<SimulatedPlan>,
     pub(crate) plan_changed: bool,
-    /// The plan is that of a simulated home, which says more than what the robot knows.
-    plan_is_true: bool,
+    ground: Ground,
+    true_plan: Option<SimulatedPlan>,
+    known_plan: Option<SimulatedPlan>,
+    doors: Vec<DoorView>,
+    /// Walls as strokes, and the planned way as dashes.
+    pub(crate) walls: Vec<f32>,
+    pub(crate) way: Vec<f32>,
+    pub(crate) strokes_changed: bool,
+    uncertainty_m: f64,
     pub(crate) swept: SweptGrid,
     pub(crate) swept_cells: usize,
     pub(crate) cell_m: f64,
@@ -77,9 +102,15 @@ impl Default for Scene {
             radius_m: 0.175,
             believed: Playout::default(),
             truth: Playout::default(),
-            plan: None,
             plan_changed: true,
-            plan_is_true: false,
+            ground: Ground::Known,
+            true_plan: None,
+            known_plan: None,
+            doors: Vec::new(),
+            walls: Vec::new(),
+            way: Vec::new(),
+            strokes_changed: true,
+            uncertainty_m: 0.0,
             swept: SweptGrid::default(),
             swept_cells: 0,
             cell_m: 0.05,
@@ -103,20 +134,71 @@ pub(crate) struct Places {
 }
 
 impl Scene {
+    /// Takes the plan of a simulated home, and shows it.
     pub(crate) fn set_plan(&mut self, plan: &SimulatedPlan) {
-        self.plan = Some(outlined(plan));
-        self.plan_is_true = true;
+        self.true_plan = Some(outlined(plan));
+        self.show(Ground::True);
+    }
+
+    /// Takes what the robot knows of the home.
+    pub(crate) fn on_home(&mut self, home: &HomeView) {
+        self.known_plan = (home.width > 0).then(|| home_plan(home));
+        self.doors = home.doors.iter().take(ITEMS_MAX).copied().collect();
+        self.walls = wall_strokes(home);
+        self.strokes_changed = true;
+        if self.ground == Ground::Known {
+            self.show(Ground::Known);
+        }
+    }
+
+    /// Takes where the robot means to drive.
+    pub(crate) fn on_way(&mut self, way: &PlannedWay) {
+        self.way = way_dashes(way, DASH_M);
+        self.strokes_changed = true;
+    }
+
+    /// Takes how sure the robot is; false when that looks the same.
+    pub(crate) fn on_estimate(&mut self, estimate: &Estimate) -> bool {
+        // Twice the standard deviation: 19 times of 20 it is inside.
+        let drawn = !estimate.lost && estimate.sigma_m.is_finite();
+        let spread_m = if drawn { 2.0 * estimate.sigma_m } else { 0.0 };
+        let spread_m = spread_m.clamp(0.0, UNCERTAINTY_MAX_M);
+        let changed = (spread_m - self.uncertainty_m).abs() > 0.005;
+        if changed {
+            self.uncertainty_m = spread_m;
+        }
+        changed
+    }
+
+    /// Lays this under path and robot.
+    pub(crate) fn show(&mut self, ground: Ground) {
+        self.ground = ground;
         self.plan_changed = true;
         self.refit();
     }
 
-    /// Takes what the robot knows of the home, unless the truth is there.
-    pub(crate) fn on_home(&mut self, home: &HomeView) {
-        if !self.plan_is_true && home.width > 0 {
-            self.plan = Some(home_plan(home));
-            self.plan_changed = true;
-            self.refit();
+    /// What lies under path and robot.
+    pub(crate) fn ground(&self) -> Ground {
+        self.ground
+    }
+
+    /// That as a plan, if there is one.
+    pub(crate) fn plan(&self) -> Option<&SimulatedPlan> {
+        match self.ground {
+            Ground::Known => self.known_plan.as_ref(),
+            Ground::True => self.true_plan.as_ref(),
         }
+    }
+
+    /// Doors to be drawn.
+    pub(crate) fn doors(&self) -> impl Iterator<Item = &DoorView> {
+        let shown = self.ground == Ground::Known;
+        self.doors.iter().filter(move |_| shown)
+    }
+
+    /// Radius of the disc in which the robot very likely is, metres; 0 when it cannot be drawn.
+    pub(crate) fn uncertainty_m(&self) -> f64 {
+        self.uncertainty_m
     }
 
     pub(crate) fn set_theme(&mut self, theme: Theme) {
@@ -178,7 +260,7 @@ impl Scene {
         for bump in bumps {
             self.touch(bump.x, bump.y, 0.0);
         }
-        if self.plan.is_none() && self.mode == CameraMode::Fitted && !swept.is_empty() {
+        if self.plan().is_none() && self.mode == CameraMode::Fitted && !swept.is_empty() {
             self.refit();
         }
     }
@@ -220,7 +302,7 @@ impl Scene {
 
     /// All that there is: the plan, or what was swept, and at least three metres around the start.
     fn extent(&self) -> Bounds {
-        if let Some(bounds) = self.plan.as_ref().and_then(plan_bounds) {
+        if let Some(bounds) = self.plan().and_then(plan_bounds) {
             return bounds;
         }
         let start = Bounds::around(0.0, 0.0, 1.5);
@@ -256,7 +338,7 @@ impl Scene {
             }
         }
         let covered = [places.believed, places.truth].into_iter().flatten();
-        let radius = self.body_radius_m() * 1.5;
+        let radius = (self.body_radius_m() * 1.5).max(self.uncertainty_m);
         let bodies = covered
             .map(|pose| Bounds::around(pose.x, pose.y, radius))
             .reduce(Bounds::with);

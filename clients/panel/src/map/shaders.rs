@@ -72,7 +72,8 @@ void main() {
   colour = vec4(line_colour * cover, cover);
 }";
 
-/// One instance a mark: bumps (kind 0), cliffs (1), the robot (2), its true place (3), the dock (4).
+/// One instance a mark: bumps (kind 0), cliffs (1), the robot (2), its true place (3), the dock (4), a door (5), and where the
+/// robot may be (6).
 pub(crate) const MARK_VERTEX: &str = "#version 300 es
 layout(location = 0) in vec4 body;
 layout(location = 1) in float kind;
@@ -100,6 +101,7 @@ uniform vec3 mark_colour;
 uniform vec3 body_colour;
 uniform vec3 front_colour;
 uniform vec3 halo_colour;
+uniform vec3 thought_colour;
 out vec4 colour;
 float soft;
 float under(float edge, float d) { return 1.0 - smoothstep(edge - soft, edge + soft, d); }
@@ -125,6 +127,12 @@ void main() {
     paint(c, mark_colour, band(0.90, 1.02, d) * dashes * 0.75);
     float needle = step(0.35, p.x) * step(p.x, 0.78) * under(0.06, abs(p.y));
     paint(c, mark_colour, needle * 0.75);
+  } else if (k > 5.5) {
+    paint(c, thought_colour, 0.16 * under(1.0, d));
+    paint(c, thought_colour, 0.55 * band(1.0 - 2.0 * soft, 1.0, d));
+  } else if (k > 4.5) {
+    paint(c, front_colour, 0.45 * under(1.0, d));
+    paint(c, body_colour, 0.8 * band(1.0 - 3.0 * soft, 1.0, d));
   } else {
     vec2 q = abs(p) - vec2(0.55, 0.85);
     float box = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - 0.12;

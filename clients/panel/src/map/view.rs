@@ -12,7 +12,7 @@ use web_sys::ResizeObserver;
 
 use super::MapHandle;
 use super::gestures::{Gestures, Movement};
-use super::scene::{CameraMode, Scene};
+use super::scene::{CameraMode, Ground, Scene};
 use crate::icons::{Icon, icon};
 use crate::store::Store;
 
@@ -51,6 +51,8 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
     view! {
         <section class="map" aria-label="Map">
             <MapCanvas store mode failure />
+            <RoomNames store />
+            <GroundSwitch store />
             <Show when=move || failure.get().is_some()>
                 <p class="map-failure" role="alert">
                     {move || failure.get()} " The map cannot be drawn; everything else works."
@@ -77,12 +79,64 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
     }
 }
 
+/// Where the names of the rooms go. Readers find them as a list on the page.
+#[component]
+fn RoomNames(store: Store) -> impl IntoView {
+    let place = NodeRef::<html::Div>::new();
+    Effect::new(move |_| {
+        if let Some(place) = place.get() {
+            store.map.with_value(|map| map.name_rooms_in(place.into()));
+        }
+    });
+    view! { <div class="room-names" node_ref=place aria-hidden="true"></div> }
+}
+
+/// What lies under path and robot, where there is a choice: only a simulated home has a true plan.
+#[component]
+fn GroundSwitch(store: Store) -> impl IntoView {
+    let shown = RwSignal::new(Ground::True);
+    let simulated = move || store.home.with(Option::is_some);
+    let choice = move |ground: Ground, id: &'static str, label: &'static str| {
+        let choose = move |_| {
+            shown.set(ground);
+            store.map.with_value(|map| map.change(|scene| scene.show(ground)));
+        };
+        view! {
+            <button
+                type="button"
+                id=id
+                aria-pressed=move || if shown.get() == ground { "true" } else { "false" }
+                on:click=choose
+            >
+                {label}
+            </button>
+        }
+    };
+    // A plan that comes is shown.
+    Effect::new(move |_| {
+        if simulated() {
+            shown.set(Ground::True);
+        }
+    });
+    view! {
+        <Show when=simulated>
+            <div class="ground-switch" role="group" aria-label="What the map shows">
+                {choice(Ground::True, "ground-true", "True home")}
+                {choice(Ground::Known, "ground-known", "What it knows")}
+            </div>
+        </Show>
+    }
+}
+
 /// What the footer of the map shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Footer {
     scale_name: String,
     scale_px: f64,
     frames: String,
+    /// A planned way, or doors, are to be seen.
+    plans: bool,
+    has_doors: bool,
 }
 
 #[component]
@@ -94,6 +148,12 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
                 <li><span class="key swept" aria-hidden="true"></span>"Swept"</li>
                 <li><span class="key path" aria-hidden="true"></span>"Path"</li>
                 <li><span class="key bump" aria-hidden="true"></span>"Bump"</li>
+                <Show when=move || footer.get().plans>
+                    <li><span class="key way" aria-hidden="true"></span>"Planned"</li>
+                </Show>
+                <Show when=move || footer.get().has_doors>
+                    <li><span class="key door" aria-hidden="true"></span>"Door"</li>
+                </Show>
                 <Show when=simulated>
                     <li><span class="key truth" aria-hidden="true"></span>"True place"</li>
                 </Show>
@@ -122,6 +182,8 @@ fn refresh(store: Store, mode: RwSignal<CameraMode>, footer: RwSignal<Footer>) {
                 scale_name: name,
                 scale_px: width,
                 frames,
+                plans: map.with(|scene| !scene.way.is_empty()),
+                has_doors: map.with(|scene| scene.doors().next().is_some()),
             };
             if footer.with_untracked(|now| *now != next) {
                 footer.set(next);
@@ -207,7 +269,7 @@ fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<
             id="map"
             tabindex="0"
             role="img"
-            aria-label="Map with the robot, its path and the swept area. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot."
+            aria-label="Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot."
             on:wheel=on_wheel
             on:pointerdown=on_down
             on:pointermove=on_move

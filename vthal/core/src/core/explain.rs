@@ -13,6 +13,7 @@ pub(super) fn explain(reason: &str) -> &'static str {
         "raw-syntax" => {
             "This is not a packet of the wire: it must be one JSON object with a known command and its keys."
         }
+        "job-runs" => "A job runs or waits: stop it first.",
         "ending" => "vthal is about to end.",
         "wheel-drop" => "A wheel hangs: put the robot on the floor.",
         "link-lost" => "The robot does not answer: check the cable and its power.",

@@ -1,12 +1,15 @@
 //! What clients are told, and how often.
 
 use brain::{BehaviorState, MapCursor};
-use rvac_api::{API_VERSION, DeviceTable, LinkReading, Pose, Status, Topic, Update, Versions};
+use rvac_api::{
+    API_VERSION, DeviceTable, Estimate, LinkReading, PlannedWay, Pose, Status, Topic, Update, Versions,
+};
 use rvac_protocol::message::State;
 
 use super::{Core, recorder};
 use crate::clients::Clients;
 use crate::device::{Description, Device, Part};
+use crate::home_view::home_view;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
 use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, to_api};
@@ -21,6 +24,12 @@ const MAP_US: u64 = 200_000;
 const FIGURES_US: u64 = 1_000_000;
 /// Pause between two views of the home: walls are looked for in each.
 const HOME_US: u64 = 5_000_000;
+/// Estimates go out at most this often.
+const ESTIMATE_US: u64 = 500_000;
+/// Changes of an estimate that nobody would see: metres or radians, and shares.
+const UNSEEN: f64 = 0.002;
+/// Planned ways go out at most this often.
+const WAY_US: u64 = 2_000_000;
 /// Pause between two checkpoints of a small map.
 const CHECKPOINT_US: u64 = 1_000_000;
 /// Each entry of the map lengthens that pause by this much, so that a large one does not wear out the disk.
@@ -39,6 +48,10 @@ pub(super) struct Feed {
     map_number: u32,
     home_us: u64,
     home_revision: u32,
+    estimate_us: u64,
+    estimate: Estimate,
+    way_us: u64,
+    way: PlannedWay,
     checkpoint_us: u64,
     checkpoint_had_job: bool,
     state_changed_us: Option<u64>,
@@ -81,7 +94,33 @@ impl Core {
             self.feed.home_us = now_us;
             self.feed_home(outputs);
         }
+        if self.clients.any(Topic::Estimate) && now_us >= self.feed.estimate_us + ESTIMATE_US {
+            self.feed.estimate_us = now_us;
+            self.feed_estimate(outputs);
+        }
+        if self.clients.any(Topic::Way) && now_us >= self.feed.way_us + WAY_US {
+            self.feed.way_us = now_us;
+            self.feed_way(outputs);
+        }
         self.feed_checkpoint(now_us, outputs);
+    }
+
+    fn feed_estimate(&mut self, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let estimate = to_api::estimate(mind.brain());
+        if !looks_alike(&self.feed.estimate, &estimate) {
+            self.feed.estimate = estimate;
+            followers(Topic::Estimate, Update::Estimate(estimate), outputs);
+        }
+    }
+
+    fn feed_way(&mut self, outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let way = to_api::way(mind.brain());
+        if way != self.feed.way {
+            self.feed.way = way.clone();
+            followers(Topic::Way, Update::Way(way), outputs);
+        }
     }
 
     fn feed_home(&mut self, outputs: &mut Outputs) {
@@ -89,7 +128,7 @@ impl Core {
         let revision = mind.brain().map().revision();
         if revision != self.feed.home_revision {
             self.feed.home_revision = revision;
-            followers(Topic::Home, Update::Home(to_api::home(mind.brain())), outputs);
+            followers(Topic::Home, Update::Home(home_view(mind.brain())), outputs);
         }
     }
 
@@ -212,8 +251,26 @@ impl Core {
                 if let Some(mind) = &self.mind {
                     outputs
                         .deliveries
-                        .push(one(Update::Home(to_api::home(mind.brain()))));
+                        .push(one(Update::Home(home_view(mind.brain()))));
                 }
+            }
+            Topic::Estimate => {
+                if let Some(mind) = &self.mind {
+                    let estimate = to_api::estimate(mind.brain());
+                    outputs.deliveries.push(one(Update::Estimate(estimate)));
+                }
+            }
+            Topic::Way => {
+                if let Some(mind) = &self.mind {
+                    let way = to_api::way(mind.brain());
+                    outputs.deliveries.push(one(Update::Way(way)));
+                }
+            }
+            Topic::Decisions => {
+                let entries = self.diary.entries().cloned();
+                outputs
+                    .deliveries
+                    .extend(entries.map(|entry| one(Update::Decision(entry))));
             }
             Topic::Packets => {}
         }
@@ -320,6 +377,20 @@ fn followers(topic: Topic, update: Update, outputs: &mut Outputs) {
         to: Recipients::Followers(topic),
         update,
     });
+}
+
+/// Whether two estimates are the same for people.
+fn looks_alike(old: &Estimate, new: &Estimate) -> bool {
+    let near = |one: f64, other: f64| (one - other).abs() < UNSEEN;
+    let both = |one: Option<f64>, other: Option<f64>| match (one, other) {
+        (Some(one), Some(other)) => near(one, other),
+        (one, other) => one.is_none() && other.is_none(),
+    };
+    old.lost == new.lost
+        && near(old.sigma_m, new.sigma_m)
+        && near(old.sigma_rad, new.sigma_rad)
+        && both(old.agreement, new.agreement)
+        && both(old.covered, new.covered)
 }
 
 /// Whether only figures differ, which change all the time.

@@ -1,16 +1,16 @@
 //! What clients ask.
 
-use brain::{Command, StrategyName};
+use brain::{Command, StoredMap, StrategyName};
 use rvac_api::{Failure, LogLevel, Request, RequestBody, Topic, Update};
 use rvac_protocol::message::Inhibit;
 
-use super::Core;
 use super::explain::explain;
+use super::{Core, recorder};
 use crate::arbiter::{Denied, Source, Stick};
 use crate::device::{Device, DeviceCommand, DeviceIo};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
-use crate::{ClientId, ExpertAccess, Outputs, tap};
+use crate::{ClientId, ExpertAccess, MapOrder, Outputs, tap};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
 const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
@@ -28,18 +28,18 @@ impl Core {
         outputs: &mut Outputs,
     ) {
         let id = request.id;
-        let result = self.obey(now_us, (client, request.body), outputs);
+        // The shell answers these, when the disk has.
+        let is_answered_later = matches!(request.body, RequestBody::Maps | RequestBody::RestoreMap { .. });
+        let result = self.obey(now_us, (client, request), outputs);
         let update = match (result, id) {
+            (Ok(()), _) if is_answered_later => return,
             (Ok(()), None) => return,
             (Ok(()), Some(id)) => Update::Done { id },
-            (Err(reason), id) => {
-                let text = explain(reason).to_owned();
-                Update::Failed(Failure {
-                    id,
-                    reason: reason.to_owned(),
-                    text,
-                })
-            }
+            (Err(reason), id) => Update::Failed(Failure {
+                id,
+                reason: reason.to_owned(),
+                text: explain(reason).to_owned(),
+            }),
         };
         outputs.deliveries.push(Delivery {
             to: Recipients::One(client),
@@ -50,10 +50,11 @@ impl Core {
     fn obey(
         &mut self,
         now_us: u64,
-        (client, body): (ClientId, RequestBody),
+        (client, request): (ClientId, Request),
         outputs: &mut Outputs,
     ) -> Result<(), Refused> {
-        match body {
+        let id = request.id;
+        match request.body {
             RequestBody::Hello { name } => {
                 self.hello(now_us, (client, name), outputs);
                 Ok(())
@@ -89,6 +90,15 @@ impl Core {
             RequestBody::Locate => self.locate(now_us, outputs),
             RequestBody::Clear { reason } => self.clear(now_us, &reason, outputs),
             RequestBody::Raw { packet } => self.raw(now_us, (client, &packet), outputs),
+            RequestBody::Maps => {
+                outputs.map_orders.push(MapOrder::List { client, id });
+                Ok(())
+            }
+            RequestBody::RestoreMap { number } => {
+                self.admit_restored_map()?;
+                outputs.map_orders.push(MapOrder::Restore { client, id, number });
+                Ok(())
+            }
         }
     }
 
@@ -245,6 +255,30 @@ impl Core {
             events: &mut self.events,
         };
         device.send_raw(command, &mut io).map_err(|_| "not-sent")
+    }
+
+    /// A restored map must not pull the floor away from under a job.
+    fn admit_restored_map(&self) -> Result<(), Refused> {
+        match &self.mind {
+            Some(mind) if !mind.rests() => Err("job-runs"),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn map_restored(
+        &mut self,
+        now_us: u64,
+        (number, home): (u64, StoredMap),
+        outputs: &mut Outputs,
+    ) {
+        let recording = self.config.recording;
+        if let Some(mind) = &mut self.mind {
+            mind.offer(now_us, home.clone(), &mut recorder(recording, outputs));
+        }
+        // For a robot that is attached later.
+        self.config.home = Some(home);
+        let text = format!("map {number} is restored; the robot takes it up when it stands on its dock");
+        self.log(now_us, (LogLevel::Info, Part::Vthal, text), outputs);
     }
 
     fn hello(&mut self, now_us: u64, (client, name): (ClientId, String), outputs: &mut Outputs) {

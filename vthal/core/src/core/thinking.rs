@@ -2,7 +2,7 @@
 
 use brain::action::{Decision, Tone};
 use brain::{Actions, BehaviorState, Command, Motion};
-use rvac_api::LogLevel;
+use rvac_api::{LogLevel, Topic, Update};
 use rvac_protocol::quality::Verdict;
 
 use super::{Core, recorder};
@@ -10,6 +10,7 @@ use crate::arbiter::Source;
 use crate::device::{CleanerDrive, Device, DeviceCommand, LeaveDock};
 use crate::journal::Part;
 use crate::observe::LinkView;
+use crate::outputs::{Delivery, Recipients};
 use crate::{ClientId, Outputs};
 
 /// How long a drive command of the brain is valid: the default of the device model.
@@ -126,6 +127,13 @@ impl Core {
             format!("{} ({}) {:.2}", decision.what, decision.reason, decision.value)
         };
         self.log(now_us, (level, Part::Brain, text), outputs);
+        let entry = self.diary.write(now_us, decision);
+        if self.clients.any(Topic::Decisions) {
+            outputs.deliveries.push(Delivery {
+                to: Recipients::Followers(Topic::Decisions),
+                update: Update::Decision(entry),
+            });
+        }
     }
 
     /// Gives a command to the brain with its next step.

@@ -1,0 +1,210 @@
+//! What the robot thinks, for people: how sure it is, where it means to drive, what it decided.
+
+use std::collections::VecDeque;
+
+use rvac_api::{Decision, Estimate, PlannedWay};
+
+use crate::figures::percent_text;
+
+/// Decisions that are kept.
+const KEPT: usize = 100;
+/// Corners of a planned way that are drawn at most.
+const CORNERS_MAX: usize = 4_000;
+/// Dashes of a planned way at most.
+const DASHES_MAX: usize = 20_000;
+
+/// The newest decisions, each once.
+#[derive(Clone, Debug, Default)]
+pub struct DecisionBook {
+    entries: VecDeque<Decision>,
+}
+
+impl DecisionBook {
+    /// Takes a decision. A number that is known already is a repetition after a reconnect.
+    pub fn push(&mut self, entry: Decision) {
+        let known = self.entries.back().is_some_and(|last| entry.number <= last.number);
+        if known {
+            return;
+        }
+        if self.entries.len() == KEPT {
+            self.entries.pop_front();
+        }
+        self.entries.push_back(entry);
+    }
+
+    /// Forgets everything, for a daemon that counts anew.
+    pub fn clear(&mut self) {
+        self.entries.clear();
+    }
+
+    /// Newest first.
+    pub fn newest_first(&self) -> impl Iterator<Item = &Decision> {
+        self.entries.iter().rev()
+    }
+}
+
+/// How sure the robot is of its place, as a figure.
+#[must_use]
+pub fn place_text(estimate: &Estimate) -> String {
+    if estimate.lost {
+        "lost".to_owned()
+    } else if estimate.sigma_m < 0.995 {
+        format!("± {:.0} cm", (100.0 * estimate.sigma_m).max(1.0))
+    } else {
+        format!("± {:.1} m", estimate.sigma_m)
+    }
+}
+
+/// What the robot can tell of its place and its work, a sentence each.
+#[must_use]
+pub fn estimate_sentences(estimate: &Estimate) -> Vec<String> {
+    let mut sentences = vec![if estimate.lost {
+        "It does not know where it is. What it sees now is not drawn into the map.".to_owned()
+    } else {
+        format!(
+            "It believes its place to {} and its heading to {:.0}°.",
+            place_text(estimate),
+            estimate.sigma_rad.to_degrees().max(1.0)
+        )
+    }];
+    if let Some(agreement) = estimate.agreement {
+        sentences.push(format!(
+            "Its map explains {} of what its sensors see.",
+            percent_text(agreement)
+        ));
+    }
+    if let Some(covered) = estimate.covered {
+        sentences.push(format!(
+            "By its own estimate {} of the floor it can reach is swept.",
+            percent_text(covered)
+        ));
+    }
+    sentences
+}
+
+/// The planned way as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
+#[must_use]
+pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
+    let corners: Vec<[f64; 2]> = way
+        .points_mm
+        .chunks_exact(2)
+        .take(CORNERS_MAX)
+        .filter_map(|point| match point {
+            [x, y] => Some([f64::from(*x) / 1000.0, f64::from(*y) / 1000.0]),
+            _ => None,
+        })
+        .collect();
+    let dash_m = if dash_m.is_finite() {
+        dash_m.max(0.01)
+    } else {
+        return Vec::new();
+    };
+    let mut dashes = Vec::new();
+    // Way made since the last dash began.
+    let mut phase_m = 0.0;
+    for pair in corners.windows(2) {
+        let &[from, to] = pair else { continue };
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let length_m = dx.hypot(dy);
+        let mut at_m = 0.0;
+        while at_m < length_m && dashes.len() < 4 * DASHES_MAX {
+            let is_dash = phase_m < dash_m;
+            let until_m = if is_dash { dash_m } else { 2.0 * dash_m };
+            let end_m = (at_m + until_m - phase_m).min(length_m);
+            if is_dash {
+                let place = |way_m: f64| {
+                    let share = way_m / length_m;
+                    [(from[0] + share * dx) as f32, (from[1] + share * dy) as f32]
+                };
+                dashes.extend(place(at_m));
+                dashes.extend(place(end_m));
+            }
+            phase_m += end_m - at_m;
+            if phase_m >= 2.0 * dash_m - 1e-9 {
+                phase_m = 0.0;
+            } else if (phase_m - dash_m).abs() < 1e-9 {
+                phase_m = dash_m;
+            }
+            at_m = end_m;
+        }
+    }
+    dashes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DecisionBook, KEPT, estimate_sentences, place_text, way_dashes};
+    use rvac_api::{Decision, Estimate, PlannedWay};
+
+    fn decision(number: u64) -> Decision {
+        Decision {
+            number,
+            t: 0.0,
+            what: "back-off".to_owned(),
+            reason: "bump-left".to_owned(),
+            value: 0.0,
+            text: "Backed off.".to_owned(),
+        }
+    }
+
+    #[test]
+    fn decisions_are_kept_once_and_the_newest_come_first() {
+        let mut book = DecisionBook::default();
+        for number in [1, 2, 2, 1] {
+            book.push(decision(number));
+        }
+        let numbers: Vec<u64> = book.newest_first().map(|entry| entry.number).collect();
+        assert_eq!(numbers, [2, 1]);
+        for number in 3..300 {
+            book.push(decision(number));
+        }
+        assert_eq!(book.newest_first().count(), KEPT);
+        book.clear();
+        book.push(decision(1));
+        assert_eq!(book.newest_first().count(), 1);
+    }
+
+    #[test]
+    fn only_what_is_known_is_told() {
+        let sure = Estimate {
+            sigma_m: 0.043,
+            sigma_rad: 0.02,
+            ..Estimate::default()
+        };
+        assert_eq!(place_text(&sure), "± 4 cm");
+        assert_eq!(estimate_sentences(&sure).len(), 1);
+        let lost = Estimate {
+            lost: true,
+            agreement: Some(0.31),
+            covered: Some(0.5),
+            ..sure
+        };
+        let told = estimate_sentences(&lost);
+        assert!(told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %"));
+        assert_eq!(place_text(&Estimate { sigma_m: 1.26, ..sure }), "± 1.3 m");
+    }
+
+    #[test]
+    fn a_way_becomes_dashes_that_go_on_round_corners() {
+        let way = PlannedWay {
+            points_mm: vec![0, 0, 1500, 0, 1500, 1500],
+        };
+        let dashes = way_dashes(&way, 1.0);
+        assert_eq!(
+            dashes,
+            [0.0, 0.0, 1.0, 0.0, 1.5, 0.5, 1.5, 1.5].map(|metres: f64| metres as f32)
+        );
+    }
+
+    #[test]
+    fn strange_ways_do_no_harm() {
+        for points_mm in [vec![], vec![5], vec![1, 2, 3], vec![7; 4]] {
+            assert!(way_dashes(&PlannedWay { points_mm }, 0.1).is_empty());
+        }
+        let endless = PlannedWay {
+            points_mm: (0..40_000).map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX }).collect(),
+        };
+        assert!(way_dashes(&endless, 0.0).len() <= 80_000);
+        assert!(way_dashes(&endless, f64::NAN).is_empty());
+    }
+}

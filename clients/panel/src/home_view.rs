@@ -1,0 +1,83 @@
+//! What the robot knows of the home, in words: how sure it is, the rooms, and the kept versions of the map.
+
+use leptos::prelude::*;
+use panel_logic::{RoomRow, area_text, estimate_sentences};
+use rvac_api::{KeptMap, RequestBody};
+
+use crate::store::Store;
+
+#[component]
+pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
+    store.ask_quietly(RequestBody::Maps);
+    let sentences = move || {
+        store
+            .estimate
+            .with(|estimate| estimate.as_ref().map(estimate_sentences).unwrap_or_default())
+    };
+    view! {
+        <div class="home" id="home-sheet">
+            <ul class="sentences">
+                {move || sentences().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
+            </ul>
+            <h3 id="rooms-title">"Rooms"</h3>
+            <ul id="rooms" class="rows" aria-labelledby="rooms-title">
+                <For each=move || store.rooms.get() key=|row| (row.id, row.words.clone()) let:row>
+                    {room(row)}
+                </For>
+            </ul>
+            <Show when=move || store.rooms.with(Vec::is_empty)>
+                <p class="hint">"No room is known yet: the robot finds them while it cleans."</p>
+            </Show>
+            <h3 id="maps-title">"Kept maps"</h3>
+            <ul id="maps" class="rows" aria-labelledby="maps-title">
+                {move || {
+                    let maps = store.maps.get();
+                    maps.into_iter().enumerate().map(|(place, map)| kept(store, (place, map))).collect_view()
+                }}
+            </ul>
+            <Show when=move || store.maps.with(Vec::is_empty)>
+                <p class="hint">"None yet: a map is kept when a run ends."</p>
+            </Show>
+        </div>
+    }
+}
+
+fn room(row: RoomRow) -> impl IntoView {
+    view! {
+        <li>
+            <span class="name">{row.name}</span>
+            <span class="words">{row.words}</span>
+        </li>
+    }
+}
+
+fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
+    let rooms = if map.rooms == 1 { "room" } else { "rooms" };
+    let words = format!("{}, {} {rooms}", area_text(map.area_m2), map.rooms);
+    let restore = move |_| {
+        store.ask(RequestBody::RestoreMap { number: map.number });
+        // Answered after the one before, so with the restored map in it.
+        store.ask_quietly(RequestBody::Maps);
+    };
+    view! {
+        <li>
+            <span class="name">{format!("Map {}", map.number)}</span>
+            <span class="words">{words}</span>
+            {if place == 0 {
+                view! { <span class="newest">"in use"</span> }.into_any()
+            } else {
+                view! {
+                    <button
+                        type="button"
+                        class="small"
+                        aria-label=format!("Take map {} up again", map.number)
+                        on:click=restore
+                    >
+                        "Take up again"
+                    </button>
+                }
+                .into_any()
+            }}
+        </li>
+    }
+}

@@ -1,0 +1,47 @@
+//! What the robot thinks: how sure it is, where it means to drive, and why it did what it did.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// How sure the robot is of its place and of its work. What it cannot tell is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Standard deviation of its place along the worst direction, metres.
+    pub sigma_m: f64,
+    /// Standard deviation of its heading, radians.
+    pub sigma_rad: f64,
+    /// It does not know where it is: its pose is where odometry has carried the last one that it believed.
+    pub lost: bool,
+    /// Share of what its sensors see lately that its map explains, 0..1. Only of a robot that compares with a map.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub agreement: Option<f64>,
+    /// Share of the floor that it can reach, as far as it knows, that the running or last job has swept, 0..1. Only of
+    /// strategies that know what there is to sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covered: Option<f64>,
+}
+
+/// The way that the running or waiting job means to drive from here on.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlannedWay {
+    /// Its corners as `[x0,y0,x1,y1,...]` in millimetres of the map frame; empty where the robot decides as it goes.
+    pub points_mm: Vec<i32>,
+}
+
+/// Something that the robot decided.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    /// Rising number.
+    pub number: u64,
+    /// Seconds since the daemon's start.
+    pub t: f64,
+    /// What, by name: `back-off`, `turn`, `plan`, `state-cleaning` and so on.
+    pub what: String,
+    /// Why, by name: `bump-left`, `battery-low` and so on.
+    pub reason: String,
+    /// A number that belongs to it, for example the angle of a turn in radians; 0 where there is none.
+    pub value: f64,
+    /// The same as one sentence for people.
+    pub text: String,
+}

@@ -1,0 +1,231 @@
+//! `rvac map`: what the robot knows of the home, which versions of it are kept, and the way back to one of them.
+
+mod picture;
+
+use std::io::{Write as _, stdout};
+use std::process::ExitCode;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use anyhow::bail;
+use rvac_api::{Estimate, HomeView, KeptMap, Pose, Request, RequestBody, Topic, Update};
+
+use crate::arguments::{Daemon, MapJob, MapVerb};
+use crate::control;
+use crate::socket::Connection;
+use picture::picture;
+
+/// The daemon answers at once; this covers a machine under load.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Number of our only numbered request.
+const REQUEST_ID: u32 = 1;
+
+pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
+    match job.verb {
+        None => show(job),
+        Some(MapVerb::List) => list(&job.daemon),
+        Some(MapVerb::Restore { number }) => control::send(RequestBody::RestoreMap { number }, &job.daemon),
+    }
+}
+
+fn show(job: &MapJob) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&job.daemon.socket)?;
+    // Views come in this order, and those that a daemon without a robot does not have are left out: the status ends them.
+    connection.watch(vec![Topic::Home, Topic::Estimate, Topic::Pose, Topic::Status])?;
+    let deadline = Instant::now() + PATIENCE;
+    let (mut home, mut estimate, mut pose) = (None, None, None);
+    loop {
+        let Some(message) = connection.receive_until(deadline)? else {
+            bail!("vthal told nothing of the home within {} s", PATIENCE.as_secs());
+        };
+        match message.update {
+            Some(Update::Home(view)) => home = Some((view, message.text)),
+            Some(Update::Estimate(found)) => estimate = Some(found),
+            Some(Update::Pose(found)) => pose = Some(found),
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            Some(Update::Status(_)) => break,
+            _ => {}
+        }
+    }
+    let Some((home, text)) = home else {
+        bail!("no robot has been seen yet, so nothing is known of its home");
+    };
+    if job.json {
+        writeln!(stdout(), "{text}")?;
+    } else {
+        write!(stdout(), "{}", in_words(&home, estimate, pose))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> String {
+    let free: u64 = home
+        .cells
+        .chunks_exact(2)
+        .filter(|run| run.first() == Some(&1))
+        .map(|run| run.last().copied().map_or(0, u64::from))
+        .sum();
+    let mut text = format!(
+        "home      {:.1} m2 of free floor, {}, {}, {}\n",
+        free as f64 * home.cell_m * home.cell_m,
+        counted(home.rooms.len(), "room"),
+        counted(home.doors.len(), "door"),
+        counted(home.walls.len(), "wall"),
+    );
+    text += &match &home.dock {
+        Some(dock) => format!("dock      x {:.2} m, y {:.2} m\n", dock.x, dock.y),
+        None => "dock      not known\n".to_owned(),
+    };
+    if let Some(pose) = pose {
+        text += &format!(
+            "pose      x {:.2} m, y {:.2} m, heading {:.0} deg",
+            pose.x,
+            pose.y,
+            pose.heading.to_degrees()
+        );
+        text += &estimate.map_or_else(String::new, |estimate| format!(", {}", sureness(&estimate)));
+        text += "\n";
+    }
+    for room in &home.rooms {
+        text += &format!(
+            "room {:<4} {:.1} m2{}\n",
+            room.id,
+            room.area_m2,
+            doors_of(home, room.id)
+        );
+    }
+    text + &picture(home, pose)
+}
+
+/// How sure the robot is of its place, in words.
+pub(crate) fn sureness(estimate: &Estimate) -> String {
+    let mut text = if estimate.lost {
+        "lost: it does not know where it is".to_owned()
+    } else {
+        format!(
+            "sure to {:.2} m and {:.0} deg",
+            estimate.sigma_m,
+            estimate.sigma_rad.to_degrees()
+        )
+    };
+    if let Some(agreement) = estimate.agreement {
+        text += &format!(", its map explains {:.0} % of what it sees", 100.0 * agreement);
+    }
+    if let Some(covered) = estimate.covered {
+        text += &format!(", about {:.0} % of the floor it knows is swept", 100.0 * covered);
+    }
+    text
+}
+
+fn counted(number: usize, what: &str) -> String {
+    match number {
+        1 => format!("1 {what}"),
+        _ => format!("{number} {what}s"),
+    }
+}
+
+fn doors_of(home: &HomeView, room: u16) -> String {
+    let mut others: Vec<u16> = home
+        .doors
+        .iter()
+        .filter_map(|door| match door.rooms {
+            [one, other] if one == room => Some(other),
+            [one, other] if other == room => Some(one),
+            _ => None,
+        })
+        .collect();
+    others.sort_unstable();
+    others.dedup();
+    let names: Vec<String> = others.iter().map(u16::to_string).collect();
+    match names.len() {
+        0 => String::new(),
+        1 => format!(", door to room {}", names.join(", ")),
+        _ => format!(", doors to rooms {}", names.join(", ")),
+    }
+}
+
+fn list(daemon: &Daemon) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&daemon.socket)?;
+    connection.send(&Request {
+        id: Some(REQUEST_ID),
+        body: RequestBody::Maps,
+    })?;
+    let deadline = Instant::now() + PATIENCE;
+    while let Some(message) = connection.receive_until(deadline)? {
+        match message.update {
+            Some(Update::Maps { maps }) => {
+                write!(stdout(), "{}", table(&maps, now_s()))?;
+                return Ok(ExitCode::SUCCESS);
+            }
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            _ => {}
+        }
+    }
+    bail!("vthal did not answer within {} s", PATIENCE.as_secs())
+}
+
+fn now_s() -> u64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs())
+}
+
+fn table(maps: &[KeptMap], now_s: u64) -> String {
+    if maps.is_empty() {
+        return "no map is kept yet: one is when a run ends\n".to_owned();
+    }
+    let mut text = "number  kept             floor     rooms\n".to_owned();
+    for (place, map) in maps.iter().enumerate() {
+        let newest = if place == 0 { "  newest" } else { "" };
+        text += &format!(
+            "{:<7} {:<16} {:>6.1} m2 {:>5}{newest}\n",
+            map.number,
+            age(now_s.saturating_sub(map.kept_s)),
+            map.area_m2,
+            map.rooms
+        );
+    }
+    text + "rvac map restore NUMBER takes a version up again\n"
+}
+
+fn age(seconds: u64) -> String {
+    match seconds {
+        0..60 => "just now".to_owned(),
+        60..3_600 => format!("{} min ago", seconds / 60),
+        3_600..172_800 => format!("{} h ago", seconds / 3_600),
+        _ => format!("{} days ago", seconds / 86_400),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{age, doors_of};
+    use rvac_api::{DoorView, HomeView};
+
+    #[test]
+    fn ages_are_told_roughly() {
+        for (seconds, words) in [
+            (5, "just now"),
+            (3_599, "59 min ago"),
+            (7_200, "2 h ago"),
+            (400_000, "4 days ago"),
+        ] {
+            assert_eq!(age(seconds), words);
+        }
+    }
+
+    #[test]
+    fn a_room_names_its_neighbours_once() {
+        let door = |rooms| DoorView {
+            rooms,
+            x: 0.0,
+            y: 0.0,
+            width_m: 0.8,
+        };
+        let home = HomeView {
+            doors: vec![door([1, 3]), door([2, 1]), door([1, 2])],
+            ..HomeView::default()
+        };
+        assert_eq!(doors_of(&home, 1), ", doors to rooms 2, 3");
+        assert_eq!(doors_of(&home, 3), ", door to room 1");
+        assert_eq!(doors_of(&home, 9), "");
+    }
+}

@@ -1,0 +1,66 @@
+//! `rvac why`: what the robot decided lately, and why.
+
+use std::io::{Write as _, stdout};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::bail;
+use rvac_api::{Topic, Update};
+
+use crate::arguments::WhyOptions;
+use crate::socket::Connection;
+
+/// The daemon answers at once; this covers a machine under load.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Prints the newest decisions, the newest last.
+pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&options.daemon.socket)?;
+    // Decisions first, then the pose, whose time is the present one.
+    connection.watch(vec![Topic::Decisions, Topic::Pose])?;
+    let deadline = Instant::now() + PATIENCE;
+    let mut decisions = Vec::new();
+    let now_s = loop {
+        let Some(message) = connection.receive_until(deadline)? else {
+            bail!("vthal told nothing within {} s", PATIENCE.as_secs());
+        };
+        match message.update {
+            Some(Update::Decision(decision)) => decisions.push((decision, message.text)),
+            Some(Update::Pose(pose)) => break pose.t,
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            _ => {}
+        }
+    };
+    if decisions.is_empty() {
+        bail!("the robot has decided nothing yet");
+    }
+    let skipped = decisions.len().saturating_sub(options.lines);
+    for (decision, text) in decisions.iter().skip(skipped) {
+        if options.json {
+            writeln!(stdout(), "{text}")?;
+        } else {
+            writeln!(stdout(), "{:>12}  {}", ago(now_s - decision.t), decision.text)?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn ago(seconds: f64) -> String {
+    if seconds < 120.0 {
+        format!("{:.0} s ago", seconds.max(0.0))
+    } else {
+        format!("{:.0} min ago", seconds / 60.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ago;
+
+    #[test]
+    fn a_decision_of_the_future_was_made_now() {
+        assert_eq!(ago(-0.02), "0 s ago");
+        assert_eq!(ago(3.4), "3 s ago");
+        assert_eq!(ago(600.0), "10 min ago");
+    }
+}

@@ -1,0 +1,189 @@
+//! What the brain decided, as sentences, the newest kept for clients that come later.
+
+use std::collections::VecDeque;
+
+use brain::action::Decision;
+
+use crate::to_api;
+
+/// Decisions kept: some minutes of cleaning.
+const KEPT: usize = 100;
+/// Numbers in sentences stay below this, whatever a decision carries.
+const SHOWN_MAX: f64 = 1e6;
+
+/// The newest decisions.
+#[derive(Debug, Default)]
+pub(crate) struct Diary {
+    entries: VecDeque<rvac_api::Decision>,
+    written: u64,
+}
+
+impl Diary {
+    /// Numbers a decision, puts it into words and keeps it.
+    pub(crate) fn write(&mut self, now_us: u64, decision: &Decision) -> rvac_api::Decision {
+        self.written += 1;
+        let entry = rvac_api::Decision {
+            number: self.written,
+            t: to_api::seconds(now_us),
+            what: decision.what.to_owned(),
+            reason: decision.reason.to_owned(),
+            value: if decision.value.is_finite() {
+                decision.value
+            } else {
+                0.0
+            },
+            text: sentence(decision),
+        };
+        if self.entries.len() == KEPT {
+            self.entries.pop_front();
+        }
+        self.entries.push_back(entry.clone());
+        entry
+    }
+
+    /// The decisions that are kept, oldest first.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = &rvac_api::Decision> {
+        self.entries.iter()
+    }
+}
+
+/// What was decided and why. A name without words of its own is shown as it is.
+fn sentence(decision: &Decision) -> String {
+    format!(
+        "{}: {}.",
+        deed(decision.what, decision.value),
+        because(decision.reason)
+    )
+}
+
+fn deed(what: &str, value: f64) -> String {
+    let value = if value.is_finite() {
+        value.clamp(-SHOWN_MAX, SHOWN_MAX)
+    } else {
+        0.0
+    };
+    match what {
+        "back-off" => "Backed off and turned away".to_owned(),
+        "plan" => format!("Planned a way of {:.0} min", (value / 60.0).max(1.0)),
+        "leave-way" => "Left the planned way".to_owned(),
+        "covered" => format!(
+            "Had swept {:.0} % of the floor it can reach",
+            100.0 * value.clamp(0.0, 1.0)
+        ),
+        "bounce" => "Bounced to get out of this place".to_owned(),
+        "approach" => "Approached the dock".to_owned(),
+        "retry" => "Backed off the dock to try again".to_owned(),
+        "rest" => "Stood still for a moment".to_owned(),
+        "refuse" => "Refused".to_owned(),
+        "depart" => "Left the dock backwards".to_owned(),
+        "escape-back-out" => "Backed out and turned".to_owned(),
+        "escape-wiggle" => "Shook its wheels to come free".to_owned(),
+        "escape-reverse" => "Backed as far as it knew the ground, and turned round".to_owned(),
+        "state-disconnected" => "Lost the connection".to_owned(),
+        "state-idle" => "Stood still, without a job".to_owned(),
+        "state-starting" => "Announced that it will move".to_owned(),
+        "state-cleaning" => "Began to clean".to_owned(),
+        "state-spot" => "Began to clean a spot".to_owned(),
+        "state-docking" => "Began to look for its dock".to_owned(),
+        "state-docked" => "Rested on its dock".to_owned(),
+        "state-manual" => "Let a person drive".to_owned(),
+        "state-paused" => "Paused".to_owned(),
+        "state-stuck" => "Gave up and waits for help".to_owned(),
+        "state-error" => "Stopped with a fault".to_owned(),
+        other => plain(other),
+    }
+}
+
+fn because(reason: &str) -> String {
+    let words = match reason {
+        "start-up" => "it was just switched on",
+        "command" => "somebody asked for it",
+        "finished" => "the job is done",
+        "continued" => "it goes on after an interruption",
+        "restored" => "it takes up the job of before a restart",
+        "link-lost" => "the robot does not answer",
+        "link-restored" => "the robot answers again",
+        "stopped" => "somebody said stop",
+        "button-stop" => "its button was pressed",
+        "wheel-drop" => "a wheel hangs, it was lifted or fell",
+        "docked" => "it stands on the dock",
+        "bump-left" => "its bumper touched something on the left",
+        "bump-right" => "its bumper touched something on the right",
+        "bump-front" => "its bumper touched something ahead",
+        "cliff-left" => "the floor ends on the left",
+        "cliff-right" => "the floor ends on the right",
+        "cliff-front" => "the floor ends ahead",
+        "contact-held" => "the bumper stays pressed although it backed off",
+        "cliff-held" => "the floor does not come back although it backed off",
+        "boxed-in" => "it found no way out by driving straight",
+        "long-run" => "it drove straight for longer than any home is",
+        "unswept-floor" => "there is floor that it has not swept yet",
+        "off-the-way" => "it had come too far from it",
+        "no-map" => "it has no map of the home to plan on",
+        "rest-out-of-reach" => "what is left cannot be reached",
+        "obstructed" => "too many things stand in the way",
+        "not-moving" => "its wheels do not move although they should",
+        "slip" => "its wheels slip",
+        "gyro-drift" => "its gyro must be measured at rest now and then",
+        "task-budget" => "the time for the job is used up",
+        "battery-low" => "little charge is left",
+        "dock-not-found" => "it did not find the dock in time",
+        "dock-beam" => "it hears a beam of the dock",
+        "lease-ended" => "the person who drove was not heard any more",
+        "released" => "the person who drove let go",
+        other => return plain(other),
+    };
+    words.to_owned()
+}
+
+/// A name as words.
+fn plain(name: &str) -> String {
+    name.replace('-', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::action::Decision;
+
+    use super::{Diary, KEPT};
+
+    fn decision(what: &'static str, reason: &'static str, value: f64) -> Decision {
+        Decision { what, reason, value }
+    }
+
+    #[test]
+    fn a_turn_is_told_with_its_cause() {
+        let mut diary = Diary::default();
+        let entry = diary.write(2_500_000, &decision("back-off", "bump-left", 0.8));
+        assert_eq!(
+            entry.text,
+            "Backed off and turned away: its bumper touched something on the left."
+        );
+        assert_eq!(
+            (entry.number, entry.t, entry.reason.as_str()),
+            (1, 2.5, "bump-left")
+        );
+    }
+
+    #[test]
+    fn unknown_names_and_strange_numbers_are_told_as_they_are() {
+        let mut diary = Diary::default();
+        let entry = diary.write(0, &decision("new-trick", "odd-cause", f64::NAN));
+        assert_eq!((entry.text.as_str(), entry.value), ("new trick: odd cause.", 0.0));
+        let entry = diary.write(0, &decision("plan", "unswept-floor", f64::INFINITY));
+        assert!(entry.text.starts_with("Planned a way of 1 min"), "{}", entry.text);
+    }
+
+    #[test]
+    fn the_newest_are_kept_and_numbers_go_on() {
+        let mut diary = Diary::default();
+        for _ in 0..KEPT + 3 {
+            diary.write(0, &decision("back-off", "bump-left", 1.0));
+        }
+        let numbers: Vec<u64> = diary.entries().map(|entry| entry.number).collect();
+        assert_eq!(
+            (numbers.len(), numbers[0], numbers[KEPT - 1]),
+            (KEPT, 4, KEPT as u64 + 3)
+        );
+    }
+}

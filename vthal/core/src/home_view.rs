@@ -1,0 +1,205 @@
+//! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
+
+use brain::mapping::{Door, Room, WallSegment};
+use brain::{Brain, CELL_M, CellKnowledge, Raster};
+use rvac_api::{DoorView, HomeView, Rle, RoomView, WallView};
+
+use crate::to_api;
+
+/// Numbers that the runs of cells may have together: a message of a megabyte at most. A home of 150 square metres has
+/// some 20,000.
+const NUMBERS_MAX: usize = 150_000;
+/// Coarsest cells, in cells of the map.
+const COARSE_MAX: usize = 16;
+/// Rooms, doors and walls that are told at most. Walls come longest first.
+const ITEMS_MAX: usize = 1_000;
+
+/// What is known of the home.
+pub(crate) fn home_view(brain: &Brain) -> HomeView {
+    let map = brain.map();
+    let rooms = map.rooms();
+    let view = cells(map.knowledge(), rooms.labels());
+    HomeView {
+        revision: map.revision(),
+        rooms: rooms.rooms().iter().take(ITEMS_MAX).map(room).collect(),
+        doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
+        walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
+        dock: map.dock().map(|dock| to_api::pose(dock, 0)),
+        ..view
+    }
+}
+
+/// The cells alone, as fine as they may be told.
+fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
+    let mut coarse = 1;
+    loop {
+        let view = cells_of(coarse, knowledge, labels);
+        if view.cells.len() + view.room_cells.len() <= NUMBERS_MAX {
+            return view;
+        }
+        if coarse >= COARSE_MAX {
+            // So much of so little is not a home; what is not told is not known.
+            return HomeView {
+                cells: Rle::new(),
+                room_cells: Rle::new(),
+                ..view
+            };
+        }
+        coarse *= 2;
+    }
+}
+
+/// Cells that are `coarse` cells of the map wide and high. Each is what weighs most of what it holds.
+fn cells_of(coarse: usize, knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
+    let origin = knowledge.origin();
+    let step = i32::try_from(coarse).unwrap_or(1);
+    let (x, y) = (origin.x.div_euclid(step), origin.y.div_euclid(step));
+    let (ahead, below) = (
+        origin.x.rem_euclid(step) as usize,
+        origin.y.rem_euclid(step) as usize,
+    );
+    let width = (knowledge.width() + ahead).div_ceil(coarse);
+    let height = (knowledge.height() + below).div_ceil(coarse);
+    let mut kinds = vec![0_u32; width * height];
+    let mut rooms = vec![0_u32; width * height];
+    for (index, kind) in knowledge.values().iter().enumerate() {
+        let cell = knowledge.cell(index);
+        let column = (cell.x.div_euclid(step) - x) as usize;
+        let row = (cell.y.div_euclid(step) - y) as usize;
+        let place = row * width + column;
+        if let Some(merged) = kinds.get_mut(place)
+            && weight(number(*kind)) > weight(*merged)
+        {
+            *merged = number(*kind);
+        }
+        let label = labels.get(cell).copied().map_or(0, u32::from);
+        if let Some(room) = rooms.get_mut(place) {
+            *room = (*room).max(label);
+        }
+    }
+    HomeView {
+        cell_m: CELL_M * coarse as f64,
+        x,
+        y,
+        width: u32::try_from(width).unwrap_or(u32::MAX),
+        height: u32::try_from(height).unwrap_or(u32::MAX),
+        cells: runs(&kinds),
+        room_cells: runs(&rooms),
+        ..HomeView::default()
+    }
+}
+
+fn number(kind: CellKnowledge) -> u32 {
+    match kind {
+        CellKnowledge::Unknown => 0,
+        CellKnowledge::Free => 1,
+        CellKnowledge::Occupied => 2,
+        CellKnowledge::Cliff => 3,
+        CellKnowledge::NoGo => 4,
+    }
+}
+
+/// What wins when cells are merged: what a robot must not overlook.
+fn weight(number: u32) -> u32 {
+    match number {
+        3 => 4,
+        2 => 3,
+        4 => 2,
+        1 => 1,
+        _ => 0,
+    }
+}
+
+/// Equal values side by side as pairs of value and number.
+fn runs(values: &[u32]) -> Rle {
+    values
+        .chunk_by(|one, other| one == other)
+        .flat_map(|run| {
+            let value = run.first().copied().unwrap_or_default();
+            [value, u32::try_from(run.len()).unwrap_or(u32::MAX)]
+        })
+        .collect()
+}
+
+fn room(room: &Room) -> RoomView {
+    RoomView {
+        id: room.id,
+        area_m2: room.area_m2,
+        x: room.middle.x_m,
+        y: room.middle.y_m,
+    }
+}
+
+fn door(door: &Door) -> DoorView {
+    DoorView {
+        rooms: door.rooms,
+        x: door.at.x_m,
+        y: door.at.y_m,
+        width_m: door.width_m,
+    }
+}
+
+fn wall(wall: &WallSegment) -> WallView {
+    WallView {
+        from: [wall.from.x_m, wall.from.y_m],
+        to: [wall.to.x_m, wall.to.y_m],
+        sigma_m: wall.sigma_m,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::{Cell, CellKnowledge, Raster};
+
+    use super::{NUMBERS_MAX, cells};
+
+    fn raster(width: usize, height: usize, kind: impl Fn(usize) -> CellKnowledge) -> Raster<CellKnowledge> {
+        let mut raster = Raster::filled(Cell { x: -3, y: 5 }, width, height, CellKnowledge::Unknown);
+        for (index, value) in raster.values_mut().iter_mut().enumerate() {
+            *value = kind(index);
+        }
+        raster
+    }
+
+    fn no_rooms() -> Raster<u16> {
+        Raster::filled(Cell { x: 0, y: 0 }, 0, 0, 0)
+    }
+
+    #[test]
+    fn a_home_is_told_cell_by_cell() {
+        let known = raster(4, 2, |index| match index {
+            0 | 1 => CellKnowledge::Free,
+            2 => CellKnowledge::Occupied,
+            7 => CellKnowledge::Cliff,
+            _ => CellKnowledge::Unknown,
+        });
+        let view = cells(&known, &no_rooms());
+        assert_eq!((view.x, view.y, view.width, view.height), (-3, 5, 4, 2));
+        assert_eq!(view.cells, [1, 2, 2, 1, 0, 4, 3, 1]);
+        assert_eq!(view.room_cells, [0, 8]);
+    }
+
+    #[test]
+    fn a_chessboard_as_large_as_a_map_can_be_is_told_coarsely_and_no_obstacle_is_lost() {
+        let known = raster(1_600, 1_600, |index| {
+            if (index + index / 1_600).is_multiple_of(2) {
+                CellKnowledge::Occupied
+            } else {
+                CellKnowledge::Free
+            }
+        });
+        let view = cells(&known, &no_rooms());
+        assert!(view.cells.len() + view.room_cells.len() <= NUMBERS_MAX);
+        assert!(view.cell_m > 0.025);
+        let total: u32 = view.cells.chunks_exact(2).map(|run| run[1]).sum();
+        assert_eq!(total, view.width * view.height);
+        // A corner that holds a single cell may be free.
+        let obstacles: u32 = view
+            .cells
+            .chunks_exact(2)
+            .filter(|run| run[0] == 2)
+            .map(|run| run[1])
+            .sum();
+        assert!(obstacles >= total - 4, "{obstacles} of {total}");
+    }
+}

@@ -1,0 +1,263 @@
+//! The map of the home on disk: the folder `maps` in the state folder, with one file for each version. Numbers rise, the
+//! highest is the newest, and the oldest go when there are too many. No version is ever changed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use brain::{CELL_M, CellKnowledge, StoredMap};
+use rvac_api::KeptMap;
+
+use crate::kept_file;
+
+/// Versions kept: a map that was spoilt is noticed within some runs.
+const VERSIONS_MAX: usize = 10;
+/// Largest file that is looked at. A home of 150 square metres takes some ten kilobytes.
+const BYTES_MAX: u64 = 16 << 20;
+
+/// The folder.
+#[derive(Clone, Debug)]
+pub(crate) struct MapFolder {
+    path: PathBuf,
+}
+
+/// Why a version cannot be taken up again.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum RestoreError {
+    /// There is none with this number.
+    #[error("No map has the number {0}: ask which are kept.")]
+    Absent(u64),
+    /// It is there, but not whole.
+    #[error("Map {number} cannot be used: {what}. Take another one.")]
+    Broken {
+        /// Its number.
+        number: u64,
+        /// What is wrong.
+        what: String,
+    },
+    /// It cannot be made the newest one.
+    #[error("The map cannot be written: {0}. Check the disk and the state folder.")]
+    Unwritable(#[from] io::Error),
+}
+
+impl RestoreError {
+    /// The reason's name for clients.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Absent(_) => "no-such-map",
+            Self::Broken { .. } => "map-unreadable",
+            Self::Unwritable(_) => "map-unwritable",
+        }
+    }
+}
+
+impl MapFolder {
+    /// The folder at `path`, made with the first version.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path }
+    }
+
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Keeps `home` as the newest version. Writes nothing when it is that already.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn save(&self, home: &StoredMap) -> io::Result<()> {
+        fs::create_dir_all(&self.path)?;
+        let bytes = home.encode();
+        let numbers = self.numbers();
+        let newest = numbers.first().copied();
+        if newest.is_some_and(|number| self.read(number).is_ok_and(|present| present == bytes)) {
+            return Ok(());
+        }
+        let number = newest.unwrap_or(0).checked_add(1);
+        let number = number.ok_or_else(|| io::Error::other("the numbers of maps are used up"))?;
+        kept_file::replace(&self.file(number), &bytes)?;
+        for oldest in numbers.iter().skip(VERSIONS_MAX - 1) {
+            fs::remove_file(self.file(*oldest))?;
+        }
+        Ok(())
+    }
+
+    /// The newest map that is whole, and why newer ones are not; nothing of both when there is none yet.
+    pub(crate) fn newest(&self) -> (Option<StoredMap>, Vec<String>) {
+        let mut complaints = Vec::new();
+        for number in self.numbers() {
+            match self.load(number) {
+                Ok(home) => return (Some(home), complaints),
+                Err(what) => complaints.push(format!(
+                    "cannot use the map {}: {what}",
+                    self.file(number).display()
+                )),
+            }
+        }
+        (None, complaints)
+    }
+
+    /// The versions that are whole, newest first.
+    pub(crate) fn list(&self) -> Vec<KeptMap> {
+        let kept = |number| Some(describe(number, self.kept_s(number), &self.load(number).ok()?));
+        self.numbers().into_iter().filter_map(kept).collect()
+    }
+
+    /// Makes a version the newest one.
+    ///
+    /// # Errors
+    /// See [`RestoreError`]; then nothing is changed.
+    pub(crate) fn restore(&self, number: u64) -> Result<StoredMap, RestoreError> {
+        if !self.numbers().contains(&number) {
+            return Err(RestoreError::Absent(number));
+        }
+        let home = self
+            .load(number)
+            .map_err(|what| RestoreError::Broken { number, what })?;
+        self.save(&home)?;
+        Ok(home)
+    }
+
+    /// Numbers of the versions, newest first. A folder that is not there holds none.
+    fn numbers(&self) -> Vec<u64> {
+        let Ok(entries) = fs::read_dir(&self.path) else {
+            return Vec::new();
+        };
+        let number = |name: &str| name.strip_suffix(".map")?.parse::<u64>().ok();
+        let mut numbers: Vec<u64> = entries
+            .flatten()
+            .filter_map(|entry| number(entry.file_name().to_str()?))
+            // What a person named otherwise is not ours.
+            .filter(|number| self.file(*number).is_file())
+            .collect();
+        numbers.sort_unstable_by(|one, other| other.cmp(one));
+        numbers
+    }
+
+    fn file(&self, number: u64) -> PathBuf {
+        self.path.join(format!("{number:06}.map"))
+    }
+
+    fn read(&self, number: u64) -> io::Result<Vec<u8>> {
+        let file = self.file(number);
+        if fs::metadata(&file)?.len() > BYTES_MAX {
+            return Err(io::Error::other("it is larger than any map"));
+        }
+        fs::read(file)
+    }
+
+    fn load(&self, number: u64) -> Result<StoredMap, String> {
+        let bytes = self.read(number).map_err(|error| error.to_string())?;
+        StoredMap::decode(&bytes).map_err(|error| error.to_string())
+    }
+
+    fn kept_s(&self, number: u64) -> u64 {
+        let modified = fs::metadata(self.file(number)).and_then(|meta| meta.modified());
+        let since = modified
+            .ok()
+            .and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        since.map_or(0, |since| since.as_secs())
+    }
+}
+
+fn describe(number: u64, kept_s: u64, home: &StoredMap) -> KeptMap {
+    let knowledge = home.knowledge();
+    let free = knowledge
+        .values()
+        .iter()
+        .filter(|kind| **kind == CellKnowledge::Free);
+    KeptMap {
+        number,
+        kept_s,
+        area_m2: free.count() as f64 * CELL_M * CELL_M,
+        rooms: u32::try_from(home.room_count()).unwrap_or(u32::MAX),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use brain::{Cell, CellKnowledge, Raster, StoredMap};
+
+    use super::{MapFolder, VERSIONS_MAX};
+
+    fn home(width: usize) -> StoredMap {
+        StoredMap::from_raster(
+            &Raster::filled(Cell { x: 1, y: 2 }, width, 4, CellKnowledge::Free),
+            None,
+        )
+    }
+
+    struct Scratch(MapFolder);
+
+    impl Scratch {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("vthal-maps-{name}-{}", std::process::id()));
+            fs::remove_dir_all(&path).ok();
+            Self(MapFolder::new(path))
+        }
+
+        fn numbers(&self) -> Vec<u64> {
+            self.0.list().iter().map(|kept| kept.number).collect()
+        }
+    }
+
+    impl Drop for Scratch {
+        fn drop(&mut self) {
+            fs::remove_dir_all(self.0.path()).ok();
+        }
+    }
+
+    #[test]
+    fn an_older_version_stands_in_for_a_broken_one() {
+        let scratch = Scratch::new("broken");
+        assert_eq!(scratch.0.newest(), (None, Vec::new()));
+        for width in [4, 5, 5] {
+            scratch.0.save(&home(width)).expect("saves");
+        }
+        assert_eq!(scratch.numbers(), [2, 1]);
+        assert_eq!(scratch.0.newest(), (Some(home(5)), Vec::new()));
+        let file = scratch.0.path().join("000002.map");
+        let mut broken = fs::read(&file).expect("reads");
+        broken[9] ^= 1;
+        fs::write(&file, &broken).expect("writes");
+        let (found, complaints) = scratch.0.newest();
+        assert_eq!(found, Some(home(4)));
+        assert!(
+            complaints.len() == 1 && complaints[0].contains("checksum"),
+            "{complaints:?}"
+        );
+        let error = scratch.0.restore(2).expect_err("is broken");
+        assert_eq!(error.name(), "map-unreadable");
+    }
+
+    #[test]
+    fn a_restored_version_becomes_the_newest_and_the_spoilt_one_stays() {
+        let scratch = Scratch::new("restored");
+        for width in [4, 5] {
+            scratch.0.save(&home(width)).expect("saves");
+        }
+        assert_eq!(scratch.0.restore(1).expect("is whole"), home(4));
+        assert_eq!(scratch.numbers(), [3, 2, 1]);
+        assert_eq!(scratch.0.newest().0, Some(home(4)));
+        assert!((scratch.0.list()[0].area_m2 - 16.0 * 0.025 * 0.025).abs() < 1e-9);
+        assert_eq!(scratch.0.restore(7).expect_err("is absent").name(), "no-such-map");
+    }
+
+    #[test]
+    fn the_oldest_go_and_foreign_files_stay() {
+        let scratch = Scratch::new("many");
+        scratch.0.save(&home(1)).expect("saves");
+        let foreign = scratch.0.path().join("my copy.map");
+        fs::write(&foreign, b"mine").expect("writes");
+        for width in 2..=VERSIONS_MAX + 3 {
+            scratch.0.save(&home(width)).expect("saves");
+        }
+        let newest = VERSIONS_MAX as u64 + 3;
+        assert_eq!(scratch.numbers(), (4..=newest).rev().collect::<Vec<_>>());
+        assert!(foreign.exists());
+    }
+}
