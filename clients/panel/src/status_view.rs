@@ -139,11 +139,7 @@ fn Figures(store: Store) -> impl IntoView {
             .truth
             .with(|truth| truth.map(|truth| percent_text(truth.covered)))
     });
-    let place = Memo::new(move |_| {
-        store
-            .estimate
-            .with(|estimate| estimate.as_ref().map(place_text))
-    });
+    let place = Memo::new(move |_| store.estimate.with(|estimate| estimate.as_ref().map(place_text)));
     let is_lost = move || {
         store
             .estimate

@@ -19,6 +19,7 @@ use super::perimeter::{LapStep, Perimeter};
 use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
+use crate::geometry::Point2;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::task::{Mind, Plan, Situation, Task};

@@ -54,6 +54,28 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "A job runs or waits.",
         "Stop it first; a map is taken up again only by a robot at rest.",
     ),
+    entry(
+        "recharging",
+        "It waits on the dock for charge, and then goes on.",
+        "",
+    ),
+    entry(
+        "dock-unknown",
+        "Nobody knows where the dock is.",
+        "Put it on its dock once.",
+    ),
+    entry(
+        "place-unknown",
+        "It does not know where it is.",
+        "Put it on its dock, or let it clean: it looks for places that it knows.",
+    ),
+    entry(
+        "way-blocked",
+        "No way is left to where it wants to go.",
+        "Clear the way.",
+    ),
+    entry("no-map", "It has no map of the home to plan on.", ""),
+    entry("rest-out-of-reach", "What is left cannot be reached.", ""),
     entry("start-up", "The software has just started.", ""),
     entry("command", "As you asked.", ""),
     entry("finished", "The job is done.", ""),

@@ -34,7 +34,10 @@ impl PlanPalette {
             3 => self.cliff,
             4 => self.rug,
             NO_GO => self.no_go,
-            _ => match kind.checked_sub(ROOM).and_then(|room| self.rooms.get(room as usize)) {
+            _ => match kind
+                .checked_sub(ROOM)
+                .and_then(|room| self.rooms.get(room as usize))
+            {
                 Some(tint) => *tint,
                 None => return [0; 4],
             },

@@ -22,7 +22,10 @@ pub struct DecisionBook {
 impl DecisionBook {
     /// Takes a decision. A number that is known already is a repetition after a reconnect.
     pub fn push(&mut self, entry: Decision) {
-        let known = self.entries.back().is_some_and(|last| entry.number <= last.number);
+        let known = self
+            .entries
+            .back()
+            .is_some_and(|last| entry.number <= last.number);
         if known {
             return;
         }
@@ -180,8 +183,16 @@ mod tests {
             ..sure
         };
         let told = estimate_sentences(&lost);
-        assert!(told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %"));
-        assert_eq!(place_text(&Estimate { sigma_m: 1.26, ..sure }), "± 1.3 m");
+        assert!(
+            told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %")
+        );
+        assert_eq!(
+            place_text(&Estimate {
+                sigma_m: 1.26,
+                ..sure
+            }),
+            "± 1.3 m"
+        );
     }
 
     #[test]
@@ -202,7 +213,9 @@ mod tests {
             assert!(way_dashes(&PlannedWay { points_mm }, 0.1).is_empty());
         }
         let endless = PlannedWay {
-            points_mm: (0..40_000).map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX }).collect(),
+            points_mm: (0..40_000)
+                .map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX })
+                .collect(),
         };
         assert!(way_dashes(&endless, 0.0).len() <= 80_000);
         assert!(way_dashes(&endless, f64::NAN).is_empty());

@@ -12,8 +12,8 @@ use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebGlContextAttributes};
 
 use super::gl::GlError;
-use super::renderer::Renderer;
 use super::labels::Labels;
+use super::renderer::Renderer;
 use super::scene::{Redraw, Scene};
 use crate::theme::Theme;
 
