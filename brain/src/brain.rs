@@ -85,6 +85,9 @@ impl Brain {
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
         }
+        if let Some(pocket) = intent.pocket {
+            self.map.shut_pocket(pocket);
+        }
         self.map.follow(
             pose,
             if intent.cleaners {

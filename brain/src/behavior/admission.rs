@@ -120,7 +120,12 @@ impl Behavior {
             Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
             Command::Dock => self.begin(JobKind::Dock, mind),
             Command::Pause => self.pause(mind),
-            Command::Resume => self.announce(Reason::Command, mind),
+            Command::Resume => {
+                if let Some(job) = &mut self.job {
+                    job.encourage();
+                }
+                self.announce(Reason::Command, mind);
+            }
             Command::Stop => self.stop(mind),
             Command::Manual {
                 speed_m_per_s,

@@ -6,7 +6,7 @@ use crate::docking::Docking;
 use crate::geometry::TurnSide;
 use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
 use crate::random::Random;
-use crate::recovery::{Ladder, ProgressWatch, SlipWatch};
+use crate::recovery::{Ladder, Pen, ProgressWatch, SlipWatch};
 use crate::spot::Spot;
 use crate::task::Task;
 
@@ -21,6 +21,8 @@ pub(super) struct Job {
     pub(super) task: Box<dyn Task>,
     pub(super) figures: JobFigures,
     pub(super) ladder: Ladder,
+    /// Whether it gets anywhere.
+    pub(super) pen: Pen,
     pub(super) progress: ProgressWatch,
     pub(super) slip: SlipWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
@@ -61,6 +63,7 @@ impl Job {
             task,
             figures,
             ladder: Ladder::default(),
+            pen: Pen::default(),
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
             detour: None,
@@ -70,14 +73,20 @@ impl Job {
         }
     }
 
-    /// The robot stood still or was moved by a person: only the purpose of the job is still true.
+    /// The robot stood still or was moved by a person: only the purpose of the job is still true, and what was tried to come
+    /// free.
     pub(super) fn interrupt(&mut self) {
         self.task.interrupted();
-        self.ladder = Ladder::default();
         self.progress = ProgressWatch::default();
         self.slip = SlipWatch::default();
         self.detour = None;
         self.brushes = false;
+    }
+
+    /// A person wants it to go on: what was tried to come free counts no more.
+    pub(super) fn encourage(&mut self) {
+        self.ladder = Ladder::default();
+        self.pen = Pen::default();
     }
 
     pub(super) fn is_departing(&self) -> bool {

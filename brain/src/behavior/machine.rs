@@ -8,6 +8,7 @@ use crate::action::{Arm, Motion, Tone};
 use crate::command::Command;
 use crate::config::BrainConfig;
 use crate::energy::EnergyWatch;
+use crate::geometry::Point2;
 use crate::manoeuvre::BACK_AT_CLIFF_M_PER_S;
 use crate::task::{Mind, Situation};
 
@@ -48,6 +49,8 @@ pub(crate) struct Intent {
     pub(crate) arm: Option<Arm>,
     pub(crate) tones: Vec<Tone>,
     pub(crate) job_start: JobStart,
+    /// A place that held the robot, now that it has come free.
+    pub(crate) pocket: Option<Point2>,
 }
 
 /// Whether a job began in this step that wants an empty map.
@@ -82,6 +85,7 @@ pub(crate) struct Behavior {
     pub(super) arm: Option<Arm>,
     pub(super) tones: Vec<Tone>,
     pub(super) job_start: JobStart,
+    pub(super) pocket: Option<Point2>,
     halt_until_us: u64,
 }
 
@@ -109,6 +113,7 @@ impl Behavior {
             arm: None,
             tones: Vec::new(),
             job_start: JobStart::None,
+            pocket: None,
         }
     }
 
@@ -175,6 +180,7 @@ impl Behavior {
             arm: self.arm.take(),
             tones: core::mem::take(&mut self.tones),
             job_start: core::mem::replace(&mut self.job_start, JobStart::None),
+            pocket: self.pocket.take(),
         }
     }
 

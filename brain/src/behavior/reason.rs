@@ -79,6 +79,10 @@ reasons! {
     CliffHeld => "cliff-held",
     /// Many short runs in a row: a pocket it cannot find out of.
     BoxedIn => "boxed-in",
+    /// It moves, but for minutes it does not get out of a place of the size of a closet.
+    ShutIn => "shut-in",
+    /// It got out of a place that had held it.
+    CameFree => "came-free",
     /// A straight run without an encounter for longer than any home is.
     LongRun => "long-run",
     /// Something stands ahead of a robot that follows a wall.

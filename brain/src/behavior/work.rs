@@ -1,12 +1,12 @@
 //! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
 
-use super::job::{Detour, Purpose};
+use super::job::{Detour, Job, Purpose};
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::action::Motion;
 use crate::geometry::Point2;
 use crate::localization::Advance;
-use crate::recovery::{self, Traction};
+use crate::recovery::{self, Grip, Traction, Whereabouts};
 use crate::task::{Mind, Plan, Situation};
 
 /// The firmware may be out of reach of `arm` for this long before the job is put off.
@@ -17,6 +17,8 @@ const REST_EVERY_US: u64 = 120_000_000;
 const REST_US: u64 = 1_500_000;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
+/// A place that took so many rungs to leave is not entered again in this job.
+const POCKET_RUNGS: u8 = 3;
 
 impl Behavior {
     /// A contact began.
@@ -36,13 +38,13 @@ impl Behavior {
         };
         job.figures.time_s += situation.advance.time_s;
         job.figures.path_m += situation.advance.distance_m.abs();
-        job.ladder.watch(situation.pose.position());
         job.brushes |= !self.facts.touching;
         job.returns &= situation.map.is_swept(situation.pose.position());
         if self.facts.disarmed.any() {
             return self.wait_for_arm(mind);
         }
         self.starved_since_us = None;
+        self.watch_pen(situation, mind);
         let plan = self.watched_plan(commanded, situation, mind);
         let motion = self.follow(plan, situation, mind);
         if !self.rests_for_gyro(motion, situation) {
@@ -52,6 +54,28 @@ impl Behavior {
             mind.decide("rest", Reason::GyroDrift, 0.0);
         }
         Motion::Halt
+    }
+
+    /// Whether the robot has come free.
+    fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        let Some(job) = &mut self.job else { return };
+        match job
+            .pen
+            .follow(situation.pose.position(), situation.advance.time_s)
+        {
+            Whereabouts::Inside => {}
+            Whereabouts::MovedOff => job.ladder.move_off(),
+            Whereabouts::Left(troubled_at) => {
+                let rungs = job.ladder.leave();
+                if rungs == 0 {
+                    return;
+                }
+                mind.decide("free", Reason::CameFree, f64::from(rungs));
+                if rungs >= POCKET_RUNGS {
+                    self.pocket = troubled_at;
+                }
+            }
+        }
     }
 
     /// Whether it is time to stand still for the gyro's sake: only on a straight way ahead, where nothing is lost by it.
@@ -104,8 +128,14 @@ impl Behavior {
             // The firmware rests for a second after it saw no progress; the escape starts after that.
             return Plan::Go(Motion::Rest);
         }
+        if job.detour.is_none() && job.pen.is_due() {
+            return Plan::Trouble(Reason::ShutIn);
+        }
         let plan = self.plan(situation, mind);
         match plan {
+            Plan::Finished(Reason::Finished | Reason::RestOutOfReach) if self.ends_in_pen(situation) => {
+                Plan::Trouble(Reason::ShutIn)
+            }
             Plan::Go(motion) if traction == Traction::Slipping => Plan::Go(slowed(motion)),
             other => other,
         }
@@ -120,6 +150,7 @@ impl Behavior {
                 return Plan::Go(motion);
             }
             job.detour = None;
+            job.pen.try_again();
             job.task.interrupted();
             // What was moved since the last step belongs to the detour.
             let still = Situation {
@@ -147,16 +178,28 @@ impl Behavior {
     fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
         let Some(job) = &mut self.job else { return };
         job.task.interrupted();
-        let Some(rung) = job.ladder.trouble(situation.pose.position()) else {
+        let grip = recovery::grip(reason);
+        let Some(rung) = job.ladder.trouble(grip) else {
             self.enter(Mode::Stuck, reason, mind);
             return;
         };
+        match grip {
+            Grip::Held => job.pen.hold(situation.pose.position()),
+            Grip::Penned => job.pen.climb(situation.pose.position()),
+        }
         mind.decide(rung.decision(), reason, 0.0);
         let sequence = recovery::escape(rung, &mut mind.random);
         job.detour = Some(Detour {
             sequence,
             purpose: Purpose::Escape,
         });
+    }
+
+    /// Whether the job is at its end only because the robot is shut in: it has not swept half of what it knows of the home.
+    fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
+        let is_cleaning = |job: &&Job| matches!(job.kind, JobKind::Clean(_)) && job.pen.holds_the_end();
+        self.job.as_ref().filter(is_cleaning).is_some()
+            && situation.map.swept_m2() < 0.5 * situation.map.free_m2()
     }
 
     /// Corners of the way that the running or waiting job means to drive.

@@ -3,6 +3,7 @@
 use super::leg::RESERVE_M;
 use super::{BackOff, Leg, Turn};
 use crate::action::Motion;
+use crate::recovery::EdgeTrace;
 use crate::task::Situation;
 
 /// Speed of a swing.
@@ -11,7 +12,7 @@ const SWING_M_PER_S: f64 = -0.1;
 const SWING_RAD_PER_S: f64 = 1.2;
 
 /// One leg of a sequence.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Part {
     /// Straight back.
     Back(BackOff),
@@ -21,6 +22,13 @@ pub(crate) enum Part {
     Swing {
         /// +1 turns left, -1 right.
         sign: f64,
+        /// Seconds left.
+        left_s: f64,
+    },
+    /// Along an edge.
+    Edge(EdgeTrace),
+    /// Stand still for a time, unless something touches the robot.
+    Wait {
         /// Seconds left.
         left_s: f64,
     },
@@ -47,6 +55,8 @@ impl Sequence {
                 Part::Turn(_) if situation.touching || situation.at_cliff => Leg::Arrived,
                 Part::Turn(turn) => turn.step(situation),
                 Part::Swing { sign, left_s } => swing(*sign, left_s, situation),
+                Part::Edge(edge) => edge.step(situation).map_or(Leg::Arrived, Leg::Going),
+                Part::Wait { left_s } => wait(left_s, situation),
             };
             if let Leg::Going(motion) = leg {
                 return Some(motion);
@@ -54,6 +64,15 @@ impl Sequence {
             self.current += 1;
         }
         None
+    }
+}
+
+fn wait(left_s: &mut f64, situation: &Situation<'_>) -> Leg {
+    *left_s -= situation.advance.time_s;
+    if *left_s <= 0.0 || !situation.is_free() {
+        Leg::Arrived
+    } else {
+        Leg::Going(Motion::Halt)
     }
 }
 

@@ -7,9 +7,9 @@ use super::layers::{CellKnowledge, Flag, Layers};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
 use super::walls::{WallSegment, walls};
-use super::{Cell, Map, Raster, StoredMap};
+use super::{CELL_M, Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
 
@@ -21,6 +21,8 @@ const SURVEY_US: u64 = 120_000_000;
 const SIGHTINGS_MAX: usize = 100_000;
 /// Turn rates of wheels and gyro are compared over ways of this length, metres.
 const SLIP_WAY_M: f64 = 0.1;
+/// Radius of what is shut around a place that trapped the robot; plans keep the body's radius away from it, too.
+const POCKET_M: f64 = 0.1;
 
 /// What is known of the home.
 #[derive(Clone, Debug)]
@@ -39,6 +41,8 @@ pub(super) struct HomeMap {
     dock: Option<Pose2>,
     revision: u32,
     redrawn: u32,
+    /// Cells that are shut until the next job.
+    pockets: Vec<Cell>,
 }
 
 impl HomeMap {
@@ -57,6 +61,7 @@ impl HomeMap {
             dock: None,
             revision: 0,
             redrawn: 0,
+            pockets: Vec::new(),
         }
     }
 
@@ -89,6 +94,43 @@ impl HomeMap {
             self.surveyed_us = observation.time_us;
             self.survey();
         }
+    }
+
+    /// Sets or clears a flag, whatever is drawn again later.
+    fn flag(&mut self, cell: Cell, flag: Flag, entry: Entry) {
+        let change = |evidence: &mut super::layers::Evidence| match entry {
+            Entry::Forbidden => evidence.set(flag),
+            Entry::Allowed => evidence.clear(flag),
+        };
+        self.base.change(cell, change);
+        self.layers.change(cell, change);
+    }
+
+    /// Forbids the cells around a place until [`Self::open_pockets`].
+    fn shut_pocket(&mut self, place: Point2) {
+        let reach = libm::ceil(POCKET_M / CELL_M) as i32;
+        let middle = Cell::under(place);
+        for (column, row) in
+            (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| (column, row)))
+        {
+            if column * column + row * row <= reach * reach {
+                let cell = Cell {
+                    x: middle.x.saturating_add(column),
+                    y: middle.y.saturating_add(row),
+                };
+                self.flag(cell, Flag::Pocket, Entry::Forbidden);
+                self.pockets.push(cell);
+            }
+        }
+        self.refresh();
+    }
+
+    /// A new job may go everywhere again: things are moved.
+    fn open_pockets(&mut self) {
+        for cell in core::mem::take(&mut self.pockets) {
+            self.flag(cell, Flag::Pocket, Entry::Allowed);
+        }
+        self.refresh();
     }
 
     fn survey(&mut self) {
@@ -135,6 +177,7 @@ impl HomeMap {
         stored.fill(&mut self.layers);
         self.base = self.layers.clone();
         self.sightings.clear();
+        self.pockets.clear();
         self.last = None;
         self.dock = stored.dock();
         self.derive_anew();
@@ -200,6 +243,14 @@ impl Map {
         &self.home.derived.knowledge
     }
 
+    /// Area of all free floor that is known, in square metres. Counts all cells: not for every step.
+    #[must_use]
+    pub fn free_m2(&self) -> f64 {
+        let free = self.knowledge().values().iter();
+        let count = free.filter(|cell| **cell == CellKnowledge::Free).count();
+        count as f64 * CELL_M * CELL_M
+    }
+
     /// Distances to occupied cells, as old as [`Self::knowledge`].
     #[must_use]
     pub fn distance_field(&self) -> &DistanceField {
@@ -255,12 +306,17 @@ impl Map {
 
     /// Forbids or allows a cell.
     pub fn set_no_go(&mut self, cell: Cell, entry: Entry) {
-        let change = |evidence: &mut super::layers::Evidence| match entry {
-            Entry::Forbidden => evidence.set(Flag::NoGo),
-            Entry::Allowed => evidence.clear(Flag::NoGo),
-        };
-        self.home.base.change(cell, change);
-        self.home.layers.change(cell, change);
+        self.home.flag(cell, Flag::NoGo, entry);
+    }
+
+    /// Forbids a place that trapped the robot, until the next job.
+    pub(crate) fn shut_pocket(&mut self, place: Point2) {
+        self.home.shut_pocket(place);
+    }
+
+    /// Allows again what [`Self::shut_pocket`] forbade.
+    pub(super) fn open_pockets(&mut self) {
+        self.home.open_pockets();
     }
 
     /// How much wheels and gyro differed where the robot drove over a cell, in radians a metre; 0 where it did not.

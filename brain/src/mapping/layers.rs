@@ -58,6 +58,8 @@ pub(super) enum Flag {
     NoGo = 2,
     /// Something was seen here, so that `sigma_cm` counts.
     Seen = 4,
+    /// The robot was trapped here; not to be entered in this job.
+    Pocket = 8,
 }
 
 /// Occupancy from which on a cell counts as occupied.
@@ -84,7 +86,7 @@ impl Evidence {
 
     /// What all of it amounts to.
     pub(super) fn knowledge(self) -> CellKnowledge {
-        if self.has(Flag::NoGo) {
+        if self.has(Flag::NoGo) || self.has(Flag::Pocket) {
             CellKnowledge::NoGo
         } else if self.cliff >= CLIFF_FROM {
             CellKnowledge::Cliff

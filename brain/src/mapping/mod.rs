@@ -157,12 +157,13 @@ impl Map {
         self.swept.runs()
     }
 
-    /// Forgets the job and counts one map on; what is known of the home stays.
+    /// Forgets the job and counts one map on; what is known of the home stays, except for places that were shut for the job.
     pub(crate) fn start_anew(&mut self) {
         self.generation += 1;
         self.swept = SweptLayer::default();
         self.path = Path::default();
         self.marks = Marks::default();
+        self.open_pockets();
         self.swath.lift();
         self.job_base = JobBase {
             sightings: self.home.sightings.len(),

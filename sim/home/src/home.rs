@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::load::{self, DockWish, Draft, HomeError};
 use crate::model::RobotModel;
 use crate::plan::{
-    Cell, DistanceField, DockSearch, Door, Grid, Regions, SurfaceMap, blocked_field, cliff_field,
-    docked_pose, solid_field,
+    Cell, DistanceField, DockSearch, Door, Grid, Regions, SurfaceMap, WalkerPlan, Ways, blocked_field,
+    cliff_field, docked_pose, solid_field,
 };
 use crate::pose::Pose;
 
@@ -21,6 +21,7 @@ pub struct Home {
     reachable: Vec<bool>,
     reachable_cells: u32,
     connected_share: f64,
+    can_leave: bool,
     t0_s: f64,
     pub(crate) solid: DistanceField,
     pub(crate) cliffs: Option<DistanceField>,
@@ -28,6 +29,7 @@ pub struct Home {
     pub(crate) doors: Vec<Door>,
     /// For each cell whether it belongs to a mirror; empty where there is none.
     pub(crate) mirrors: Vec<bool>,
+    pub(crate) walkers: Vec<WalkerPlan>,
 }
 
 impl Home {
@@ -69,14 +71,31 @@ impl Home {
             path,
         };
         let place = search.place(draft.dock)?;
+        let ways = Ways::new(&widest, &blocked);
+        let walkers = draft.walkers.iter().map(|wish| WalkerPlan {
+            kind: wish.kind,
+            legs: ways.round(&wish.goals, wish.kind),
+            rest_ms: wish.rest_ms,
+            from_ms: wish.from_ms,
+            until_ms: wish.until_ms,
+        });
+        let walkers = walkers.collect();
         let reachable = regions.swept_from(place.region, &widest, model.body.swath_m);
         let reachable_cells = reachable.iter().filter(|cell| **cell).count() as u32;
         let area_m2 = f64::from(reachable_cells) * widest.cell_area_m2();
+        let start = draft.start.unwrap_or(place.start);
+        let beside = |(right_m, up_m)| widest.index(start.x_m + right_m, start.y_m + up_m);
+        let can_leave = NEIGHBOURS
+            .iter()
+            .map(|(right, up)| (right * widest.cell_m, up * widest.cell_m))
+            .filter_map(beside)
+            .any(|index| regions.label(index) == place.region);
         Ok(Self {
             name: draft.name,
             file_from_plan: draft.file_from_plan,
             dock: place.dock,
-            start: draft.start.unwrap_or(place.start),
+            start,
+            can_leave,
             connected_share: regions.share(place.region),
             reachable,
             reachable_cells,
@@ -85,6 +104,7 @@ impl Home {
             cliffs: cliff_field(&draft.grid),
             surfaces: draft.surfaces,
             mirrors: draft.mirrors,
+            walkers,
             doors: draft.doors,
             grid: draft.grid,
         })
@@ -98,6 +118,20 @@ impl Home {
             set_door(&mut changed.grid, door, open);
             changed.solid = solid_field(&changed.grid);
         }
+        changed
+    }
+
+    /// The same home with every door open that is ever open, and without people: as its owner knows it.
+    #[must_use]
+    pub fn with_doors_open(&self) -> Self {
+        let mut changed = self.clone();
+        for door in &mut changed.doors {
+            if door.ever_open() {
+                door.open = true;
+                set_door(&mut changed.grid, door, true);
+            }
+        }
+        changed.solid = solid_field(&changed.grid);
         changed
     }
 
@@ -169,12 +203,22 @@ impl Home {
         self.connected_share
     }
 
+    /// Whether the way from the start to the dock, or to most of the floor, is wide enough for the body, once all doors that
+    /// are ever open have been opened and all people have left.
+    #[must_use]
+    pub const fn can_leave(&self) -> bool {
+        self.can_leave
+    }
+
     /// Distance in metres from a place to the nearest solid thing; negative inside of one.
     #[must_use]
     pub fn clearance_m(&self, x_m: f64, y_m: f64) -> f64 {
         self.solid.at(x_m, y_m)
     }
 }
+
+/// A cell and those around it, columns and rows: a robot that just fits may stand between two cells.
+const NEIGHBOURS: [(f64, f64); 5] = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
 
 fn set_door(grid: &mut Grid, door: &Door, open: bool) {
     for (index, behind) in &door.cells {

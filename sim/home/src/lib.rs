@@ -5,9 +5,9 @@
 //! what the firmware can read ([`Sensors`]) beside what is really so ([`Truth`]). There is no clock, no global state and no
 //! randomness except the seed: the same calls give the same bits.
 //!
-//! [`generate`] draws homes from numbers.
+//! [`generate`] draws homes from numbers, [`traps`] the places in which robots get stuck.
 //!
-//! What it does not do: three dimensions, pushed furniture, sound. People and pets stand still until they leave.
+//! What it does not do: three dimensions, pushed furniture, sound.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -20,6 +20,7 @@ mod noise;
 mod pcg;
 mod plan;
 mod pose;
+pub mod traps;
 mod world;
 
 pub use digest::Digest;

@@ -80,6 +80,7 @@ fn people_stand_in_the_way_and_leave() {
     assert_eq!(home.people, People::In);
     let text = home.floorplan(&model).unwrap();
     assert_eq!(text.matches("[[visitor]]").count(), 8);
+    assert_eq!(text.matches("[[walker]]").count(), 3);
     let empty = GeneratedHome::number(5).home(&model).unwrap();
     let peopled = home.home(&model).unwrap();
     let free = |home: &Home| {

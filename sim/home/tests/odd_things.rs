@@ -80,6 +80,68 @@ fn a_visitor_comes_waits_for_the_robot_and_leaves() {
     );
 }
 
+const WALKER: &str =
+    "[[walker]]\nkind = \"person\"\ngoals = [[0.5, 2.0], [3.5, 2.0]]\nrest-s = 1\nfrom-s = 1\nuntil-s = 60\n";
+
+/// A robot whose wheels are given this duty, among somebody who walks.
+fn among_walkers(walker: &str, pose: Pose, (duty, ms): (f64, u64)) -> World {
+    let mut world = standing(home(walker), Some(pose), 0);
+    let wheel = home::Bridge {
+        pwm: duty,
+        brake: true,
+    };
+    let drive = Actuation {
+        wheel_left: wheel,
+        wheel_right: wheel,
+        ..Actuation::default()
+    };
+    for _ in 0..ms {
+        world.step(&drive);
+    }
+    world
+}
+
+#[test]
+fn nobody_steps_onto_a_robot_that_stands_in_the_way() {
+    for x_m in [1.0, 1.5, 2.1, 2.2, 2.3] {
+        let world = among_walkers(WALKER, Pose::new(x_m, 2.06, 0.0), (0.0, 60_000));
+        assert_eq!(world.truth().foot_contacts, 0, "{x_m}");
+        assert_eq!(world.truth().contacts, 0, "{x_m}");
+    }
+}
+
+#[test]
+fn a_robot_without_reflexes_runs_into_feet_and_pushes() {
+    // Along the way, so that sooner or later a foot is ahead.
+    let world = among_walkers(WALKER, Pose::new(0.6, 2.06, 0.0), (0.8, 30_000));
+    assert!(world.truth().foot_contacts > 0);
+    assert!(
+        world.truth().foot_pushed_max_ms > 200,
+        "{}",
+        world.truth().foot_pushed_max_ms
+    );
+}
+
+#[test]
+fn infrared_sees_feet_only_while_they_are_there() {
+    let mut seen = [false; 70];
+    for x_m in [1.6, 1.7, 1.8, 1.9, 2.0, 2.1, 2.2, 2.3] {
+        // Beside the way, so that nobody waits for the robot.
+        let pose = Pose::new(x_m, 1.62, core::f64::consts::FRAC_PI_2);
+        let mut world = standing(home(WALKER), Some(pose), 0);
+        for second in &mut seen {
+            for _ in 0..1_000 {
+                world.step(&Actuation::default());
+                *second |= strongest(world.sensors()) > 30;
+            }
+        }
+    }
+    assert!(!seen[0], "nobody yet");
+    let during = &seen[1..60];
+    assert!(during.iter().any(|seen| *seen) && !during.iter().all(|seen| *seen));
+    assert!(!seen[61..].iter().any(|seen| *seen), "all have left");
+}
+
 #[test]
 fn a_home_may_say_where_the_robot_starts() {
     let home = home("[start]\nposition = [1.0, 2.0]\nheading-deg = 90\n");
@@ -102,6 +164,14 @@ fn senseless_things_are_refused() {
         ),
         ("[[mirror]]\nfrom = [0, 0]\nto = [nan, 0]\n", "mirror"),
         ("[start]\nposition = [1, 1]\nheading-deg = 999\n", "start"),
+        (
+            "[[walker]]\nkind = \"pet\"\ngoals = [[1, 1]]\nfrom-s = 1\nuntil-s = 5\n",
+            "walker",
+        ),
+        (
+            "[[walker]]\nkind = \"pet\"\ngoals = [[1, 1], [2, 2]]\nfrom-s = 5\nuntil-s = 5\n",
+            "walker",
+        ),
     ] {
         let error = Home::from_floorplan("odd", &format!("{HEAD}{things}"), &model).unwrap_err();
         assert!(error.to_string().contains(named), "{error}");

@@ -34,7 +34,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
-    /// Home: a ROS map .yaml, a Valetudo map .json, a home .toml, or generated:N.
+    /// Home: a ROS map .yaml, a Valetudo map .json, a home .toml, generated:N, or trap:KIND/SEED.
     #[arg(long)]
     home: PathBuf,
     /// Robot by name.

@@ -1,7 +1,9 @@
 //! A robot and its host in one process, on a virtual clock.
 
+use std::sync::Arc;
+
 use brain::mapping::StoredMap;
-use home::Pose;
+use home::{Home, Pose};
 
 use crate::figures::{Belief, Collector, Floor};
 use crate::known_map::known_map;
@@ -100,8 +102,15 @@ impl Household {
     /// The same household whose host has a perfect map of the home as soon as it knows its robot.
     #[must_use]
     pub fn with_known_map(self) -> Self {
-        let world = self.robot.world();
-        let map = known_map(world.home(), self.map_from_plan, world.docked_pose());
+        let home = Arc::clone(self.robot.world().home());
+        self.with_map_of(&home)
+    }
+
+    /// The same household whose host has a perfect map of how the home was another day. Both days have the same walls.
+    #[must_use]
+    pub fn with_map_of(self, home: &Home) -> Self {
+        let docked = self.robot.world().docked_pose();
+        let map = known_map(home, self.map_from_plan, docked);
         Self {
             tells_place: true,
             ..self.with_map(map)

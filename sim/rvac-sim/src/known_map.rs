@@ -4,9 +4,10 @@ use brain::mapping::{CellKnowledge, StoredMap};
 use brain::{CELL_M, Cell, Pose2, Raster};
 use home::{Cell as PlanCell, Home, Pose};
 
-/// The home in the map frame of a robot, every cell as it is in truth. `docked` is the pose of a robot on the dock in the
-/// plan, if there is a dock.
+/// The home in the map frame of a robot, every cell as it is in truth; doors that are ever open stand open. `docked` is the pose
+/// of a robot on the dock in the plan, if there is a dock.
 pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) -> StoredMap {
+    let home = home.with_doors_open();
     let grid = home.grid();
     let (width_m, height_m) = (grid.width as f64 * grid.cell_m, grid.height as f64 * grid.cell_m);
     let corners = [(0.0, 0.0), (width_m, 0.0), (0.0, height_m), (width_m, height_m)]

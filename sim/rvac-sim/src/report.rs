@@ -24,6 +24,10 @@ pub struct Report {
     pub bumps: u32,
     /// Times the robot wanted to drive and did not get away from its place for half a minute.
     pub stuck: u32,
+    /// Times the body came into contact with somebody who walks, or with a pet.
+    pub foot_contacts: u32,
+    /// Longest time for which the wheels went on against one of them, milliseconds.
+    pub foot_pushed_max_ms: u32,
     /// Violations of the safety rules.
     pub monitor_violations: u32,
     /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was watched.
@@ -52,6 +56,8 @@ impl Report {
             path_m: truth.path_m,
             bumps: truth.contacts,
             stuck: stuck.count,
+            foot_contacts: truth.foot_contacts,
+            foot_pushed_max_ms: truth.foot_pushed_max_ms,
             monitor_violations: robot.monitor().count(),
             pose_rmse_m: None,
             figures: None,

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::generate::GeneratedHome;
+use home::traps::{Trap, TrapKind};
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
@@ -13,7 +14,7 @@ use crate::{Firmware, FirmwareError, Robot};
 /// What people choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSettings {
-    /// File of the home, or `generated:N`.
+    /// File of the home, `generated:N`, or `trap:KIND/SEED`.
     pub home: PathBuf,
     /// Name of the robot.
     pub robot: String,
@@ -100,8 +101,14 @@ impl Scene {
     }
 }
 
-/// A home from a file, or of the generator: `generated:N`.
+/// A home from a file, of the generator (`generated:N`), or a drawn trap (`trap:KIND/SEED`).
 fn load_home(source: &Path, model: &RobotModel) -> Result<Home, SceneError> {
+    if let Some(name) = source.to_str().and_then(|text| text.strip_prefix("trap:")) {
+        return match Trap::parse(name) {
+            Some(trap) => Ok(trap.home(model)?),
+            None => Err(SceneError::Trap(name.to_owned())),
+        };
+    }
     let generated = source.to_str().and_then(|text| text.strip_prefix("generated:"));
     match generated {
         None => Ok(Home::load(source, model)?),
@@ -132,7 +139,15 @@ pub enum SceneError {
         "`{0}` is no generated home; give a number from 1, for example generated:7, generated:7/2 or generated:7+people"
     )]
     Generated(String),
+    /// No such trap.
+    #[error("`{0}` is no trap; known are {names}, each with a seed, for example trap:sofa/3", names = trap_names())]
+    Trap(String),
     /// No such noise class.
     #[error("there is no noise class `{0}`; known are ideal, good, nominal and bad")]
     Noise(String),
+}
+
+fn trap_names() -> String {
+    let names: Vec<_> = TrapKind::ALL.iter().map(|kind| kind.name()).collect();
+    names.join(", ")
 }

@@ -36,6 +36,8 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "path_m",
         "bumps",
         "stuck",
+        "foot_contacts",
+        "foot_pushed_max_ms",
         "monitor_violations",
         "pose_rmse_m",
         "t80_over_t0",

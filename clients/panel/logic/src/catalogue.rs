@@ -146,6 +146,11 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "Move it into the open.",
     ),
     entry(
+        "shut-in",
+        "It does not get out of a small place.",
+        "Open the door or move it into the open.",
+    ),
+    entry(
         "not-moving",
         "Its wheels turn but it does not get on.",
         "Lift it off whatever holds it.",

@@ -21,7 +21,7 @@ use draw::Draw;
 use furnisher::Furnisher;
 use layout::{Extent, draw_rooms};
 use shape::{Frame, Rect, Side};
-use things::{Piece, Room, RoomKind, Things, Visitor};
+use things::{Piece, Room, RoomKind, Things, Visitor, Walker};
 use write::Turn;
 
 /// Which generated home.
@@ -41,7 +41,7 @@ pub enum People {
     /// The home is empty.
     #[default]
     Out,
-    /// Some stand in the way for a minute or a few.
+    /// Some stand in the way for a minute or a few, some walk about.
     In,
 }
 
@@ -309,7 +309,7 @@ fn blacken(draw: &mut Draw, things: &mut Things) {
     }
 }
 
-/// People in rooms and doors, a pet on the floor.
+/// People who stand in rooms and doors, and who walk from room to room; a pet.
 fn invite(moved: &mut Draw, things: &mut Things) {
     let mut places: Vec<shape::Point> = things
         .rooms
@@ -339,4 +339,25 @@ fn invite(moved: &mut Draw, things: &mut Things) {
         });
         now_s += moved.number(60.0, 400.0);
     }
+    let rooms = things.rooms.clone();
+    for kind in ["person", "person", "pet"] {
+        let goals = (0..4).map(|_| within(moved, &rooms)).collect();
+        let from_s = moved.number(20.0, 300.0);
+        things.walkers.push(Walker {
+            kind,
+            goals,
+            rest_s: moved.number(3.0, 40.0),
+            from_s,
+            until_s: from_s + moved.number(900.0, 3_600.0),
+        });
+    }
+}
+
+/// Some place in some room.
+fn within(moved: &mut Draw, rooms: &[Room]) -> shape::Point {
+    let Some(room) = rooms.get(moved.below(rooms.len())) else {
+        return [0.0, 0.0];
+    };
+    let (low, high) = (room.rect.low, room.rect.high);
+    [moved.number(low[0], high[0]), moved.number(low[1], high[1])]
 }

@@ -93,6 +93,16 @@ pub(super) struct Visitor {
     pub(super) until_s: f64,
 }
 
+/// Somebody who walks from place to place.
+#[derive(Clone, Debug)]
+pub(super) struct Walker {
+    pub(super) kind: &'static str,
+    pub(super) goals: Vec<Point>,
+    pub(super) rest_s: f64,
+    pub(super) from_s: f64,
+    pub(super) until_s: f64,
+}
+
 /// Everything.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Things {
@@ -105,6 +115,7 @@ pub(super) struct Things {
     pub(super) stairs: Vec<Rect>,
     pub(super) mirrors: Vec<Line>,
     pub(super) visitors: Vec<Visitor>,
+    pub(super) walkers: Vec<Walker>,
     /// The dock's place and the direction into the room.
     pub(super) dock: Option<(Point, Point)>,
 }

@@ -83,6 +83,14 @@ pub(super) fn write(name: &str, things: &Things, turn: Turn) -> String {
         line(&mut text, "from-s", &format!("{:.1}", visitor.from_s));
         line(&mut text, "until-s", &format!("{:.1}", visitor.until_s));
     }
+    for walker in &things.walkers {
+        text.push_str("\n[[walker]]\n");
+        line(&mut text, "kind", &format!("\"{}\"", walker.kind));
+        line(&mut text, "goals", &turn.polygon(&walker.goals));
+        line(&mut text, "rest-s", &format!("{:.1}", walker.rest_s));
+        line(&mut text, "from-s", &format!("{:.1}", walker.from_s));
+        line(&mut text, "until-s", &format!("{:.1}", walker.until_s));
+    }
     if let Some((place, into)) = things.dock {
         let [x, y] = turn.direction(into);
         text.push_str("\n[dock]\n");

@@ -13,7 +13,7 @@ use std::path::Path;
 pub use error::HomeError;
 pub(crate) use floorplan::read as read_floorplan;
 
-use crate::plan::{Cell, Door, Grid, SurfaceMap};
+use crate::plan::{Cell, Door, Grid, SurfaceMap, WalkerKind};
 use crate::pose::Pose;
 
 /// A plan as a file tells it, before anything is derived.
@@ -26,8 +26,20 @@ pub(crate) struct Draft {
     pub(crate) doors: Vec<Door>,
     /// For each cell whether it belongs to a mirror; empty where there is none.
     pub(crate) mirrors: Vec<bool>,
+    /// Who walks.
+    pub(crate) walkers: Vec<WalkerWish>,
     /// Where the robot starts, if not where it usually does.
     pub(crate) start: Option<Pose>,
+}
+
+/// Somebody who walks from goal to goal, as the file tells it, in the plan frame.
+#[derive(Clone, Debug)]
+pub(crate) struct WalkerWish {
+    pub(crate) kind: WalkerKind,
+    pub(crate) goals: Vec<(f64, f64)>,
+    pub(crate) rest_ms: u64,
+    pub(crate) from_ms: u64,
+    pub(crate) until_ms: u64,
 }
 
 /// What a file tells about the dock, in the plan frame.

@@ -66,6 +66,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         surfaces: SurfaceMap::hard(),
         doors: Vec::new(),
         mirrors: Vec::new(),
+        walkers: Vec::new(),
         start: None,
     })
 }

@@ -99,6 +99,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         surfaces,
         doors: Vec::new(),
         mirrors: Vec::new(),
+        walkers: Vec::new(),
         start: None,
     })
 }

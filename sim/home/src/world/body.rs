@@ -1,7 +1,7 @@
 //! The body in the plan: pose, contact with solid things, bumper.
 
 use crate::model::{RobotModel, WheelMotor};
-use crate::plan::DistanceField;
+use crate::plan::Solid;
 use crate::pose::{Pose, wrap_angle};
 
 /// A switch stays closed this long after the last step in which it was pressed: springs are slower than a step, and in a
@@ -52,10 +52,12 @@ pub(crate) struct Contact {
     pub(crate) left: f64,
     /// How far the bumper is pressed, 1 = to its end; a part of the body that does not give way counts as pressed.
     pub(crate) compression: f64,
+    /// It is somebody's foot, or a pet.
+    pub(crate) is_foot: bool,
 }
 
 /// From this compression on nothing gives way any more.
-const RIGID: f64 = 0.98;
+pub(crate) const RIGID: f64 = 0.98;
 
 impl Body {
     pub(crate) fn new(model: &RobotModel, pose: Pose) -> Self {
@@ -129,7 +131,7 @@ impl Body {
     }
 
     /// Pushes the body out of what it ran into, and presses the bumper.
-    pub(crate) fn collide(&mut self, solid: &DistanceField, now_ms: u64) {
+    pub(crate) fn collide(&mut self, solid: Solid<'_>, now_ms: u64) {
         if self.free_m > 0.0 {
             self.contact = None;
             return;
@@ -161,7 +163,7 @@ impl Body {
     }
 
     /// Takes note of what is touched at this depth; gives the direction out of it and the depth that the bumper allows.
-    fn touch(&mut self, solid: &DistanceField, depth_m: f64, now_ms: u64) -> ((f64, f64), f64) {
+    fn touch(&mut self, solid: Solid<'_>, depth_m: f64, now_ms: u64) -> ((f64, f64), f64) {
         let (nx, ny) = solid.away(self.x_m, self.y_m);
         let forward = -(nx * self.cos + ny * self.sin);
         let left = -(ny * self.cos - nx * self.sin);
@@ -175,6 +177,7 @@ impl Body {
             forward,
             left,
             compression,
+            is_foot: solid.nearest_foot(self.x_m, self.y_m).is_some(),
         });
         if gives_way && depth_m >= self.switch_m {
             self.press(left, now_ms);

@@ -5,7 +5,7 @@ use super::sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT};
 use crate::home::Home;
 use crate::model::RobotModel;
 use crate::pcg::Pcg;
-use crate::plan::{DistanceField, docked_pose};
+use crate::plan::{Solid, docked_pose};
 use crate::pose::{Pose, wrap_angle};
 
 /// The two beams reach so far, metres.
@@ -117,7 +117,7 @@ impl Dock {
     }
 
     /// Samples the receivers.
-    pub(crate) fn sample_beams(&mut self, model: &RobotModel, solid: &DistanceField, body: &Body) {
+    pub(crate) fn sample_beams(&mut self, model: &RobotModel, solid: Solid<'_>, body: &Body) {
         self.symbols = [0; 4];
         let (along, aside) = self.relative(body.x_m, body.y_m);
         let (along, aside) = self.ragged(along - EMITTER_M, aside);
@@ -185,7 +185,7 @@ fn beams_at(along: f64, aside: f64) -> u8 {
 }
 
 /// Whether nothing solid lies between two places.
-fn in_sight(solid: &DistanceField, from: (f64, f64), to: (f64, f64)) -> bool {
+fn in_sight(solid: Solid<'_>, from: (f64, f64), to: (f64, f64)) -> bool {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = libm::sqrt(dx * dx + dy * dy);
     if length < 1e-6 {

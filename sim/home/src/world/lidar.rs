@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::sensors::LidarScan;
 use super::wheel::STEP_S;
-use crate::plan::DistanceField;
+use crate::plan::Solid;
 use crate::{Pcg, model};
 
 /// Most marching steps of one beam.
@@ -39,7 +39,7 @@ impl Lidar {
         }
     }
 
-    pub(crate) fn step(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+    pub(crate) fn step(&mut self, solid: Solid<'_>, body: &Body, random: &mut Pcg) {
         self.due += self.beams_per_step;
         while self.due >= 1.0 {
             self.due -= 1.0;
@@ -47,7 +47,7 @@ impl Lidar {
         }
     }
 
-    fn measure(&mut self, solid: &DistanceField, body: &Body, random: &mut Pcg) {
+    fn measure(&mut self, solid: Solid<'_>, body: &Body, random: &mut Pcg) {
         let share = self.next as f64 / self.growing.len() as f64;
         let (sin, cos) = libm::sincos(body.heading_rad + core::f64::consts::TAU * share);
         let distance_m = self.march(solid, (body.x_m, body.y_m), (cos, sin));
@@ -63,7 +63,7 @@ impl Lidar {
     }
 
     /// Distance to what the beam meets; 0 when nothing is within range.
-    fn march(&self, solid: &DistanceField, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
+    fn march(&self, solid: Solid<'_>, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
         let mut way_m = 0.0;
         for _ in 0..MARCH_MAX {
             let clear_m = solid.at(x_m + dx * way_m, y_m + dy * way_m);

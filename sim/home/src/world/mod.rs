@@ -14,6 +14,7 @@ mod sensors;
 mod slip;
 mod step;
 mod truth;
+mod walkers;
 mod wheel;
 
 use std::sync::Arc;
@@ -35,6 +36,7 @@ use gyro::Gyro;
 use lidar::Lidar;
 use proximity::Proximity;
 use slip::Slip;
+use walkers::Walkers;
 use wheel::Wheel;
 
 /// A robot in a home. The same seed and the same sequence of calls give the same bits.
@@ -58,6 +60,10 @@ pub struct World {
     faults: Faults,
     /// State of each door at the start.
     doors: Vec<bool>,
+    walkers: Walkers,
+    /// The body touches somebody's foot, and has pushed against it for so long.
+    on_foot: bool,
+    foot_pushed_ms: u32,
     random: Pcg,
     sensors: Sensors,
     truth: Truth,
@@ -111,6 +117,9 @@ impl World {
             lidar: model.lidar.map(Lidar::new),
             faults: Faults::new(Pcg::new(seed, Stream::Faults as u64)),
             doors: home.doors.iter().map(|door| door.open).collect(),
+            walkers: Walkers::new(&home.walkers),
+            on_foot: false,
+            foot_pushed_ms: 0,
             random: Pcg::new(seed, Stream::Run as u64),
             sensors: Sensors {
                 dust_box: true,

@@ -3,7 +3,7 @@
 use super::body::Body;
 use crate::home::Home;
 use crate::model;
-use crate::plan::DistanceField;
+use crate::plan::Solid;
 use crate::{Noise, Pcg};
 
 /// Most marching steps of one beam; enough to creep along a wall for the whole range.
@@ -74,7 +74,7 @@ impl Proximity {
     }
 
     /// Samples the next sensor in turn.
-    pub(crate) fn sample_next(&mut self, home: &Home, body: &Body, random: &mut Pcg) {
+    pub(crate) fn sample_next(&mut self, (home, solid): (&Home, Solid<'_>), body: &Body, random: &mut Pcg) {
         let sensor = self.next;
         self.next += 1;
         if self.next >= self.directions.len() {
@@ -93,15 +93,15 @@ impl Proximity {
                 dx,
                 dy,
             };
-            self.sample(home, &beam, random)
+            self.sample((home, solid), &beam, random)
         };
         if let Some(shown) = self.levels.get_mut(sensor) {
             *shown = level;
         }
     }
 
-    fn sample(&self, home: &Home, beam: &Beam, random: &mut Pcg) -> u8 {
-        let Some(distance_m) = self.march(&home.solid, beam) else {
+    fn sample(&self, (home, solid): (&Home, Solid<'_>), beam: &Beam, random: &mut Pcg) -> u8 {
+        let Some(distance_m) = self.march(solid, beam) else {
             return 0;
         };
         if random.unit() < self.dropout || deflected(home, beam, distance_m) {
@@ -113,7 +113,7 @@ impl Proximity {
     }
 
     /// Distance from the sensor to what its cone meets.
-    fn march(&self, solid: &DistanceField, beam: &Beam) -> Option<f64> {
+    fn march(&self, solid: Solid<'_>, beam: &Beam) -> Option<f64> {
         let mut way_m = 0.0;
         for _ in 0..MARCH_MAX {
             let (x_m, y_m) = beam.at(way_m);

@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use rvac_units::{Current, Temperature, Voltage};
 
+use super::body::RIGID;
 use super::gyro::{DRIFT_STEPS, WALK_STEPS};
 use super::slip::DRAW_STEPS;
+use super::walkers::{RobotDisc, WALK_MS};
 use super::wheel::STEP_S;
 use super::{Actuation, World};
+use crate::plan::Solid;
 
 /// Milliseconds between two samples of one proximity sensor after the other: 7 sensors at 48 Hz.
 const PROXIMITY_MS: u64 = 3;
@@ -25,14 +28,27 @@ const HASTE_FROM_A: f64 = 0.1;
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
 const CONTACT_MS: u64 = 10;
+/// Slower wheels push nobody.
+const PUSH_M_PER_S: f64 = 0.01;
 /// A door waits until the robot is this far from its leaf, metres beyond the body.
 const DOOR_GAP_M: f64 = 0.02;
+
+/// What is solid now. A macro, because a method would borrow all of the world.
+macro_rules! solid {
+    ($world:expr) => {
+        Solid {
+            plan: &$world.home.solid,
+            feet: &$world.walkers.feet,
+        }
+    };
+}
 
 impl World {
     /// Advances exactly one millisecond with these outputs of the firmware.
     pub fn step(&mut self, actuation: &Actuation) {
         self.truth.time_ms += 1;
         let turn_rad = self.move_body(actuation);
+        self.judge_foot();
         if let Some(gyro) = &mut self.gyro {
             gyro.step(turn_rad);
         }
@@ -49,7 +65,7 @@ impl World {
         };
         let now_ms = self.truth.time_ms;
         if !self.is_in_air() {
-            self.body.collide(&self.home.solid, now_ms);
+            self.body.collide(solid!(self), now_ms);
         }
         self.underneath.move_on(&self.home, &self.body, 0.0);
         self.underneath.sample_surface(&self.home, &self.body);
@@ -57,7 +73,7 @@ impl World {
         self.step_battery(&actuation, 0.0);
         if let Some(dock) = &mut self.dock {
             dock.sample_contacts(&self.body);
-            dock.sample_beams(&self.model, &self.home.solid, &self.body);
+            dock.sample_beams(&self.model, solid!(self), &self.body);
         }
         self.publish(&actuation);
         self.faults.apply(&self.sensors);
@@ -110,7 +126,7 @@ impl World {
         turn_rad *= 1.0 - self.body.wall_friction();
         let (x_m, y_m) = (self.body.x_m, self.body.y_m);
         self.body.advance(way_m, turn_rad);
-        self.body.collide(&self.home.solid, self.truth.time_ms);
+        self.body.collide(solid!(self), self.truth.time_ms);
         self.underneath.move_on(&self.home, &self.body, way_m);
         let (dx, dy) = (self.body.x_m - x_m, self.body.y_m - y_m);
         let along_m = dx * self.body.cos + dy * self.body.sin;
@@ -129,7 +145,7 @@ impl World {
         if now_ms.is_multiple_of(PROXIMITY_MS)
             && let Some(proximity) = &mut self.proximity
         {
-            proximity.sample_next(&self.home, &self.body, &mut self.random);
+            proximity.sample_next((&self.home, solid!(self)), &self.body, &mut self.random);
         }
         if now_ms % CLIFF_MS == 1 {
             self.sample_cliffs();
@@ -150,7 +166,7 @@ impl World {
             gyro.walk(&mut self.random);
         }
         if let Some(lidar) = &mut self.lidar {
-            lidar.step(&self.home.solid, &self.body, &mut self.random);
+            lidar.step(solid!(self), &self.body, &mut self.random);
         }
         self.sample_seldom(now_ms);
     }
@@ -160,10 +176,13 @@ impl World {
             && let Some(dock) = &mut self.dock
         {
             dock.sample_contacts(&self.body);
-            dock.sample_beams(&self.model, &self.home.solid, &self.body);
+            dock.sample_beams(&self.model, solid!(self), &self.body);
         }
         if now_ms % DOOR_MS == 9 && !self.doors.is_empty() {
             self.move_doors();
+        }
+        if now_ms % WALK_MS == 13 && !self.walkers.is_empty() {
+            self.walk(now_ms);
         }
         if now_ms % DRIFT_STEPS == 11 {
             self.underneath.flicker(&mut self.random);
@@ -184,6 +203,35 @@ impl World {
             let cleaning = actuation.brush_main.abs() > 0.05 && actuation.vacuum;
             self.dirt.pass(&self.home, self.body.pose(), cleaning);
         }
+    }
+
+    /// Lets people and pets walk.
+    fn walk(&mut self, now_ms: u64) {
+        let robot = RobotDisc {
+            x_m: self.body.x_m,
+            y_m: self.body.y_m,
+            radius_m: self.model.body.radius_m,
+        };
+        if self.walkers.walk(now_ms, robot, &self.home.solid) {
+            self.body.free_m = 0.0;
+        }
+    }
+
+    /// Whether the robot pushes against somebody's foot: nothing gives way any more, and the wheels go on toward it.
+    fn judge_foot(&mut self) {
+        let Some(contact) = self.body.contact.filter(|contact| contact.is_foot) else {
+            self.foot_pushed_ms = 0;
+            self.on_foot = false;
+            return;
+        };
+        if !self.on_foot {
+            self.on_foot = true;
+            self.truth.foot_contacts += 1;
+        }
+        let rims_m_per_s = 0.5 * (self.left.rim_m_per_s + self.right.rim_m_per_s);
+        let pushes = contact.compression >= RIGID && rims_m_per_s * contact.forward > PUSH_M_PER_S;
+        self.foot_pushed_ms = if pushes { self.foot_pushed_ms + 1 } else { 0 };
+        self.truth.foot_pushed_max_ms = self.truth.foot_pushed_max_ms.max(self.foot_pushed_ms);
     }
 
     /// Opens and closes doors; a leaf waits for the robot to leave.

@@ -30,6 +30,10 @@ pub struct Truth {
     pub contact_rad: Option<f64>,
     /// Times the body came into contact with something.
     pub contacts: u32,
+    /// Times the body came into contact with the foot of somebody who walks, or with a pet.
+    pub foot_contacts: u32,
+    /// Longest time for which the wheels went on against one when nothing gave way any more, milliseconds.
+    pub foot_pushed_max_ms: u32,
     /// The left wheel is over a drop.
     pub left_over_cliff: bool,
     /// The right wheel is over a drop.
@@ -75,6 +79,8 @@ impl Truth {
             dirt_share: 0.0,
             contact_rad: None,
             contacts: 0,
+            foot_contacts: 0,
+            foot_pushed_max_ms: 0,
             left_over_cliff: false,
             right_over_cliff: false,
             fallen: false,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::raw::{Point, RawDoor, RawFurniture, RawPlan, RawVisitor};
+use super::raw::{Point, RawDoor, RawFurniture, RawPlan, RawVisitor, RawWalker};
 use crate::load::raster::CORNERS_MAX;
 use crate::load::{CELL_MAX_M, HomeError};
 
@@ -10,6 +10,10 @@ use crate::load::{CELL_MAX_M, HomeError};
 const COORDINATE_MAX_M: f64 = 1_000.0;
 /// Most things of one kind.
 const THINGS_MAX: usize = 2_000;
+/// Most people and pets that walk.
+const WALKERS_MAX: usize = 20;
+/// Most goals of one of them.
+const GOALS_MAX: usize = 32;
 /// Most legs of one piece.
 const LEGS_MAX: usize = 64;
 /// Complains with the file's name.
@@ -58,6 +62,9 @@ impl Check<'_> {
         for (index, visitor) in plan.visitors.iter().enumerate() {
             self.visitor(&format!("`visitor` {}", index + 1), visitor)?;
         }
+        for (index, walker) in plan.walkers.iter().enumerate() {
+            self.walker(&format!("`walker` {}", index + 1), walker)?;
+        }
         for (index, piece) in plan.furniture.iter().enumerate() {
             self.piece(&format!("`furniture` {}", index + 1), piece)?;
         }
@@ -82,6 +89,21 @@ impl Check<'_> {
         Ok(())
     }
 
+    fn walker(&self, place: &str, walker: &RawWalker) -> Result<(), HomeError> {
+        if !(2..=GOALS_MAX).contains(&walker.goals.len()) {
+            let count = walker.goals.len();
+            return Err(self.invalid(place, format!("it needs 2 to {GOALS_MAX} goals, not {count}")));
+        }
+        self.points(place, &walker.goals)?;
+        for second in [walker.rest_s, walker.from_s, walker.until_s] {
+            self.size(place, second, 0.0..=1e7)?;
+        }
+        if walker.until_s <= walker.from_s {
+            return Err(self.invalid(place, "it must leave later than it comes".to_owned()));
+        }
+        Ok(())
+    }
+
     fn amounts(&self, plan: &RawPlan) -> Result<(), HomeError> {
         let counts = [
             ("`room`", plan.rooms.len()),
@@ -94,11 +116,14 @@ impl Check<'_> {
             ("`mirror`", plan.mirrors.len()),
             ("`visitor`", plan.visitors.len()),
         ];
-        match counts.iter().find(|(_, count)| *count > THINGS_MAX) {
-            Some((place, count)) => Err(self.invalid(
-                place,
-                format!("there are {count}, at most {THINGS_MAX} are supported"),
-            )),
+        let limited = counts
+            .into_iter()
+            .map(|(place, count)| (place, count, THINGS_MAX));
+        let walkers = ("`walker`", plan.walkers.len(), WALKERS_MAX);
+        match limited.chain([walkers]).find(|(_, count, most)| count > most) {
+            Some((place, count, most)) => {
+                Err(self.invalid(place, format!("there are {count}, at most {most} are supported")))
+            }
             None => Ok(()),
         }
     }

@@ -6,12 +6,12 @@ mod raw;
 
 use std::path::Path;
 
-use super::{DockWish, Draft, HomeError, MARGIN_CELLS, check_cells, stem};
-use crate::plan::{Cell, Grid, SurfaceMap};
+use super::{DockWish, Draft, HomeError, MARGIN_CELLS, WalkerWish, check_cells, stem};
+use crate::plan::{Cell, Grid, SurfaceMap, WalkerKind};
 use crate::pose::Pose;
 use check::Check;
 use draw::Drawing;
-use raw::{RawDock, RawPlan};
+use raw::{RawDock, RawPlan, RawWalkerKind};
 
 pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeError> {
     let plan: RawPlan = toml::from_str(text).map_err(|error| toml_error(path, text, &error))?;
@@ -40,6 +40,17 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
         .as_ref()
         .map_or(DockWish::Anywhere, |dock| DockWish::At(pose(dock)));
     let start = plan.start.as_ref().map(pose);
+    let walkers = plan.walkers.iter().map(|walker| WalkerWish {
+        kind: match walker.kind {
+            RawWalkerKind::Person => WalkerKind::Person,
+            RawWalkerKind::Pet => WalkerKind::Pet,
+        },
+        goals: walker.goals.iter().map(|goal| drawing.place(*goal)).collect(),
+        rest_ms: moment_ms(walker.rest_s),
+        from_ms: moment_ms(walker.from_s),
+        until_ms: moment_ms(walker.until_s),
+    });
+    let walkers = walkers.collect();
     let surfaces = drawing.surfaces;
     Ok(Draft {
         name: plan.name.unwrap_or_else(|| stem(path)),
@@ -49,8 +60,13 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
         surfaces,
         doors,
         mirrors,
+        walkers,
         start,
     })
+}
+
+fn moment_ms(second: f64) -> u64 {
+    (second * 1000.0) as u64
 }
 
 fn toml_error(path: &Path, text: &str, error: &toml::de::Error) -> HomeError {

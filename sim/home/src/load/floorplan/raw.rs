@@ -30,6 +30,8 @@ pub(super) struct RawPlan {
     pub(super) mirrors: Vec<RawWall>,
     #[serde(default, rename = "visitor")]
     pub(super) visitors: Vec<RawVisitor>,
+    #[serde(default, rename = "walker")]
+    pub(super) walkers: Vec<RawWalker>,
     pub(super) dock: Option<RawDock>,
     pub(super) start: Option<RawDock>,
 }
@@ -133,6 +135,24 @@ pub(super) struct RawVisitor {
 
 fn usual_drag_n() -> f64 {
     1.0
+}
+
+#[derive(Clone, Copy, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum RawWalkerKind {
+    Person,
+    Pet,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct RawWalker {
+    pub(super) kind: RawWalkerKind,
+    pub(super) goals: Vec<Point>,
+    #[serde(default)]
+    pub(super) rest_s: f64,
+    pub(super) from_s: f64,
+    pub(super) until_s: f64,
 }
 
 fn usual_slip() -> f64 {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use home::generate::{GeneratedHome, PUBLISHED};
+use home::traps::Trap;
 use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
@@ -13,6 +14,7 @@ use rvac_sim::Scene;
 pub(crate) enum Place {
     File(PathBuf),
     Generated(GeneratedHome),
+    Trap(Trap),
 }
 
 impl Place {
@@ -35,10 +37,13 @@ impl Place {
         };
         match text {
             "published" => return Ok(numbered(|_| true)),
-            "traps" => return traps(),
             "tuning" => return Ok(numbered(|number| number % 2 == 1)),
             "report" => return Ok(numbered(|number| number % 2 == 0)),
             _ => {}
+        }
+        if let Some(name) = text.strip_prefix("trap:") {
+            let trap = Trap::parse(name).with_context(|| format!("`{name}` is no trap"))?;
+            return Ok(vec![Self::Trap(trap)]);
         }
         let Some(name) = text.strip_prefix("generated:") else {
             return Ok(vec![Self::File(text.into())]);
@@ -56,27 +61,24 @@ impl Place {
         Ok(homes.map(Self::Generated).collect())
     }
 
+    /// The home as it was on its first day, empty; the present one where there is no other day.
+    pub(crate) fn first_day(&self, model: &RobotModel) -> anyhow::Result<Home> {
+        Ok(match self {
+            Self::File(path) => Home::load(Path::new(path), model)?,
+            Self::Generated(home) => GeneratedHome::number(home.number).home(model)?,
+            Self::Trap(trap) => trap.home(model)?,
+        })
+    }
+
     pub(crate) fn scene(&self, model: &RobotModel, noise: Noise) -> anyhow::Result<Scene> {
         let home = match self {
             Self::File(path) => Home::load(Path::new(path), model)?,
             Self::Generated(home) => home.home(model)?,
+            Self::Trap(trap) => trap.home(model)?,
         };
         Ok(Scene::new(Arc::new(home), model.clone(), noise))
     }
 }
-
-/// The traps of the project, by name.
-fn traps() -> anyhow::Result<Vec<Place>> {
-    let entries = std::fs::read_dir(TRAPS).with_context(|| format!("cannot read {TRAPS}"))?;
-    let mut paths: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .collect();
-    paths.sort();
-    Ok(paths.into_iter().map(Place::File).collect())
-}
-
-const TRAPS: &str = "homes/traps";
 
 #[cfg(test)]
 mod tests {
@@ -89,10 +91,18 @@ mod tests {
             ("report", 25),
             ("generated:3..5,homes/x.toml", 4),
             ("generated:7/1+people", 1),
+            ("trap:sofa/3", 1),
         ] {
             assert_eq!(Place::list(text).unwrap().len(), count, "{text}");
         }
-        for wrong in ["", ",", "generated:0", "generated:5..3", "generated:a..b"] {
+        for wrong in [
+            "",
+            ",",
+            "generated:0",
+            "generated:5..3",
+            "generated:a..b",
+            "trap:sea",
+        ] {
             assert!(Place::list(wrong).is_err(), "{wrong}");
         }
     }

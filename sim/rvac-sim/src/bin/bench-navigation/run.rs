@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use brain::command::StrategyName;
+use home::Home;
 use robot::RobotSettings;
 use rvac_sim::run::{RunEnd, start_cleaning};
 use rvac_sim::{Figures, Host, Household, PoseSource, Scene};
@@ -15,17 +16,25 @@ use vthal_core::CoreConfig;
 pub(crate) enum Mode {
     Bounce,
     KnownMap,
+    OldMap,
     FirstRun,
     PerfectPose,
 }
 
 impl Mode {
-    const ALL: [Self; 4] = [Self::Bounce, Self::KnownMap, Self::FirstRun, Self::PerfectPose];
+    const ALL: [Self; 5] = [
+        Self::Bounce,
+        Self::KnownMap,
+        Self::OldMap,
+        Self::FirstRun,
+        Self::PerfectPose,
+    ];
 
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Bounce => "bounce",
             Self::KnownMap => "known-map",
+            Self::OldMap => "old-map",
             Self::FirstRun => "first-run",
             Self::PerfectPose => "perfect-pose",
         }
@@ -38,10 +47,10 @@ impl Mode {
             .collect()
     }
 
-    const fn strategy(self) -> StrategyName {
+    pub(crate) const fn strategy(self) -> StrategyName {
         match self {
             Self::Bounce => StrategyName::Bounce,
-            Self::KnownMap | Self::FirstRun | Self::PerfectPose => StrategyName::Systematic,
+            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => StrategyName::Systematic,
         }
     }
 
@@ -49,7 +58,7 @@ impl Mode {
     const fn end(self) -> RunEnd {
         match self {
             Self::Bounce => RunEnd::Covered,
-            Self::KnownMap | Self::FirstRun | Self::PerfectPose => RunEnd::JobOver,
+            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => RunEnd::JobOver,
         }
     }
 }
@@ -63,6 +72,8 @@ pub(crate) struct Run {
     pub(crate) t0_s: f64,
     pub(crate) covered: f64,
     pub(crate) stuck: u32,
+    pub(crate) foot_contacts: u32,
+    pub(crate) foot_pushed_max_ms: u32,
     pub(crate) violations: u32,
     pub(crate) sim_seconds: f64,
     pub(crate) wall_seconds: f64,
@@ -79,13 +90,13 @@ const BUDGET_S: u32 = 86_400;
 
 impl Run {
     pub(crate) fn of(
-        scene: &Scene,
+        (scene, first_day): (&Scene, &Home),
         (mode, seed): (Mode, u64),
         longest: f64,
         mut progress: impl FnMut(f64),
     ) -> Self {
         let started = Instant::now();
-        let mut household = household(scene, mode, seed);
+        let mut household = household((scene, first_day), mode, seed);
         start_cleaning(&mut household, mode.strategy());
         let duration_ms = (scene.home().t0_s() * longest * 1000.0) as u64 + HOMING_MS;
         while household.robot().now_ms() < duration_ms && !mode.end().is_reached(&household) {
@@ -104,6 +115,8 @@ impl Run {
             t0_s: report.t0_s,
             covered: report.covered,
             stuck: report.stuck,
+            foot_contacts: report.foot_contacts,
+            foot_pushed_max_ms: report.foot_pushed_max_ms,
             violations: report.monitor_violations,
             sim_seconds: report.sim_seconds,
             wall_seconds: started.elapsed().as_secs_f64(),
@@ -112,7 +125,8 @@ impl Run {
     }
 }
 
-fn household(scene: &Scene, mode: Mode, seed: u64) -> Household {
+/// A robot and a host for a mode. `first_day` is the home as it was when its map was made, where the mode has an old map.
+pub(crate) fn household((scene, first_day): (&Scene, &Home), mode: Mode, seed: u64) -> Household {
     let settings = RobotSettings {
         seed,
         ..RobotSettings::default()
@@ -127,6 +141,7 @@ fn household(scene: &Scene, mode: Mode, seed: u64) -> Household {
     match mode {
         Mode::Bounce | Mode::FirstRun => household,
         Mode::KnownMap => household.with_known_map(),
+        Mode::OldMap => household.with_map_of(first_day),
         Mode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
     }
 }

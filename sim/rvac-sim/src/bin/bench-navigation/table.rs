@@ -30,7 +30,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 19] = [
+const FIGURES: [Figure; 21] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -48,6 +48,10 @@ const FIGURES: [Figure; 19] = [
     less("lost_seconds", |run| Some(run.figures.lost_seconds)),
     more("docked", |run| Some(f64::from(u8::from(run.figures.docked)))),
     less("stuck", |run| Some(f64::from(run.stuck))),
+    less("foot_contacts", |run| Some(f64::from(run.foot_contacts))),
+    less("foot_pushed_max_ms", |run| {
+        Some(f64::from(run.foot_pushed_max_ms))
+    }),
     less("violations", |run| Some(f64::from(run.violations))),
     more("times_real_time", |run| Some(run.sim_seconds / run.wall_seconds)),
 ];

@@ -1,0 +1,142 @@
+//! Whether the robot gets anywhere: the box around where it has been.
+
+use crate::geometry::Point2;
+
+/// A box whose diagonal is longer than this is left: a robot that came so far is not shut in. Longer than a closet, shorter
+/// than any room in which somebody would let a robot clean.
+const LEFT_M: f64 = 2.3;
+/// Held at one place, the robot has moved off when it is so far from there.
+const MOVED_OFF_M: f64 = 0.3;
+/// So long in one box, the robot is penned. A box of that size is clean in less than a minute.
+const PATIENCE_S: f64 = 240.0;
+/// After each rung, the robot gets so long to come out by its own task.
+const PATIENCE_AGAIN_S: f64 = 45.0;
+/// A job that ends with most of the home not swept, after so long in one box, ends in a pen.
+const ENDS_IN_PEN_S: f64 = 20.0;
+
+/// What became of the robot in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Whereabouts {
+    /// Still in the box.
+    Inside,
+    /// Still in the box, but away from where it was held.
+    MovedOff,
+    /// Out of it. Where it first was in trouble, if it was.
+    Left(Option<Point2>),
+}
+
+/// The box around where the robot has been since it last left one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pen {
+    /// Lower left and upper right corner.
+    corners: Option<(Point2, Point2)>,
+    time_s: f64,
+    /// Time at which the robot counts as penned the next time; `None` = after the usual patience.
+    due_s: Option<f64>,
+    held_at: Option<Point2>,
+    troubled_at: Option<Point2>,
+}
+
+impl Pen {
+    /// Takes in where the robot is now.
+    pub(crate) fn follow(&mut self, place: Point2, time_s: f64) -> Whereabouts {
+        let (low, high) = self.corners.unwrap_or((place, place));
+        let low = Point2 {
+            x_m: low.x_m.min(place.x_m),
+            y_m: low.y_m.min(place.y_m),
+        };
+        let high = Point2 {
+            x_m: high.x_m.max(place.x_m),
+            y_m: high.y_m.max(place.y_m),
+        };
+        if low.distance_m(high) > LEFT_M {
+            let troubled_at = self.troubled_at;
+            *self = Self {
+                corners: Some((place, place)),
+                ..Self::default()
+            };
+            return Whereabouts::Left(troubled_at);
+        }
+        self.corners = Some((low, high));
+        self.time_s += time_s;
+        if self
+            .held_at
+            .is_some_and(|held| held.distance_m(place) > MOVED_OFF_M)
+        {
+            self.held_at = None;
+            return Whereabouts::MovedOff;
+        }
+        Whereabouts::Inside
+    }
+
+    /// The robot is held here.
+    pub(crate) fn hold(&mut self, place: Point2) {
+        self.held_at.get_or_insert(place);
+        self.troubled_at.get_or_insert(place);
+    }
+
+    /// The robot is penned, and tries to get out.
+    pub(crate) fn climb(&mut self, place: Point2) {
+        self.troubled_at.get_or_insert(place);
+    }
+
+    /// A try to get out is over: the task gets some time before the robot counts as penned again.
+    pub(crate) fn try_again(&mut self) {
+        let due_s = self.due_s.unwrap_or(PATIENCE_S);
+        self.due_s = Some(due_s.max(self.time_s + PATIENCE_AGAIN_S));
+    }
+
+    /// Whether the robot counts as penned now.
+    pub(crate) fn is_due(&self) -> bool {
+        self.time_s >= self.due_s.unwrap_or(PATIENCE_S)
+    }
+
+    /// Whether a job that ends here, with most of the home not swept, ends in a pen.
+    pub(crate) fn holds_the_end(&self) -> bool {
+        self.time_s >= ENDS_IN_PEN_S
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Pen, Whereabouts};
+    use crate::geometry::Point2;
+
+    fn at(x_m: f64) -> Point2 {
+        Point2 { x_m, y_m: 0.0 }
+    }
+
+    #[test]
+    fn whoever_goes_to_and_fro_is_penned_and_whoever_goes_away_has_left() {
+        let mut pen = Pen::default();
+        for second in 0..239 {
+            assert_eq!(
+                pen.follow(at(f64::from(second % 10) * 0.15), 1.0),
+                Whereabouts::Inside
+            );
+            assert!(!pen.is_due(), "{second}");
+        }
+        pen.follow(at(0.0), 1.0);
+        assert!(pen.is_due());
+        pen.climb(at(0.5));
+        pen.try_again();
+        assert!(!pen.is_due());
+        (0..45).for_each(|_| {
+            pen.follow(at(0.2), 1.0);
+        });
+        assert!(pen.is_due());
+        assert_eq!(pen.follow(at(-1.0), 1.0), Whereabouts::Left(Some(at(0.5))));
+        assert!(!pen.is_due());
+        assert_eq!(pen.follow(at(-3.4), 1.0), Whereabouts::Left(None));
+    }
+
+    #[test]
+    fn moving_off_is_told_once() {
+        let mut pen = Pen::default();
+        pen.follow(at(0.0), 1.0);
+        pen.hold(at(0.0));
+        assert_eq!(pen.follow(at(0.2), 1.0), Whereabouts::Inside);
+        assert_eq!(pen.follow(at(0.31), 1.0), Whereabouts::MovedOff);
+        assert_eq!(pen.follow(at(0.32), 1.0), Whereabouts::Inside);
+    }
+}
