@@ -10,22 +10,26 @@ use crate::task::Situation;
 /// Speed along the edge: contacts are soft.
 const SPEED_M_PER_S: f64 = 0.2;
 /// Radius of the arcs toward the edge.
-const ARC_M: f64 = 0.33;
+const ARC_M: f64 = 0.3;
 /// An arc of so much without a contact has lost the edge.
 const LOST_RAD: f64 = 5.5;
 /// Way back after a touch.
 const BACK_M: f64 = 0.025;
 /// Way back at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turns away from what was touched on the side of the edge, ahead, at a cliff, radians.
-const GLANCING_RAD: (f64, f64) = (0.3, 0.9);
-const AHEAD_RAD: (f64, f64) = (0.8, 1.5);
+/// Turns away from what was touched on the side of the edge, radians: quick, with long hops, or fine, into gaps that are hardly
+/// wider than the body.
+const QUICK_RAD: (f64, f64) = (0.3, 0.9);
+const FINE_RAD: (f64, f64) = (0.2, 0.5);
+/// The same for what was touched ahead, and at a cliff.
+const AHEAD_RAD: (f64, f64) = (0.6, 1.2);
 const CLIFF_RAD: (f64, f64) = (0.8, 1.3);
 
 /// The way along an edge. It ends by its time.
 #[derive(Clone, Debug)]
 pub(crate) struct EdgeTrace {
     side: TurnSide,
+    glancing_rad: (f64, f64),
     left_s: f64,
     evasion: Option<Evasion>,
     /// Turned toward the edge since the last contact; `None` = the edge is still looked for.
@@ -37,9 +41,10 @@ impl EdgeTrace {
     /// With the edge on this side, for so long.
     pub(crate) fn new(side: TurnSide, left_s: f64, random: &mut Random) -> Self {
         // A generator of its own: a movement has no mind.
-        random.coin();
+        let is_fine = random.coin();
         Self {
             side,
+            glancing_rad: if is_fine { FINE_RAD } else { QUICK_RAD },
             left_s,
             evasion: None,
             turned_rad: None,
@@ -76,7 +81,7 @@ impl EdgeTrace {
         };
         let (low_rad, high_rad) = match (situation.at_cliff, on_edge) {
             (true, _) => CLIFF_RAD,
-            (false, true) => GLANCING_RAD,
+            (false, true) => self.glancing_rad,
             (false, false) => AHEAD_RAD,
         };
         let turn_rad = -self.side.sign() * self.random.between(low_rad, high_rad);
