@@ -72,6 +72,17 @@ impl Behavior {
         self.enter(Mode::Working, reason, mind);
     }
 
+    /// The running job is at its end. One that has cleaned goes home if the map tells where that is.
+    pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
+        let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
+            && matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+        if has_cleaned && situation.map.dock().is_some() {
+            self.turn_home(reason, mind);
+        } else {
+            self.give_up_home(reason, mind);
+        }
+    }
+
     /// On the dock at the end of the way home.
     pub(super) fn arrive(&mut self, mind: &mut Mind) {
         let figures = self.figures();

@@ -170,7 +170,7 @@ impl Behavior {
             Plan::Go(motion) => return motion,
             Plan::Trouble(reason) => self.escape(reason, situation, mind),
             Plan::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
-            Plan::Finished(reason) => self.give_up_home(reason, mind),
+            Plan::Finished(reason) => self.finish(reason, situation, mind),
         }
         Motion::Halt
     }

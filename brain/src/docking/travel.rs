@@ -12,8 +12,9 @@ use crate::manoeuvre::{Evasion, EvasionStep, FollowStep, Follower};
 use crate::task::{Mind, Situation};
 
 /// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
-/// not touch.
-const KEEP_OFF_M: [f64; 2] = [0.05, 0.01];
+/// not touch. With the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is
+/// one cell too narrow in the map.
+const KEEP_OFF_M: [f64; 3] = [0.05, 0.01, -0.015];
 /// Distances from the dock at which the beams are taken up, metres: the best one first.
 const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
 /// Places beside the line are worse than places on it: detour for each metre.
