@@ -6,20 +6,6 @@ use rvac_api::Topic;
 
 use crate::ClientId;
 
-/// All topics.
-pub(crate) const TOPICS: [Topic; 10] = [
-    Topic::Status,
-    Topic::Pose,
-    Topic::Device,
-    Topic::Map,
-    Topic::Log,
-    Topic::Packets,
-    Topic::Home,
-    Topic::Estimate,
-    Topic::Way,
-    Topic::Decisions,
-];
-
 const fn bit(topic: Topic) -> u16 {
     match topic {
         Topic::Status => 1,
@@ -78,19 +64,22 @@ impl Clients {
             .map_or_else(|| format!("client-{}", client.0), |entry| entry.name.clone())
     }
 
-    /// Replaces the topics of a client; gives those that it did not follow before.
+    /// Replaces the topics of a client; gives those that it did not follow before, in the order in which it names them.
     pub(crate) fn watch(&mut self, client: ClientId, topics: &[Topic]) -> Vec<Topic> {
         let Some(entry) = self.clients.get_mut(&client) else {
             return Vec::new();
         };
-        let before = entry.topics;
+        let mut known = entry.topics;
         entry.topics = topics.iter().fold(0, |all, topic| all | bit(*topic));
-        let new = entry.topics & !before;
         self.count();
-        TOPICS
-            .into_iter()
-            .filter(|topic| new & bit(*topic) != 0)
-            .collect()
+        let mut new = Vec::new();
+        for topic in topics {
+            if known & bit(*topic) == 0 {
+                known |= bit(*topic);
+                new.push(*topic);
+            }
+        }
+        new
     }
 
     /// Whether anybody follows `topic`.
@@ -138,8 +127,9 @@ mod tests {
             [ClientId(3), ClientId(7)]
         );
         assert_eq!(
-            clients.watch(ClientId(7), &[Topic::Log, Topic::Pose]),
-            [Topic::Pose]
+            clients.watch(ClientId(7), &[Topic::Log, Topic::Way, Topic::Pose, Topic::Way]),
+            [Topic::Way, Topic::Pose],
+            "each once, in the order in which it was asked for"
         );
         assert!(!clients.any(Topic::Map) && clients.any(Topic::Pose));
         clients.forget(ClientId(7));
