@@ -74,6 +74,8 @@ impl Brain {
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
         self.map.insert(&estimate, observation, advance);
+        self.localization
+            .learn(&self.map, &self.config, observation.time_us);
         self.note_encounters(observation, &estimate);
         let situation = Situation::new(
             observation,

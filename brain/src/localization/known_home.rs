@@ -223,12 +223,7 @@ fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_be
     let steps = 60 * 50 * 20;
     for _ in 0..steps {
         let view = truth.step().clone();
-        let advance = localization.update(&view);
-        localization.refine(&view, advance);
-        if let Some(keyframes) = localization.take_redraw(view.time_us) {
-            drawn.redraw(&keyframes);
-        }
-        drawn.insert(&localization.estimate(), &view, advance);
+        take_and_draw(&mut localization, &mut drawn, &view);
         odometry.update(&view);
         squares += truth.off_m(&localization) * truth.off_m(&localization);
         counted_squares += truth.off_m(&odometry) * truth.off_m(&odometry);
@@ -251,6 +246,94 @@ fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_be
         "{} cells, {mean_m} m",
         off_m.len()
     );
+}
+
+/// One step of a robot that draws what it sees, as the brain does it.
+fn take_and_draw(localization: &mut Localization, map: &mut Map, view: &Observation) {
+    let advance = localization.update(view);
+    localization.refine(view, advance);
+    if let Some(keyframes) = localization.take_redraw(view.time_us) {
+        map.redraw(&keyframes);
+    }
+    map.insert(&localization.estimate(), view, advance);
+    localization.learn(map, &config(), view.time_us);
+}
+
+#[test]
+fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
+    let home = flat();
+    let mut half = home.knowledge().clone();
+    for index in 0..half.values().len() {
+        if half.cell(index).x > 146 {
+            half.values_mut()[index] = CellKnowledge::Unknown;
+        }
+    }
+    let mut map = Map::new(config().body, config().sensors);
+    map.take_up(&StoredMap::from_raster(&half, None));
+    let mut truth = Truth::new(&home, START);
+    let mut localization = placed(&map, START);
+    let steps = 60 * 50 * 25;
+    let (mut squares, mut beyond) = (0.0, 0);
+    for _ in 0..steps {
+        let view = truth.step().clone();
+        take_and_draw(&mut localization, &mut map, &view);
+        squares += truth.off_m(&localization) * truth.off_m(&localization);
+        beyond += u32::from(truth.pose.x_m > 4.0);
+        assert!(!localization.estimate().lost);
+    }
+    let rmse_m = (squares / f64::from(steps)).sqrt();
+    assert!(beyond > steps / 10, "it was in the other room");
+    assert!(rmse_m < 0.06, "{rmse_m} m");
+}
+
+#[test]
+fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it_has_made() {
+    let home = flat();
+    let mut truth = Truth::new(&home, START);
+    let mut localization = Localization::new(TRACK_M, 0.5);
+    localization.place_at(START);
+    localization.survey(&config());
+    let mut map = Map::new(config().body, config().sensors);
+    for _ in 0..60 * 50 * 20 {
+        let view = truth.step().clone();
+        take_and_draw(&mut localization, &mut map, &view);
+    }
+    let mut held = truth.view.clone();
+    held.wheel_drop = true;
+    for _ in 0..100 {
+        held.time_us += 20_000;
+        take_and_draw(&mut localization, &mut map, &held);
+    }
+    for (x_m, y_m, heading_rad) in [(4.6, 0.8, -2.0), (1.2, 2.0, 1.0), (2.8, 0.6, 3.0)] {
+        let mut truth = Truth::new(
+            &home,
+            Pose2 {
+                x_m,
+                y_m,
+                heading_rad,
+            },
+        );
+        truth.random = Random::new(5);
+        truth.view = held.clone();
+        truth.view.wheel_drop = false;
+        let (mut localization, mut map) = (localization.clone(), map.clone());
+        let mut steps = 0;
+        loop {
+            let view = truth.step().clone();
+            take_and_draw(&mut localization, &mut map, &view);
+            assert!(
+                steps > 0 || localization.estimate().lost,
+                "it knows that it was carried"
+            );
+            steps += 1;
+            if !localization.estimate().lost {
+                break;
+            }
+            assert!(steps < 15_000, "not found within five minutes");
+        }
+        let off_m = truth.off_m(&localization);
+        assert!(off_m < 0.2, "{off_m} m");
+    }
 }
 
 #[test]

@@ -52,6 +52,13 @@ fn finite(sigma: f64, least: f64) -> f64 {
     }
 }
 
+/// What was unknown is taken into the map that the filter compares with this often, microseconds,
+const LEARN_US: u64 = 120_000_000;
+/// as long as the map explains so much of what the sensors show.
+const LEARN_EXPLAINED: f64 = 0.75;
+/// A wheel that hangs for so long hangs because somebody holds the robot, seconds.
+const LIFTED_S: f64 = 1.0;
+
 /// A filter and the map that it compares with.
 #[derive(Clone, Debug)]
 struct Tracked {
@@ -69,6 +76,8 @@ pub struct Localization {
     tracked: Option<Box<Tracked>>,
     survey: Option<Box<Survey>>,
     was_docked: bool,
+    hanging_s: f64,
+    learnt_us: u64,
 }
 
 impl Localization {
@@ -83,6 +92,8 @@ impl Localization {
             tracked: None,
             survey: None,
             was_docked: false,
+            hanging_s: 0.0,
+            learnt_us: 0,
         }
     }
 
@@ -123,6 +134,35 @@ impl Localization {
         self.tracked = None;
         self.survey = (!layout.sensors().is_empty())
             .then(|| Box::new(Survey::new(layout, self.pose(), self.odometry.odom_from_base())));
+    }
+
+    /// Takes up what has become known of the home since: a tracked robot compares with it, too, and one that was carried away
+    /// in the midst of a survey looks for itself in the map that it has made, if that is any good.
+    pub fn learn(&mut self, map: &Map, config: &BrainConfig, time_us: u64) {
+        if self.survey.is_some() && self.hanging_s < 0.0 {
+            self.hanging_s = 0.0;
+            return self.recover(map, config, time_us);
+        }
+        let Some(tracked) = &mut self.tracked else {
+            return;
+        };
+        let Tracked { tracker, terrain } = &mut **tracked;
+        let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
+        if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
+            self.learnt_us = time_us;
+            terrain.grow(map);
+        }
+    }
+
+    /// The robot was put down somewhere.
+    fn recover(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
+        let pose = self.pose();
+        self.track(map, config, seed);
+        match &mut self.tracked {
+            Some(tracked) => tracked.tracker.lose(pose),
+            None => self.survey(config),
+        }
+        self.drift.sigma_m = SIGMA_MAX;
     }
 
     /// Poses of the past that turned out to have been others, when the map should be drawn again for them.
@@ -190,6 +230,12 @@ impl Localization {
     }
 
     fn follow_walls(&mut self, observation: &Observation, advance: Advance) {
+        if observation.wheel_drop {
+            self.hanging_s += advance.time_s;
+            return;
+        }
+        // Below zero: it was put down, and nobody has drawn the consequences yet.
+        self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
         let odom = self.odometry.odom_from_base();
         let turns = match advance.gyro_turn_rad {
             Some(_) => TurnSigmas {

@@ -1,6 +1,7 @@
-//! The map as the filter sees it: a copy that stays as it is while the robot works.
+//! The map as the filter sees it: a copy in which what is known stays as it is while the robot works. What was unknown is
+//! taken over now and then, once it was seen by a robot that knew where it was.
 //!
-//! What the robot draws into the map while it works carries the error of its pose. A filter that compared with that would
+//! What the robot draws into the map while it works carries the error of its pose. A filter that compared with all of that would
 //! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
 
 use super::particles::Surroundings;
@@ -50,6 +51,27 @@ impl Terrain {
         solid > 0 && f64::from(sure) >= SURE_SHARE * f64::from(solid)
     }
 
+    /// Takes over what was unknown and is known in `map` by now.
+    pub(super) fn grow(&mut self, map: &Map) {
+        let mut knowledge = map.knowledge().clone();
+        for index in 0..knowledge.values().len() {
+            let cell = knowledge.cell(index);
+            let before = self.knowledge.get(cell).copied().unwrap_or_default();
+            let is_new = before == CellKnowledge::Unknown;
+            if let Some(place) = knowledge.values_mut().get_mut(index) {
+                let is_sure = || map.sigma_m(cell).is_some_and(|sigma_m| sigma_m <= SURE_M);
+                if *place != before && !(is_new && is_sure()) {
+                    *place = before;
+                }
+            }
+        }
+        if knowledge != self.knowledge {
+            self.distance = DistanceField::new(&knowledge);
+            self.knowledge = knowledge;
+        }
+        self.dock = self.dock.or(map.dock());
+    }
+
     /// Where the robot stands when it is docked, if that is known.
     pub(super) fn dock(&self) -> Option<Pose2> {
         self.dock
@@ -63,6 +85,11 @@ impl Surroundings for Terrain {
 
     fn drop_m(&self, at: Point2) -> Option<f64> {
         edge_m(&self.knowledge, at)
+    }
+
+    fn is_known(&self, at: Point2) -> bool {
+        let known = self.knowledge.get(Cell::under(at));
+        known.is_some_and(|kind| *kind != CellKnowledge::Unknown)
     }
 
     fn places(&self) -> Vec<Point2> {

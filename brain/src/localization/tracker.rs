@@ -10,7 +10,7 @@ use super::search::{Candidate, search};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
 use crate::config::SensorLayout;
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use crate::observation::{Cliffs, Contacts, Observation};
 
 /// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
@@ -157,17 +157,19 @@ impl Tracker {
         self.pending.turn_variance += scale_rad * scale_rad;
         self.filter.follow(self.pending);
         self.forget_motion();
-        self.filter.weigh(map, observation, felt);
         self.weighings = self.weighings.saturating_add(1);
-        let estimate = self.judge(map);
-        Some(estimate)
+        if self.lost {
+            let map = &Whole(map);
+            self.filter.weigh(map, observation, felt);
+            Some(self.search(map))
+        } else {
+            self.filter.weigh(map, observation, felt);
+            Some(self.judge(map))
+        }
     }
 
     /// Compares the estimate with what the sensors show, and draws the consequences.
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
-        if self.lost {
-            return self.search(map);
-        }
         let estimate = self.filter.estimate();
         self.confidence.take(self.filter.fit(map, estimate.pose));
         let verdict = self.confidence.verdict();
@@ -259,6 +261,28 @@ impl Tracker {
     fn forget_motion(&mut self) {
         self.pending = Motion::default();
         self.pending_turn_rad = 0.0;
+    }
+}
+
+/// A map to which nothing is unknown. A lost robot looks for itself in what is known only: every place would do where
+/// nothing is.
+struct Whole<'map, M>(&'map M);
+
+impl<M: Surroundings> Surroundings for Whole<'_, M> {
+    fn clearance_m(&self, at: Point2) -> f64 {
+        self.0.clearance_m(at)
+    }
+
+    fn drop_m(&self, at: Point2) -> Option<f64> {
+        self.0.drop_m(at)
+    }
+
+    fn is_known(&self, _: Point2) -> bool {
+        true
+    }
+
+    fn places(&self) -> Vec<Point2> {
+        self.0.places()
     }
 }
 

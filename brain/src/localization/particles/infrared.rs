@@ -14,6 +14,8 @@ const PLACE_SIGMA_M: f64 = 0.015;
 const UNMAPPED: f64 = 0.12;
 /// The same for a beam that the map blocks in front of what was seen.
 const THROUGH: f64 = 0.04;
+/// Likelihood of something seen where nothing is known yet: it speaks neither for the place nor against it.
+const UNKNOWN: f64 = 0.5;
 /// Likelihood that nothing is seen where the map has something: drop-outs, black surfaces, what was carried away.
 const UNSEEN: f64 = 0.08;
 /// Band around the end of the range in which it is open whether something is seen, metres.
@@ -98,12 +100,20 @@ impl Beams {
     pub(super) fn likelihood(&self, map: &impl Surroundings, place: &Place) -> f64 {
         let beams = self.beams.get(..self.count).unwrap_or_default();
         if place.clearance_m > self.reach_m {
-            let hits = beams.iter().filter(|beam| beam.seen.is_some()).count();
-            return (0..hits).fold(1.0, |likelihood, _| likelihood * UNMAPPED);
+            let hits = beams.iter().filter(|beam| beam.seen.is_some());
+            return hits.fold(1.0, |likelihood, beam| {
+                let into_unknown = looks_into_unknown(map, place, beam, None);
+                likelihood * if into_unknown { UNKNOWN } else { UNMAPPED }
+            });
         }
         beams.iter().fold(1.0, |likelihood, beam| {
             let expected_m = self.cast(map, place, beam);
-            likelihood * self.beam_likelihood(beam.seen, expected_m)
+            let told = self.beam_likelihood(beam.seen, expected_m);
+            if told < UNKNOWN && looks_into_unknown(map, place, beam, expected_m) {
+                likelihood * UNKNOWN
+            } else {
+                likelihood * told
+            }
         })
     }
 
@@ -122,6 +132,9 @@ impl Beams {
                 (Some((seen_m, per_sigma)), None) => (self.range_m - seen_m) * per_sigma < 3.0,
                 (None, Some(_)) => false,
             };
+            if !agreed && looks_into_unknown(map, place, beam, expected_m) {
+                continue;
+            }
             fit.told += 1;
             fit.agreed += u32::from(agreed);
         }
@@ -168,6 +181,22 @@ impl Beams {
         }
         None
     }
+}
+
+/// Whether what a beam shows lies where nothing is known, with nothing known in front of it.
+fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expected_m: Option<f64>) -> bool {
+    let Some((seen_m, _)) = beam.seen else {
+        return false;
+    };
+    if expected_m.is_some_and(|expected_m| expected_m <= seen_m) {
+        return false;
+    }
+    let start = place.point(beam.x_m, beam.y_m);
+    let (dx, dy) = place.direction(beam.cos, beam.sin);
+    !map.is_known(Point2 {
+        x_m: start.x_m + dx * seen_m,
+        y_m: start.y_m + dy * seen_m,
+    })
 }
 
 /// A bell of height 1 with heavier tails than the normal one, without an exponential function.
