@@ -5,11 +5,13 @@ use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::Checkpoint;
 use crate::command::Command;
 use crate::config::BrainConfig;
+use crate::coverage::{JobEstimate, estimate};
 use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
 use crate::mapping::{Brushes, Map, Mark, MarkKind, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
+use crate::order::CleaningOrder;
 use crate::random::Random;
 use crate::task::{Mind, Situation};
 
@@ -77,6 +79,11 @@ impl Brain {
         self.localization
             .learn(&self.map, &self.config, observation.time_us);
         self.note_encounters(observation, &estimate);
+        for command in commands {
+            if let Command::SetZone { zone, entry } = command {
+                self.map.set_zone(zone, *entry);
+            }
+        }
         let situation = Situation::new(
             observation,
             advance,
@@ -112,7 +119,7 @@ impl Brain {
     /// # Errors
     /// The named reason why it would be refused.
     pub fn admit(&self, command: &Command) -> Result<(), Reason> {
-        self.behavior.admit(command)
+        self.behavior.admit(command, &self.map)
     }
 
     /// Pose in the map frame: the origin is where the robot stood at the start, x was forward.
@@ -137,6 +144,14 @@ impl Brain {
     /// error. Not part of a recording, so such a run cannot be replayed.
     pub fn place_at(&mut self, pose: Pose2) {
         self.localization.place_at(pose);
+    }
+
+    /// What carrying out an order will take from where the robot is. A plan of the whole order: some tens of milliseconds.
+    ///
+    /// # Errors
+    /// The named reason why the order cannot be carried out in this map.
+    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, Reason> {
+        estimate(order, (&self.map, self.pose()), &self.config)
     }
 
     /// What the robot is doing and why.
@@ -214,8 +229,8 @@ impl Brain {
             self.localization.resume_tracking(tracking);
         }
         self.behavior.learn_energy(checkpoint.energy);
-        if let Some(job) = checkpoint.job {
-            self.behavior.restore(job);
+        if let Some(job) = &checkpoint.job {
+            self.behavior.restore(job.clone());
         }
     }
 

@@ -4,6 +4,7 @@ use crate::behavior::{JobFigures, JobKind};
 use crate::energy::EnergyModel;
 use crate::geometry::Pose2;
 use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
+use crate::order::CleaningOrder;
 
 /// State of a brain that can be taken up again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,10 +47,12 @@ pub struct TrackingCheckpoint {
 }
 
 /// A job that ran or waited.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct JobCheckpoint {
     /// What for.
     pub kind: JobKind,
+    /// What of the home the job cleans, or the one that goes on after it.
+    pub order: CleaningOrder,
     /// What it had done.
     pub figures: JobFigures,
     /// It was in motion or about to be (then it goes on by itself), else it waited for a person.

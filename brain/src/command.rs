@@ -1,5 +1,8 @@
 //! What people and schedules ask of the brain.
 
+use crate::mapping::Entry;
+use crate::order::{CleaningOrder, Zone};
+
 /// A request, already arbitrated (see `vthal-core`): at most one source speaks at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -7,6 +10,18 @@ pub enum Command {
     Clean {
         /// Which.
         strategy: StrategyName,
+    },
+    /// Clean parts of a known home with `systematic`.
+    CleanParts {
+        /// Which, and how often.
+        order: CleaningOrder,
+    },
+    /// Forbid or allow a zone of the home for ways that are planned.
+    SetZone {
+        /// Where.
+        zone: Zone,
+        /// What.
+        entry: Entry,
     },
     /// Clean a small disc around the present place.
     Spot,

@@ -18,6 +18,7 @@ pub mod localization;
 mod manoeuvre;
 pub mod mapping;
 pub mod observation;
+pub mod order;
 mod random;
 mod recovery;
 mod spot;
@@ -37,3 +38,4 @@ pub use mapping::{
     Raster, StoredMap, StoredMapError, SweptRun,
 };
 pub use observation::Observation;
+pub use order::{CleaningOrder, HomePart, Zone};

@@ -255,6 +255,7 @@ fn a_restored_brain_goes_on() {
     assert!(
         checkpoint
             .job
+            .as_ref()
             .is_some_and(|job| job.running && job.figures.path_m > 2.0),
         "{:?}",
         checkpoint.job

@@ -3,16 +3,24 @@
 use super::machine::{Behavior, Mode};
 use super::manual::ManualDrive;
 use super::{JobKind, Reason};
-use crate::command::Command;
+use crate::command::{Command, StrategyName};
+use crate::mapping::Map;
+use crate::order::CleaningOrder;
 use crate::task::Mind;
 
 impl Behavior {
-    /// Whether `command` may be obeyed now.
-    pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
+    /// Whether `command` may be obeyed now, in a home that is as the map says.
+    pub(crate) fn admit(&self, command: &Command, map: &Map) -> Result<(), Reason> {
         match command {
-            Command::Stop | Command::ManualEnd => Ok(()),
-            Command::Clean { strategy } => self.admit_job(JobKind::Clean(*strategy)),
-            Command::Spot => self.admit_job(JobKind::Spot),
+            Command::Stop | Command::ManualEnd | Command::SetZone { .. } => Ok(()),
+            Command::Clean { strategy } => {
+                self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
+            }
+            Command::CleanParts { order } => {
+                order.fits(map)?;
+                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)
+            }
+            Command::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),
             Command::Dock => self.admit_dock(),
             Command::Pause => self.admit_pause(),
             Command::Resume => self.admit_resume(),
@@ -45,13 +53,14 @@ impl Behavior {
         }
     }
 
-    fn runs(&self, kind: JobKind) -> bool {
+    fn runs(&self, kind: JobKind, order: &CleaningOrder) -> bool {
         let active = matches!(self.mode, Mode::Starting { .. } | Mode::Working);
-        active && self.job.as_ref().is_some_and(|job| job.kind == kind)
+        let job = self.job.as_ref().filter(|_| active);
+        job.is_some_and(|job| job.kind == kind && job.order == *order)
     }
 
-    fn admit_job(&self, kind: JobKind) -> Result<(), Reason> {
-        if self.runs(kind) {
+    fn admit_job(&self, kind: JobKind, order: &CleaningOrder) -> Result<(), Reason> {
+        if self.runs(kind, order) {
             return Err(Reason::AlreadyRunning);
         }
         self.startable()?;
@@ -63,7 +72,7 @@ impl Behavior {
     }
 
     fn admit_dock(&self) -> Result<(), Reason> {
-        if self.runs(JobKind::Dock) {
+        if self.runs(JobKind::Dock, &CleaningOrder::default()) {
             return Err(Reason::AlreadyRunning);
         }
         if self.facts.docked {
@@ -85,7 +94,7 @@ impl Behavior {
         }
     }
 
-    fn admit_resume(&self) -> Result<(), Reason> {
+    pub(super) fn admit_resume(&self) -> Result<(), Reason> {
         let waits = matches!(
             self.mode,
             Mode::Paused | Mode::Stuck | Mode::Manual(_) | Mode::Recharging
@@ -114,11 +123,18 @@ impl Behavior {
 
     /// Does what an admitted command says.
     pub(super) fn obey(&mut self, command: &Command, mind: &mut Mind) {
+        let whole = CleaningOrder::default();
         match *command {
-            Command::Clean { strategy } => self.begin(JobKind::Clean(strategy), mind),
-            Command::Spot => self.begin(JobKind::Spot, mind),
+            Command::Clean { strategy } => self.begin((JobKind::Clean(strategy), whole), mind),
+            Command::CleanParts { ref order } => {
+                let kind = JobKind::Clean(StrategyName::Systematic);
+                self.begin((kind, order.clone()), mind);
+            }
+            // The map's business.
+            Command::SetZone { .. } => {}
+            Command::Spot => self.begin((JobKind::Spot, whole), mind),
             Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
-            Command::Dock => self.begin(JobKind::Dock, mind),
+            Command::Dock => self.begin((JobKind::Dock, whole), mind),
             Command::Pause => self.pause(mind),
             Command::Resume => {
                 if let Some(job) = &mut self.job {

@@ -5,6 +5,7 @@ use crate::coverage;
 use crate::docking::Docking;
 use crate::geometry::TurnSide;
 use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
+use crate::order::CleaningOrder;
 use crate::random::Random;
 use crate::recovery::{Ladder, Pen, ProgressWatch, SlipWatch};
 use crate::spot::Spot;
@@ -18,6 +19,8 @@ const DEPART_M: f64 = 0.15;
 #[derive(Debug)]
 pub(super) struct Job {
     pub(super) kind: JobKind,
+    /// What of the home a cleaning job cleans.
+    pub(super) order: CleaningOrder,
     pub(super) task: Box<dyn Task>,
     pub(super) figures: JobFigures,
     pub(super) ladder: Ladder,
@@ -52,14 +55,21 @@ pub(super) enum Purpose {
 }
 
 impl Job {
+    /// For the whole home.
     pub(super) fn new(kind: JobKind, figures: JobFigures) -> Self {
+        Self::with_order((kind, CleaningOrder::default()), figures)
+    }
+
+    /// For what is ordered.
+    pub(super) fn with_order((kind, order): (JobKind, CleaningOrder), figures: JobFigures) -> Self {
         let task: Box<dyn Task> = match kind {
-            JobKind::Clean(strategy) => coverage::strategy(strategy),
+            JobKind::Clean(strategy) => coverage::strategy(strategy, &order),
             JobKind::Spot => Box::new(Spot::default()),
             JobKind::Dock => Box::new(Docking::default()),
         };
         Self {
             kind,
+            order,
             task,
             figures,
             ladder: Ladder::default(),

@@ -122,7 +122,7 @@ impl Behavior {
             Some(JobKind::Clean(strategy)) => Some(strategy),
             _ => None,
         };
-        let resumable = self.admit(&Command::Resume).is_ok();
+        let resumable = self.admit_resume().is_ok();
         Status {
             state: self.state(),
             reason: self.reason,
@@ -164,7 +164,7 @@ impl Behavior {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
         self.facts.fault = self.fault();
         for command in commands {
-            match self.admit(command) {
+            match self.admit(command, situation.map) {
                 Ok(()) => self.obey(command, mind),
                 Err(reason) => mind.decide("refuse", reason, 0.0),
             }

@@ -147,6 +147,16 @@ reasons! {
     Released => "released",
     /// The stick must come back to the centre before it drives again (S23).
     CentreFirst => "centre-first",
+    /// Too many parts, or another number of passes than 1 to 3.
+    BadOrder => "bad-order",
+    /// A zone has 3 to 64 corners near the home.
+    BadZone => "bad-zone",
+    /// The map has no room with this identity.
+    NoSuchRoom => "no-such-room",
+    /// A zone without any floor that the map knows.
+    NoFloorThere => "no-floor-there",
+    /// The next part of the order.
+    NextPart => "next-part",
     /// Such a job already runs.
     AlreadyRunning => "already-running",
     /// There is nothing to pause or resume.

@@ -136,8 +136,10 @@ impl Behavior {
         };
         self.job.as_ref().map(|job| {
             let goes_on = self.put_off.as_ref().map(|put_off| put_off.kind);
+            let cleaning = self.put_off.as_ref().unwrap_or(job);
             let plain = JobCheckpoint {
                 kind: job.kind,
+                order: cleaning.order.clone(),
                 figures: job.figures,
                 running,
                 goes_on,
@@ -156,10 +158,11 @@ impl Behavior {
 
     /// Takes up a job after a restart.
     pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
-        self.job = Some(Job::new(checkpoint.kind, checkpoint.figures));
+        let job = |kind| Job::with_order((kind, checkpoint.order.clone()), checkpoint.figures);
+        self.job = Some(job(checkpoint.kind));
         self.put_off = checkpoint.goes_on.map(|kind| Job {
             returns: true,
-            ..Job::new(kind, checkpoint.figures)
+            ..job(kind)
         });
         self.mode = Mode::Disconnected {
             since_us: None,

@@ -4,6 +4,7 @@ use super::job::Job;
 use super::machine::{Behavior, JobStart, Mode};
 use super::{JobFigures, JobKind, Reason};
 use crate::action::{Arm, Motion, Tone};
+use crate::order::CleaningOrder;
 use crate::task::Mind;
 
 /// Pause between two tries to arm.
@@ -77,8 +78,8 @@ impl Behavior {
     }
 
     /// Begins a new job; the old one is forgotten.
-    pub(super) fn begin(&mut self, kind: JobKind, mind: &mut Mind) {
-        self.job = Some(Job::new(kind, JobFigures::default()));
+    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut Mind) {
+        self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;

@@ -2,23 +2,27 @@
 
 mod astray;
 mod bounce;
+mod estimate;
 mod perimeter;
 pub mod plan;
 pub(crate) mod systematic;
 mod wall_bounce;
 
 pub(crate) use bounce::Bounce;
+pub use estimate::JobEstimate;
+pub(crate) use estimate::estimate;
 use systematic::Systematic;
 use wall_bounce::WallBounce;
 
 use crate::command::StrategyName;
+use crate::order::CleaningOrder;
 use crate::task::Task;
 
-/// A fresh strategy of this name.
-pub(crate) fn strategy(name: StrategyName) -> Box<dyn Task> {
+/// A fresh strategy of this name. Only `systematic` knows parts of a home; others clean all of it.
+pub(crate) fn strategy(name: StrategyName, order: &CleaningOrder) -> Box<dyn Task> {
     match name {
         StrategyName::Bounce => Box::new(Bounce::default()),
-        StrategyName::Systematic => Box::new(Systematic::default()),
+        StrategyName::Systematic => Box::new(Systematic::with(order.clone())),
         StrategyName::WallBounce => Box::new(WallBounce::default()),
     }
 }

@@ -12,6 +12,7 @@ use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
+use crate::order::Zone;
 
 /// Derived rasters are brought up to date after this time, microseconds.
 const REFRESH_US: u64 = 2_000_000;
@@ -317,6 +318,20 @@ impl Map {
     /// Allows again what [`Self::shut_pocket`] forbade.
     pub(super) fn open_pockets(&mut self) {
         self.home.open_pockets();
+    }
+
+    /// Forbids or allows all that is known of a zone.
+    pub fn set_zone(&mut self, zone: &Zone, entry: Entry) {
+        self.refresh();
+        let known = &self.home.derived.knowledge;
+        let cells: Vec<Cell> = (0..known.values().len())
+            .map(|index| known.cell(index))
+            .filter(|cell| zone.contains(cell.middle()))
+            .collect();
+        for cell in cells {
+            self.set_no_go(cell, entry);
+        }
+        self.refresh();
     }
 
     /// How much wheels and gyro differed where the robot drove over a cell, in radians a metre; 0 where it did not.

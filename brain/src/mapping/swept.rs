@@ -31,6 +31,15 @@ impl Cell {
             y: index(point.y_m),
         }
     }
+
+    /// The point in the middle.
+    #[must_use]
+    pub fn middle(self) -> Point2 {
+        Point2 {
+            x_m: (f64::from(self.x) + 0.5) * CELL_M,
+            y_m: (f64::from(self.y) + 0.5) * CELL_M,
+        }
+    }
 }
 
 fn index(coordinate_m: f64) -> i32 {

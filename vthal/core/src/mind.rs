@@ -115,11 +115,16 @@ impl Mind {
     /// Gives `command` to the brain with its next step. The first one after rest begins a run.
     pub(crate) fn command(&mut self, now_us: u64, command: Command, recorder: &mut Recorder<'_>) {
         let cause = match command {
-            Command::Clean { .. } | Command::Spot | Command::Dock => Some(RunCause::Job),
-            Command::Manual { .. } => Some(RunCause::Manual),
-            Command::Pause | Command::Resume | Command::Stop | Command::ManualEnd | Command::ClearError => {
-                None
+            Command::Clean { .. } | Command::CleanParts { .. } | Command::Spot | Command::Dock => {
+                Some(RunCause::Job)
             }
+            Command::Manual { .. } => Some(RunCause::Manual),
+            Command::SetZone { .. }
+            | Command::Pause
+            | Command::Resume
+            | Command::Stop
+            | Command::ManualEnd
+            | Command::ClearError => None,
         };
         if let Some(cause) = cause
             && self.begins_run(cause)

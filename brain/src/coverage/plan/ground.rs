@@ -78,10 +78,10 @@ impl Ground {
         }
     }
 
-    /// Closes what was swept before.
-    pub(super) fn close(&mut self, swept: impl Fn(Cell) -> bool) {
+    /// Closes open floor that need not be swept.
+    pub(super) fn close(&mut self, is_done: impl Fn(Cell) -> bool) {
         for index in 0..self.open.len() {
-            self.open[index] = self.open[index] && !swept(self.cell(index));
+            self.open[index] = self.open[index] && !is_done(self.cell(index));
         }
     }
 

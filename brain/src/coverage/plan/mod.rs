@@ -85,12 +85,24 @@ pub fn plan_coverage(
     start: Pose2,
     settings: &PlanSettings,
 ) -> CoveragePlan {
+    plan_area(reachable, (|_| true, swept), start, settings)
+}
+
+/// As [`plan_coverage`], but only `wanted` floor is swept and counted; the way may lead over all that is reachable.
+#[must_use]
+pub fn plan_area(
+    reachable: &Raster<bool>,
+    (wanted, swept): (impl Fn(Cell) -> bool, impl Fn(Cell) -> bool),
+    start: Pose2,
+    settings: &PlanSettings,
+) -> CoveragePlan {
     let reach = reach_cells(settings);
     let mut ground = Ground::new(reachable, reach);
     let Some(origin) = ground.origin_near(start.position()) else {
         return CoveragePlan::default();
     };
     ground.keep_connected(origin);
+    ground.close(|cell| !wanted(cell));
     let floor = ground.open_count();
     ground.close(swept);
     let open = ground.open_count();

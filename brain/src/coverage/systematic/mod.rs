@@ -8,6 +8,7 @@
 //! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
+mod assignment;
 mod edges;
 mod frontier;
 mod obstructions;
@@ -16,13 +17,15 @@ mod reachable;
 
 use super::astray::Astray;
 use super::perimeter::{LapStep, Perimeter};
-use super::plan::{CoveragePlan, PlanSettings, plan_coverage, reach_cells};
+use super::plan::{CoveragePlan, PlanSettings, plan_area, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::Point2;
 use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
+use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
+use assignment::{Assignment, Next};
 use edges::Edges;
 use frontier::hopeful;
 pub(crate) use obstructions::Obstructions;
@@ -30,9 +33,9 @@ use passed::Passed;
 pub(crate) use reachable::reachable;
 
 /// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
-const KEEP_OFF_M: f64 = 0.01;
+pub(super) const KEEP_OFF_M: f64 = 0.01;
 /// Lanes overlap by twice this at least, whatever the estimate says of itself.
-const SIGMA_MIN_M: f64 = 0.01;
+pub(super) const SIGMA_MIN_M: f64 = 0.01;
 /// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper.
 const SIGMA_MAX_M: f64 = 0.015;
 /// Way back after a contact: far enough to turn.
@@ -51,6 +54,8 @@ const VAIN_PLANS_MAX: u32 = 4;
 const FRESH_STARTS_MAX: u32 = 2;
 /// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
 const STRAYS_MAX: u32 = 6;
+/// The same while a part of the home is cut off: giving up would leave all of that.
+const STRAYS_CUT_OFF_MAX: u32 = 18;
 /// Floor that makes a fresh start worth it, square metres.
 const FRESH_WON_M2: f64 = 0.5;
 /// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
@@ -85,6 +90,7 @@ enum Outline {
 /// The strategy.
 #[derive(Debug, Default)]
 pub(crate) struct Systematic {
+    assignment: Assignment,
     outline: Option<Outline>,
     follower: Option<Follower>,
     evasion: Option<Evasion>,
@@ -103,6 +109,8 @@ pub(crate) struct Systematic {
     open_before_m2: f64,
     /// Most floor that could be reached at any time: what is cut off later still counts as not swept.
     floor_m2: f64,
+    /// Much less than that can be reached now.
+    is_cut_off: bool,
 }
 
 impl Task for Systematic {
@@ -156,6 +164,32 @@ impl Task for Systematic {
 }
 
 impl Systematic {
+    /// Cleans what is ordered.
+    pub(super) fn with(order: CleaningOrder) -> Self {
+        Self {
+            assignment: Assignment::of(order),
+            ..Self::default()
+        }
+    }
+
+    /// Turns to what comes after the present part; `false` when nothing does.
+    fn turns_to_next(&mut self, is_missed: bool, mind: &mut Mind) -> bool {
+        self.assignment.is_missed |= is_missed;
+        match self.assignment.advance() {
+            Next::End => return false,
+            Next::Part => {}
+            Next::Again => {
+                if let Some(passed) = &mut self.passed {
+                    passed.forget();
+                }
+            }
+        }
+        mind.decide("turn-to-part", Reason::NextPart, 0.0);
+        (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
+        (self.vain_plans, self.fresh_starts, self.strays) = (0, 0, 0);
+        true
+    }
+
     /// The lap along the walls of an unknown home; `None` when there is none to drive.
     fn lap(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
         let outline = self.outline.get_or_insert_with(|| {
@@ -250,12 +284,21 @@ impl Systematic {
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
         self.floor_m2 = self.floor_m2.max(plan.floor_m2);
+        self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);
             self.passed_at_start_m2 = plan.passed_m2();
         }
         if plan.floor_m2 <= 0.0 {
-            return Some(Plan::Finished(Reason::NoMap));
+            if self.turns_to_next(true, mind) {
+                return Some(Plan::Go(Motion::Halt));
+            }
+            let is_whole_home = self.assignment.is_whole_home();
+            return Some(Plan::Finished(if is_whole_home {
+                Reason::NoMap
+            } else {
+                Reason::RestOutOfReach
+            }));
         }
         if plan.lanes == 0 {
             return Some(self.end(&plan, !blocked.is_empty(), (situation, mind)));
@@ -274,14 +317,17 @@ impl Systematic {
         is_blocked: bool,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Plan {
-        let is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
+        let is_cut_off = self.is_cut_off;
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_afresh();
         }
-        if is_cut_off && self.strays < STRAYS_MAX {
+        if is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
             return self.go_astray(situation, mind);
         }
-        let reason = if is_cut_off {
+        if self.turns_to_next(is_cut_off, mind) {
+            return Plan::Go(Motion::Halt);
+        }
+        let reason = if self.assignment.is_missed {
             Reason::RestOutOfReach
         } else {
             Reason::Finished
@@ -303,10 +349,17 @@ impl Systematic {
         self.interrupted();
         self.vain_plans = 0;
         self.strays += 1;
-        if self.strays > STRAYS_MAX {
+        let most = if self.is_cut_off {
+            STRAYS_CUT_OFF_MAX
+        } else {
+            STRAYS_MAX
+        };
+        if self.strays > most {
             return Plan::Finished(Reason::RestOutOfReach);
         }
         mind.decide("bounce", Reason::BoxedIn, f64::from(self.strays));
+        // What was touched in a narrow place blocks the way out of it on the map sooner than in truth.
+        self.obstructions.clear();
         self.astray = Some(Astray::from(situation.pose.position()));
         Plan::Go(Motion::Halt)
     }
@@ -317,7 +370,9 @@ impl Systematic {
             .passed
             .get_or_insert_with(|| Passed::along(situation.map, ground, reach_cells(&settings)));
         passed.cover(ground);
-        plan_coverage(ground, |cell| passed.contains(cell), situation.pose, &settings)
+        let wanted = |cell| self.assignment.wants(cell, situation.map);
+        let swept = |cell| passed.contains(cell);
+        plan_area(ground, (wanted, swept), situation.pose, &settings)
     }
 }
 

@@ -45,6 +45,11 @@ impl Passed {
         passed
     }
 
+    /// Nothing was passed.
+    pub(super) fn forget(&mut self) {
+        self.cells.values_mut().fill(false);
+    }
+
     /// Takes over another window; what lies outside of it is forgotten.
     pub(super) fn cover(&mut self, like: &Raster<bool>) {
         if (like.origin(), like.width(), like.height())

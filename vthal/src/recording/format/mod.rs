@@ -3,12 +3,15 @@
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
 mod answer;
+mod order;
 mod sensors;
 mod state;
 
 pub use answer::Answered;
+pub use order::GivenOrder;
 pub use state::BrainState;
 
+use brain::mapping::Entry;
 use brain::observation::{Cliffs, Contacts};
 use brain::{Body, BrainConfig, Command, Observation, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
@@ -221,6 +224,15 @@ pub struct Given {
 pub enum GivenCommand {
     /// [`Command::Clean`] by the strategy's name.
     Clean(String),
+    /// [`Command::CleanParts`]
+    CleanParts(GivenOrder),
+    /// [`Command::SetZone`]
+    SetZone {
+        /// Corners of the zone, x and y in metres.
+        corners: Vec<[f64; 2]>,
+        /// Forbidden, else allowed.
+        forbidden: bool,
+    },
     /// [`Command::Spot`]
     Spot,
     /// [`Command::Pause`]
@@ -252,6 +264,11 @@ impl From<&Command> for GivenCommand {
     fn from(command: &Command) -> Self {
         match command {
             Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
+            Command::CleanParts { order } => Self::CleanParts(order.into()),
+            Command::SetZone { zone, entry } => Self::SetZone {
+                corners: order::from_zone(zone),
+                forbidden: *entry == Entry::Forbidden,
+            },
             Command::Spot => Self::Spot,
             Command::Pause => Self::Pause,
             Command::Resume => Self::Resume,
@@ -282,6 +299,17 @@ impl GivenCommand {
             Self::Clean(strategy) => Command::Clean {
                 strategy: StrategyName::from_name(strategy)?,
             },
+            Self::CleanParts(order) => Command::CleanParts {
+                order: order.to_brain()?,
+            },
+            Self::SetZone { corners, forbidden } => Command::SetZone {
+                zone: order::to_zone(corners)?,
+                entry: if *forbidden {
+                    Entry::Forbidden
+                } else {
+                    Entry::Allowed
+                },
+            },
             Self::Spot => Command::Spot,
             Self::Pause => Command::Pause,
             Self::Resume => Command::Resume,
@@ -306,7 +334,8 @@ impl GivenCommand {
 
 #[cfg(test)]
 mod tests {
-    use brain::{Command, Observation};
+    use brain::mapping::Entry;
+    use brain::{CleaningOrder, Command, HomePart, Observation, Point2, Zone};
 
     use super::{Given, GivenCommand, Seen};
 
@@ -329,6 +358,8 @@ mod tests {
 
     #[test]
     fn commands_come_back() {
+        let corners = [(0.0, 0.1), (1.0 / 3.0, 0.0), (-1.0, 2.0)].map(|(x_m, y_m)| Point2 { x_m, y_m });
+        let zone = Zone::new(corners.to_vec()).expect("a triangle");
         let manual = Command::Manual {
             speed_m_per_s: 0.1,
             turn_rad_per_s: -0.3,
@@ -338,6 +369,14 @@ mod tests {
         for command in [
             Command::Spot,
             manual,
+            Command::CleanParts {
+                order: CleaningOrder::new(vec![HomePart::Room(3), HomePart::Zone(zone.clone())], 2)
+                    .expect("a good order"),
+            },
+            Command::SetZone {
+                zone,
+                entry: Entry::Forbidden,
+            },
             Command::Clean {
                 strategy: brain::StrategyName::Bounce,
             },

@@ -2,8 +2,13 @@
 
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
-use brain::{Checkpoint, EnergyModel, JobCheckpoint, JobFigures, JobKind, StrategyName, TrackingCheckpoint};
+use brain::{
+    Checkpoint, CleaningOrder, EnergyModel, JobCheckpoint, JobFigures, JobKind, StrategyName,
+    TrackingCheckpoint,
+};
 use serde::{Deserialize, Serialize};
+
+use super::order::GivenOrder;
 
 /// [`Checkpoint`]
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -33,6 +38,9 @@ pub struct BrainState {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct JobState {
     kind: JobName,
+    /// Absent: the whole home, once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    order: Option<GivenOrder>,
     time_s: f64,
     swept_m2: f64,
     path_m: f64,
@@ -186,6 +194,7 @@ impl From<&JobCheckpoint> for JobState {
     fn from(job: &JobCheckpoint) -> Self {
         Self {
             kind: JobName::from(job.kind),
+            order: (job.order != CleaningOrder::default()).then(|| (&job.order).into()),
             time_s: job.figures.time_s,
             swept_m2: job.figures.swept_m2,
             path_m: job.figures.path_m,
@@ -229,8 +238,13 @@ impl JobState {
             path_m: self.path_m,
             bumps: self.bumps,
         };
+        let order = match &self.order {
+            Some(order) => order.to_brain()?,
+            None => CleaningOrder::default(),
+        };
         Some(JobCheckpoint {
             kind,
+            order,
             figures,
             running: self.running,
             goes_on,
@@ -241,8 +255,8 @@ impl JobState {
 #[cfg(test)]
 mod tests {
     use brain::{
-        Cell, CellKnowledge, Checkpoint, EnergyModel, JobCheckpoint, JobFigures, JobKind, Pose2, Raster,
-        StoredMap, StrategyName, TrackingCheckpoint,
+        Cell, CellKnowledge, Checkpoint, CleaningOrder, EnergyModel, HomePart, JobCheckpoint, JobFigures,
+        JobKind, Pose2, Raster, StoredMap, StrategyName, TrackingCheckpoint,
     };
 
     use super::{BrainState, from_hex, to_hex};
@@ -261,6 +275,7 @@ mod tests {
             }),
             job: Some(JobCheckpoint {
                 kind: JobKind::Dock,
+                order: CleaningOrder::new(vec![HomePart::Room(7)], 2).expect("a good order"),
                 figures: JobFigures::default(),
                 running: true,
                 goes_on: Some(JobKind::Clean(StrategyName::Systematic)),

@@ -1,0 +1,66 @@
+//! Which part of an order is being cleaned, and how often it was.
+
+use crate::mapping::{Cell, Map};
+use crate::order::{CleaningOrder, HomePart};
+
+/// An order, and how far it is.
+#[derive(Debug, Default)]
+pub(super) struct Assignment {
+    order: CleaningOrder,
+    /// Index of the present part.
+    part: usize,
+    /// Passes over it that are done.
+    passes_done: u8,
+    /// Some part could not be reached, or not all of it.
+    pub(super) is_missed: bool,
+}
+
+impl Assignment {
+    pub(super) fn of(order: CleaningOrder) -> Self {
+        Self {
+            order,
+            ..Self::default()
+        }
+    }
+
+    /// The present part; `None` = the whole home.
+    pub(super) fn part(&self) -> Option<&HomePart> {
+        self.order.parts().get(self.part)
+    }
+
+    /// No parts were ordered.
+    pub(super) fn is_whole_home(&self) -> bool {
+        self.order.parts().is_empty()
+    }
+
+    /// Whether a cell shall be swept now.
+    pub(super) fn wants(&self, cell: Cell, map: &Map) -> bool {
+        self.part().is_none_or(|part| part.contains(cell, map))
+    }
+
+    /// The present part is done once more.
+    pub(super) fn advance(&mut self) -> Next {
+        self.passes_done += 1;
+        if self.passes_done < self.order.passes() {
+            return Next::Again;
+        }
+        self.passes_done = 0;
+        self.part += 1;
+        if self.part < self.order.parts().len() {
+            Next::Part
+        } else {
+            Next::End
+        }
+    }
+}
+
+/// What comes after a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// The same part once more.
+    Again,
+    /// Another part.
+    Part,
+    /// Nothing.
+    End,
+}

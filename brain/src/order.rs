@@ -1,0 +1,218 @@
+//! What of the home a job cleans, in which order and how often; and where the robot must not go.
+
+use crate::behavior::Reason;
+use crate::geometry::Point2;
+use crate::mapping::{Cell, CellKnowledge, Map};
+
+/// Most parts of an order.
+const PARTS_MAX: usize = 32;
+/// Most corners of a zone.
+const CORNERS_MAX: usize = 64;
+/// Most passes over a part.
+const PASSES_MAX: u8 = 3;
+/// Corners of a zone are nearer to the map's origin than this, metres.
+const FAR_M: f64 = 500.0;
+/// Thickness of a virtual wall, metres: no cell on it is missed.
+const WALL_M: f64 = 0.06;
+
+/// A polygon on the floor in the map frame. Edges may cross; what lies inside an odd number of times is in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zone {
+    corners: Vec<Point2>,
+}
+
+impl Zone {
+    /// A zone of 3 to 64 corners within 500 m of the origin.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] for anything else.
+    pub fn new(corners: Vec<Point2>) -> Result<Self, Reason> {
+        let is_near = |corner: &Point2| corner.x_m.abs() < FAR_M && corner.y_m.abs() < FAR_M;
+        if (3..=CORNERS_MAX).contains(&corners.len()) && corners.iter().all(is_near) {
+            Ok(Self { corners })
+        } else {
+            Err(Reason::BadZone)
+        }
+    }
+
+    /// A thin zone along a line: a wall that the robot shall see where there is none.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] when the ends are one place or far away.
+    pub fn virtual_wall(from: Point2, to: Point2) -> Result<Self, Reason> {
+        let length_m = from.distance_m(to);
+        if length_m <= 0.0 || length_m.is_nan() {
+            return Err(Reason::BadZone);
+        }
+        let half = 0.5 * WALL_M / length_m;
+        let (along_x, along_y) = (half * (to.x_m - from.x_m), half * (to.y_m - from.y_m));
+        let corner = |end: Point2, ahead: f64, left: f64| Point2 {
+            x_m: end.x_m + ahead * along_x - left * along_y,
+            y_m: end.y_m + ahead * along_y + left * along_x,
+        };
+        Self::new(vec![
+            corner(from, -1.0, 1.0),
+            corner(from, -1.0, -1.0),
+            corner(to, 1.0, -1.0),
+            corner(to, 1.0, 1.0),
+        ])
+    }
+
+    /// The corners.
+    #[must_use]
+    pub fn corners(&self) -> &[Point2] {
+        &self.corners
+    }
+
+    /// Whether a point lies in it.
+    #[must_use]
+    pub fn contains(&self, point: Point2) -> bool {
+        let mut is_inside = false;
+        let mut before = self.corners.last().copied().unwrap_or_default();
+        for corner in &self.corners {
+            if (corner.y_m > point.y_m) != (before.y_m > point.y_m) {
+                let share = (point.y_m - corner.y_m) / (before.y_m - corner.y_m);
+                is_inside ^= point.x_m < corner.x_m + share * (before.x_m - corner.x_m);
+            }
+            before = *corner;
+        }
+        is_inside
+    }
+}
+
+/// A part of the home.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HomePart {
+    /// A room by its identity in the map.
+    Room(u16),
+    /// A zone.
+    Zone(Zone),
+}
+
+impl HomePart {
+    /// Whether a cell belongs to it.
+    pub(crate) fn contains(&self, cell: Cell, map: &Map) -> bool {
+        match self {
+            Self::Room(id) => map.rooms().labels().get(cell) == Some(id),
+            Self::Zone(zone) => zone.contains(cell.middle()),
+        }
+    }
+}
+
+/// What a job shall clean. The default is the whole home, once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CleaningOrder {
+    parts: Vec<HomePart>,
+    passes: u8,
+}
+
+impl Default for CleaningOrder {
+    fn default() -> Self {
+        Self {
+            parts: Vec::new(),
+            passes: 1,
+        }
+    }
+}
+
+impl CleaningOrder {
+    /// Up to 32 parts, cleaned one after the other, each 1 to 3 times before the next. No part means the whole home.
+    ///
+    /// # Errors
+    /// [`Reason::BadOrder`] for more parts or another number of passes.
+    pub fn new(parts: Vec<HomePart>, passes: u8) -> Result<Self, Reason> {
+        if parts.len() <= PARTS_MAX && (1..=PASSES_MAX).contains(&passes) {
+            Ok(Self { parts, passes })
+        } else {
+            Err(Reason::BadOrder)
+        }
+    }
+
+    /// The parts in their order.
+    #[must_use]
+    pub fn parts(&self) -> &[HomePart] {
+        &self.parts
+    }
+
+    /// How often each part is cleaned.
+    #[must_use]
+    pub const fn passes(&self) -> u8 {
+        self.passes
+    }
+
+    /// Whether the map holds what is ordered.
+    pub(crate) fn fits(&self, map: &Map) -> Result<(), Reason> {
+        let knowledge = map.knowledge();
+        let has_floor = |part: &HomePart| {
+            (0..knowledge.values().len())
+                .filter(|index| knowledge.values().get(*index) == Some(&CellKnowledge::Free))
+                .any(|index| part.contains(knowledge.cell(index), map))
+        };
+        for part in &self.parts {
+            match part {
+                HomePart::Room(id) if map.rooms().rooms().iter().all(|room| room.id != *id) => {
+                    return Err(Reason::NoSuchRoom);
+                }
+                HomePart::Zone(_) if !has_floor(part) => return Err(Reason::NoFloorThere),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CleaningOrder, HomePart, Zone};
+    use crate::behavior::Reason;
+    use crate::geometry::Point2;
+
+    fn at(x_m: f64, y_m: f64) -> Point2 {
+        Point2 { x_m, y_m }
+    }
+
+    #[test]
+    fn a_zone_holds_what_lies_within_its_corners() {
+        let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 1.0), (0.0, 4.0)];
+        let zone = Zone::new(corners.map(|(x, y)| at(x, y)).to_vec()).unwrap();
+        for (place, inside) in [
+            (at(0.2, 3.0), true),
+            (at(2.0, 0.5), true),
+            (at(2.0, 1.5), false),
+            (at(3.9, 3.0), true),
+            (at(-0.1, 1.0), false),
+            (at(1.0, -0.1), false),
+        ] {
+            assert_eq!(zone.contains(place), inside, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn a_virtual_wall_is_as_long_as_its_line_and_thin() {
+        let wall = Zone::virtual_wall(at(1.0, 1.0), at(1.0, 3.0)).unwrap();
+        assert!(wall.contains(at(1.02, 1.1)) && wall.contains(at(0.98, 2.9)));
+        assert!(!wall.contains(at(1.05, 2.0)) && !wall.contains(at(1.0, 3.1)));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        for corners in [
+            vec![],
+            vec![at(0.0, 0.0), at(1.0, 0.0)],
+            vec![at(0.0, 0.0); 65],
+            vec![at(f64::NAN, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
+            vec![at(1e9, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
+        ] {
+            assert_eq!(Zone::new(corners), Err(Reason::BadZone));
+        }
+        assert_eq!(
+            Zone::virtual_wall(at(1.0, 1.0), at(1.0, 1.0)),
+            Err(Reason::BadZone)
+        );
+        for passes in [0, 4] {
+            assert_eq!(CleaningOrder::new(vec![], passes), Err(Reason::BadOrder));
+        }
+        let rooms = vec![HomePart::Room(1); 33];
+        assert_eq!(CleaningOrder::new(rooms, 1), Err(Reason::BadOrder));
+    }
+}

@@ -1,0 +1,203 @@
+//! Jobs for parts of a known home: rooms, zones, passes, no-go zones, and what a job is expected to take.
+
+mod plane;
+
+use brain::mapping::Entry;
+use brain::{
+    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, Point2, Pose2,
+    Raster, Reason, StoredMap, Zone,
+};
+use plane::{Rectangle, Room, World, config, run};
+
+/// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
+fn flat() -> Room {
+    Room::empty((6.1, 4.0)).with(&[
+        Rectangle::new((3.0, 0.0), (3.1, 1.5)),
+        Rectangle::new((3.0, 2.4), (3.1, 4.0)),
+    ])
+}
+
+const START: Pose2 = Pose2 {
+    x_m: 1.0,
+    y_m: 1.0,
+    heading_rad: 0.0,
+};
+
+/// The flat in the frame of a robot that starts at `START`.
+fn known(room: &Room) -> StoredMap {
+    let (width, height) = (260, 180);
+    let mut knowledge = Raster::filled(Cell { x: -50, y: -50 }, width, height, CellKnowledge::Occupied);
+    for index in 0..width * height {
+        let place = knowledge.cell(index).middle();
+        let there = Point2 {
+            x_m: START.x_m + place.x_m,
+            y_m: START.y_m + place.y_m,
+        };
+        if room.clearance(there).0 > 0.0 {
+            knowledge.values_mut()[index] = CellKnowledge::Free;
+        }
+    }
+    StoredMap::from_raster(&knowledge, None)
+}
+
+/// A rectangle in the frame of the room, as a zone of the map.
+fn zone(low: (f64, f64), high: (f64, f64)) -> Zone {
+    let corners = [low, (high.0, low.1), high, (low.0, high.1)].map(|(x_m, y_m)| Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    });
+    Zone::new(corners.to_vec()).expect("a rectangle")
+}
+
+struct Stage {
+    brain: Brain,
+    world: World,
+}
+
+impl Stage {
+    fn new() -> Self {
+        let room = flat();
+        let mut brain = Brain::with_map(config(), 1, &known(&room));
+        let mut world = World::new(room, START);
+        run(&mut world, &mut brain, None, 1.0);
+        Self { brain, world }
+    }
+
+    /// Gives an order and lets the robot work until it is idle; gives the seconds that took.
+    fn clean(&mut self, order: &CleaningOrder) -> f64 {
+        let command = Command::CleanParts { order: order.clone() };
+        assert_eq!(self.brain.admit(&command), Ok(()));
+        run(&mut self.world, &mut self.brain, Some(command), 10.0);
+        let mut seconds = 10.0;
+        while self.brain.status().state != BehaviorState::Idle && seconds < 3_000.0 {
+            run(&mut self.world, &mut self.brain, None, 1.0);
+            seconds += 1.0;
+        }
+        assert_eq!(self.world.violations, Vec::<String>::new());
+        seconds
+    }
+
+    /// Share of a rectangle of the room that was swept.
+    fn swept(&self, low: (f64, f64), high: (f64, f64)) -> f64 {
+        let places: Vec<Point2> = (0..20)
+            .flat_map(|x| (0..20).map(move |y| (f64::from(x) + 0.5, f64::from(y) + 0.5)))
+            .map(|(x, y)| Point2 {
+                x_m: low.0 + x / 20.0 * (high.0 - low.0) - START.x_m,
+                y_m: low.1 + y / 20.0 * (high.1 - low.1) - START.y_m,
+            })
+            .collect();
+        let swept = places.iter().filter(|place| self.brain.map().is_swept(**place));
+        swept.count() as f64 / places.len() as f64
+    }
+}
+
+#[test]
+fn a_zone_is_cleaned_and_little_else() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((3.5, 0.5), (5.5, 2.5)))], 1).unwrap();
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    assert!(stage.swept((3.5, 0.5), (5.5, 2.5)) > 0.95);
+    assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nobody asked for this");
+}
+
+#[test]
+fn parts_are_cleaned_in_their_order() {
+    let (first, second) = (zone((4.0, 2.6), (5.8, 3.8)), zone((0.3, 0.3), (2.0, 1.8)));
+    let order = CleaningOrder::new(vec![HomePart::Zone(first), HomePart::Zone(second)], 1).unwrap();
+    let mut stage = Stage::new();
+    let command = Command::CleanParts { order };
+    run(&mut stage.world, &mut stage.brain, Some(command), 10.0);
+    while stage.swept((4.0, 2.6), (5.8, 3.8)) < 0.9 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        assert!(stage.brain.status().state != BehaviorState::Idle);
+        assert!(
+            stage.swept((0.3, 0.3), (2.0, 1.8)) < 0.5,
+            "the second part comes second"
+        );
+    }
+    while stage.brain.status().state != BehaviorState::Idle {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+    }
+    assert!(stage.swept((0.3, 0.3), (2.0, 1.8)) > 0.95);
+}
+
+#[test]
+fn a_room_is_cleaned_by_its_identity_and_others_are_not_known() {
+    let mut stage = Stage::new();
+    let rooms = stage.brain.map().rooms().rooms().to_vec();
+    assert_eq!(rooms.len(), 2, "{rooms:?}");
+    let other = rooms.iter().find(|room| room.middle.x_m > 2.0).unwrap();
+    let order = CleaningOrder::new(vec![HomePart::Room(other.id)], 1).unwrap();
+    stage.clean(&order);
+    assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.93);
+    assert!(stage.swept((0.2, 2.5), (2.0, 3.8)) < 0.1);
+    let nowhere = CleaningOrder::new(vec![HomePart::Room(99)], 1).unwrap();
+    let command = Command::CleanParts { order: nowhere };
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchRoom));
+    let outside = CleaningOrder::new(vec![HomePart::Zone(zone((20.0, 0.0), (21.0, 1.0)))], 1).unwrap();
+    let command = Command::CleanParts { order: outside };
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoFloorThere));
+}
+
+#[test]
+fn a_second_pass_takes_as_long_again_and_the_estimate_knows() {
+    let part = || vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))];
+    let once = CleaningOrder::new(part(), 1).unwrap();
+    let twice = CleaningOrder::new(part(), 2).unwrap();
+    let (mut one, mut two) = (Stage::new(), Stage::new());
+    let expected = one.brain.estimate_order(&once).unwrap();
+    assert!((expected.floor_m2 - 2.6 * 3.6).abs() < 0.5, "{expected:?}");
+    let (once_s, twice_s) = (one.clean(&once), two.clean(&twice));
+    assert!(
+        (1.6..2.4).contains(&(twice_s / once_s)),
+        "{once_s} s and {twice_s} s"
+    );
+    assert!(
+        (0.6..1.5).contains(&(expected.time_s / once_s)),
+        "{once_s} s instead of {expected:?}"
+    );
+    let doubled = two.brain.estimate_order(&twice).unwrap();
+    assert!(doubled.time_s > 1.8 * expected.time_s);
+}
+
+#[test]
+fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
+    let mut stage = Stage::new();
+    let forbidden = zone((1.5, 2.0), (2.5, 3.0));
+    let wall = Zone::virtual_wall(Point2 { x_m: 2.05, y_m: 0.2 }, Point2 { x_m: 2.05, y_m: 1.7 }).unwrap();
+    for zone in [&forbidden, &wall] {
+        let command = Command::SetZone {
+            zone: zone.clone(),
+            entry: Entry::Forbidden,
+        };
+        assert_eq!(stage.brain.admit(&command), Ok(()));
+        run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+    }
+    stage.clean(&CleaningOrder::default());
+    assert!(stage.swept((1.5, 2.0), (2.5, 3.0)) < 0.05);
+    assert!(
+        stage.swept((3.3, 0.3), (5.9, 3.7)) < 0.05,
+        "a wall stands in the door"
+    );
+    assert!(stage.swept((0.2, 0.2), (1.3, 3.8)) > 0.9);
+    let command = Command::SetZone {
+        zone: wall,
+        entry: Entry::Allowed,
+    };
+    run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+    stage.clean(&CleaningOrder::default());
+    assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.9);
+    let cells = (0..40).map(|step| {
+        Cell::under(Point2 {
+            x_m: 0.5 + f64::from(step) * CELL_M,
+            y_m: 1.5,
+        })
+    });
+    for cell in cells {
+        assert_eq!(
+            stage.brain.map().knowledge().get(cell),
+            Some(&CellKnowledge::NoGo)
+        );
+    }
+}

@@ -1,0 +1,59 @@
+//! Parts of a home as they stand in recordings and checkpoints.
+
+use brain::{CleaningOrder, HomePart, Point2, Zone};
+use serde::{Deserialize, Serialize};
+
+/// [`CleaningOrder`]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GivenOrder {
+    parts: Vec<GivenPart>,
+    passes: u8,
+}
+
+/// [`HomePart`]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum GivenPart {
+    Room(u16),
+    /// Corners, x and y in metres.
+    Zone(Vec<[f64; 2]>),
+}
+
+impl From<&CleaningOrder> for GivenOrder {
+    fn from(order: &CleaningOrder) -> Self {
+        let part = |part: &HomePart| match part {
+            HomePart::Room(id) => GivenPart::Room(*id),
+            HomePart::Zone(zone) => GivenPart::Zone(from_zone(zone)),
+        };
+        Self {
+            parts: order.parts().iter().map(part).collect(),
+            passes: order.passes(),
+        }
+    }
+}
+
+impl GivenOrder {
+    /// Back to the brain's own type; `None` for one that the brain would refuse.
+    pub(super) fn to_brain(&self) -> Option<CleaningOrder> {
+        let part = |part: &GivenPart| {
+            Some(match part {
+                GivenPart::Room(id) => HomePart::Room(*id),
+                GivenPart::Zone(corners) => HomePart::Zone(to_zone(corners)?),
+            })
+        };
+        let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();
+        CleaningOrder::new(parts?, self.passes).ok()
+    }
+}
+
+pub(super) fn from_zone(zone: &Zone) -> Vec<[f64; 2]> {
+    zone.corners()
+        .iter()
+        .map(|corner| [corner.x_m, corner.y_m])
+        .collect()
+}
+
+pub(super) fn to_zone(corners: &[[f64; 2]]) -> Option<Zone> {
+    let corners = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
+    Zone::new(corners.collect()).ok()
+}
