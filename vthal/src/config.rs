@@ -276,8 +276,11 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
         clients_max: source.in_range(file.socket.clients_max, 128, 1..=1024)? as usize,
         expert: file.socket.expert.unwrap_or(false),
         state: state.ok_or(missing("state folder", "--state DIR", "state.dir"))?,
+        strategy: match &file.robot.strategy {
+            Some(name) => strategy(name, source)?,
+            None => strategy_by_sensors(file.robot.description.as_deref()),
+        },
         description: file.robot.description,
-        strategy: strategy(file.robot.strategy, source)?,
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
         seed: flags.seed.or(file.robot.seed),
         imu: imu(file.imu, source)?,
@@ -312,10 +315,15 @@ fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError
     }))
 }
 
-fn strategy(name: Option<Spanned<String>>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
-    let Some(name) = name else {
-        return Ok(StrategyName::default());
-    };
+/// A robot whose sensors are known follows walls and knows where it is; the others only feel their way.
+fn strategy_by_sensors(description: Option<&Path>) -> StrategyName {
+    match description {
+        Some(_) => StrategyName::Systematic,
+        None => StrategyName::Bounce,
+    }
+}
+
+fn strategy(name: &Spanned<String>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
     StrategyName::from_name(name.get_ref()).ok_or_else(|| {
         let known: Vec<&str> = StrategyName::ALL.iter().map(|strategy| strategy.name()).collect();
         let what = format!(
@@ -351,6 +359,8 @@ fn level(
 mod tests {
     use std::path::{Path, PathBuf};
 
+    use brain::StrategyName;
+
     use super::{ConfigError, Overrides, Source, load, validate};
 
     fn parse(text: &str) -> Result<super::Config, ConfigError> {
@@ -385,6 +395,8 @@ mod tests {
         let mut defaults = parse("").expect("valid");
         defaults.seed = Some(1);
         defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
+        assert_eq!(defaults.strategy, StrategyName::Bounce, "sensors are not known");
+        defaults.strategy = StrategyName::Systematic;
         defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");
