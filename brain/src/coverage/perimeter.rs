@@ -5,8 +5,8 @@
 //! *Stretch*: part of the track on which it never lost what it follows.
 //!
 //! The lap is closed when the robot goes along the track of its stretch for a while, in the same direction: then it has seen
-//! all of this outline. When the sum of turns since the first time is a full turn to the right, it was an island; it leaves
-//! that and looks for another wall. A lap that never closes ends by its length, or on the track of an earlier stretch.
+//! all of this outline. When the sum of turns since the first time is not a full turn to the left, it was an island, or a
+//! loop among several; it leaves that and looks for another wall. A lap that never closes ends by its length, or on the track of an earlier stretch.
 
 use core::f64::consts::TAU;
 
@@ -190,7 +190,7 @@ impl Perimeter {
             return (self.again_m > AGAIN_ELSEWHERE_M).then_some(Reason::KnownWall);
         }
         (self.again_m > AGAIN_M).then(|| {
-            if here.turns_since(&before) < 0.0 {
+            if here.turns_since(&before) < 1.0 {
                 Reason::Island
             } else {
                 Reason::BackAtStart

@@ -73,8 +73,8 @@ const ASIDE_M: f64 = 0.02;
 /// A robot that sees nothing plans in a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
 /// Floor is hoped for so far beyond what is known, metres, after a lap along the walls that closed and after one that did not.
-const BEYOND_M: f64 = 0.3;
-const BEYOND_OPEN_M: f64 = 1.0;
+const BEYOND_M: f64 = 0.6;
+const BEYOND_OPEN_M: f64 = 2.5;
 
 /// What is known of the home.
 #[derive(Debug)]
