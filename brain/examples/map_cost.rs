@@ -22,6 +22,7 @@ const RESPONSE: ProximityResponse = ProximityResponse {
     half_angle_rad: 0.087,
     half_level_m: 0.06,
     skin_m: 0.01,
+    near_m: None,
 };
 const HALL_CELLS: i32 = 480;
 const STEP_M: f64 = 0.005;

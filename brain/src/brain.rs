@@ -75,7 +75,9 @@ impl Brain {
         }
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
-        self.map.insert(&estimate, observation, advance);
+        if self.localization.knows_heading(observation.time_us) {
+            self.map.insert(&estimate, observation, advance);
+        }
         self.localization
             .learn(&self.map, &self.config, observation.time_us);
         self.note_encounters(observation, &estimate);

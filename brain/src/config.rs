@@ -59,6 +59,9 @@ pub struct ProximityResponse {
     pub half_level_m: f64,
     /// Way from the sensor to the rim along its beam, metres.
     pub skin_m: f64,
+    /// Distance from the sensor at which a white wall makes a sensor with one line say near (1) and not far (0), metres;
+    /// `None` = it tells levels.
+    pub near_m: Option<f64>,
 }
 
 /// The bumper: an arc in front with a switch for each half.
@@ -137,13 +140,16 @@ impl ProximityLayout {
 
 impl ProximityResponse {
     /// Distance from the sensor to a white wall that gives `level` (0..=1), in metres; `None` when that is beyond the range
-    /// or the level is nothing.
+    /// or the level is nothing. For a sensor that only says near it is the middle of what near can mean.
     #[must_use]
     pub fn distance_m(&self, level: f64) -> Option<f64> {
         // Written so that NaN is nothing.
         let seen = level > 0.0;
         if !seen {
             return None;
+        }
+        if let Some(near_m) = self.near_m {
+            return Some(0.5 * (self.skin_m + near_m));
         }
         let beyond_m = self.half_level_m * libm::sqrt((1.0 / level - 1.0).max(0.0));
         let distance_m = self.skin_m + beyond_m;
@@ -155,6 +161,9 @@ impl ProximityResponse {
     pub fn level(&self, distance_m: f64) -> f64 {
         if distance_m > self.range_m || self.half_level_m <= 0.0 {
             return 0.0;
+        }
+        if let Some(near_m) = self.near_m {
+            return if distance_m <= near_m { 1.0 } else { 0.0 };
         }
         let beyond = (distance_m - self.skin_m).max(0.0) / self.half_level_m;
         1.0 / (1.0 + beyond * beyond)
@@ -208,6 +217,7 @@ mod tests {
             half_angle_rad: 0.09,
             half_level_m: 0.06,
             skin_m: 0.01,
+            near_m: None,
         };
         for distance_m in [0.01, 0.02, 0.07, 0.249] {
             let seen_m = response.distance_m(response.level(distance_m)).unwrap();

@@ -21,6 +21,8 @@ pub struct Observation {
     pub proximity: Vec<f32>,
     /// Symbols heard by the dock receivers (0 = none); empty if the robot has none.
     pub dock_beams: Vec<u8>,
+    /// Ranges to radio beacons that were measured since the last observation; empty where there is no radio.
+    pub beacon_ranges: Vec<BeaconRange>,
     /// On the dock's contacts.
     pub docked: bool,
     /// Battery charge 0..1, if measured.
@@ -60,6 +62,7 @@ impl Default for Observation {
             wheel_drop: false,
             proximity: Vec::new(),
             dock_beams: Vec::new(),
+            beacon_ranges: Vec::new(),
             docked: false,
             battery_charge: None,
             inhibits: Vec::new(),
@@ -67,6 +70,17 @@ impl Default for Observation {
             speed_share: 1.0,
         }
     }
+}
+
+/// Distance to a radio beacon, measured by time of flight or guessed from the strength of its signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeaconRange {
+    /// Number of the beacon, the same for ever.
+    pub beacon: u16,
+    /// Measured distance, metres.
+    pub range_m: f64,
+    /// Standard deviation that the one who measured gives to it with nothing in the way, metres.
+    pub sigma_m: f64,
 }
 
 /// Bumper zones. A robot with one zone reports both.

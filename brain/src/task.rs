@@ -28,6 +28,8 @@ pub(crate) struct Situation<'step> {
     /// Way for which backing may still be commanded, in metres.
     pub(crate) way_back_m: f64,
     pub(crate) config: &'step BrainConfig,
+    /// Something besides the wheels tells the heading; without, no map is kept.
+    pub(crate) knows_heading: bool,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.
@@ -50,6 +52,7 @@ impl<'step> Situation<'step> {
             is_tracked: localization.explained().is_some(),
             way_back_m: localization.way_back_m(),
             config,
+            knows_heading: localization.knows_heading(observation.time_us),
             touching: observation.is_touching(),
             at_cliff: observation.is_at_cliff(),
         }

@@ -18,6 +18,7 @@ const RESPONSE: ProximityResponse = ProximityResponse {
     half_angle_rad: 0.087,
     half_level_m: 0.06,
     skin_m: 0.01,
+    near_m: None,
 };
 
 fn sensors() -> SensorLayout {

@@ -73,6 +73,7 @@ struct Proximity {
     range: Figure,
     half_angle: Figure,
     half_level: Figure,
+    near: Option<Figure>,
 }
 
 /// The sensors of the robot that `path` describes.
@@ -119,6 +120,7 @@ fn proximity(part: &Proximity, radius_m: f64) -> ProximityLayout {
         half_angle_rad: part.half_angle.value.to_radians(),
         half_level_m: part.half_level.value,
         skin_m: radius_m - mount_m,
+        near_m: part.near.as_ref().map(|near| near.value),
     };
     ProximityLayout::ring(&headings_rad, mount_m, response)
 }

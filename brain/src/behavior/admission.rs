@@ -64,6 +64,9 @@ impl Behavior {
             return Err(Reason::AlreadyRunning);
         }
         self.startable()?;
+        if kind == JobKind::Clean(StrategyName::Systematic) && !self.facts.knows_heading {
+            return Err(Reason::NoHeading);
+        }
         if self.facts.battery_low {
             Err(Reason::BatteryLow)
         } else {

@@ -15,6 +15,8 @@ pub(crate) struct Facts {
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.
     pub(crate) at_cliff: bool,
+    /// Something besides the wheels tells the heading.
+    pub(crate) knows_heading: bool,
     /// A fault that needs a person.
     pub(crate) fault: Option<Reason>,
     /// Inhibits that `arm` takes away.

@@ -162,6 +162,7 @@ impl Behavior {
         mind: &mut Mind,
     ) -> Intent {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
+        self.facts.knows_heading = situation.knows_heading;
         self.facts.fault = self.fault();
         for command in commands {
             match self.admit(command, situation.map) {

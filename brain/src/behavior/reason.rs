@@ -107,6 +107,8 @@ reasons! {
     OffTheWay => "off-the-way",
     /// No map of the home to plan on.
     NoMap => "no-map",
+    /// Nothing but the wheels tells the heading, so there is no map.
+    NoHeading => "no-heading",
     /// What is not swept yet cannot be reached.
     RestOutOfReach => "rest-out-of-reach",
     /// Too many things in the way.

@@ -83,6 +83,9 @@ impl Behavior {
         self.put_off = None;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
+            if !self.facts.knows_heading {
+                mind.decide("keep-no-map", Reason::NoHeading, 0.0);
+            }
         }
         self.announce(Reason::Command, mind);
     }

@@ -4,6 +4,7 @@ use super::job::{Detour, Job, Purpose};
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::action::Motion;
+use crate::command::StrategyName;
 use crate::geometry::Point2;
 use crate::localization::Advance;
 use crate::recovery::{self, Grip, Traction, Whereabouts};
@@ -44,6 +45,11 @@ impl Behavior {
             return self.wait_for_arm(mind);
         }
         self.starved_since_us = None;
+        let plans_on_map = job.kind == JobKind::Clean(StrategyName::Systematic);
+        if plans_on_map && !situation.knows_heading {
+            self.end_job(Reason::NoHeading, mind);
+            return Motion::Halt;
+        }
         self.watch_pen(situation, mind);
         let plan = self.watched_plan(commanded, situation, mind);
         let motion = self.follow(plan, situation, mind);

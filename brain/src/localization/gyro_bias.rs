@@ -65,6 +65,14 @@ impl GyroBias {
         self.bias_rad_per_s
     }
 
+    /// Whether the wheels have rested for so long that the robot has swung out, and nobody turns it.
+    pub(super) fn stands_still(&self, now: Totals, seen_rad: f64, time_s: f64) -> bool {
+        let rests = self
+            .rest
+            .is_some_and(|rest| rest.since.wheels_agree_with(now) && seconds(rest.began_us, now) > SETTLE_S);
+        rests && seen_rad.abs() <= CARRIED_RAD_PER_S * time_s
+    }
+
     /// Takes in the totals of an observation that came `time_s` after the one before.
     pub(super) fn observe(&mut self, now: Totals, time_s: f64) {
         self.variance += DRIFT_RAD2_PER_S3 * time_s;

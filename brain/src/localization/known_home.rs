@@ -49,6 +49,7 @@ fn config() -> BrainConfig {
                 half_angle_rad: 0.09,
                 half_level_m: 0.06,
                 skin_m: 0.01,
+                near_m: None,
             },
         ),
         bumper: BumperLayout {

@@ -2,8 +2,10 @@
 //!
 //! Frames follow REP-105: *odom* is smooth and drifts, *map* is right on average and may jump; `pose = map_from_odom *
 //! odom_from_base`. Odometry makes the second factor. In a map that is known, a [`tracker`] with a particle filter corrects
-//! the first one, learns what is wrong with the gyro, notices when the robot is lost and finds it again.
+//! the first one, learns what is wrong with the gyro, notices when the robot is lost and finds it again. Without a known map
+//! radio [`beacons`] do, where there are such.
 
+mod beacons;
 mod calibration;
 mod confidence;
 mod estimate;
@@ -19,6 +21,7 @@ mod terrain;
 mod tracker;
 mod trail;
 
+use beacons::Beacons;
 pub use estimate::PoseEstimate;
 use estimate::{Drift, WHEEL_TURN_SCALE};
 pub use odometry::Advance;
@@ -42,6 +45,12 @@ const SIGMA_MAX: f64 = 1.0;
 /// A place nearer than this to the present one is no news for the filter, metres and radians.
 const PLACED_M: f64 = 0.05;
 const PLACED_RAD: f64 = 0.05;
+
+/// A gyro that was silent for so long is not there, microseconds.
+const GYRO_GONE_US: u64 = 10_000_000;
+/// With fewer proximity sensors than this a robot cannot keep its place in a map by wheels alone: tried, it is metres off
+/// within minutes.
+const SENSORS_MIN: usize = 3;
 
 /// A deviation from outside, or at least this one; what is not a number is wide.
 fn finite(sigma: f64, least: f64) -> f64 {
@@ -75,6 +84,11 @@ pub struct Localization {
     drift: Drift,
     tracked: Option<Box<Tracked>>,
     survey: Option<Box<Survey>>,
+    beacons: Beacons,
+    /// When the first observation came.
+    began_us: Option<u64>,
+    /// When a gyro spoke last.
+    gyro_us: Option<u64>,
     was_docked: bool,
     hanging_s: f64,
     learnt_us: u64,
@@ -91,6 +105,9 @@ impl Localization {
             drift: Drift::default(),
             tracked: None,
             survey: None,
+            beacons: Beacons::new(),
+            began_us: None,
+            gyro_us: None,
             was_docked: false,
             hanging_s: 0.0,
             learnt_us: 0,
@@ -100,6 +117,9 @@ impl Localization {
     /// Takes in an observation and says how far the robot moved since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
         let advance = self.odometry.update(observation);
+        if observation.gyro_heading_rad.is_some() {
+            self.gyro_us = Some(observation.time_us);
+        }
         self.retreat.follow(advance);
         self.drift.grow(advance);
         advance
@@ -203,9 +223,11 @@ impl Localization {
         }
     }
 
-    /// Compares what was perceived with the map, and corrects [`Self::pose`]. It does nothing unless [`Self::track`] was
-    /// asked for.
+    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::track`] was asked for there is
+    /// no map; then only ranges to beacons count.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) {
+        let by_beacons = self.beacons.follow(observation, advance, self.estimate());
+        self.leave_hopeless_map(observation.time_us);
         let moved = Moved {
             advance,
             pose: self.pose(),
@@ -217,12 +239,17 @@ impl Localization {
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         let Some(tracked) = &mut self.tracked else {
+            if let Some(estimate) = by_beacons {
+                return self.adopt(estimate);
+            }
             return self.follow_walls(observation, advance);
         };
         let Tracked { tracker, terrain } = &mut **tracked;
+        tracker.hear(self.beacons.heard());
         if docks && let Some(dock) = terrain.dock() {
             tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
             self.odometry.calibration.interrupt();
+            self.beacons.place_at(dock);
             self.put_at(dock);
         } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
             self.adopt(estimate);
@@ -261,6 +288,31 @@ impl Localization {
             sigma_m: fix.sigma_m,
             sigma_rad: fix.sigma_rad,
         };
+    }
+
+    /// Whether anything but its wheels tells the robot where it is heading: a gyro, beacons, or a map that it can compare
+    /// with. Without, it is lost within minutes, and what it draws is no map.
+    #[must_use]
+    pub fn knows_heading(&self, now_us: u64) -> bool {
+        self.has_gyro(now_us) || self.beacons.is_following() || self.tracked.is_some()
+    }
+
+    fn has_gyro(&self, now_us: u64) -> bool {
+        self.gyro_us
+            .is_some_and(|gyro_us| now_us < gyro_us.saturating_add(GYRO_GONE_US))
+    }
+
+    /// A robot with next to no sensors lets go of the map when nothing tells its heading.
+    fn leave_hopeless_map(&mut self, now_us: u64) {
+        let blind = self
+            .tracked
+            .as_ref()
+            .is_some_and(|tracked| tracked.tracker.sensor_count() < SENSORS_MIN);
+        let began_us = *self.began_us.get_or_insert(now_us);
+        let waited = now_us >= began_us.saturating_add(GYRO_GONE_US);
+        if blind && waited && !self.has_gyro(now_us) && !self.beacons.are_heard() {
+            self.tracked = None;
+        }
     }
 
     /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
@@ -339,6 +391,9 @@ impl Localization {
         }
         let is_there = before.position().distance_m(pose.position()) < PLACED_M
             && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
+        if !is_there {
+            self.beacons.place_at(pose);
+        }
         if let Some(tracked) = &mut self.tracked
             && !is_there
         {

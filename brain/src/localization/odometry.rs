@@ -134,7 +134,11 @@ impl Odometry {
     }
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
-        let turn_rad = now.gyro_rad? - last.gyro_rad? - self.gyro_bias.rad_per_s() * time_s;
+        let seen_rad = now.gyro_rad? - last.gyro_rad?;
+        if self.gyro_bias.stands_still(now, seen_rad, time_s) {
+            return Some(0.0);
+        }
+        let turn_rad = seen_rad - self.gyro_bias.rad_per_s() * time_s;
         let turn_rad = self.calibration.corrected_rad(turn_rad, time_s);
         let rim_turn_max_rad =
             2.0 * (JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s) / self.track_m;

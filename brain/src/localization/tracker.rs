@@ -3,6 +3,7 @@
 //! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
 //! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
 
+use super::beacons::Heard;
 use super::confidence::{Confidence, Verdict};
 use super::estimate::turn_variance;
 use super::particles::{Motion, ParticleFilter, Spread, Surroundings};
@@ -74,6 +75,8 @@ pub(super) struct Tracker {
     confidence: Confidence,
     lost: bool,
     weighings: u32,
+    /// Ranges to beacons since the last weighing.
+    heard: Vec<Heard>,
     trail: Trail,
     /// Way until the next search of a lost robot, metres.
     search_in_m: f64,
@@ -94,6 +97,7 @@ impl Tracker {
             confidence: Confidence::default(),
             lost: false,
             weighings: 0,
+            heard: Vec::new(),
             trail: Trail::default(),
             search_in_m: 0.0,
             radius_m,
@@ -118,6 +122,11 @@ impl Tracker {
         self.lost = true;
     }
 
+    /// Proximity sensors that it compares with the map.
+    pub(super) fn sensor_count(&self) -> usize {
+        self.layout.proximity.sensors().len()
+    }
+
     /// Whether the robot does not know where it is.
     pub(super) fn is_lost(&self) -> bool {
         self.lost
@@ -126,6 +135,11 @@ impl Tracker {
     /// Share of what the sensors show that the map explains, 0..1.
     pub(super) fn explained(&self) -> f64 {
         self.confidence.explained()
+    }
+
+    /// Takes in ranges to beacons whose places are known.
+    pub(super) fn hear(&mut self, heard: &[Heard]) {
+        self.heard.extend_from_slice(heard);
     }
 
     /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
@@ -156,14 +170,15 @@ impl Tracker {
         let scale_rad = CORRELATED * moved.turn_scale_sigma * self.pending_turn_rad;
         self.pending.turn_variance += scale_rad * scale_rad;
         self.filter.follow(self.pending);
+        let heard = core::mem::take(&mut self.heard);
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
         if self.lost {
             let map = &Whole(map);
-            self.filter.weigh(map, observation, felt);
+            self.filter.weigh(map, observation, (felt.0, felt.1, &heard));
             Some(self.search(map))
         } else {
-            self.filter.weigh(map, observation, felt);
+            self.filter.weigh(map, observation, (felt.0, felt.1, &heard));
             Some(self.judge(map))
         }
     }
@@ -259,6 +274,7 @@ impl Tracker {
     }
 
     fn forget_motion(&mut self) {
+        self.heard.clear();
         self.pending = Motion::default();
         self.pending_turn_rad = 0.0;
     }

@@ -14,6 +14,7 @@
 mod digest;
 pub mod generate;
 mod home;
+mod linux_board;
 mod load;
 mod model;
 mod noise;
@@ -25,6 +26,7 @@ mod world;
 
 pub use digest::Digest;
 pub use home::Home;
+pub use linux_board::{Beacons, BoardGyro};
 pub use load::HomeError;
 pub use model::{
     Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,

@@ -28,6 +28,8 @@ pub struct Noise {
     pub gyro_bias_rad_per_s: f64,
     /// How fast the gyro bias wanders, radians per second per square root of a second.
     pub gyro_drift_rad_per_s_sqrt_s: f64,
+    /// How the bias of a gyro on the Linux board follows the board's temperature, radians per second and kelvin.
+    pub gyro_warming_rad_per_s_k: f64,
     /// Noise of infrared levels, relative.
     pub infrared_noise: f64,
     /// Largest deviation of a wall's albedo from the mean, relative, uniform.
@@ -55,6 +57,7 @@ impl Noise {
         gyro_scale: 0.005,
         gyro_bias_rad_per_s: 0.05 * DEGREE,
         gyro_drift_rad_per_s_sqrt_s: 0.001 * DEGREE,
+        gyro_warming_rad_per_s_k: 0.01 * DEGREE,
         infrared_noise: 0.05,
         infrared_albedo: 0.2,
         infrared_dropout: 0.01,
@@ -117,6 +120,7 @@ impl Noise {
             gyro_scale: self.gyro_scale * factor,
             gyro_bias_rad_per_s: self.gyro_bias_rad_per_s * factor,
             gyro_drift_rad_per_s_sqrt_s: self.gyro_drift_rad_per_s_sqrt_s * factor,
+            gyro_warming_rad_per_s_k: self.gyro_warming_rad_per_s_k * factor,
             infrared_noise: self.infrared_noise * factor,
             infrared_albedo: self.infrared_albedo * factor,
             infrared_dropout: self.infrared_dropout * factor,

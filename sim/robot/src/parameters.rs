@@ -7,9 +7,9 @@ use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
 const FIRMWARE: &str = concat!("sim-", env!("CARGO_PKG_VERSION"));
 
-/// What the firmware must know of this model.
+/// What the firmware of the board `device` must know of this model.
 #[must_use]
-pub fn parameters_for(model: &RobotModel) -> Parameters {
+pub fn parameters_for(device: &'static str, model: &RobotModel) -> Parameters {
     let limits = Limits {
         speed_max: Speed::from_m_per_s(model.drive.speed_max_m_per_s),
         turn_max: AngularSpeed::from_rad_per_s(model.drive.turn_max_rad_per_s),
@@ -18,7 +18,7 @@ pub fn parameters_for(model: &RobotModel) -> Parameters {
         radius: Length::from_m(model.body.radius_m),
         swath: Length::from_m(model.body.swath_m),
     };
-    let mut parameters = Parameters::for_machine("sr8730", FIRMWARE, limits);
+    let mut parameters = Parameters::for_machine(device, FIRMWARE, limits);
     parameters.wheel.speed_at_full = Speed::from_m_per_s(model.wheel_motor.free_speed_m_per_s);
     parameters.wheel.dead_band =
         Throttle::saturating_from_millionths((model.wheel_motor.dead_band_brake * 1e6) as i32);

@@ -22,7 +22,7 @@ pub enum ChargeSwitch {
 }
 
 /// Current that the switch lets into the pack while the robot is docked, ampere.
-pub(crate) fn charge_a(switch: ChargeSwitch, pins: &PackPins, world: &World) -> f64 {
+pub(crate) fn charge_a<O>(switch: ChargeSwitch, pins: &PackPins<O>, world: &World) -> f64 {
     let duty = match (switch, pins.drive) {
         (ChargeSwitch::Shorted, _) => 1.0,
         (ChargeSwitch::Sound, ChargeDrive::Off) => 0.0,

@@ -8,7 +8,7 @@ use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
-use crate::board::{self, Persistent, SimulatedParts, WATCHDOG_MS};
+use crate::board::{self, OneLine, Outfit, Persistent, SimulatedParts, Sr8730, WATCHDOG_MS};
 use crate::line::Line;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
@@ -36,8 +36,9 @@ impl Default for RobotSettings {
 
 /// cordlib on a simulated board in a simulated home, with a paced serial line and the safety monitor.
 #[derive(Debug)]
-pub struct SimulatedRobot {
-    cord: Cord<SimulatedParts>,
+pub struct SimulatedRobot<O: Outfit = Sr8730> {
+    cord: Cord<SimulatedParts<O>>,
+    one_line: OneLine,
     model: RobotModel,
     world: World,
     to_robot: Line,
@@ -61,12 +62,13 @@ const CLIFF_SETTLE_MS: u32 = 3;
 /// A lit receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
 const NO_FLOOR_LEVEL: u8 = 20;
 
-impl SimulatedRobot {
+impl<O: Outfit> SimulatedRobot<O> {
     /// Switches the robot on where `world` has put it.
     #[must_use]
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
-            cord: Cord::new(board::fresh(Persistent::first()), parameters_for(model)),
+            cord: Cord::new(board::fresh(Persistent::first()), parameters_for(O::NAME, model)),
+            one_line: OneLine::default(),
             model: model.clone(),
             world,
             to_robot: Line::new(settings.baud, settings.seed),
@@ -130,15 +132,20 @@ impl SimulatedRobot {
         let sensors = self.world.sensors();
         let board = self.cord.board_mut();
         board.clock.tick = Tick((self.now_ms - self.reset_ms) as u32);
-        board.encoders.counts = WheelCounts {
-            left: sensors.count_left,
-            right: sensors.count_right,
+        let edges = [sensors.count_left, sensors.count_right];
+        board.encoders.counts = if self.model.drive.encoder_lines >= 2 {
+            WheelCounts {
+                left: sensors.count_left,
+                right: sensors.count_right,
+            }
+        } else {
+            self.one_line.take(edges, self.driven)
         };
         board.bumpers.pressed = Bumpers {
             left: sensors.bumper_left,
             right: sensors.bumper_right,
         };
-        board.cliffs.levels = cliff_levels(sensors);
+        board.cliffs.levels = cliff_levels(sensors, self.model.cliffs.len());
         board.wheel_drops.hanging = WheelDrops {
             left: sensors.wheel_drop_left,
             right: sensors.wheel_drop_right,
@@ -264,6 +271,7 @@ impl SimulatedRobot {
         let persistent = self.cord.board().reset.restarted(cause);
         self.cord = Cord::new(board::fresh(persistent), *self.cord.parameters());
         self.driven = [WheelDrive::Brake; 2];
+        self.one_line = OneLine::default();
         self.reset_ms = self.now_ms;
         self.resets += 1;
         self.monitor.reset(self.now_ms, cause);
@@ -365,8 +373,21 @@ fn bridge(drive: WheelDrive) -> Bridge {
     }
 }
 
-/// Eight bits of the home to the ten bits of the board's converter.
-fn cliff_levels(sensors: &Sensors) -> CliffLevels {
-    let [left, middle, right, _] = sensors.cliff_levels.map(|level| u16::from(level) * 4);
-    CliffLevels { left, middle, right }
+/// Eight bits of the home to the ten bits of the board's converter. Of a board with four sensors the two
+/// inner ones are the middle, and the darker of them counts.
+fn cliff_levels(sensors: &Sensors, fitted: usize) -> CliffLevels {
+    let [first, second, third, fourth] = sensors.cliff_levels.map(|level| u16::from(level) * 4);
+    if fitted < 4 {
+        CliffLevels {
+            left: first,
+            middle: second,
+            right: third,
+        }
+    } else {
+        CliffLevels {
+            left: first,
+            middle: second.min(third),
+            right: fourth,
+        }
+    }
 }

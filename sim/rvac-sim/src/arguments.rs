@@ -148,6 +148,12 @@ pub(crate) struct RunArguments {
     /// Save the map that the host has in the end, for --map.
     #[arg(long, value_name = "FILE")]
     pub(crate) save_map: Option<PathBuf>,
+    /// A gyro on the Linux board, for a robot whose own board has none.
+    #[arg(long)]
+    pub(crate) board_gyro: bool,
+    /// Radio beacons at the edges of the home, of which the host knows no place.
+    #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=8))]
+    pub(crate) beacons: u8,
     /// Tell the host its true pose: shows a planner without the errors of localization.
     #[arg(long)]
     perfect_pose: bool,
@@ -184,6 +190,12 @@ impl RunArguments {
         }
         if self.map.is_some() {
             title.push_str(", learnt map");
+        }
+        if self.board_gyro {
+            title.push_str(", gyro on the Linux board");
+        }
+        if self.beacons > 0 {
+            title.push_str(&format!(", {} beacons", self.beacons));
         }
         if self.perfect_pose {
             title.push_str(", perfect pose");
@@ -222,6 +234,9 @@ pub(crate) struct FaultArguments {
     /// Simulated minutes of each seed.
     #[arg(long, default_value_t = 10.0, value_parser = minutes)]
     pub(crate) minutes: f64,
+    /// Robot by name.
+    #[arg(long, default_value = "sr8730")]
+    pub(crate) robot: String,
     /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
     #[arg(long)]
     pub(crate) firmware: Option<PathBuf>,

@@ -8,7 +8,7 @@ use home::World;
 use pic32::board::serial::Rate;
 use pic32::board::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, GyroFitted, Record};
 use pic32::image::{Image, ImageError};
-use robot::{RobotSettings, SimulatedRobot};
+use robot::{Outfit, Relax, RobotSettings, SimulatedRobot, Sr8730};
 
 use crate::Robot;
 
@@ -77,6 +77,15 @@ impl Firmware {
         Ok(Self::Image(Arc::new(Blueprint::sr8730(image, record)?)))
     }
 
+    /// Whether a robot of this name can run it.
+    #[must_use]
+    pub fn suits(&self, robot: &str) -> bool {
+        match self {
+            Self::HostBuilt => [Sr8730::NAME, Relax::NAME].contains(&robot),
+            Self::Image(_) => robot == Sr8730::NAME,
+        }
+    }
+
     /// The same with this gyro module on the board of an emulated chip; the firmware that is built in has its own.
     #[must_use]
     pub fn with_gyro(self, gyro: GyroFitted) -> Self {
@@ -92,7 +101,11 @@ impl Firmware {
         match self {
             Self::HostBuilt => {
                 let model = world.model().clone();
-                Robot::HostBuilt(Box::new(SimulatedRobot::new(&model, world, settings)))
+                if model.name == Relax::NAME {
+                    Robot::HostBuiltRelax(Box::new(SimulatedRobot::new(&model, world, settings)))
+                } else {
+                    Robot::HostBuilt(Box::new(SimulatedRobot::new(&model, world, settings)))
+                }
             }
             Self::Image(blueprint) => {
                 let settings = EmulatedSettings {

@@ -2,8 +2,9 @@
 
 use brain::command::StrategyName;
 use brain::mapping::StoredMap;
+use brain::observation::BeaconRange;
 use brain::{BehaviorState, Brain, Pose2};
-use home::Pose as TruePose;
+use home::{Beacons, Pose as TruePose};
 use rvac_api::{LogEntry, Pose, Request, RequestBody, Status};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
@@ -47,6 +48,23 @@ impl Host {
             strategy,
             ..CoreConfig::default()
         }
+    }
+
+    /// The gyro on the Linux board has turned so far in total.
+    pub(crate) fn board_heading(&mut self, now_us: u64, heading_urad: i32) {
+        self.handle(now_us, Input::BoardHeading { heading_urad });
+    }
+
+    /// The radio on the Linux board has measured the distance to a beacon.
+    pub(crate) fn beacon_range(&mut self, now_us: u64, beacon: u16, range_m: f64) {
+        self.handle(
+            now_us,
+            Input::BeaconRange(BeaconRange {
+                beacon,
+                range_m,
+                sigma_m: Beacons::SIGMA_M,
+            }),
+        );
     }
 
     /// Hands over what came from the robot and lets time pass.

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use brain::mapping::StoredMap;
-use home::{Home, Pose};
+use home::{Beacons, BoardGyro, Home, Pose};
 
 use crate::figures::{Belief, Collector, Floor};
 use crate::known_map::known_map;
+use crate::linux_board::LinuxBoard;
 use crate::map_quality::judge;
 use crate::report::{Driven, Report, StuckWatch};
 use crate::trace::{Drawing, KeptRun, Trace};
@@ -31,6 +32,7 @@ pub struct Household {
     known_home: Option<StoredMap>,
     /// With that map it is told where in it the robot stands.
     tells_place: bool,
+    board: LinuxBoard,
     /// What happened, if somebody wants to know.
     trace: Option<Trace>,
 }
@@ -66,6 +68,7 @@ impl Household {
             pose_source: PoseSource::Own,
             known_home: None,
             tells_place: false,
+            board: LinuxBoard::default(),
             trace: None,
         }
     }
@@ -80,6 +83,7 @@ impl Household {
                 let truth = self.robot.world().truth();
                 host.place(self.map_from_plan.then(truth.pose));
             }
+            self.board.pass_ms(&self.robot, host, now_us);
             host.step(now_us, &self.from_robot);
             if self
                 .known_home
@@ -124,6 +128,20 @@ impl Household {
             known_home: Some(map),
             ..self
         }
+    }
+
+    /// The same household with a gyro on the Linux board.
+    #[must_use]
+    pub fn with_board_gyro(mut self, gyro: BoardGyro) -> Self {
+        self.board.gyro = Some(gyro);
+        self
+    }
+
+    /// The same household with beacons that the Linux board's radio hears.
+    #[must_use]
+    pub fn with_beacons(mut self, beacons: Beacons) -> Self {
+        self.board.beacons = Some(beacons);
+        self
     }
 
     /// The same household that remembers what happens.

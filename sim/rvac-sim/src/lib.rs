@@ -12,6 +12,7 @@ mod firmware;
 mod host;
 mod household;
 mod known_map;
+mod linux_board;
 mod map_quality;
 pub mod page;
 mod plan;

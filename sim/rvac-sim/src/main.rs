@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments};
 use brain::StoredMap;
 use clap::Parser;
@@ -22,7 +22,7 @@ use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{Firmware, Host, Household, Record, Report, Scene};
+use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -56,6 +56,12 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let mut household = household(&scene, &settings).with_pose_source(arguments.pose_source());
     if arguments.keep.is_some() {
         household = household.with_trace();
+    }
+    if arguments.board_gyro {
+        household = household.with_board_gyro(scene.board_gyro(settings.seed));
+    }
+    if arguments.beacons > 0 {
+        household = household.with_beacons(scene.beacons(settings.seed, arguments.beacons.into()));
     }
     if arguments.known_map {
         household = household.with_known_map();
@@ -125,8 +131,11 @@ fn write_page(folder: &Path) -> anyhow::Result<ExitCode> {
 }
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
-    let model = RobotModel::by_name("sr8730")?;
+    let model = RobotModel::by_name(&arguments.robot)?;
     let firmware = Firmware::load(arguments.firmware.as_deref(), &Record::Complete)?;
+    if !firmware.suits(&model.name) {
+        bail!(SceneError::NoBoard(model.name));
+    }
     let campaign = Campaign::load(model, firmware)?;
     let seeds = arguments.seeds.clone();
     let count = seeds.end - seeds.start;

@@ -4,14 +4,16 @@
 use home::{RobotModel, World};
 use monitor::Monitor;
 use pic32::board::EmulatedRobot;
-use robot::{FaultRates, SimulatedRobot};
+use robot::{FaultRates, Relax, SimulatedRobot};
 use rvac_protocol::message::ResetCause;
 
 /// A robot of either make.
 #[derive(Debug)]
 pub enum Robot {
-    /// cordlib as a part of this program, on simulated pins.
+    /// cordlib as a part of this program, on the SR8730's simulated pins.
     HostBuilt(Box<SimulatedRobot>),
+    /// cordlib as a part of this program, on the simulated pins of a Relax.
+    HostBuiltRelax(Box<SimulatedRobot<Relax>>),
     /// A firmware image in an emulated microcontroller.
     Emulated(Box<EmulatedRobot>),
 }
@@ -21,6 +23,7 @@ macro_rules! each {
     ($robot:expr, $inner:ident => $action:expr) => {
         match $robot {
             Robot::HostBuilt($inner) => $action,
+            Robot::HostBuiltRelax($inner) => $action,
             Robot::Emulated($inner) => $action,
         }
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use home::generate::GeneratedHome;
 use home::traps::{Trap, TrapKind};
-use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
+use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
 
@@ -37,9 +37,6 @@ pub struct Scene {
     firmware: Firmware,
 }
 
-/// The one board the simulator has.
-const BOARD: &str = "sr8730";
-
 impl Scene {
     /// Loads home and model.
     ///
@@ -47,13 +44,13 @@ impl Scene {
     /// One sentence that names what is wrong and what to do; nothing was written.
     pub fn load(settings: &SceneSettings) -> Result<Self, SceneError> {
         let model = RobotModel::by_name(&settings.robot)?;
-        if model.name != BOARD {
-            return Err(SceneError::NoBoard(model.name));
-        }
         let noise =
             Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
         let firmware =
             Firmware::load(settings.firmware.as_deref(), &settings.record)?.with_gyro(settings.gyro);
+        if !firmware.suits(&model.name) {
+            return Err(SceneError::NoBoard(model.name));
+        }
         let home = load_home(&settings.home, &model)?;
         Ok(Self::new(Arc::new(home), model, noise).with_firmware(firmware))
     }
@@ -86,6 +83,18 @@ impl Scene {
     pub fn robot_at(&self, start: Option<Pose>, seed: u64, settings: &RobotSettings) -> Robot {
         let world = World::new(Arc::clone(&self.home), &self.model, &self.noise, seed, start);
         self.firmware.robot(world, settings)
+    }
+
+    /// A gyro on the robot's Linux board.
+    #[must_use]
+    pub fn board_gyro(&self, seed: u64) -> BoardGyro {
+        BoardGyro::new(&self.noise, seed)
+    }
+
+    /// So many radio beacons at the edges of the home.
+    #[must_use]
+    pub fn beacons(&self, seed: u64, count: usize) -> Beacons {
+        Beacons::around(&self.home, count, seed)
     }
 
     /// Where the robot's sensors sit, as its host must know it.
@@ -131,8 +140,8 @@ pub enum SceneError {
     /// The firmware cannot be run.
     #[error(transparent)]
     Firmware(#[from] FirmwareError),
-    /// A robot that is described, but whose board is not simulated.
-    #[error("the board of `{0}` is not simulated; use --robot {BOARD}")]
+    /// A robot whose chip is not emulated.
+    #[error("the chip of `{0}` is not emulated; leave out --firmware, or use --robot sr8730")]
     NoBoard(String),
     /// No such generated home.
     #[error(

@@ -12,6 +12,7 @@ pub fn sensor_layout(model: &RobotModel) -> SensorLayout {
             half_angle_rad: part.half_angle_rad,
             half_level_m: part.half_level_m,
             skin_m: model.body.radius_m - part.mount_radius_m,
+            near_m: part.near_m,
         };
         ProximityLayout::ring(&part.headings_rad, part.mount_radius_m, response)
     });

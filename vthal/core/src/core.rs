@@ -78,6 +78,11 @@ impl Core {
                     mind.observer.take_board_heading(now_us, heading_urad);
                 }
             }
+            Input::BeaconRange(range) => {
+                if let Some(mind) = &mut self.mind {
+                    mind.observer.take_beacon_range(range);
+                }
+            }
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::MapRestored { number, home } => self.map_restored(now_us, (number, home), outputs),

@@ -1,6 +1,7 @@
 //! Everything that can happen to the core.
 
 use brain::StoredMap;
+use brain::observation::BeaconRange;
 use rvac_api::Request;
 
 /// A connected client, numbered by the shell; numbers are never reused.
@@ -24,6 +25,8 @@ pub enum Input<'a> {
         /// Microradians counter-clockwise, wrapping.
         heading_urad: i32,
     },
+    /// A radio on the Linux board measured how far a beacon is.
+    BeaconRange(BeaconRange),
     /// A client connected.
     ClientConnected(ClientId),
     /// A client asks for something.

@@ -222,6 +222,7 @@ impl Mind {
     pub(crate) fn step(&mut self, recorder: &mut Recorder<'_>) -> Actions {
         let commands = core::mem::take(&mut self.waiting);
         let actions = self.step_once(&commands, recorder);
+        self.observer.seen();
         self.waiting = commands;
         self.waiting.clear();
         self.watch_rest(recorder);

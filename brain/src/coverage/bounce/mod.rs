@@ -120,9 +120,11 @@ impl Bounce {
 /// Straight ahead, slower when something is near.
 fn ahead(situation: &Situation<'_>) -> Motion {
     let proximity = &situation.observation.proximity;
-    // The third in the middle looks ahead.
-    let third = proximity.len() / 3;
-    let front = proximity.get(third..proximity.len() - third).unwrap_or_default();
+    // The third in the middle looks ahead; a single sensor looks aside.
+    let third = (proximity.len() / 3).max(1);
+    let front = proximity
+        .get(third..proximity.len().saturating_sub(third))
+        .unwrap_or_default();
     let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
     let near = front.iter().any(|level| *level > NEAR_LEVEL);
     let speed_m_per_s = if near {

@@ -408,14 +408,16 @@ pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
     }
 }
 
-/// What the infrared sensors advise. They are ordered from the right side counter-clockwise.
+/// What the infrared sensors advise. They are ordered from the right side counter-clockwise; a single one looks to the
+/// right.
 pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
     let proximity = &situation.observation.proximity;
-    let third = proximity.len() / 3;
+    let third = (proximity.len() / 3).max(1);
+    let last = proximity.len().saturating_sub(third).max(third);
     let highest = |levels: &[f32]| levels.iter().copied().fold(0.0, f32::max);
     let part = |range: core::ops::Range<usize>| highest(proximity.get(range).unwrap_or_default());
-    let (right, left) = (part(0..third), part(proximity.len() - third..proximity.len()));
-    let ahead = part(third..proximity.len() - third);
+    let (right, left) = (part(0..third), part(last..proximity.len()));
+    let ahead = part(third..last);
     let offset_m = match (left > BESIDE_LEVEL, right > BESIDE_LEVEL) {
         (true, false) => -ASIDE_M,
         (false, true) => ASIDE_M,

@@ -36,8 +36,16 @@ struct Beam {
     /// Its direction there.
     cos: f64,
     sin: f64,
-    /// Distance to what is seen and one over its deviation.
-    seen: Option<(f64, f64)>,
+    seen: Option<Sight>,
+}
+
+/// Something that a sensor sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sight {
+    /// At this distance, with one over its deviation.
+    At(f64, f64),
+    /// Within the range; the sensor has only one line.
+    Near,
 }
 
 /// All sensors at one moment.
@@ -77,7 +85,7 @@ impl Beams {
             };
             mount_m = mount_m.max(pose.position().distance_m(Point2::ORIGIN));
         }
-        let range_m = layout.response.range_m;
+        let range_m = layout.response.near_m.unwrap_or(layout.response.range_m);
         Self {
             beams,
             count: layout.sensors().len(),
@@ -126,10 +134,11 @@ impl Beams {
                 .filter(|expected_m| *expected_m < self.range_m - RANGE_BAND_M);
             let agreed = match (beam.seen, expected_m) {
                 (None, None) => continue,
-                (Some((seen_m, per_sigma)), Some(expected_m)) => {
+                (Some(Sight::At(seen_m, per_sigma)), Some(expected_m)) => {
                     ((seen_m - expected_m) * per_sigma).abs() < 3.0
                 }
-                (Some((seen_m, per_sigma)), None) => (self.range_m - seen_m) * per_sigma < 3.0,
+                (Some(Sight::At(seen_m, per_sigma)), None) => (self.range_m - seen_m) * per_sigma < 3.0,
+                (Some(Sight::Near), _) => self.cast(map, place, beam).is_some(),
                 (None, Some(_)) => false,
             };
             if !agreed && looks_into_unknown(map, place, beam, expected_m) {
@@ -141,20 +150,25 @@ impl Beams {
         fit
     }
 
-    fn beam_likelihood(&self, seen: Option<(f64, f64)>, expected_m: Option<f64>) -> f64 {
+    fn beam_likelihood(&self, seen: Option<Sight>, expected_m: Option<f64>) -> f64 {
         match (seen, expected_m) {
             (None, None) => 1.0,
             (None, Some(expected_m)) => {
                 let beyond = (expected_m - self.range_m) / RANGE_BAND_M + 0.5;
                 UNSEEN + (1.0 - UNSEEN) * beyond.clamp(0.0, 1.0)
             }
-            (Some((seen_m, per_sigma)), Some(expected_m)) => {
+            (Some(Sight::Near), Some(expected_m)) => {
+                let within = (self.range_m - expected_m) / RANGE_BAND_M + 0.5;
+                UNMAPPED + (1.0 - UNMAPPED) * within.clamp(0.0, 1.0)
+            }
+            (Some(Sight::Near), None) => UNMAPPED,
+            (Some(Sight::At(seen_m, per_sigma)), Some(expected_m)) => {
                 let off = (seen_m - expected_m) * per_sigma;
                 let floor = if off > 3.0 { THROUGH } else { UNMAPPED };
                 floor + (1.0 - floor) * bell(off)
             }
             // The map's nearest thing may lie just beyond the range.
-            (Some((seen_m, per_sigma)), None) => {
+            (Some(Sight::At(seen_m, per_sigma)), None) => {
                 UNMAPPED + (1.0 - UNMAPPED) * bell((self.range_m + 2.0 * RANGE_BAND_M - seen_m) * per_sigma)
             }
         }
@@ -205,12 +219,14 @@ fn bell(off: f64) -> f64 {
     1.0 / (body * body)
 }
 
-/// Distance and one over its deviation.
-fn seen(level: f64, response: &ProximityResponse) -> Option<(f64, f64)> {
+fn seen(level: f64, response: &ProximityResponse) -> Option<Sight> {
     // Written so that NaN is nothing.
     let shows = level > LEVEL_MIN && response.half_level_m > 0.0;
     if !shows {
         return None;
+    }
+    if response.near_m.is_some() {
+        return Some(Sight::Near);
     }
     let beyond = libm::sqrt((1.0 / level - 1.0).max(0.0));
     let distance_m = response.skin_m + response.half_level_m * beyond;
@@ -218,7 +234,7 @@ fn seen(level: f64, response: &ProximityResponse) -> Option<(f64, f64)> {
     let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
     let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
     let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
-    Some((distance_m.min(response.range_m), 1.0 / sigma_m))
+    Some(Sight::At(distance_m.min(response.range_m), 1.0 / sigma_m))
 }
 
 /// A pose with what each sensor needs of it.

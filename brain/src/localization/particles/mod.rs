@@ -14,6 +14,7 @@ use crate::observation::{Cliffs, Contacts, Observation};
 use crate::random::Random;
 
 use super::PoseEstimate;
+use super::beacons::Heard;
 pub(super) use infrared::Fit;
 use infrared::{Beams, Place};
 use touch::{Touch, body_likelihood};
@@ -191,13 +192,13 @@ impl ParticleFilter {
         &mut self,
         map: &impl Surroundings,
         observation: &Observation,
-        edges: (Contacts, Cliffs),
+        felt: (Contacts, Cliffs, &[Heard]),
     ) {
         self.beams
             .look(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
-            contacts: edges.0,
-            edges: edges.1,
+            contacts: felt.0,
+            edges: felt.1,
         };
         let mut sum = 0.0;
         for particle in &mut self.particles {
@@ -208,7 +209,7 @@ impl ParticleFilter {
             if touch.tells() {
                 likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
             }
-            particle.weight *= likelihood;
+            particle.weight *= likelihood * heard_likelihood(felt.2, place.centre);
             sum += particle.weight;
         }
         self.normalize(sum);
@@ -329,6 +330,15 @@ impl ParticleFilter {
     pub(super) fn fit(&self, map: &impl Surroundings, pose: Pose2) -> Fit {
         self.beams.fit(map, &place(map, pose))
     }
+}
+
+/// Likelihood of ranges to beacons at a place, with the heavy tails of Student's t: 1 at best.
+fn heard_likelihood(heard: &[Heard], centre: Point2) -> f64 {
+    heard.iter().fold(1.0, |likelihood, range| {
+        let off = (range.range_m - range.at.distance_m(centre)) / range.sigma_m;
+        let body = 1.0 + off * off / 3.0;
+        likelihood / (body * body)
+    })
 }
 
 /// To the power of 3/8, by roots because they are cheap.

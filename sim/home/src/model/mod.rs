@@ -143,6 +143,8 @@ pub struct Proximity {
     pub half_angle_rad: f64,
     /// Distance at which a white wall gives half of the full level, metres.
     pub half_level_m: f64,
+    /// Distance at which a white wall makes a sensor with one line switch, metres; `None` = it tells levels.
+    pub near_m: Option<f64>,
 }
 
 /// A gyro around the upward axis.

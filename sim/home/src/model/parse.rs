@@ -211,6 +211,11 @@ fn proximity(reader: &Reader<'_>, raw: &RawProximity, body: &Body) -> Result<Pro
         range_m: reader.figure(&raw.range, "proximity.range [m]", 0.01..=2.0)?,
         half_angle_rad: radians(reader.figure(&raw.half_angle, "proximity.half-angle [deg]", 0.0..=30.0)?),
         half_level_m: reader.figure(&raw.half_level, "proximity.half-level [m]", 0.005..=1.0)?,
+        near_m: raw
+            .near
+            .as_ref()
+            .map(|near| reader.figure(near, "proximity.near [m]", 0.005..=1.0))
+            .transpose()?,
     })
 }
 

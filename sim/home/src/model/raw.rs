@@ -99,6 +99,7 @@ pub(super) struct RawProximity {
     pub(super) range: Figure,
     pub(super) half_angle: Figure,
     pub(super) half_level: Figure,
+    pub(super) near: Option<Figure>,
 }
 
 #[derive(Deserialize)]

@@ -51,6 +51,11 @@ impl Gyro {
         self.rate_rad_per_s += 0.3 * (seen * (1.0 / STEP_S) - self.rate_rad_per_s);
     }
 
+    /// The bias changes by so much.
+    pub(crate) fn shift_bias(&mut self, rad_per_s: f64) {
+        self.bias_rad_per_s += rad_per_s;
+    }
+
     /// Draws the random walk of the next [`WALK_PERIOD_S`].
     pub(crate) fn walk(&mut self, random: &mut Pcg) {
         self.wobble_rad_per_s = self.walk_rad / WALK_PERIOD_S * random.normal();

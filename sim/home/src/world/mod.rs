@@ -26,6 +26,8 @@ pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
 
+pub(crate) use gyro::{DRIFT_STEPS, Gyro as WorldGyro, WALK_STEPS};
+
 use crate::{Home, Noise, Pcg, Pose, RobotModel};
 use body::Body;
 use dirt::Dirt;

@@ -40,6 +40,8 @@ pub(crate) struct Proximity {
     range_m: f64,
     spread: f64,
     half_level_m: f64,
+    /// Light from which on a sensor with one line says near, 0..1.
+    near_light: Option<f64>,
     noise: f64,
     albedo: f64,
     dropout: f64,
@@ -50,7 +52,12 @@ pub(crate) struct Proximity {
 
 impl Proximity {
     pub(crate) fn new(part: &model::Proximity, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
+        let skin_m = radius_m - part.mount_radius_m;
+        let near_light = part
+            .near_m
+            .map(|near_m| light(near_m - skin_m, part.half_level_m));
         Self {
+            near_light,
             directions: part
                 .headings_rad
                 .iter()
@@ -60,7 +67,7 @@ impl Proximity {
                 })
                 .collect(),
             mount_m: part.mount_radius_m,
-            skin_m: radius_m - part.mount_radius_m,
+            skin_m,
             range_m: part.range_m,
             spread: libm::tan(part.half_angle_rad),
             half_level_m: part.half_level_m,
@@ -107,9 +114,13 @@ impl Proximity {
         if random.unit() < self.dropout || deflected(home, beam, distance_m) {
             return 0;
         }
-        let beyond = (distance_m - self.skin_m).max(0.0) / self.half_level_m;
-        let light = self.reflection(beam.at(distance_m)) / (1.0 + beyond * beyond);
-        (255.0 * light * (1.0 + self.noise * random.normal())) as u8
+        let white = light(distance_m - self.skin_m, self.half_level_m);
+        let seen = self.reflection(beam.at(distance_m)) * white * (1.0 + self.noise * random.normal());
+        match self.near_light {
+            Some(near_light) if seen >= near_light => u8::MAX,
+            Some(_) => 0,
+            None => (255.0 * seen) as u8,
+        }
     }
 
     /// Distance from the sensor to what its cone meets.
@@ -138,6 +149,12 @@ impl Proximity {
         let unit = f64::from((hash >> 32) as u32) / 4_294_967_296.0;
         1.0 + self.albedo * (2.0 * unit - 1.0)
     }
+}
+
+/// Light that comes back from a white wall so far beyond the rim, 1 at the rim.
+fn light(beyond_m: f64, half_level_m: f64) -> f64 {
+    let beyond = beyond_m.max(0.0) / half_level_m;
+    1.0 / (1.0 + beyond * beyond)
 }
 
 /// Whether a mirror throws the light elsewhere: only what meets it at a right angle comes back.

@@ -1,14 +1,18 @@
-//! The simulated board, made like the SR8730's: parts of cordlib's capability traits that hold plain values.
+//! The simulated boards: parts of cordlib's capability traits that hold plain values. Which of them a board has is its
+//! [`Outfit`].
 //!
 //! Before each pass of the firmware's loop the robot puts what the home's sensors say into the parts, after it it takes
 //! out what the firmware set. So the parts know nothing of the world, and the world nothing of the firmware.
 
 mod actuators;
+mod one_line;
+mod outfit;
 mod persistent;
 mod sensors;
 mod serial;
 
 pub use actuators::{Cleaner, Sounder, Supervisor, WheelBridges};
+pub use outfit::{Outfit, Relax, Sr8730};
 pub use persistent::Persistent;
 pub use sensors::{
     BumperPins, ButtonPins, CliffReceivers, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
@@ -17,15 +21,18 @@ pub use sensors::{
 pub use serial::SerialPort;
 
 pub(crate) use actuators::WATCHDOG_MS;
+pub(crate) use one_line::OneLine;
+
+use core::marker::PhantomData;
 
 use cordlib::board::{Board, Clock, Parts};
 use rvac_units::Tick;
 
-/// The parts of the simulated board, as types.
+/// The parts of a simulated board, as types.
 #[derive(Clone, Copy, Debug)]
-pub struct SimulatedParts;
+pub struct SimulatedParts<O>(PhantomData<O>);
 
-impl Parts for SimulatedParts {
+impl<O: Outfit> Parts for SimulatedParts<O> {
     type Clock = TickCounter;
     type Link = SerialPort;
     type Wheels = WheelBridges;
@@ -34,17 +41,17 @@ impl Parts for SimulatedParts {
     type Encoders = EncoderCounters;
     type Bumpers = BumperPins;
     type Cliffs = CliffReceivers;
-    type WheelDrops = WheelDropPins;
-    type Proximity = ProximityReadings;
-    type Gyro = GyroReading;
-    type Currents = CurrentReadings;
+    type WheelDrops = WheelDropPins<O>;
+    type Proximity = ProximityReadings<O>;
+    type Gyro = GyroReading<O>;
+    type Currents = CurrentReadings<O>;
     type BrushMain = Cleaner;
     type BrushSides = Cleaner;
     type Vacuum = Cleaner;
-    type Charger = PackPins;
-    type DockContacts = DockInputs;
-    type DockBeams = DockInputs;
-    type DustBox = DustBoxPin;
+    type Charger = PackPins<O>;
+    type DockContacts = DockInputs<O>;
+    type DockBeams = DockInputs<O>;
+    type DustBox = DustBoxPin<O>;
     type Beeper = Sounder;
     type Lights = cordlib::board::Absent;
     type Buttons = ButtonPins;
@@ -64,7 +71,7 @@ impl Clock for TickCounter {
 }
 
 /// A board whose every output is off, as it stands the moment after a reset.
-pub(crate) fn fresh(persistent: Persistent) -> Board<SimulatedParts> {
+pub(crate) fn fresh<O: Outfit>(persistent: Persistent) -> Board<SimulatedParts<O>> {
     Board {
         clock: TickCounter::default(),
         link: SerialPort::default(),

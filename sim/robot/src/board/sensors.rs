@@ -1,4 +1,7 @@
-//! Sensor inputs: values that the robot fills in before each pass of the firmware.
+//! Sensor inputs: values that the robot fills in before each pass of the firmware. How many there are of a kind is the
+//! outfit's business.
+
+use core::marker::PhantomData;
 
 use cordlib::board::{
     BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CliffLevels, CliffSensors, CurrentSense,
@@ -6,6 +9,8 @@ use cordlib::board::{
     WheelCounts, WheelDropSwitches,
 };
 use rvac_protocol::message::{Bumpers, Cliffs, Currents, DockReceivers, Gyro, PROXIMITY_SENSORS, WheelDrops};
+
+use super::Outfit;
 
 /// Bumper switches, two zones.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,12 +60,13 @@ impl CliffSensors for CliffReceivers {
 
 /// Wheel drop switches.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct WheelDropPins {
+pub struct WheelDropPins<O> {
     pub(crate) hanging: WheelDrops,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl WheelDropSwitches for WheelDropPins {
-    const SWITCHES: u8 = 2;
+impl<O: Outfit> WheelDropSwitches for WheelDropPins<O> {
+    const SWITCHES: u8 = O::WHEEL_DROPS;
 
     fn hanging(&mut self) -> WheelDrops {
         self.hanging
@@ -83,12 +89,13 @@ impl Encoders for EncoderCounters {
 
 /// Proximity sensors.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ProximityReadings {
+pub struct ProximityReadings<O> {
     pub(crate) closeness: [u8; PROXIMITY_SENSORS],
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl ProximitySensors for ProximityReadings {
-    const COUNT: u8 = 7;
+impl<O: Outfit> ProximitySensors for ProximityReadings<O> {
+    const COUNT: u8 = O::PROXIMITY;
 
     fn closeness(&mut self) -> [u8; PROXIMITY_SENSORS] {
         self.closeness
@@ -97,12 +104,13 @@ impl ProximitySensors for ProximityReadings {
 
 /// Gyro.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct GyroReading {
+pub struct GyroReading<O> {
     pub(crate) gyro: Option<Gyro>,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl HeadingSensor for GyroReading {
-    const PRESENT: bool = true;
+impl<O: Outfit> HeadingSensor for GyroReading<O> {
+    const PRESENT: bool = O::GYRO;
 
     fn heading(&mut self) -> Option<Gyro> {
         self.gyro
@@ -111,12 +119,13 @@ impl HeadingSensor for GyroReading {
 
 /// Motor currents.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CurrentReadings {
+pub struct CurrentReadings<O> {
     pub(crate) currents: Option<Currents>,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl CurrentSense for CurrentReadings {
-    const PRESENT: bool = true;
+impl<O: Outfit> CurrentSense for CurrentReadings<O> {
+    const PRESENT: bool = O::ANALOG;
 
     fn currents(&mut self) -> Option<Currents> {
         self.currents
@@ -125,15 +134,16 @@ impl CurrentSense for CurrentReadings {
 
 /// Battery and charger.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct PackPins {
+pub struct PackPins<O> {
     pub(crate) readings: Option<ChargerReadings>,
     pub(crate) drive: ChargeDrive,
     pub(crate) request: DockRequest,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl Charger for PackPins {
-    const PRESENT: bool = true;
-    const CHARGES: bool = true;
+impl<O: Outfit> Charger for PackPins<O> {
+    const PRESENT: bool = O::ANALOG;
+    const CHARGES: bool = O::DOCK_BEAMS > 0;
 
     fn readings(&mut self) -> Option<ChargerReadings> {
         self.readings
@@ -150,19 +160,20 @@ impl Charger for PackPins {
 
 /// Dock contacts and dock receivers.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DockInputs {
+pub struct DockInputs<O> {
     pub(crate) closed: bool,
     pub(crate) symbols: DockReceivers,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl DockContacts for DockInputs {
+impl<O: Outfit> DockContacts for DockInputs<O> {
     fn closed(&mut self) -> bool {
         self.closed
     }
 }
 
-impl DockBeams for DockInputs {
-    const COUNT: u8 = 4;
+impl<O: Outfit> DockBeams for DockInputs<O> {
+    const COUNT: u8 = O::DOCK_BEAMS;
 
     fn symbols(&mut self) -> DockReceivers {
         self.symbols
@@ -185,12 +196,13 @@ impl Buttons for ButtonPins {
 
 /// Switch behind the dust box.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DustBoxPin {
+pub struct DustBoxPin<O> {
     pub(crate) inserted: bool,
+    pub(crate) outfit: PhantomData<O>,
 }
 
-impl DustBox for DustBoxPin {
+impl<O: Outfit> DustBox for DustBoxPin<O> {
     fn inserted(&mut self) -> Option<bool> {
-        Some(self.inserted)
+        O::DUST_BOX.then_some(self.inserted)
     }
 }

@@ -4,7 +4,7 @@ mod odometer;
 
 pub use odometer::{Odometer, RawTotals, Travel};
 
-use brain::observation::{Cliffs, Contacts, Observation};
+use brain::observation::{BeaconRange, Cliffs, Contacts, Observation};
 use rvac_protocol::message::{Inhibit, Inhibits, State};
 
 use crate::device::{Description, Part};
@@ -14,6 +14,9 @@ pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
 
 /// A heading of the Linux board's gyro older than this says nothing about the robot's present.
 const BOARD_HEADING_FRESH_US: u64 = 200_000;
+
+/// Ranges to beacons that wait for the next step of the brain at most; a radio measures some in 20 ms, not dozens.
+const BEACON_RANGES_MAX: usize = 32;
 
 /// What the gyro on the Linux board said last.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +64,18 @@ impl Observer {
             at_us: now_us,
             heading_urad,
         });
+    }
+
+    /// Takes a range to a beacon; the next step of the brain sees it. More than a step can be worth are dropped.
+    pub fn take_beacon_range(&mut self, range: BeaconRange) {
+        if self.observation.beacon_ranges.len() < BEACON_RANGES_MAX {
+            self.observation.beacon_ranges.push(range);
+        }
+    }
+
+    /// What is told once only has been seen.
+    pub fn seen(&mut self) {
+        self.observation.beacon_ranges.clear();
     }
 
     fn heading_urad(&self, now_us: u64, state: &State, description: &Description) -> Option<i32> {

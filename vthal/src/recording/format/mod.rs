@@ -12,7 +12,7 @@ pub use order::GivenOrder;
 pub use state::BrainState;
 
 use brain::mapping::Entry;
-use brain::observation::{Cliffs, Contacts};
+use brain::observation::{BeaconRange, Cliffs, Contacts};
 use brain::{Body, BrainConfig, Command, Observation, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
@@ -153,6 +153,9 @@ pub struct Seen {
     inhibits: Vec<String>,
     link_up: bool,
     speed_share: f64,
+    /// Number, range and its deviation of each beacon that was measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    beacons: Vec<(u16, f64, f64)>,
 }
 
 impl From<&Observation> for Seen {
@@ -172,6 +175,11 @@ impl From<&Observation> for Seen {
             inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
+            beacons: seen
+                .beacon_ranges
+                .iter()
+                .map(|range| (range.beacon, range.range_m, range.sigma_m))
+                .collect(),
         }
     }
 }
@@ -201,6 +209,15 @@ impl Seen {
             inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
             link_up: self.link_up,
             speed_share: self.speed_share,
+            beacon_ranges: self
+                .beacons
+                .iter()
+                .map(|&(beacon, range_m, sigma_m)| BeaconRange {
+                    beacon,
+                    range_m,
+                    sigma_m,
+                })
+                .collect(),
         }
     }
 }
@@ -335,6 +352,7 @@ impl GivenCommand {
 #[cfg(test)]
 mod tests {
     use brain::mapping::Entry;
+    use brain::observation::BeaconRange;
     use brain::{CleaningOrder, Command, HomePart, Observation, Point2, Zone};
 
     use super::{Given, GivenCommand, Seen};
@@ -349,6 +367,11 @@ mod tests {
             proximity: vec![1.0 / 255.0, 0.7],
             inhibits: vec!["wheel-drop", "unknown-inhibit"],
             battery_charge: Some(0.3),
+            beacon_ranges: vec![BeaconRange {
+                beacon: 3,
+                range_m: 4.1,
+                sigma_m: 0.2,
+            }],
             ..Observation::default()
         };
         let text = serde_json::to_string(&Seen::from(&observation)).expect("plain");

@@ -12,6 +12,9 @@ pub(super) struct SensorSettings {
     half_angle_rad: f64,
     half_level_m: f64,
     skin_m: f64,
+    /// Absent for sensors that tell levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    near_m: Option<f64>,
     bumper_half_arc_rad: f64,
     bumper_overlap_rad: f64,
     /// Left, middle, right.
@@ -39,6 +42,7 @@ impl From<&SensorLayout> for SensorSettings {
             half_angle_rad: response.half_angle_rad,
             half_level_m: response.half_level_m,
             skin_m: response.skin_m,
+            near_m: response.near_m,
             bumper_half_arc_rad: layout.bumper.half_arc_rad,
             bumper_overlap_rad: layout.bumper.overlap_rad,
             cliffs: layout
@@ -65,6 +69,7 @@ impl SensorSettings {
             half_angle_rad: self.half_angle_rad,
             half_level_m: self.half_level_m,
             skin_m: self.skin_m,
+            near_m: self.near_m,
         };
         SensorLayout {
             proximity: ProximityLayout::new(&poses, response),

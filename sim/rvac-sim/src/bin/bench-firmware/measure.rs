@@ -201,7 +201,7 @@ fn host_built(home: &Path) -> anyhow::Result<f64> {
     let model = RobotModel::by_name("sr8730")?;
     let home = Arc::new(Home::load(home, &model)?);
     let world = World::new(home, &model, &Noise::ideal(), 1, None);
-    let mut robot = SimulatedRobot::new(&model, world, &RobotSettings::default());
+    let mut robot: SimulatedRobot = SimulatedRobot::new(&model, world, &RobotSettings::default());
     let begun = Instant::now();
     let mut bytes = Vec::new();
     for _ in 0..MS {

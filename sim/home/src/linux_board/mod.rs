@@ -1,0 +1,7 @@
+//! Sensors on the robot's Linux board: no firmware reads them, the daemon does. They know the world only by the true pose.
+
+mod beacons;
+mod gyro;
+
+pub use beacons::Beacons;
+pub use gyro::BoardGyro;

@@ -1,0 +1,33 @@
+//! What sits on the robot's Linux board besides the daemon: a gyro and a radio, where there are such.
+
+use home::{Beacons, BoardGyro};
+
+use crate::{Host, Robot};
+
+/// Milliseconds between two totals of the gyro, as the daemon's own reader sends them.
+const GYRO_MS: u64 = 10;
+
+/// The sensors of the Linux board.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LinuxBoard {
+    pub(crate) gyro: Option<BoardGyro>,
+    pub(crate) beacons: Option<Beacons>,
+}
+
+impl LinuxBoard {
+    /// One millisecond later: what the sensors have to say goes to the host.
+    pub(crate) fn pass_ms(&mut self, robot: &Robot, host: &mut Host, now_us: u64) {
+        let (pose, now_ms) = (robot.world().truth().pose, robot.now_ms());
+        if let Some(gyro) = &mut self.gyro {
+            gyro.step(pose.heading_rad);
+            if now_ms.is_multiple_of(GYRO_MS) {
+                host.board_heading(now_us, gyro.total_urad());
+            }
+        }
+        if let Some(beacons) = &mut self.beacons
+            && let Some((beacon, range_m)) = beacons.step(robot.world().home(), pose)
+        {
+            host.beacon_range(now_us, beacon, range_m);
+        }
+    }
+}
