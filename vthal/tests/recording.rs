@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
 
+use brain::observation::BeaconRange;
 use brain::action::{Arm, Decision, Tone};
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
@@ -88,6 +89,11 @@ fn records() -> Vec<Record> {
         proximity: vec![0.5; 8],
         dock_beams: vec![0, 3],
         battery_charge: Some(0.94),
+        beacon_ranges: vec![BeaconRange {
+            beacon: 2,
+            range_m: 3.5,
+            sigma_m: 0.2,
+        }],
         inhibits: vec!["wheel-drop"],
         ..Observation::default()
     };

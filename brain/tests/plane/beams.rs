@@ -24,6 +24,7 @@ pub(crate) fn sensors_at(headings_deg: &[f64]) -> SensorLayout {
         half_angle_rad: 0.09,
         half_level_m: 0.06,
         skin_m: BODY.radius_m - MOUNT_M,
+        near_m: None,
     };
     let cliff = |y_m| Point2 {
         x_m: CLIFF_LEAD_M,

@@ -548,7 +548,10 @@ fn a_robot_that_never_saw_its_dock_does_not_overwrite_the_home() {
     pair.handle(Input::Shutdown);
     assert_eq!(pair.homes, []);
     let mut stranger = Pair::new();
-    stranger.run_ms(1000);
+    stranger.run_ms(500);
+    // Without anything that tells its heading it would draw no map.
+    stranger.handle(Input::BoardHeading { heading_urad: 0 });
+    stranger.run_ms(500);
     stranger.handle(Input::Shutdown);
     assert_eq!(stranger.homes.len(), 1, "without a home the first map is kept");
 }

@@ -199,7 +199,7 @@ impl Beams {
 
 /// Whether what a beam shows lies where nothing is known, with nothing known in front of it.
 fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expected_m: Option<f64>) -> bool {
-    let Some((seen_m, _)) = beam.seen else {
+    let Some(Sight::At(seen_m, _)) = beam.seen else {
         return false;
     };
     if expected_m.is_some_and(|expected_m| expected_m <= seen_m) {

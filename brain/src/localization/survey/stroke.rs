@@ -242,6 +242,7 @@ mod tests {
         half_angle_rad: 0.087,
         half_level_m: 0.06,
         skin_m: 0.01,
+        near_m: None,
     };
 
     /// What seven sensors see of a wall at x = 1 and one at y = `left_m`, both infinitely long.
