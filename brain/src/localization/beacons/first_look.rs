@@ -15,8 +15,12 @@ use crate::geometry::{Point2, Pose2, normalize_rad};
 /// Way before the first try, and between two, metres.
 const FIRST_M: f64 = 8.0;
 const AGAIN_M: f64 = 2.0;
-/// Hops after which it begins anew: a longer way is bent too much to begin with.
-const HOPS_MAX: usize = 600;
+/// Hops after which it is better to begin anew: wheels bend a longer way too much for a first guess.
+const HOPS_MAX: usize = 250;
+/// Most that the start may be unsure, metres and radians: who has counted wheels for long knows nothing of where it is, and
+/// begins a frame of its own there.
+const START_SIGMA_MAX_M: f64 = 0.1;
+const START_SIGMA_MAX_RAD: f64 = 0.05;
 /// Ranges that a beacon must have given.
 const RANGES_MIN: usize = 12;
 /// Beacons that it needs: with the wheels between two ranges, two tell where a robot is.
@@ -55,7 +59,11 @@ struct Guess {
 impl FirstLook {
     pub(super) fn new(start: PoseEstimate) -> Self {
         Self {
-            start,
+            start: PoseEstimate {
+                sigma_m: start.sigma_m.min(START_SIGMA_MAX_M),
+                sigma_rad: start.sigma_rad.min(START_SIGMA_MAX_RAD),
+                ..start
+            },
             hops: Vec::new(),
             length_m: 0.0,
             next_m: FIRST_M,
@@ -70,22 +78,12 @@ impl FirstLook {
             return None;
         }
         self.next_m = self.length_m + AGAIN_M;
-        let found = self.look();
-        if found.is_none() && self.hops.len() >= HOPS_MAX {
-            self.begin_anew();
-        }
-        found
+        self.look()
     }
 
-    fn begin_anew(&mut self) {
-        let wheels = [0.0; WHEELS];
-        let end = self.poses(wheels).last().copied().unwrap_or(self.start.pose);
-        *self = Self::new(PoseEstimate {
-            pose: end,
-            sigma_m: 1.0,
-            sigma_rad: 0.5,
-            ..self.start
-        });
+    /// Whether the way has become too long and too bent for an answer: better to begin anew.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.hops.len() >= HOPS_MAX
     }
 
     /// The way by odometry.

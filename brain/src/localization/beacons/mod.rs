@@ -88,7 +88,12 @@ impl Beacons {
                 None
             }
             Stage::Looking(look) => {
-                let found = look.take(hop)?;
+                let Some(found) = look.take(hop) else {
+                    if look.is_hopeless() {
+                        **look = FirstLook::new(before);
+                    }
+                    return None;
+                };
                 let estimate = found.estimate();
                 self.stage = Stage::Following(Box::new(found));
                 Some(estimate)
