@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
 
-use brain::observation::BeaconRange;
 use brain::action::{Arm, Decision, Tone};
+use brain::observation::BeaconRange;
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{LogEntry, LogLevel, Pose, Status};

@@ -242,6 +242,9 @@ impl Localization {
             if let Some(estimate) = by_beacons {
                 return self.adopt(estimate);
             }
+            if self.beacons.is_following() {
+                return;
+            }
             return self.follow_walls(observation, advance);
         };
         let Tracked { tracker, terrain } = &mut **tracked;

@@ -319,7 +319,7 @@ impl Follower {
             pose: self.pose,
             sigma_m: self.widest_m(0),
             sigma_rad: libm::sqrt(self.at(2, 2).max(0.0)),
-            lost: false,
+            ..PoseEstimate::default()
         }
     }
 
