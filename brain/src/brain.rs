@@ -3,7 +3,7 @@
 use crate::action::Actions;
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::Checkpoint;
-use crate::command::Command;
+use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
 use crate::coverage::{JobEstimate, estimate};
 use crate::energy::EnergyModel;
@@ -154,6 +154,18 @@ impl Brain {
     /// The named reason why the order cannot be carried out in this map.
     pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, Reason> {
         estimate(order, (&self.map, self.pose()), &self.config)
+    }
+
+    /// Strategy that suits the robot as it was at the last step: [`StrategyName::Systematic`] needs sensors whose places are
+    /// known, and something besides the wheels that tells the heading.
+    #[must_use]
+    pub fn usual_strategy(&self) -> StrategyName {
+        let sees = !self.config.sensors.proximity.sensors().is_empty();
+        if sees && self.behavior.knows_heading() {
+            StrategyName::Systematic
+        } else {
+            StrategyName::Bounce
+        }
     }
 
     /// What the robot is doing and why.

@@ -25,8 +25,8 @@ pub struct Config {
     pub state: PathBuf,
     /// Description of the robot, for the places of its sensors.
     pub description: Option<PathBuf>,
-    /// Strategy when a request names none.
-    pub strategy: StrategyName,
+    /// Strategy when a request names none; `None` = what suits the robot.
+    pub strategy: Option<StrategyName>,
     /// Longest job in minutes.
     pub task_budget_min: u32,
     /// Seed of the brain; from the clock when absent.
@@ -277,8 +277,8 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
         expert: file.socket.expert.unwrap_or(false),
         state: state.ok_or(missing("state folder", "--state DIR", "state.dir"))?,
         strategy: match &file.robot.strategy {
-            Some(name) => strategy(name, source)?,
-            None => strategy_by_sensors(file.robot.description.as_deref()),
+            Some(name) => Some(strategy(name, source)?),
+            None => None,
         },
         description: file.robot.description,
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
@@ -313,14 +313,6 @@ fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError
         axis,
         roots: Roots::default(),
     }))
-}
-
-/// A robot whose sensors are known follows walls and knows where it is; the others only feel their way.
-fn strategy_by_sensors(description: Option<&Path>) -> StrategyName {
-    match description {
-        Some(_) => StrategyName::Systematic,
-        None => StrategyName::Bounce,
-    }
 }
 
 fn strategy(name: &Spanned<String>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
@@ -395,8 +387,8 @@ mod tests {
         let mut defaults = parse("").expect("valid");
         defaults.seed = Some(1);
         defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
-        assert_eq!(defaults.strategy, StrategyName::Bounce, "sensors are not known");
-        defaults.strategy = StrategyName::Systematic;
+        assert_eq!(defaults.strategy, None, "what suits the robot");
+        defaults.strategy = Some(StrategyName::Systematic);
         defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");

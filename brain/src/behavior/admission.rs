@@ -36,6 +36,11 @@ impl Behavior {
         }
     }
 
+    /// Whether something besides the wheels told the heading at the last step.
+    pub(crate) const fn knows_heading(&self) -> bool {
+        self.facts.knows_heading
+    }
+
     /// What keeps any motion from starting (S25).
     fn startable(&self) -> Result<(), Reason> {
         if !self.facts.link_up {

@@ -201,9 +201,13 @@ impl Behavior {
         });
     }
 
-    /// Whether the job is at its end only because the robot is shut in: it has not swept half of what it knows of the home.
+    /// Whether a job for the whole home is at its end only because the robot is shut in: it has not swept half of what it
+    /// knows of the home.
     fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
-        let is_cleaning = |job: &&Job| matches!(job.kind, JobKind::Clean(_)) && job.pen.holds_the_end();
+        let is_cleaning = |job: &&Job| {
+            let is_whole_home = job.order.parts().is_empty();
+            matches!(job.kind, JobKind::Clean(_)) && is_whole_home && job.pen.holds_the_end()
+        };
         self.job.as_ref().filter(is_cleaning).is_some()
             && situation.map.swept_m2() < 0.5 * situation.map.free_m2()
     }

@@ -45,7 +45,7 @@ impl Host {
     pub fn config(seed: u64, strategy: StrategyName) -> CoreConfig {
         CoreConfig {
             seed,
-            strategy,
+            strategy: Some(strategy),
             ..CoreConfig::default()
         }
     }

@@ -60,6 +60,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "map_iou",
         "wall_error_m",
         "estimate_error",
+        "time_spent",
         "docked",
         "state",
         "sim_seconds",

@@ -10,8 +10,8 @@ use crate::Checkpoint;
 pub struct CoreConfig {
     /// Seed of the brain; each run derives its own from it.
     pub seed: u64,
-    /// Strategy when a request names none.
-    pub strategy: StrategyName,
+    /// Strategy when a request names none; `None` = what suits the robot.
+    pub strategy: Option<StrategyName>,
     /// Whether clients may send raw packets.
     pub expert: ExpertAccess,
     /// Whether records are wanted.
@@ -34,7 +34,7 @@ impl Default for CoreConfig {
     fn default() -> Self {
         Self {
             seed: 1,
-            strategy: StrategyName::default(),
+            strategy: None,
             expert: ExpertAccess::Denied,
             recording: Recording::Off,
             checkpoints: Checkpoints::Off,

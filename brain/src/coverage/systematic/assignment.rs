@@ -44,13 +44,12 @@ impl Assignment {
         if self.passes_done < self.order.passes() {
             return Next::Again;
         }
+        if self.part + 1 >= self.order.parts().len() {
+            return Next::End;
+        }
         self.passes_done = 0;
         self.part += 1;
-        if self.part < self.order.parts().len() {
-            Next::Part
-        } else {
-            Next::End
-        }
+        Next::Part
     }
 }
 

@@ -104,7 +104,7 @@ impl Core {
 
     fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {
         match name {
-            None => Ok(self.config.strategy),
+            None => Ok(self.usual_strategy()),
             Some(name) => StrategyName::from_name(name).ok_or("unknown-strategy"),
         }
     }

@@ -1,6 +1,7 @@
 //! One step of the brain, and what it asks for.
 
 use brain::action::{Decision, Tone};
+use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{LogLevel, Topic, Update};
 use rvac_protocol::quality::Verdict;
@@ -144,6 +145,12 @@ impl Core {
         }
     }
 
+    /// Strategy of a job that names none.
+    pub(super) fn usual_strategy(&self) -> StrategyName {
+        let suits = || self.mind.as_ref().map(|mind| mind.brain().usual_strategy());
+        self.config.strategy.or_else(suits).unwrap_or_default()
+    }
+
     /// A button on the robot: stops what runs, goes on with what waits, else starts.
     pub(super) fn button_pressed(&mut self, now_us: u64, button: u8, outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
@@ -157,7 +164,7 @@ impl Core {
             BehaviorState::Paused => Command::Resume,
             BehaviorState::Docked if status.resumable => Command::Resume,
             BehaviorState::Idle | BehaviorState::Docked => Command::Clean {
-                strategy: self.config.strategy,
+                strategy: self.usual_strategy(),
             },
             BehaviorState::Stuck | BehaviorState::Error => Command::ClearError,
             BehaviorState::Starting
