@@ -1,14 +1,23 @@
 //! What the robot knows of the home, in words: how sure it is, the rooms, and the kept versions of the map.
 
+use std::time::Duration;
+
 use leptos::prelude::*;
 use panel_logic::{RoomRow, area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
 use crate::store::Store;
 
+/// The list of kept maps is asked for so often while it is looked at.
+const RENEW_EVERY: Duration = Duration::from_secs(5);
+
 #[component]
 pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
     store.ask_quietly(RequestBody::Maps);
+    // A map is kept some seconds after a run, and nobody tells of it.
+    if let Ok(renewal) = set_interval_with_handle(move || store.ask_quietly(RequestBody::Maps), RENEW_EVERY) {
+        on_cleanup(move || renewal.clear());
+    }
     let sentences = move || {
         store
             .estimate

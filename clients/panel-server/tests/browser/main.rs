@@ -245,9 +245,9 @@ async fn what_the_robot_knows_and_decides_is_shown() {
     browser.until(&ground("True")).await;
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
-    // A run that is over leaves a map behind, some seconds later; the list is asked for when its sheet is opened.
+    // A run that is over leaves a map behind, some seconds later; the sheet that is open shows it then.
     browser
-        .until("document.getElementById('tab-log').click(); document.getElementById('tab-home').click(); return document.querySelectorAll('#maps li').length > 0")
+        .until("return document.querySelectorAll('#maps li').length > 0")
         .await;
 }
 

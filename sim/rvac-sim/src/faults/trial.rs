@@ -1,5 +1,6 @@
 //! One seed: a home, a household, ten minutes of misfortune.
 
+use brain::SensorLayout;
 use brain::command::StrategyName;
 use home::{Noise, Pcg, SensorId};
 use monitor::Bridges;
@@ -62,6 +63,7 @@ const STREAM: u64 = 0x7E57;
 
 struct Trial {
     household: Household,
+    sensors: SensorLayout,
     draw: FaultDraw,
     ends: Vec<(u64, End)>,
     next_fault_ms: u64,
@@ -86,8 +88,11 @@ pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
             ..RobotSettings::default()
         },
     );
+    let sensors = scene.sensors();
+    let host = Host::start(0, config(settings.seed, sensors, None));
     let mut trial = Trial {
-        household: Household::new(robot, Host::start(0, config(settings.seed, None))),
+        household: Household::new(robot, host),
+        sensors,
         draw: FaultDraw::new(settings.seed),
         ends: Vec::new(),
         next_fault_ms: 2_000,
@@ -105,11 +110,15 @@ pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
     trial.finish()
 }
 
-fn config(seed: u64, before: Option<&Host>) -> CoreConfig {
+/// Each strategy comes up as often as the others; the sensors are known, as they are on a robot that was described.
+fn config(seed: u64, sensors: SensorLayout, before: Option<&Host>) -> CoreConfig {
+    let strategies = StrategyName::ALL;
+    let number = (seed % strategies.len() as u64) as usize;
     CoreConfig {
         checkpoints: Checkpoints::On,
         resume: before.and_then(Host::checkpoint).cloned(),
-        ..Host::config(seed, StrategyName::default())
+        sensors,
+        ..Host::config(seed, strategies.get(number).copied().unwrap_or_default())
     }
 }
 
@@ -169,7 +178,7 @@ impl Trial {
             Fault::Reset(cause) => robot.reset(cause),
             Fault::HostDeath { ms } => {
                 let dead = self.household.kill_host();
-                let heir = config(self.settings.seed, dead.as_ref());
+                let heir = config(self.settings.seed, self.sensors, dead.as_ref());
                 self.ends.push((now_ms + ms, End::Host(Box::new(heir))));
             }
             Fault::Sensor { sensor, lie, ms } => {
