@@ -88,6 +88,8 @@ pub(crate) struct Standing {
 const HARD_DRIVE: i32 = 300_000;
 /// A wheel drop of this length must have been noticed (S10).
 const WHEEL_DROP_SURE_MS: u32 = 50;
+/// Contacts that bounce open keep a robot docked for this long (S19), so S7's ten seconds off the dock begin after it.
+const DOCK_CLEAR_MS: u32 = 300;
 /// Long enough ago for every rule.
 const LONG_AGO_MS: u32 = 1_000_000;
 
@@ -124,7 +126,8 @@ impl Standing {
 
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
         stand(&mut self.bumper_ms, pins.bumper);
-        stand(&mut self.bumper_stuck_ms, pins.bumper && !pins.docked);
+        let is_away = self.undocked_ms >= DOCK_CLEAR_MS;
+        stand(&mut self.bumper_stuck_ms, pins.bumper && is_away && !pins.docked);
         stand(&mut self.bumper_backing_ms, pins.bumper && drives.backward());
         stand(&mut self.cliff_ms, pins.cliff);
         stand(&mut self.wheel_drop_ms, pins.wheel_drop);

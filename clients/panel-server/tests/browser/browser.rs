@@ -85,7 +85,11 @@ impl Browser {
         self.client.refresh().await.unwrap();
     }
 
+    /// Clicks in the middle of an element, which is scrolled into the middle first: the driver takes one below a bar that
+    /// stays at the edge for visible.
     pub(crate) async fn click(&self, selector: &str) {
+        let middle = format!("document.querySelector('{selector}')?.scrollIntoView({{block: 'center'}})");
+        self.client.execute(&middle, Vec::new()).await.unwrap();
         self.client
             .find(Locator::Css(selector))
             .await
