@@ -12,7 +12,7 @@ use crate::behavior::Reason;
 use crate::coverage::Bounce;
 use crate::coverage::systematic::encounter;
 use crate::geometry::{Point2, normalize_rad};
-use crate::manoeuvre::{Evasion, EvasionStep};
+use crate::manoeuvre::Evasion;
 use crate::mapping::{Cell, CellKnowledge};
 use crate::task::{Mind, Plan, Situation, Task};
 
@@ -92,15 +92,16 @@ impl Search {
             }
             self.bounce = None;
         }
-        if let Some(evasion) = &mut self.evasion {
-            match evasion.step(situation) {
-                EvasionStep::Going(motion) => return Plan::Go(motion),
-                EvasionStep::Free => self.evasion = None,
-                EvasionStep::Held(reason) => {
-                    self.interrupted();
-                    return Plan::Trouble(reason);
-                }
+        let evades = self.evasion.is_some();
+        match Evasion::pursue(&mut self.evasion, situation) {
+            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Err(reason)) => {
+                self.interrupted();
+                return Plan::Trouble(reason);
             }
+            None => {}
+        }
+        if evades {
             self.run_m = 0.0;
         }
         self.run_m += situation.advance.distance_m.max(0.0);

@@ -8,7 +8,7 @@ use crate::behavior::Reason;
 use crate::coverage::plan::{Goal, plan_way};
 use crate::coverage::systematic::{Obstructions, caution, encounter, reachable};
 use crate::geometry::{Point2, Pose2};
-use crate::manoeuvre::{Evasion, EvasionStep, FollowStep, Follower};
+use crate::manoeuvre::{Evasion, FollowStep, Follower};
 use crate::task::{Mind, Situation};
 
 /// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
@@ -84,15 +84,13 @@ impl Travel {
     }
 
     pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        if let Some(evasion) = &mut self.evasion {
-            match evasion.step(situation) {
-                EvasionStep::Going(motion) => return TravelStep::Going(motion),
-                EvasionStep::Free => self.evasion = None,
-                EvasionStep::Held(reason) => {
-                    self.interrupted();
-                    return TravelStep::Held(reason);
-                }
+        match Evasion::pursue(&mut self.evasion, situation) {
+            Some(Ok(motion)) => return TravelStep::Going(motion),
+            Some(Err(reason)) => {
+                self.interrupted();
+                return TravelStep::Held(reason);
             }
+            None => {}
         }
         if let Some(reason) = encounter(situation) {
             return self.evade(reason, situation, mind);

@@ -71,6 +71,22 @@ impl Evasion {
         }
     }
 
+    /// Goes on with what is under way, and forgets it when it is free: the motion to make, or why the robot is held. `None` =
+    /// nothing is under way any more.
+    pub(crate) fn pursue(
+        under_way: &mut Option<Self>,
+        situation: &Situation<'_>,
+    ) -> Option<Result<Motion, Reason>> {
+        match under_way.as_mut()?.step(situation) {
+            EvasionStep::Going(motion) => Some(Ok(motion)),
+            EvasionStep::Held(reason) => Some(Err(reason)),
+            EvasionStep::Free => {
+                *under_way = None;
+                None
+            }
+        }
+    }
+
     pub(crate) fn step(&mut self, situation: &Situation<'_>) -> EvasionStep {
         match self.phase {
             Phase::Back(mut back) => {

@@ -3,7 +3,7 @@
 
 use crate::action::Motion;
 use crate::geometry::TurnSide;
-use crate::manoeuvre::{Evasion, EvasionStep};
+use crate::manoeuvre::Evasion;
 use crate::random::Random;
 use crate::task::Situation;
 
@@ -58,12 +58,8 @@ impl EdgeTrace {
         if self.left_s <= 0.0 {
             return None;
         }
-        if let Some(evasion) = &mut self.evasion {
-            match evasion.step(situation) {
-                EvasionStep::Going(motion) => return Some(motion),
-                EvasionStep::Held(_) => return None,
-                EvasionStep::Free => self.evasion = None,
-            }
+        if let Some(step) = Evasion::pursue(&mut self.evasion, situation) {
+            return step.ok();
         }
         if !situation.is_free() {
             self.evade(situation);

@@ -1,9 +1,8 @@
 //! What the brain decided, as sentences, the newest kept for clients that come later.
 
-use std::collections::VecDeque;
-
 use brain::action::Decision;
 
+use crate::newest::Newest;
 use crate::to_api;
 
 /// Decisions kept: some minutes of cleaning.
@@ -14,16 +13,14 @@ const SHOWN_MAX: f64 = 1e6;
 /// The newest decisions.
 #[derive(Debug, Default)]
 pub(crate) struct Diary {
-    entries: VecDeque<rvac_api::Decision>,
-    written: u64,
+    newest: Newest<rvac_api::Decision, KEPT>,
 }
 
 impl Diary {
     /// Numbers a decision, puts it into words and keeps it.
     pub(crate) fn write(&mut self, now_us: u64, decision: &Decision) -> rvac_api::Decision {
-        self.written += 1;
-        let entry = rvac_api::Decision {
-            number: self.written,
+        self.newest.keep(|number| rvac_api::Decision {
+            number,
             t: to_api::seconds(now_us),
             what: decision.what.to_owned(),
             reason: decision.reason.to_owned(),
@@ -33,17 +30,12 @@ impl Diary {
                 0.0
             },
             text: sentence(decision),
-        };
-        if self.entries.len() == KEPT {
-            self.entries.pop_front();
-        }
-        self.entries.push_back(entry.clone());
-        entry
+        })
     }
 
     /// The decisions that are kept, oldest first.
     pub(crate) fn entries(&self) -> impl Iterator<Item = &rvac_api::Decision> {
-        self.entries.iter()
+        self.newest.entries()
     }
 }
 

@@ -1,8 +1,9 @@
 //! The log: numbered lines, the newest of which are kept for clients that come later.
 
-use std::collections::VecDeque;
-
 use rvac_api::{LogEntry, LogLevel};
+
+use crate::newest::Newest;
+use crate::to_api;
 
 /// Lines kept.
 const KEPT: usize = 200;
@@ -37,31 +38,24 @@ impl Part {
 /// The newest lines.
 #[derive(Debug, Default)]
 pub(crate) struct Journal {
-    entries: VecDeque<LogEntry>,
-    written: u64,
+    newest: Newest<LogEntry, KEPT>,
 }
 
 impl Journal {
     /// Numbers a line and keeps it.
     pub(crate) fn write(&mut self, now_us: u64, level: LogLevel, (part, text): (Part, String)) -> LogEntry {
-        self.written += 1;
-        let entry = LogEntry {
-            number: self.written,
-            t: now_us as f64 / 1e6,
+        self.newest.keep(|number| LogEntry {
+            number,
+            t: to_api::seconds(now_us),
             level,
             part: part.name().to_owned(),
             text,
-        };
-        if self.entries.len() == KEPT {
-            self.entries.pop_front();
-        }
-        self.entries.push_back(entry.clone());
-        entry
+        })
     }
 
     /// The lines that are kept, oldest first.
     pub(crate) fn entries(&self) -> impl Iterator<Item = &LogEntry> {
-        self.entries.iter()
+        self.newest.entries()
     }
 }
 

@@ -23,6 +23,7 @@ mod home_view;
 mod input;
 mod journal;
 mod mind;
+mod newest;
 pub mod observe;
 mod outputs;
 mod tap;

@@ -9,7 +9,7 @@ mod pocket;
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::TurnSide;
-use crate::manoeuvre::{Evasion, EvasionStep};
+use crate::manoeuvre::Evasion;
 use crate::task::{Mind, Plan, Situation, Task};
 use pocket::Pocket;
 
@@ -35,15 +35,16 @@ pub(crate) struct Bounce {
 
 impl Task for Bounce {
     fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        if let Some(evasion) = &mut self.evasion {
-            match evasion.step(situation) {
-                EvasionStep::Going(motion) => return Plan::Go(motion),
-                EvasionStep::Free => self.evasion = None,
-                EvasionStep::Held(reason) => {
-                    self.interrupted();
-                    return Plan::Trouble(reason);
-                }
+        let evades = self.evasion.is_some();
+        match Evasion::pursue(&mut self.evasion, situation) {
+            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Err(reason)) => {
+                self.interrupted();
+                return Plan::Trouble(reason);
             }
+            None => {}
+        }
+        if evades {
             self.run_m = 0.0;
         }
         self.run(situation, mind)

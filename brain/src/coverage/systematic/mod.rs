@@ -21,7 +21,7 @@ use super::plan::{CoveragePlan, PlanSettings, plan_area, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::Point2;
-use crate::manoeuvre::{Caution, Evasion, EvasionStep, FollowStep, Follower};
+use crate::manoeuvre::{Caution, Evasion, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
@@ -128,15 +128,13 @@ impl Task for Systematic {
             }
             self.astray = None;
         }
-        if let Some(evasion) = &mut self.evasion {
-            match evasion.step(situation) {
-                EvasionStep::Going(motion) => return Plan::Go(motion),
-                EvasionStep::Free => self.evasion = None,
-                EvasionStep::Held(reason) => {
-                    self.interrupted();
-                    return Plan::Trouble(reason);
-                }
+        match Evasion::pursue(&mut self.evasion, situation) {
+            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Err(reason)) => {
+                self.interrupted();
+                return Plan::Trouble(reason);
             }
+            None => {}
         }
         if let Some(reason) = encounter(situation) {
             return self.evade(reason, situation, mind);
