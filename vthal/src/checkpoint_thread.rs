@@ -1,4 +1,4 @@
-//! The thread that writes checkpoints and maps and reads maps, so that a slow disk never delays a wheel.
+//! The thread that writes checkpoints, maps and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,11 +8,12 @@ use std::thread::JoinHandle;
 use brain::StoredMap;
 use rvac_api::KeptMap;
 use tokio::sync::mpsc::Sender;
-use vthal_core::{Checkpoint, ClientId, MapOrder};
+use vthal_core::{Checkpoint, ClientId, MapOrder, MixOrder, MixTask};
 
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::map_folder::MapFolder;
+use crate::mix_folder::{MixError, MixFolder};
 
 /// Where to write.
 pub(crate) struct KeptPaths {
@@ -20,6 +21,8 @@ pub(crate) struct KeptPaths {
     pub(crate) checkpoint: PathBuf,
     /// The versions of the map of the home.
     pub(crate) maps: MapFolder,
+    /// The control mixes.
+    pub(crate) mixes: MixFolder,
 }
 
 /// Something to be kept, or asked of what is kept.
@@ -27,6 +30,27 @@ enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<StoredMap>),
     Order(MapOrder),
+    MixOrder(MixOrder),
+}
+
+/// What came of an order for the kept control mixes.
+#[derive(Debug)]
+pub(crate) struct MixAnswer {
+    /// Who asked.
+    pub(crate) client: ClientId,
+    /// Number of the request.
+    pub(crate) id: Option<u32>,
+    /// What came of it.
+    pub(crate) outcome: Result<MixOutcome, MixError>,
+}
+
+/// See [`MixAnswer`].
+#[derive(Debug)]
+pub(crate) enum MixOutcome {
+    /// The profiles.
+    Listed(Vec<String>),
+    /// It is kept, or removed.
+    Done,
 }
 
 /// What came of an order for the kept maps.
@@ -90,6 +114,12 @@ impl CheckpointHandle {
         self.try_send(Kept::Order(order))
     }
 
+    /// Hands an order for the control mixes over; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn order_mix(&self, order: MixOrder) -> bool {
+        self.try_send(Kept::MixOrder(order))
+    }
+
     fn try_send(&self, kept: Kept) -> bool {
         self.queue
             .as_ref()
@@ -116,6 +146,12 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
                 Kept::Home(newer) => home = Some(newer),
                 Kept::Order(order) => orders.push(order),
+                // Small, and never in a queue behind a map that waits to be written.
+                Kept::MixOrder(order) => {
+                    events
+                        .blocking_send(Event::Mixes(obey_mix(order, &paths.mixes)))
+                        .ok();
+                }
             }
         }
         if let Some(checkpoint) = checkpoint {
@@ -162,4 +198,13 @@ fn obey(order: MapOrder, maps: &MapFolder) -> MapAnswer {
             },
         },
     }
+}
+
+fn obey_mix(MixOrder { client, id, task }: MixOrder, mixes: &MixFolder) -> MixAnswer {
+    let outcome = match task {
+        MixTask::List => Ok(MixOutcome::Listed(mixes.list())),
+        MixTask::Save(text) => mixes.save(&text).map(|()| MixOutcome::Done),
+        MixTask::Remove(name) => mixes.remove(&name).map(|()| MixOutcome::Done),
+    };
+    MixAnswer { client, id, outcome }
 }

@@ -10,9 +10,9 @@ use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, MapOrder, Outputs, Recipients};
+use vthal_core::{ClientId, Core, Delivery, Input, MapOrder, MixOrder, Outputs, Recipients};
 
-use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome};
+use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
 use crate::client::{self, Client, Flushed, Incoming};
 use crate::client_stream::ClientStream;
 use crate::clock::Clock;
@@ -130,6 +130,7 @@ impl Daemon {
             }
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
+            Event::Mixes(answer) => self.take_mix_answer(answer),
             Event::Terminate(signal) => self.terminate(signal),
         }
     }
@@ -165,6 +166,20 @@ impl Daemon {
         }
     }
 
+    fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
+        let answer = match outcome {
+            Ok(MixOutcome::Listed(mixes)) => Some(Update::Mixes { mixes }),
+            Ok(MixOutcome::Done) => None,
+            Err(error) => {
+                self.tell(client, &refusal(id, error.name(), error.to_string()));
+                return;
+            }
+        };
+        for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
+            self.tell(client, &update);
+        }
+    }
+
     fn tell(&mut self, client: ClientId, update: &Update) {
         if let Some(client) = self.clients.get_mut(&client) {
             client.push(Class::Lossless, client::spell(update));
@@ -174,9 +189,20 @@ impl Daemon {
     fn order_map(&mut self, order: MapOrder) {
         if !self.wiring.checkpoints.order(order) {
             let (MapOrder::List { client, id } | MapOrder::Restore { client, id, .. }) = order;
-            let text = "The disk is too slow to answer now; ask again.".to_owned();
-            self.tell(client, &refusal(id, "disk-busy", text));
+            self.tell_busy(client, id);
         }
+    }
+
+    fn order_mix(&mut self, order: MixOrder) {
+        let (client, id) = (order.client, order.id);
+        if !self.wiring.checkpoints.order_mix(order) {
+            self.tell_busy(client, id);
+        }
+    }
+
+    fn tell_busy(&mut self, client: ClientId, id: Option<u32>) {
+        let text = "The disk is too slow to answer now; ask again.".to_owned();
+        self.tell(client, &refusal(id, "disk-busy", text));
     }
 
     fn terminate(&mut self, signal: &'static str) {
@@ -277,6 +303,9 @@ impl Daemon {
         }
         for order in std::mem::take(&mut self.outputs.map_orders) {
             self.order_map(order);
+        }
+        for order in std::mem::take(&mut self.outputs.mix_orders) {
+            self.order_mix(order);
         }
         self.outputs.clear();
     }

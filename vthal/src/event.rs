@@ -3,7 +3,7 @@
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
-use crate::checkpoint_thread::MapAnswer;
+use crate::checkpoint_thread::{MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
 use crate::serial::OpenError;
 
@@ -24,6 +24,8 @@ pub(crate) enum Event {
     Imu(ImuEvent),
     /// What came of an order for the kept maps.
     Maps(MapAnswer),
+    /// What came of an order for the kept control mixes.
+    Mixes(MixAnswer),
     /// The core asked to be called now.
     Wake,
     /// The daemon is told to end, by the named signal.

@@ -18,6 +18,7 @@ mod instance;
 mod kept_file;
 mod logging;
 mod map_folder;
+mod mix_folder;
 mod outbox;
 pub mod recording;
 mod robot_file;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use brain::SensorLayout;
+use brain::{SensorLayout, StoredMap};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
@@ -17,6 +17,7 @@ use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::instance::{self, InstanceError};
 use crate::map_folder::MapFolder;
+use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
 use crate::serial::{self, SerialSettings};
@@ -30,6 +31,8 @@ const TO_ROBOT_MAX: usize = 64;
 
 /// Name of the folder of maps in the state folder.
 const MAPS: &str = "maps";
+/// Name of the folder of control mixes in the state folder.
+const MIXES: &str = "mixes";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -78,10 +81,8 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         None => SensorLayout::default(),
     };
     let maps = MapFolder::new(config.state.join(MAPS));
-    let (home, complaints) = maps.newest();
-    for complaint in complaints {
-        tracing::error!(part = "vthal", "{complaint}");
-    }
+    let home = newest_home(&maps);
+    let mixes = MixFolder::new(config.state.join(MIXES));
     let core_config = CoreConfig {
         home,
         sensors,
@@ -102,6 +103,11 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         resume,
     };
+    let kept = KeptPaths {
+        checkpoint,
+        maps,
+        mixes,
+    };
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
     let wiring = Wiring {
@@ -109,7 +115,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         event_sender: event_sender.clone(),
         to_robot,
         recorder: recorder(config)?,
-        checkpoints: checkpoint_thread::start(KeptPaths { checkpoint, maps }, event_sender.clone())?,
+        checkpoints: checkpoint_thread::start(kept, event_sender.clone())?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
     };
@@ -134,6 +140,15 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     // As a task among its own kind: what the serial line's task wakes runs in the same round of the scheduler, without a
     // look at the system in between.
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
+}
+
+/// The newest map that is whole; what is wrong with newer ones goes to the log.
+fn newest_home(maps: &MapFolder) -> Option<StoredMap> {
+    let (home, complaints) = maps.newest();
+    for complaint in complaints {
+        tracing::error!(part = "vthal", "{complaint}");
+    }
+    home
 }
 
 /// Tells whoever started the daemon that its socket is open.

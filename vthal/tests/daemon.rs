@@ -9,7 +9,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
-use rvac_api::{LogEntry, Update};
+use rvac_api::{LogEntry, Request, RequestBody, Update};
 use rvac_protocol::message::{self, BinaryKinds};
 
 #[path = "../bench/peer/mod.rs"]
@@ -454,6 +454,44 @@ fn a_kept_map_is_listed_and_taken_up_again_over_the_socket() {
     }
     assert_eq!(kept_numbers(&mut desk), [6, 4, 3], "the spoilt one is not lost");
     assert_eq!(fs::read(maps.join("000006.map")).expect("reads"), map_of(8));
+}
+
+fn kept_mixes(desk: &mut Desk) -> Vec<String> {
+    desk.client.send(r#"{"c":"mixes","id":9}"#).expect("sends");
+    let is_list = |update: &Update| matches!(update, Update::Mixes { .. });
+    match desk.client.wait_for(soon(), is_list).expect("reads") {
+        Some(Update::Mixes { mixes }) => mixes,
+        other => panic!("no list: {other:?}"),
+    }
+}
+
+#[test]
+fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
+    let mut desk = Desk::idle();
+    assert!(kept_mixes(&mut desk).is_empty());
+    assert_eq!(refused(&mut desk), None);
+    let profile = mixer::standard_profile().to_json();
+    let save = |profile: String| {
+        let body = RequestBody::SaveMix { profile };
+        serde_json::to_string(&Request { id: Some(9), body }).expect("JSON")
+    };
+    desk.client.send(&save(profile.clone())).expect("sends");
+    assert_eq!(refused(&mut desk), None);
+    desk.client
+        .send(&save(profile.replace("pad-0", "pad-9")))
+        .expect("sends");
+    assert_eq!(refused(&mut desk).as_deref(), Some("mix-wrong"));
+    assert_eq!(kept_mixes(&mut desk), [profile.as_str()]);
+    assert_eq!(refused(&mut desk), None);
+    let file = desk.scratch.join("state/mixes/Standard.json");
+    assert_eq!(fs::read_to_string(file).expect("reads"), profile);
+    for reason in [None, Some("no-such-mix")] {
+        desk.client
+            .send(r#"{"c":"remove-mix","name":"Standard","id":9}"#)
+            .expect("sends");
+        assert_eq!(refused(&mut desk).as_deref(), reason);
+    }
+    assert!(kept_mixes(&mut desk).is_empty());
 }
 
 #[test]

@@ -14,7 +14,7 @@ mod thought;
 mod update;
 
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
-pub use request::{Request, RequestBody, Topic};
+pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,

@@ -41,6 +41,17 @@ pub enum Topic {
     Packets,
 }
 
+/// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CleaningPower {
+    /// Suction.
+    pub suction: f64,
+    /// The main brush.
+    pub main_brush: f64,
+    /// The side brushes.
+    pub side_brushes: f64,
+}
+
 /// The closed set of requests; on the wire `{"c":"start","strategy":"bounce"}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "c", rename_all = "kebab-case")]
@@ -83,6 +94,9 @@ pub enum RequestBody {
         /// Brushes and suction run.
         #[serde(default)]
         clean: bool,
+        /// How hard each of them runs, in place of `clean`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        power: Option<CleaningPower>,
     },
     /// Leaves the driver's seat; the wheels stop at once.
     Release,
@@ -99,6 +113,18 @@ pub enum RequestBody {
     RestoreMap {
         /// Number of the version.
         number: u64,
+    },
+    /// Asks which control mixes are kept; answered by [`crate::Update::Mixes`].
+    Mixes,
+    /// Keeps a control mix under the name that is in it.
+    SaveMix {
+        /// The profile as JSON text, see the crate `mixer`.
+        profile: String,
+    },
+    /// Removes a control mix.
+    RemoveMix {
+        /// Its name.
+        name: String,
     },
     /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
     Raw {

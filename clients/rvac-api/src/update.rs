@@ -54,6 +54,11 @@ pub enum Update {
         /// Newest first.
         maps: Vec<KeptMap>,
     },
+    /// The control mixes that are kept.
+    Mixes {
+        /// By their names, each as one line of JSON, see the crate `mixer`.
+        mixes: Vec<String>,
+    },
     /// A line of the log.
     Log(LogEntry),
     /// A packet of the wire as text; binary ones are shown by their text twin.

@@ -6,8 +6,8 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView, KeptMap,
-    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, PlannedWay, Pose, Request, RequestBody,
+    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
+    KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, PlannedWay, Pose, Request, RequestBody,
     RobotDescription, RoomView, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
 };
 use serde::Serialize;
@@ -66,13 +66,6 @@ fn requests() {
     request(RequestBody::Resume, r#"{"c":"resume"}"#);
     request(RequestBody::Stop, r#"{"c":"stop"}"#);
     request(RequestBody::Dock, r#"{"c":"dock"}"#);
-    let drive = RequestBody::Drive {
-        v: 0.1,
-        w: -0.5,
-        ttl: 250,
-        clean: true,
-    };
-    request(drive, r#"{"c":"drive","v":0.1,"w":-0.5,"ttl":250,"clean":true}"#);
     request(RequestBody::Release, r#"{"c":"release"}"#);
     request(RequestBody::Locate, r#"{"c":"locate"}"#);
     request(
@@ -97,6 +90,45 @@ fn requests() {
 }
 
 #[test]
+fn requests_to_drive_and_of_mixes() {
+    let drive = RequestBody::Drive {
+        v: 0.1,
+        w: -0.5,
+        ttl: 250,
+        clean: true,
+        power: None,
+    };
+    request(drive, r#"{"c":"drive","v":0.1,"w":-0.5,"ttl":250,"clean":true}"#);
+    request(
+        RequestBody::Drive {
+            v: 0.0,
+            w: 0.0,
+            ttl: 250,
+            clean: false,
+            power: Some(CleaningPower {
+                suction: 0.5,
+                main_brush: 0.0,
+                side_brushes: 1.0,
+            }),
+        },
+        r#"{"c":"drive","v":0.0,"w":0.0,"ttl":250,"clean":false,"power":{"suction":0.5,"main_brush":0.0,"side_brushes":1.0}}"#,
+    );
+    request(RequestBody::Mixes, r#"{"c":"mixes"}"#);
+    request(
+        RequestBody::SaveMix {
+            profile: r#"{"version":1}"#.to_owned(),
+        },
+        r#"{"c":"save-mix","profile":"{\"version\":1}"}"#,
+    );
+    request(
+        RequestBody::RemoveMix {
+            name: "Anna".to_owned(),
+        },
+        r#"{"c":"remove-mix","name":"Anna"}"#,
+    );
+}
+
+#[test]
 fn what_may_be_left_out_and_what_may_not() {
     let read = |text: &str| serde_json::from_str::<Request>(text);
     let drive = RequestBody::Drive {
@@ -104,6 +136,7 @@ fn what_may_be_left_out_and_what_may_not() {
         w: 0.0,
         ttl: 100,
         clean: false,
+        power: None,
     };
     assert_eq!(
         read(r#"{"c":"drive","v":0,"w":0,"ttl":100}"#).unwrap().body,
@@ -326,6 +359,12 @@ fn what_the_robot_thinks() {
     check(
         &Update::Maps { maps },
         r#"{"e":"maps","maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
+    );
+    check(
+        &Update::Mixes {
+            mixes: vec!["{}".to_owned()],
+        },
+        r#"{"e":"mixes","mixes":["{}"]}"#,
     );
 }
 

@@ -4,6 +4,7 @@ mod explain;
 mod feed;
 mod firmware;
 mod link_facts;
+mod manual;
 mod requests;
 mod thinking;
 
@@ -11,7 +12,7 @@ use rvac_api::{Pose, Status, Topic, Update};
 
 use crate::arbiter::Arbiter;
 use crate::clients::Clients;
-use crate::device::{Device, DeviceCommand, DeviceIo, FirmwareEvent};
+use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
 use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
@@ -31,6 +32,8 @@ pub struct Core {
     config: CoreConfig,
     clients: Clients,
     arbiter: Arbiter,
+    /// How hard the robot cleans while a person drives it.
+    driver_power: CleanerPower,
     journal: Journal,
     diary: Diary,
     /// The robot's link, while it is open.
@@ -52,6 +55,7 @@ impl Core {
             config,
             clients: Clients::default(),
             arbiter: Arbiter::default(),
+            driver_power: CleanerPower::FULL,
             journal: Journal::default(),
             diary: Diary::default(),
             device: None,

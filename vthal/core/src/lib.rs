@@ -33,4 +33,6 @@ pub use checkpoint::Checkpoint;
 pub use config::{Checkpoints, CoreConfig, ExpertAccess, Recording};
 pub use core::Core;
 pub use input::{ClientId, Input, LinkLoss};
-pub use outputs::{Delivery, Direction, MapOrder, Outputs, Recipients, Record, RunCause, RunEnd, RunStart};
+pub use outputs::{
+    Delivery, Direction, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunStart,
+};

@@ -23,6 +23,30 @@ pub struct Outputs {
     pub home: Option<StoredMap>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
+    /// What clients ask of the kept control mixes, in order.
+    pub mix_orders: Vec<MixOrder>,
+}
+
+/// Something that the shell does with the kept control mixes; it answers the client itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MixOrder {
+    /// Who asks.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// What.
+    pub task: MixTask,
+}
+
+/// See [`MixOrder`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MixTask {
+    /// Tell the client which there are: [`Update::Mixes`].
+    List,
+    /// Keep this profile, which nobody has looked at yet.
+    Save(String),
+    /// Remove the one with this name.
+    Remove(String),
 }
 
 /// Something that the shell does with the kept maps of the home; it answers the client itself.
@@ -56,6 +80,7 @@ impl Outputs {
         self.checkpoint = None;
         self.home = None;
         self.map_orders.clear();
+        self.mix_orders.clear();
     }
 }
 

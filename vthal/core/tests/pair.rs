@@ -1,11 +1,11 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
-use rvac_api::{Request, RequestBody, Topic, Update};
+use rvac_api::{CleaningPower, Request, RequestBody, Topic, Update};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Name, Report,
-    ResetCause, State, WheelDrops,
+    BinaryKinds, Capabilities, Command, Description, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
+    Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
@@ -107,6 +107,7 @@ impl Pair {
                 w: 0.0,
                 ttl: 400,
                 clean: false,
+                power: None,
             },
         )
     }
@@ -201,6 +202,8 @@ fn identity() -> RobotIdentity {
                 wheel_drops: 2,
                 buttons: 1,
                 beeper: true,
+                brush_main: true,
+                vacuum: true,
                 ..Capabilities::default()
             },
             limits: Limits {
@@ -240,6 +243,53 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.0), None);
     pair.run_ms(50);
     assert_eq!(pair.drive(ANNA, 0.2), None);
+}
+
+#[test]
+fn a_driver_chooses_how_hard_each_part_cleans_and_a_job_cleans_at_full_power() {
+    let mut pair = Pair::new();
+    let drive = |suction: f64, main_brush: f64| RequestBody::Drive {
+        v: 0.0,
+        w: 0.0,
+        ttl: 400,
+        clean: false,
+        power: Some(CleaningPower {
+            suction,
+            main_brush,
+            side_brushes: 1.0,
+        }),
+    };
+    let power = |pair: &Pair, wanted: Motor| {
+        pair.commands.iter().rev().find_map(|(_, command)| match command {
+            Command::Motor(order) if order.motor == wanted => Some(order.throttle.as_f64()),
+            _ => None,
+        })
+    };
+    assert_eq!(pair.ask(ANNA, drive(0.5, 0.0)), None);
+    pair.run_ms(200);
+    assert_eq!(
+        (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
+        (Some(0.5), Some(0.0))
+    );
+    assert_eq!(power(&pair, Motor::BrushSides), None, "it has none");
+    assert_eq!(pair.ask(ANNA, drive(0.0, 0.25)), None);
+    pair.run_ms(200);
+    assert_eq!(
+        (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
+        (Some(0.0), Some(0.25))
+    );
+    for wrong in [-0.1, 1.1, f64::NAN] {
+        assert_eq!(pair.ask(ANNA, drive(wrong, 0.0)).as_deref(), Some("range"));
+    }
+    pair.ask(ANNA, RequestBody::Release);
+    pair.run_ms(200);
+    assert_eq!(power(&pair, Motor::BrushMain), Some(0.0));
+    pair.ask(ANNA, RequestBody::Start { strategy: None });
+    pair.run_ms(4000);
+    assert_eq!(
+        (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
+        (Some(1.0), Some(1.0))
+    );
 }
 
 #[test]

@@ -84,7 +84,7 @@ const SIMULATED: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 24] = [
+const DIRECTIONS: [Direction; 25] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -95,9 +95,10 @@ const DIRECTIONS: [Direction; 24] = [
     Direction { of: "soft-uart",     knows: &[],                                            never: STD },
     Direction { of: "brain",         knows: &["rvac-units"],                                never: BRAIN },
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
+    Direction { of: "mixer",         knows: &[],                                            never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api"], never: &[] },
-    Direction { of: "rvac-cli",      knows: &["rvac-api", "rvac-protocol", "rvac-units"],   never: &[] },
+    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
     Direction { of: "panel-server",  knows: &["rvac-api"],                                  never: &[] },
     Direction { of: "panel",         knows: &["panel-logic", "rvac-api"],                   never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["rvac-api"],                                  never: &["tokio", "leptos", "web-sys"] },

@@ -185,6 +185,7 @@ impl Driver {
             w,
             ttl: LEASE_MS,
             clean: self.cleaners,
+            power: None,
         }
     }
 
@@ -228,6 +229,7 @@ mod tests {
                 w,
                 ttl: 250,
                 clean: false,
+                power: None,
             }) => (v, w),
             other => panic!("{other:?}"),
         }
@@ -260,7 +262,8 @@ mod tests {
                     v: 0.0,
                     w: 0.0,
                     ttl: 250,
-                    clean: false
+                    clean: false,
+                    power: None
                 })
             );
             assert!(speeds(&mut driver).0 > 0.0);

@@ -242,6 +242,7 @@ impl FaultDraw {
                 w: 1.5 * self.random.symmetric(),
                 ttl: 400,
                 clean: self.random.below(2) == 0,
+                power: None,
             },
         }
     }

@@ -5,12 +5,12 @@ use rvac_api::{Failure, LogLevel, Request, RequestBody, Topic, Update};
 use rvac_protocol::message::Inhibit;
 
 use super::explain::explain;
-use super::{Core, recorder};
+use super::{Core, manual, recorder};
 use crate::arbiter::{Denied, Source, Stick};
-use crate::device::{Device, DeviceCommand, DeviceIo};
+use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
-use crate::{ClientId, ExpertAccess, MapOrder, Outputs, tap};
+use crate::{ClientId, ExpertAccess, MapOrder, MixOrder, MixTask, Outputs, tap};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
 const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
@@ -29,7 +29,14 @@ impl Core {
     ) {
         let id = request.id;
         // The shell answers these, when the disk has.
-        let is_answered_later = matches!(request.body, RequestBody::Maps | RequestBody::RestoreMap { .. });
+        let is_answered_later = matches!(
+            request.body,
+            RequestBody::Maps
+                | RequestBody::RestoreMap { .. }
+                | RequestBody::Mixes
+                | RequestBody::SaveMix { .. }
+                | RequestBody::RemoveMix { .. }
+        );
         let result = self.obey(now_us, (client, request), outputs);
         let update = match (result, id) {
             (Ok(()), _) if is_answered_later => return,
@@ -75,13 +82,20 @@ impl Core {
                 self.stop(now_us, client, outputs);
                 Ok(())
             }
-            RequestBody::Drive { v, w, ttl, clean } => {
+            RequestBody::Drive {
+                v,
+                w,
+                ttl,
+                clean,
+                power,
+            } => {
                 let stick = Stick {
                     speed_m_per_s: v,
                     turn_rad_per_s: w,
                     lease_us: u64::from(ttl) * 1000,
                 };
-                self.drive(now_us, (client, stick, clean), outputs)
+                let power = manual::power(clean, power)?;
+                self.drive(now_us, (client, stick, power), outputs)
             }
             RequestBody::Release => {
                 self.release(now_us, client, outputs);
@@ -92,6 +106,22 @@ impl Core {
             RequestBody::Raw { packet } => self.raw(now_us, (client, &packet), outputs),
             RequestBody::Maps => {
                 outputs.map_orders.push(MapOrder::List { client, id });
+                Ok(())
+            }
+            RequestBody::Mixes => {
+                outputs.mix_orders.push(mix_order((client, id), MixTask::List));
+                Ok(())
+            }
+            RequestBody::SaveMix { profile } => {
+                outputs
+                    .mix_orders
+                    .push(mix_order((client, id), MixTask::Save(profile)));
+                Ok(())
+            }
+            RequestBody::RemoveMix { name } => {
+                outputs
+                    .mix_orders
+                    .push(mix_order((client, id), MixTask::Remove(name)));
                 Ok(())
             }
             RequestBody::RestoreMap { number } => {
@@ -153,7 +183,7 @@ impl Core {
     fn drive(
         &mut self,
         now_us: u64,
-        (client, stick, cleaners): (ClientId, Stick, bool),
+        (client, stick, power): (ClientId, Stick, CleanerPower),
         outputs: &mut Outputs,
     ) -> Result<(), Refused> {
         self.require_robot()?;
@@ -162,7 +192,7 @@ impl Core {
             speed_m_per_s: stick.speed_m_per_s,
             turn_rad_per_s: stick.turn_rad_per_s,
             valid_until_us,
-            cleaners,
+            cleaners: power != CleanerPower::NONE,
         };
         self.admitted(&command(now_us + stick.lease_us))?;
         let was_driver = self.arbiter.driver() == Some(client);
@@ -171,6 +201,7 @@ impl Core {
             let text = format!("{} drives", self.clients.name(client));
             self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
         }
+        self.driver_power = power;
         self.command_brain(now_us, command(valid_until_us), outputs);
         Ok(())
     }
@@ -301,6 +332,10 @@ impl Core {
             self.first_view(now_us, (client, topic), outputs);
         }
     }
+}
+
+const fn mix_order((client, id): (ClientId, Option<u32>), task: MixTask) -> MixOrder {
+    MixOrder { client, id, task }
 }
 
 fn denied(denied: Denied) -> Refused {

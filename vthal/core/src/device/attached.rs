@@ -131,7 +131,7 @@ impl Device {
         let session_us = self.now_us + u64::from(pause_ms.max(1)) * 1000;
         let wheels_us = self.dead_man.next_wake_us().unwrap_or(u64::MAX);
         let cleaners_us = match (self.cleaners, self.cleaners_told_us) {
-            (CleanerDrive::On, Some(told_us)) => told_us + CLEANER_REPEAT_US,
+            (CleanerDrive::On(_), Some(told_us)) => told_us + CLEANER_REPEAT_US,
             (_, None) | (CleanerDrive::Off, Some(_)) => u64::MAX,
         };
         session_us.min(wheels_us).min(cleaners_us)
@@ -263,7 +263,7 @@ impl Device {
         let due = self
             .cleaners_told_us
             .is_some_and(|told_us| io.now_us >= told_us + CLEANER_REPEAT_US);
-        if self.cleaners == CleanerDrive::On && due {
+        if self.cleaners != CleanerDrive::Off && due {
             self.tell_cleaners(io).ok();
         }
     }
@@ -286,7 +286,7 @@ impl Device {
         if drive == self.cleaners {
             return Ok(());
         }
-        if drive == CleanerDrive::On && self.stop_sent_us.is_some() {
+        if drive != CleanerDrive::Off && self.stop_sent_us.is_some() {
             return Err(CommandError::Latched);
         }
         self.cleaners = drive;

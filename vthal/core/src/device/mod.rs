@@ -18,6 +18,7 @@ pub use description::{
 };
 
 use rvac_protocol::message::{Inhibit, LedPattern};
+use rvac_units::Throttle;
 
 /// A command to a device, in SI units and REP-103 axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +69,33 @@ pub enum CleanerDrive {
     /// They stand.
     Off,
     /// They run.
-    On,
+    On(CleanerPower),
+}
+
+/// How hard each of them runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CleanerPower {
+    /// The main brush.
+    pub brush_main: Throttle,
+    /// The side brushes.
+    pub brush_sides: Throttle,
+    /// Suction.
+    pub vacuum: Throttle,
+}
+
+impl CleanerPower {
+    /// Nothing runs.
+    pub const NONE: Self = Self {
+        brush_main: Throttle::ZERO,
+        brush_sides: Throttle::ZERO,
+        vacuum: Throttle::ZERO,
+    };
+    /// As in a job.
+    pub const FULL: Self = Self {
+        brush_main: Throttle::FULL,
+        brush_sides: Throttle::FULL,
+        vacuum: Throttle::FULL,
+    };
 }
 
 /// Whether motion off the dock is meant.

@@ -7,11 +7,11 @@ use rvac_protocol::message::{
 };
 use rvac_protocol::quality::LinkQuality;
 use rvac_protocol::session::{HostEvent, HostSession, SendError};
-use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
+use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Tick};
 
 use super::{
-    CleanerDrive, CommandError, DeadManKind, Description, DriveLimits, Identity, LeaveDock, Level, Part,
-    ReflexSite, Reflexes, SensorCounts, Shape,
+    CleanerDrive, CleanerPower, CommandError, DeadManKind, Description, DriveLimits, Identity, LeaveDock,
+    Level, Part, ReflexSite, Reflexes, SensorCounts, Shape,
 };
 
 /// Lease of motion commands on the wire. Shorter than the firmware's default of 250 ms, so that braking too is over 300 ms
@@ -160,16 +160,20 @@ impl OwnFirmware {
         drive: CleanerDrive,
         out: &mut WireOut<'_>,
     ) -> Result<(), CommandError> {
-        let throttle = match drive {
-            CleanerDrive::On => Throttle::FULL,
-            CleanerDrive::Off => Throttle::ZERO,
+        let power = match drive {
+            CleanerDrive::On(power) => power,
+            CleanerDrive::Off => CleanerPower::NONE,
         };
         let parts = [
-            (Motor::BrushMain, self.capabilities.brush_main),
-            (Motor::BrushSides, self.capabilities.brush_sides),
-            (Motor::Vacuum, self.capabilities.vacuum),
+            (Motor::BrushMain, self.capabilities.brush_main, power.brush_main),
+            (
+                Motor::BrushSides,
+                self.capabilities.brush_sides,
+                power.brush_sides,
+            ),
+            (Motor::Vacuum, self.capabilities.vacuum, power.vacuum),
         ];
-        for (motor, present) in parts {
+        for (motor, present, throttle) in parts {
             if present {
                 let command = MotorCommand {
                     motor,

@@ -1,0 +1,40 @@
+//! Control mixes: from sticks, keys and buttons to what a robot does, the way radio transmitters do it.
+//!
+//! Words used here. An *input* is one stick axis, button, key or the like, -1..=1. A *line* takes one input, shapes it (curve,
+//! weight, delay, slow) and adds it to an *output*, multiplies the output by it, or replaces it. An output is one thing that
+//! the robot can be told: a speed, a turn, suction, Start. A *switch* is a condition on inputs that lines may depend on. A
+//! *profile* is all of these, as a person saved them. *Rest* is what an input gives when nobody touches it. *Failsafe* is
+//! what an output gives when an input was lost.
+//!
+//! Nothing here reads a clock or a device: [`Mixer::step`] is given the time and the [`Readings`] of the moment. The same code
+//! runs in the browser, in `rvac drive` and, to check what is saved, in the daemon.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod check;
+mod command;
+mod defaults;
+mod helm;
+mod input;
+mod line;
+mod mixer;
+mod name;
+mod output;
+mod profile;
+mod readings;
+mod shape;
+mod switch;
+
+pub use check::{LINES_MAX, POINTS_MAX, PROFILE_BYTES_MAX, ProfileError, SWITCHES_MAX};
+pub use command::{Axes, Cleaning, Press, Wish};
+pub use defaults::standard_profile;
+pub use helm::{Helm, Order};
+pub use input::{Device, KeyCode, Source, SourceError};
+pub use line::{Line, Mix};
+pub use mixer::{GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer};
+pub use name::{Name, NameError};
+pub use output::{Output, OutputKind, OutputName};
+pub use profile::{Calibration, Profile, VERSION};
+pub use readings::{PadReading, Readings, first_moved};
+pub use shape::{curved, with_expo};
+pub use switch::{Condition, Switch};

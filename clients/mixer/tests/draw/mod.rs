@@ -1,0 +1,197 @@
+//! Profiles and readings drawn from numbers.
+
+use mixer::{
+    Calibration, Condition, KeyCode, Line, Mix, Name, Output, OutputKind, OutputName, PadReading, Profile,
+    Readings, Source, Switch, VERSION,
+};
+use proptest::prelude::*;
+
+fn key() -> KeyCode {
+    KeyCode::new("KeyW").expect("a key")
+}
+
+fn source(switches: usize) -> impl Strategy<Value = Source> {
+    prop_oneof![
+        Just(Source::Always),
+        (0_u8..2, 0_u8..4).prop_map(|(pad, axis)| Source::PadAxis { pad, axis }),
+        (0_u8..2, 0_u8..4).prop_map(|(pad, button)| Source::PadButton { pad, button }),
+        Just(Source::Key(key())),
+        Just(Source::TouchRight),
+        Just(Source::TouchUp),
+        Just(Source::TiltForward),
+        Just(Source::TiltLeft),
+        (0..switches.max(1)).prop_map(move |place| if switches == 0 {
+            Source::Always
+        } else {
+            Source::Switch(switch_name(place))
+        }),
+    ]
+}
+
+fn switch_name(place: usize) -> Name {
+    Name::new(&format!("switch {place}")).expect("a name")
+}
+
+/// A switch that may look at those before it.
+fn switch(place: usize) -> BoxedStrategy<Switch> {
+    let of_input = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Above { input, level });
+    let below = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Below { input, level });
+    let simple = prop_oneof![of_input, below].boxed();
+    let on = if place == 0 {
+        simple
+    } else {
+        let other = || (0..place).prop_map(switch_name);
+        prop_oneof![
+            simple,
+            prop::collection::vec(other(), 1..4).prop_map(Condition::All),
+            prop::collection::vec(other(), 1..4).prop_map(Condition::Any),
+            other().prop_map(Condition::Not),
+            other().prop_map(Condition::Toggle),
+            (other(), other()).prop_map(|(set, reset)| Condition::Sticky { set, reset }),
+            (other(), 0_u16..=5000).prop_map(|(of, hold_ms)| Condition::Edge { of, hold_ms }),
+        ]
+        .boxed()
+    };
+    on.prop_map(move |on| Switch {
+        name: switch_name(place),
+        on,
+    })
+    .boxed()
+}
+
+fn slow() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), 0.5_f64..100.0]
+}
+
+fn curve() -> impl Strategy<Value = Vec<[f64; 2]>> {
+    let ends = prop::array::uniform3(-1.0_f64..=1.0);
+    prop_oneof![
+        Just(Vec::new()),
+        (ends, -0.9_f64..0.9).prop_map(|([low, middle, high], at)| vec![
+            [-1.0, low],
+            [at, middle],
+            [1.0, high]
+        ]),
+    ]
+}
+
+fn line(switches: usize) -> impl Strategy<Value = Line> {
+    let when = prop::option::of((0..switches.max(1)).prop_map(switch_name));
+    let when = when.prop_map(move |when| when.filter(|_| switches > 0));
+    let numbers = (-1.0_f64..=1.0, -2.0_f64..=2.0, -1.0_f64..=1.0, 0_u16..=5000);
+    let mix = prop_oneof![Just(Mix::Add), Just(Mix::Multiply), Just(Mix::Replace)];
+    (
+        source(switches),
+        any::<bool>(),
+        numbers,
+        curve(),
+        (slow(), slow()),
+        (mix, when),
+    )
+        .prop_map(
+            |(input, invert, (expo, weight, offset, delay_ms), curve, (up, down), (mix, when))| Line {
+                name: Name::new("line").expect("a name"),
+                input,
+                invert,
+                expo,
+                curve,
+                weight,
+                offset,
+                mix,
+                when,
+                delay_ms,
+                slow_up_per_s: up,
+                slow_down_per_s: down,
+            },
+        )
+}
+
+fn output(output: OutputName, switches: usize) -> impl Strategy<Value = Output> {
+    let kind = output.kind();
+    let numbers = prop::array::uniform3(0.0_f64..=1.0);
+    let lines = prop::collection::vec(line(switches), 0..4);
+    (numbers, any::<bool>(), 0.0_f64..=1.0, lines).prop_map(move |(mut numbers, reverse, share, lines)| {
+        numbers.sort_by(f64::total_cmp);
+        let [centre, high, _] = numbers;
+        let low = if kind == OutputKind::Motion { -high } else { 0.0 };
+        let high = high.max(0.01);
+        Output {
+            output,
+            low,
+            centre,
+            high,
+            reverse,
+            failsafe: if kind == OutputKind::Cleaner {
+                share * high
+            } else {
+                0.0
+            },
+            lines,
+        }
+    })
+}
+
+/// Profiles that are right.
+pub(crate) fn profile() -> impl Strategy<Value = Profile> {
+    (0_usize..4).prop_flat_map(|switches| {
+        let drawn_switches: Vec<_> = (0..switches).map(switch).collect();
+        let names = prop::sample::subsequence(OutputName::ALL.to_vec(), 1..6);
+        let outputs = names.prop_flat_map(move |names| {
+            let drawn: Vec<_> = names.into_iter().map(|name| output(name, switches)).collect();
+            drawn
+        });
+        let calibration = (-1.0_f64..0.0, 0.0_f64..=0.9).prop_map(|(low, dead_band)| Calibration {
+            low,
+            ..Calibration::new(Source::PadAxis { pad: 0, axis: 0 }, dead_band)
+        });
+        (drawn_switches, outputs, prop::option::of(calibration)).prop_map(
+            |(switches, outputs, calibration)| Profile {
+                version: VERSION,
+                name: Name::new("drawn").expect("a name"),
+                inputs: calibration.into_iter().collect(),
+                switches,
+                outputs,
+            },
+        )
+    })
+}
+
+fn reading() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => -1.0_f64..=1.0,
+        1 => Just(0.0),
+        1 => prop::num::f64::ANY,
+    ]
+}
+
+/// What devices may say, nonsense included.
+pub(crate) fn readings() -> impl Strategy<Value = Readings> {
+    let pad = (
+        prop::collection::vec(reading(), 0..5),
+        prop::collection::vec(reading(), 0..5),
+    )
+        .prop_map(|(axes, buttons)| PadReading { axes, buttons });
+    let pads = prop::collection::btree_map(0_u8..2, pad, 0..3);
+    let pair = || prop::option::of(prop::array::uniform2(reading()));
+    let keys = prop::option::of(any::<bool>());
+    (pads, keys, pair(), pair()).prop_map(|(pads, keys, touch, tilt)| Readings {
+        pads,
+        keys: keys.map(|held| held.then(key).into_iter().collect()),
+        touch,
+        tilt,
+    })
+}
+
+/// All devices there, and everything pushed to its end.
+pub(crate) fn everything_pushed() -> Readings {
+    let pad = PadReading {
+        axes: vec![1.0; 4],
+        buttons: vec![1.0; 4],
+    };
+    Readings {
+        pads: [(0, pad.clone()), (1, pad)].into(),
+        keys: Some([key()].into()),
+        touch: Some([1.0, 1.0]),
+        tilt: Some([1.0, 1.0]),
+    }
+}
