@@ -82,9 +82,7 @@ impl Brain {
             .learn(&self.map, &self.config, observation.time_us);
         self.note_encounters(observation, &estimate);
         for command in commands {
-            if let Command::SetZone { zone, entry } = command {
-                self.map.set_zone(zone, *entry);
-            }
+            self.edit_map(command);
         }
         let situation = Situation::new(
             observation,
@@ -153,7 +151,7 @@ impl Brain {
     /// # Errors
     /// The named reason why the order cannot be carried out in this map.
     pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, Reason> {
-        estimate(order, (&self.map, self.pose()), &self.config)
+        estimate(order, (&self.map, self.pose()), (&self.config, &self.energy()))
     }
 
     /// Strategy that suits the robot as it was at the last step: [`StrategyName::Systematic`] needs sensors whose places are
@@ -245,6 +243,19 @@ impl Brain {
         self.behavior.learn_energy(checkpoint.energy);
         if let Some(job) = &checkpoint.job {
             self.behavior.restore(job.clone());
+        }
+    }
+
+    /// Does what a person wants of the map. What was admitted and does not hold any more changes nothing.
+    fn edit_map(&mut self, command: &Command) {
+        let refused = match command {
+            Command::AddNoGo { no_go } => self.map.add_no_go(no_go.clone()).err(),
+            Command::RemoveNoGo { number } => self.map.remove_no_go(*number).err(),
+            Command::NameRoom { room, name } => self.map.name_room(*room, name.clone()).err(),
+            _ => None,
+        };
+        if let Some(reason) = refused {
+            self.mind.decide("edit-refused", reason, 0.0);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What people and schedules ask of the brain.
 
-use crate::mapping::Entry;
-use crate::order::{CleaningOrder, Zone};
+use crate::no_go::{NoGo, RoomName};
+use crate::order::CleaningOrder;
 
 /// A request, already arbitrated (see `vthal-core`): at most one source speaks at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +16,22 @@ pub enum Command {
         /// Which, and how often.
         order: CleaningOrder,
     },
-    /// Forbid or allow a zone of the home for ways that are planned.
-    SetZone {
+    /// Forbid floor of the home to all ways that are planned.
+    AddNoGo {
         /// Where.
-        zone: Zone,
-        /// What.
-        entry: Entry,
+        no_go: NoGo,
+    },
+    /// Allow it again.
+    RemoveNoGo {
+        /// Its number in [`crate::mapping::Annotations`].
+        number: u16,
+    },
+    /// Give a room a name, or take it away.
+    NameRoom {
+        /// Identity of the room.
+        room: u16,
+        /// Its name.
+        name: Option<RoomName>,
     },
     /// Clean a small disc around the present place.
     Spot,

@@ -17,6 +17,7 @@ pub mod geometry;
 pub mod localization;
 mod manoeuvre;
 pub mod mapping;
+pub mod no_go;
 pub mod observation;
 pub mod order;
 mod random;
@@ -30,6 +31,7 @@ pub use brain::Brain;
 pub use checkpoint::{Checkpoint, JobCheckpoint, TrackingCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
+pub use coverage::JobEstimate;
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
 pub use localization::PoseEstimate;
@@ -37,5 +39,6 @@ pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
     Raster, StoredMap, StoredMapError, SweptRun,
 };
+pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;
 pub use order::{CleaningOrder, HomePart, Zone};

@@ -12,8 +12,6 @@ const CORNERS_MAX: usize = 64;
 const PASSES_MAX: u8 = 3;
 /// Corners of a zone are nearer to the map's origin than this, metres.
 const FAR_M: f64 = 500.0;
-/// Thickness of a virtual wall, metres: no cell on it is missed.
-const WALL_M: f64 = 0.06;
 
 /// A polygon on the floor in the map frame. Edges may cross; what lies inside an odd number of times is in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,29 +31,6 @@ impl Zone {
         } else {
             Err(Reason::BadZone)
         }
-    }
-
-    /// A thin zone along a line: a wall that the robot shall see where there is none.
-    ///
-    /// # Errors
-    /// [`Reason::BadZone`] when the ends are one place or far away.
-    pub fn virtual_wall(from: Point2, to: Point2) -> Result<Self, Reason> {
-        let length_m = from.distance_m(to);
-        if length_m <= 0.0 || length_m.is_nan() {
-            return Err(Reason::BadZone);
-        }
-        let half = 0.5 * WALL_M / length_m;
-        let (along_x, along_y) = (half * (to.x_m - from.x_m), half * (to.y_m - from.y_m));
-        let corner = |end: Point2, ahead: f64, left: f64| Point2 {
-            x_m: end.x_m + ahead * along_x - left * along_y,
-            y_m: end.y_m + ahead * along_y + left * along_x,
-        };
-        Self::new(vec![
-            corner(from, -1.0, 1.0),
-            corner(from, -1.0, -1.0),
-            corner(to, 1.0, -1.0),
-            corner(to, 1.0, 1.0),
-        ])
     }
 
     /// The corners.
@@ -78,6 +53,36 @@ impl Zone {
         }
         is_inside
     }
+
+    /// How far a point is from it, in metres; 0 inside.
+    #[must_use]
+    pub fn distance_m(&self, point: Point2) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        let mut nearest_m = f64::INFINITY;
+        let mut before = self.corners.last().copied().unwrap_or_default();
+        for corner in &self.corners {
+            nearest_m = nearest_m.min(distance_to_edge_m(point, (before, *corner)));
+            before = *corner;
+        }
+        nearest_m
+    }
+}
+
+fn distance_to_edge_m(point: Point2, (from, to): (Point2, Point2)) -> f64 {
+    let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
+    let square = along_x * along_x + along_y * along_y;
+    let ahead = (point.x_m - from.x_m) * along_x + (point.y_m - from.y_m) * along_y;
+    let share = if square > 0.0 {
+        (ahead / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    point.distance_m(Point2 {
+        x_m: from.x_m + share * along_x,
+        y_m: from.y_m + share * along_y,
+    })
 }
 
 /// A part of the home.
@@ -188,10 +193,12 @@ mod tests {
     }
 
     #[test]
-    fn a_virtual_wall_is_as_long_as_its_line_and_thin() {
-        let wall = Zone::virtual_wall(at(1.0, 1.0), at(1.0, 3.0)).unwrap();
-        assert!(wall.contains(at(1.02, 1.1)) && wall.contains(at(0.98, 2.9)));
-        assert!(!wall.contains(at(1.05, 2.0)) && !wall.contains(at(1.0, 3.1)));
+    fn the_distance_to_a_zone_is_that_to_its_nearest_edge() {
+        let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)];
+        let zone = Zone::new(corners.map(|(x, y)| at(x, y)).to_vec()).unwrap();
+        for (place, distance_m) in [(at(1.0, 0.5), 0.0), (at(1.0, 1.5), 0.5), (at(5.0, 5.0), 5.0)] {
+            assert!((zone.distance_m(place) - distance_m).abs() < 1e-12, "{place:?}");
+        }
     }
 
     #[test]
@@ -205,10 +212,6 @@ mod tests {
         ] {
             assert_eq!(Zone::new(corners), Err(Reason::BadZone));
         }
-        assert_eq!(
-            Zone::virtual_wall(at(1.0, 1.0), at(1.0, 1.0)),
-            Err(Reason::BadZone)
-        );
         for passes in [0, 4] {
             assert_eq!(CleaningOrder::new(vec![], passes), Err(Reason::BadOrder));
         }

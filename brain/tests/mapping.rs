@@ -1,11 +1,11 @@
 //! The map of the home: from perceptions and from hand-made rasters to knowledge, distances, rooms, doors and walls.
 
 use brain::localization::Advance;
-use brain::mapping::{Door, Entry, FAR_M, Keyframe, Rooms};
+use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
-    Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, Observation, Point2, Pose2, PoseEstimate,
-    ProximityLayout, ProximityResponse, Raster, SensorLayout, StoredMap,
+    Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, NoGo, Observation, Point2, Pose2, PoseEstimate,
+    ProximityLayout, ProximityResponse, Raster, SensorLayout, StoredMap, Zone,
 };
 
 const BODY: Body = Body {
@@ -253,7 +253,9 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
 fn what_is_stored_and_taken_up_is_known_again() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
-    fed.map.set_no_go(Cell { x: 3, y: 0 }, Entry::Forbidden);
+    let corners = [(0.05, 0.0), (0.1, 0.0), (0.1, 0.05), (0.05, 0.05)];
+    let forbidden = Zone::new(corners.map(|(x_m, y_m)| at(x_m, y_m, 0.0).position()).to_vec()).unwrap();
+    fed.map.add_no_go(NoGo::zone(&forbidden).unwrap()).unwrap();
     fed.map.set_dock(at(0.25, 0.5, -1.0));
     fed.map.refresh();
     let bytes = fed.map.stored().encode();

@@ -2,10 +2,9 @@
 
 mod plane;
 
-use brain::mapping::Entry;
 use brain::{
-    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, Point2, Pose2,
-    Raster, Reason, StoredMap, Zone,
+    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
+    Raster, Reason, RoomName, StoredMap, Zone,
 };
 use plane::{Rectangle, Room, World, config, run};
 
@@ -162,18 +161,39 @@ fn a_second_pass_takes_as_long_again_and_the_estimate_knows() {
 }
 
 #[test]
+fn the_estimate_tells_charge_and_share() {
+    let stage = Stage::new();
+    let part = || vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))];
+    let estimates: Vec<_> = [1, 3]
+        .map(|passes| CleaningOrder::new(part(), passes).unwrap())
+        .iter()
+        .map(|order| stage.brain.estimate_order(order).unwrap())
+        .collect();
+    for estimate in &estimates {
+        assert!(estimate.charge > 0.0 && estimate.charge < 1.0, "{estimate:?}");
+        assert!(
+            estimate.share_low <= estimate.share && estimate.share <= 1.0,
+            "{estimate:?}"
+        );
+        assert!(estimate.share_low > 0.8, "{estimate:?}");
+    }
+    assert!(estimates[1].charge > 2.0 * estimates[0].charge);
+    assert!(estimates[1].share_low > estimates[0].share_low);
+}
+
+fn forbid(stage: &mut Stage, no_go: NoGo) {
+    let command = Command::AddNoGo { no_go };
+    assert_eq!(stage.brain.admit(&command), Ok(()));
+    run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+}
+
+#[test]
 fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
     let mut stage = Stage::new();
-    let forbidden = zone((1.5, 2.0), (2.5, 3.0));
-    let wall = Zone::virtual_wall(Point2 { x_m: 2.05, y_m: 0.2 }, Point2 { x_m: 2.05, y_m: 1.7 }).unwrap();
-    for zone in [&forbidden, &wall] {
-        let command = Command::SetZone {
-            zone: zone.clone(),
-            entry: Entry::Forbidden,
-        };
-        assert_eq!(stage.brain.admit(&command), Ok(()));
-        run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
-    }
+    let rooms = stage.brain.map().rooms().clone();
+    forbid(&mut stage, NoGo::zone(&zone((1.5, 2.0), (2.5, 3.0))).unwrap());
+    let wall = NoGo::wall(Point2 { x_m: 2.05, y_m: 0.2 }, Point2 { x_m: 2.05, y_m: 1.7 }).unwrap();
+    forbid(&mut stage, wall);
     stage.clean(&CleaningOrder::default());
     assert!(stage.swept((1.5, 2.0), (2.5, 3.0)) < 0.05);
     assert!(
@@ -181,11 +201,10 @@ fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
         "a wall stands in the door"
     );
     assert!(stage.swept((0.2, 0.2), (1.3, 3.8)) > 0.9);
-    let command = Command::SetZone {
-        zone: wall,
-        entry: Entry::Allowed,
-    };
-    run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+    let command = Command::RemoveNoGo { number: 2 };
+    assert_eq!(stage.brain.admit(&command), Ok(()));
+    run(&mut stage.world, &mut stage.brain, Some(command.clone()), 0.1);
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchNoGo));
     stage.clean(&CleaningOrder::default());
     assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.9);
     let cells = (0..40).map(|step| {
@@ -200,4 +219,97 @@ fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
             Some(&CellKnowledge::NoGo)
         );
     }
+    assert_eq!(stage.brain.map().rooms().rooms().len(), rooms.rooms().len());
+}
+
+#[test]
+fn what_people_say_of_a_home_is_stored_with_it_and_goes_on_in_the_next_run() {
+    let mut stage = Stage::new();
+    let room = stage.brain.map().rooms().rooms()[0].id;
+    let third = 1.0 / 3.0;
+    let wall = NoGo::wall(Point2 { x_m: third, y_m: 0.5 }, Point2 { x_m: 1.0, y_m: 0.5 }).unwrap();
+    forbid(&mut stage, wall.clone());
+    forbid(&mut stage, NoGo::zone(&zone((1.5, 2.0), (2.5, 3.0))).unwrap());
+    let name = RoomName::new("Köök").unwrap();
+    let naming = |name| Command::NameRoom { room, name };
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(naming(Some(name.clone()))),
+        0.1,
+    );
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::RemoveNoGo { number: 2 }),
+        0.1,
+    );
+
+    let stored = stage.brain.map().stored();
+    let back = StoredMap::decode(&stored.encode()).unwrap();
+    assert_eq!(back, stored, "equal bit for bit, or a replay would differ");
+    let mut again = Brain::with_map(config(), 1, &back);
+    let words = again.map().annotations();
+    assert_eq!(words.no_go().collect::<Vec<_>>(), [(1, &wall)]);
+    assert_eq!(words.name(room), Some(&name));
+    let beside = CleaningOrder::new(vec![HomePart::Room(room)], 1).unwrap();
+    assert!(again.estimate_order(&beside).is_ok());
+    let mut world = World::new(flat(), START);
+    forbid_again(&mut again, &mut world, &wall);
+}
+
+/// A number is not given a second time.
+fn forbid_again(brain: &mut Brain, world: &mut World, wall: &NoGo) {
+    let command = Command::AddNoGo { no_go: wall.clone() };
+    run(world, brain, Some(command), 0.1);
+    let numbers: Vec<u16> = brain
+        .map()
+        .annotations()
+        .no_go()
+        .map(|(number, _)| number)
+        .collect();
+    assert_eq!(numbers, [1, 3]);
+}
+
+#[test]
+fn edits_that_make_no_sense_are_refused_by_name() {
+    let mut stage = Stage::new();
+    let ids: Vec<u16> = stage
+        .brain
+        .map()
+        .rooms()
+        .rooms()
+        .iter()
+        .map(|room| room.id)
+        .collect();
+    let outside = NoGo::zone(&zone((20.0, 0.0), (21.0, 1.0))).unwrap();
+    let name = |room, text: &str| Command::NameRoom {
+        room,
+        name: Some(RoomName::new(text).unwrap()),
+    };
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(name(ids[0], "Hall")),
+        0.1,
+    );
+    for (command, reason) in [
+        (Command::AddNoGo { no_go: outside }, Reason::NoFloorThere),
+        (Command::RemoveNoGo { number: 1 }, Reason::NoSuchNoGo),
+        (name(99, "Attic"), Reason::NoSuchRoom),
+        (name(ids[1], "hall"), Reason::NameTaken),
+    ] {
+        assert_eq!(stage.brain.admit(&command), Err(reason), "{command:?}");
+        // One that slips through changes nothing either.
+        let before = stage.brain.map().annotations().clone();
+        run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+        assert_eq!(stage.brain.map().annotations(), &before);
+    }
+    let dock = stage.brain.map().stored().with_dock(Some(Pose2::IDENTITY));
+    let brain = Brain::with_map(config(), 1, &dock);
+    let around = NoGo::zone(&zone((0.9, 0.9), (1.1, 1.1))).unwrap();
+    assert_eq!(
+        brain.admit(&Command::AddNoGo { no_go: around }),
+        Err(Reason::DockInside)
+    );
 }

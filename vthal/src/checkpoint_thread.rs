@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use brain::StoredMap;
 use rvac_api::KeptMap;
 use tokio::sync::mpsc::Sender;
-use vthal_core::{Checkpoint, ClientId, MapOrder, MixOrder, MixTask};
+use vthal_core::{Checkpoint, ClientId, MapEdit, MapOrder, MixOrder, MixTask};
 
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
@@ -29,6 +29,7 @@ pub(crate) struct KeptPaths {
 enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<StoredMap>),
+    Edit(Box<MapEdit>),
     Order(MapOrder),
     MixOrder(MixOrder),
 }
@@ -71,6 +72,8 @@ pub(crate) enum MapOutcome {
     Listed(Vec<KeptMap>),
     /// The version with this number is the newest now.
     Restored(u64, Box<StoredMap>),
+    /// The map is the newest now.
+    Kept,
     /// It could not be done: name and sentence.
     Refused(&'static str, String),
 }
@@ -108,6 +111,12 @@ impl CheckpointHandle {
         self.try_send(Kept::Home(Box::new(home)));
     }
 
+    /// Hands a changed map over, in place of older ones that wait; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn edit(&self, edit: MapEdit) -> bool {
+        self.try_send(Kept::Edit(Box::new(edit)))
+    }
+
     /// Hands an order over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn order(&self, order: MapOrder) -> bool {
@@ -141,10 +150,16 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
     let mut healthy = true;
     while let Ok(first) = queue.recv() {
         let (mut checkpoint, mut home, mut orders) = (None, None, Vec::new());
+        // Whoever waits until the home is kept.
+        let mut waiting = Vec::new();
         for kept in core::iter::once(first).chain(queue.try_iter()) {
             match kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
                 Kept::Home(newer) => home = Some(newer),
+                Kept::Edit(edit) => {
+                    home = Some(Box::new(edit.home));
+                    waiting.push((edit.client, edit.id));
+                }
                 Kept::Order(order) => orders.push(order),
                 // Small, and never in a queue behind a map that waits to be written.
                 Kept::MixOrder(order) => {
@@ -167,19 +182,35 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             }
             healthy = result.is_ok();
         }
-        if let Some(home) = home
-            && let Err(error) = paths.maps.save(&home)
-        {
+        let kept = home.map_or(Ok(()), |home| paths.maps.save(&home));
+        if let Err(error) = &kept {
             tracing::error!(
                 "cannot write a map in {}: {error}; the robot will have to make it again",
                 paths.maps.path().display()
             );
+        }
+        for (client, id) in waiting {
+            let outcome = match &kept {
+                Ok(()) => MapOutcome::Kept,
+                Err(error) => MapOutcome::Refused("map-unwritable", unkept(error)),
+            };
+            events
+                .blocking_send(Event::Maps(MapAnswer { client, id, outcome }))
+                .ok();
         }
         for order in orders {
             // Nobody is left to hear it when the daemon ends.
             events.blocking_send(Event::Maps(obey(order, &paths.maps))).ok();
         }
     }
+}
+
+/// Sentence for whoever changed a map that cannot be written.
+fn unkept(error: &io::Error) -> String {
+    format!(
+        "The robot knows it now, but the map cannot be written: {error}. Check the disk and the state folder; after a \
+         restart it would be forgotten."
+    )
 }
 
 fn obey(order: MapOrder, maps: &MapFolder) -> MapAnswer {

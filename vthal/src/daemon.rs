@@ -10,7 +10,7 @@ use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, MapOrder, MixOrder, Outputs, Recipients};
+use vthal_core::{ClientId, Core, Delivery, Input, MapEdit, MapOrder, MixOrder, Outputs, Recipients};
 
 use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
 use crate::client::{self, Client, Flushed, Incoming};
@@ -152,6 +152,7 @@ impl Daemon {
     fn take_map_answer(&mut self, MapAnswer { client, id, outcome }: MapAnswer) {
         let answer = match outcome {
             MapOutcome::Listed(maps) => Some(Update::Maps { maps }),
+            MapOutcome::Kept => None,
             MapOutcome::Restored(number, home) => {
                 self.handle(Input::MapRestored { number, home: *home });
                 None
@@ -203,6 +204,15 @@ impl Daemon {
     fn tell_busy(&mut self, client: ClientId, id: Option<u32>) {
         let text = "The disk is too slow to answer now; ask again.".to_owned();
         self.tell(client, &refusal(id, "disk-busy", text));
+    }
+
+    fn keep_edit(&mut self, edit: MapEdit) {
+        let (client, id) = (edit.client, edit.id);
+        if !self.wiring.checkpoints.edit(edit) {
+            let text =
+                "The robot knows it now, but the disk is too slow: it is kept with the next change or run.";
+            self.tell(client, &refusal(id, "disk-busy", text.to_owned()));
+        }
     }
 
     fn terminate(&mut self, signal: &'static str) {
@@ -300,6 +310,9 @@ impl Daemon {
         }
         if let Some(home) = self.outputs.home.take() {
             self.wiring.checkpoints.send_home(home);
+        }
+        for edit in std::mem::take(&mut self.outputs.map_edits) {
+            self.keep_edit(edit);
         }
         for order in std::mem::take(&mut self.outputs.map_orders) {
             self.order_map(order);

@@ -11,8 +11,8 @@ use rvac_api::KeptMap;
 
 use crate::kept_file;
 
-/// Versions kept: a map that was spoilt is noticed within some runs.
-const VERSIONS_MAX: usize = 10;
+/// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
+const VERSIONS_MAX: usize = 40;
 /// Largest file that is looked at. A home of 150 square metres takes some ten kilobytes.
 const BYTES_MAX: u64 = 16 << 20;
 

@@ -495,6 +495,34 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
 }
 
 #[test]
+fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
+    let scratch = Scratch::new().expect("creates");
+    let maps = scratch.join("state/maps");
+    fs::create_dir_all(&maps).expect("creates");
+    let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
+    let home = StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY));
+    fs::write(maps.join("000001.map"), home.encode()).expect("writes");
+    let mut robot = robot(&scratch, 1);
+    robot.dock();
+    let daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    wait_until(&mut robot, &mut client, |update| {
+        has_text(update, "takes up the map of the home that was kept")
+    });
+    client
+        .send(r#"{"c":"add-no-go","shape":{"wall":[[1.0,0.5],[1.0,1.5]]},"id":9}"#)
+        .expect("sends");
+    wait_until(&mut robot, &mut client, |update| {
+        matches!(update, Update::Done { id: 9 })
+    });
+    // No warning and no time to write: what is there is what the next daemon finds.
+    drop(daemon);
+    let newest = StoredMap::decode(&fs::read(maps.join("000002.map")).expect("reads")).expect("is whole");
+    assert_eq!(newest.annotations().no_go().count(), 1);
+    assert_eq!(newest.dock().map(|dock| dock.x_m), Some(0.0));
+}
+
+#[test]
 fn a_second_daemon_is_refused_and_a_dead_ones_socket_is_replaced() {
     let scratch = Scratch::new().expect("creates");
     let socket = scratch.join("vthal.sock");

@@ -12,7 +12,10 @@ impl Behavior {
     /// Whether `command` may be obeyed now, in a home that is as the map says.
     pub(crate) fn admit(&self, command: &Command, map: &Map) -> Result<(), Reason> {
         match command {
-            Command::Stop | Command::ManualEnd | Command::SetZone { .. } => Ok(()),
+            Command::Stop | Command::ManualEnd => Ok(()),
+            Command::AddNoGo { no_go } => map.admit_no_go(no_go),
+            Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
+            Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
             Command::Clean { strategy } => {
                 self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
             }
@@ -139,7 +142,7 @@ impl Behavior {
                 self.begin((kind, order.clone()), mind);
             }
             // The map's business.
-            Command::SetZone { .. } => {}
+            Command::AddNoGo { .. } | Command::RemoveNoGo { .. } | Command::NameRoom { .. } => {}
             Command::Spot => self.begin((JobKind::Spot, whole), mind),
             Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
             Command::Dock => self.begin((JobKind::Dock, whole), mind),

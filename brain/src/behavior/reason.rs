@@ -155,6 +155,16 @@ reasons! {
     BadZone => "bad-zone",
     /// The map has no room with this identity.
     NoSuchRoom => "no-such-room",
+    /// There is no no-go zone or virtual wall of this number.
+    NoSuchNoGo => "no-such-no-go",
+    /// As many no-go zones and virtual walls as a home can have.
+    TooManyNoGos => "too-many-no-gos",
+    /// The robot could not reach its dock any more.
+    DockInside => "dock-inside",
+    /// A name is one line of 1 to 40 characters.
+    BadName => "bad-name",
+    /// Another room is called so.
+    NameTaken => "name-taken",
     /// A zone without any floor that the map knows.
     NoFloorThere => "no-floor-there",
     /// The next part of the order.

@@ -1,15 +1,20 @@
 //! What a job will take, before it begins.
 
-use super::plan::{PlanSettings, plan_area};
+use super::plan::{CoveragePlan, PlanSettings, plan_area};
 use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M, reachable};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
+use crate::energy::{EnergyModel, time_to_return_s};
 use crate::geometry::Pose2;
-use crate::mapping::{Cell, Map};
+use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::order::{CleaningOrder, HomePart};
 
 /// Real jobs take this many times as long as their plans: speeding up and braking, contacts, leftovers of an uncertain pose.
 const DRIVEN: f64 = 1.25;
+/// The low bound of the share is that of a robot whose place is so many times as uncertain as it believes.
+const DOUBT: f64 = 2.0;
+/// Deviation of the place where the map does not tell any, metres.
+const SIGMA_UNKNOWN_M: f64 = 0.3;
 
 /// An expectation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,6 +23,12 @@ pub struct JobEstimate {
     pub floor_m2: f64,
     /// Time, seconds.
     pub time_s: f64,
+    /// Share of the whole charge that the job and the way home take; more than 1 when it must charge in between.
+    pub charge: f64,
+    /// Share of `floor_m2` that is expected to be swept, 0..=1.
+    pub share: f64,
+    /// The same if the robot knows its place half as well as it believes.
+    pub share_low: f64,
 }
 
 /// What `order` takes for a robot that starts at `start`.
@@ -27,7 +38,7 @@ pub struct JobEstimate {
 pub(crate) fn estimate(
     order: &CleaningOrder,
     (map, start): (&Map, Pose2),
-    config: &BrainConfig,
+    (config, energy): (&BrainConfig, &EnergyModel),
 ) -> Result<JobEstimate, Reason> {
     order.fits(map)?;
     let settings = PlanSettings {
@@ -37,26 +48,140 @@ pub(crate) fn estimate(
         turn_rad_per_s: config.speeds.turn_max_rad_per_s,
     };
     let ground = reachable(map.knowledge(), config.body.radius_m + KEEP_OFF_M, &[]);
-    let mut whole = JobEstimate::default();
-    let mut pose = start;
-    let mut add = |part: Option<&HomePart>| {
-        let wanted = |cell: Cell| part.is_none_or(|part| part.contains(cell, map));
-        let plan = plan_area(&ground, (wanted, |_| false), pose, &settings);
-        if let Some(last) = plan.pieces.last() {
-            pose = last.at(1.0);
-        }
-        whole.floor_m2 += plan.floor_m2;
-        whole.time_s += DRIVEN * f64::from(order.passes()) * plan.time_s;
-    };
+    let mut sum = Sum::at(start);
     if order.parts().is_empty() {
-        add(None);
+        sum.add(part_of((None, order), (map, &ground), sum.pose, &settings));
     }
     for part in order.parts() {
-        add(Some(part));
+        sum.add(part_of((Some(part), order), (map, &ground), sum.pose, &settings));
     }
-    if whole.floor_m2 > 0.0 {
-        Ok(whole)
-    } else {
-        Err(Reason::NoMap)
+    if sum.floor_m2 <= 0.0 {
+        return Err(if map.free_m2() > 0.0 {
+            Reason::RestOutOfReach
+        } else {
+            Reason::NoMap
+        });
+    }
+    let home_s = map.dock().map_or(0.0, |dock| {
+        time_to_return_s(
+            sum.pose.position().distance_m(dock.position()),
+            settings.cruise_m_per_s,
+        )
+    });
+    Ok(JobEstimate {
+        floor_m2: sum.floor_m2,
+        time_s: sum.time_s,
+        charge: energy.charge_for(sum.time_s, home_s),
+        share: sum.swept_m2 / sum.floor_m2,
+        share_low: sum.swept_low_m2 / sum.floor_m2,
+    })
+}
+
+/// What comes together over the parts of an order.
+#[derive(Clone, Copy, Debug)]
+struct Sum {
+    pose: Pose2,
+    floor_m2: f64,
+    time_s: f64,
+    swept_m2: f64,
+    swept_low_m2: f64,
+}
+
+impl Sum {
+    fn at(pose: Pose2) -> Self {
+        Self {
+            pose,
+            floor_m2: 0.0,
+            time_s: 0.0,
+            swept_m2: 0.0,
+            swept_low_m2: 0.0,
+        }
+    }
+
+    fn add(&mut self, part: PartEstimate) {
+        self.pose = part.end;
+        self.floor_m2 += part.plan.floor_m2;
+        self.time_s += part.time_s;
+        let planned_m2 = part.plan.floor_m2 - part.plan.left_m2;
+        self.swept_m2 += planned_m2 * part.kept;
+        self.swept_low_m2 += planned_m2 * part.kept_low;
+    }
+}
+
+/// A part of an order.
+struct PartEstimate {
+    plan: CoveragePlan,
+    end: Pose2,
+    time_s: f64,
+    /// Share of the planned floor that an uncertain pose leaves swept, and the same with more doubt.
+    kept: f64,
+    kept_low: f64,
+}
+
+fn part_of(
+    (part, order): (Option<&HomePart>, &CleaningOrder),
+    (map, ground): (&Map, &Raster<bool>),
+    start: Pose2,
+    settings: &PlanSettings,
+) -> PartEstimate {
+    let wanted = |cell: Cell| part.is_none_or(|part| part.contains(cell, map));
+    let plan = plan_area(ground, (wanted, |_| false), start, settings);
+    let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
+    let passes = order.passes();
+    PartEstimate {
+        end,
+        time_s: DRIVEN * f64::from(passes) * plan.time_s,
+        kept: kept((map, &wanted), settings, (1.0, passes)),
+        kept_low: kept((map, &wanted), settings, (DOUBT, passes)),
+        plan,
+    }
+}
+
+/// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells.
+fn kept(
+    (map, wanted): (&Map, &impl Fn(Cell) -> bool),
+    settings: &PlanSettings,
+    (doubt, passes): (f64, u8),
+) -> f64 {
+    let knowledge = map.knowledge();
+    let (mut cells, mut sum) = (0_u32, 0.0);
+    for index in 0..knowledge.values().len() {
+        let cell = knowledge.cell(index);
+        if knowledge.values().get(index) == Some(&CellKnowledge::Free) && wanted(cell) {
+            let sigma_m = map.sigma_m(cell).unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M);
+            cells += 1;
+            sum += 1.0 - libm::pow(gap_share(doubt * sigma_m, settings), f64::from(passes));
+        }
+    }
+    if cells == 0 { 0.0 } else { sum / f64::from(cells) }
+}
+
+/// Expected share of the floor between two lanes that neither of them sweeps, when the place of each is uncertain.
+fn gap_share(sigma_m: f64, settings: &PlanSettings) -> f64 {
+    let apart_m = core::f64::consts::SQRT_2 * sigma_m;
+    let overlap_m = 2.0 * settings.sigma_m;
+    let spacing_m = (settings.swath_m - overlap_m).max(overlap_m);
+    let times = overlap_m / apart_m;
+    let density = libm::exp(-0.5 * times * times) / libm::sqrt(core::f64::consts::TAU);
+    let beyond = 0.5 * libm::erfc(times / core::f64::consts::SQRT_2);
+    ((apart_m * density - overlap_m * beyond) / spacing_m).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PlanSettings, gap_share};
+
+    #[test]
+    fn the_less_sure_a_place_the_wider_the_gaps() {
+        let settings = PlanSettings {
+            swath_m: 0.25,
+            sigma_m: 0.01,
+            cruise_m_per_s: 0.25,
+            turn_rad_per_s: 1.0,
+        };
+        let shares = [0.005, 0.02, 0.05, 0.1, 0.3].map(|sigma_m| gap_share(sigma_m, &settings));
+        assert!(shares.is_sorted(), "{shares:?}");
+        assert!(shares[0] < 0.001 && shares[4] > 0.5, "{shares:?}");
+        assert!((0.0..=1.0).contains(&gap_share(50.0, &settings)));
     }
 }

@@ -81,9 +81,13 @@ impl EnergyModel {
     /// The charge with which the robot must set out on a way home of `way_m` metres at `cruise_m_per_s`.
     #[must_use]
     pub fn charge_to_return(&self, way_m: f64, cruise_m_per_s: f64) -> f64 {
-        let time_s = WAY_FACTOR * way_m / cruise_m_per_s.max(0.05) + APPROACH_S;
-        MARGIN * self.charge_for(0.0, time_s) + RESERVE
+        MARGIN * self.charge_for(0.0, time_to_return_s(way_m, cruise_m_per_s)) + RESERVE
     }
+}
+
+/// Seconds that a way home of `way_m` metres takes, docking included.
+pub(crate) fn time_to_return_s(way_m: f64, cruise_m_per_s: f64) -> f64 {
+    WAY_FACTOR * way_m / cruise_m_per_s.max(0.05) + APPROACH_S
 }
 
 fn within(rate: f64, guess: f64) -> f64 {

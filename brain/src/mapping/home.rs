@@ -1,9 +1,10 @@
 //! The part of the map that outlives a job: what stands where.
 
+use super::annotations::Annotations;
 use super::derived::Derived;
 use super::distance::DistanceField;
 use super::draw::Pencil;
-use super::layers::{CellKnowledge, Flag, Layers};
+use super::layers::{CellBox, CellKnowledge, Flag, Layers};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
 use super::walls::{WallSegment, walls};
@@ -12,7 +13,6 @@ use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
-use crate::order::Zone;
 
 /// Derived rasters are brought up to date after this time, microseconds.
 const REFRESH_US: u64 = 2_000_000;
@@ -44,6 +44,9 @@ pub(super) struct HomeMap {
     redrawn: u32,
     /// Cells that are shut until the next job.
     pockets: Vec<Cell>,
+    pub(super) annotations: Annotations,
+    /// Where no-go zones were last painted.
+    pub(super) painted: Option<CellBox>,
 }
 
 impl HomeMap {
@@ -63,6 +66,8 @@ impl HomeMap {
             revision: 0,
             redrawn: 0,
             pockets: Vec::new(),
+            annotations: Annotations::default(),
+            painted: None,
         }
     }
 
@@ -98,7 +103,7 @@ impl HomeMap {
     }
 
     /// Sets or clears a flag, whatever is drawn again later.
-    fn flag(&mut self, cell: Cell, flag: Flag, entry: Entry) {
+    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, entry: Entry) {
         let change = |evidence: &mut super::layers::Evidence| match entry {
             Entry::Forbidden => evidence.set(flag),
             Entry::Allowed => evidence.clear(flag),
@@ -136,7 +141,32 @@ impl HomeMap {
 
     fn survey(&mut self) {
         self.refresh();
-        self.rooms = self.rooms.renewed(&self.derived.knowledge);
+        let beneath = self.knowledge_beneath();
+        self.rooms = self
+            .rooms
+            .renewed(beneath.as_ref().unwrap_or(&self.derived.knowledge));
+    }
+
+    /// Cells that tiles cover.
+    pub(super) fn bounds(&self) -> Option<CellBox> {
+        self.layers.bounds()
+    }
+
+    pub(super) fn knowledge(&self) -> &Raster<CellKnowledge> {
+        &self.derived.knowledge
+    }
+
+    /// What would be known of a cell without a flag.
+    pub(super) fn knowledge_without(&self, cell: Cell, flag: Flag) -> CellKnowledge {
+        let mut evidence = self.layers.at(cell);
+        evidence.clear(flag);
+        evidence.knowledge()
+    }
+
+    /// Something that people see has changed.
+    pub(super) fn touch(&mut self) {
+        self.refresh();
+        self.revision = self.revision.wrapping_add(1);
     }
 
     /// Whether there is no room for another sighting.
@@ -160,6 +190,7 @@ impl HomeMap {
     }
 
     fn refresh(&mut self) {
+        self.paint_what_came();
         if self.layers.is_dirty() {
             self.derived.refresh(&mut self.layers);
             self.revision = self.revision.wrapping_add(1);
@@ -169,6 +200,7 @@ impl HomeMap {
     /// Takes up layers that were drawn again; what was seen meanwhile is in them.
     pub(super) fn take_redrawn(&mut self, layers: Layers) {
         self.layers = layers;
+        self.paint_no_go();
         self.derive_anew();
         self.redrawn = self.redrawn.wrapping_add(1);
     }
@@ -181,8 +213,11 @@ impl HomeMap {
         self.pockets.clear();
         self.last = None;
         self.dock = stored.dock();
+        self.annotations = stored.annotations().clone();
+        self.paint_no_go();
         self.derive_anew();
-        self.rooms = stored.rooms().renewed(&self.derived.knowledge);
+        self.rooms = stored.rooms();
+        self.survey();
     }
 
     fn derive_anew(&mut self) {
@@ -305,11 +340,6 @@ impl Map {
         self.home.dock = Some(dock);
     }
 
-    /// Forbids or allows a cell.
-    pub fn set_no_go(&mut self, cell: Cell, entry: Entry) {
-        self.home.flag(cell, Flag::NoGo, entry);
-    }
-
     /// Forbids a place that trapped the robot, until the next job.
     pub(crate) fn shut_pocket(&mut self, place: Point2) {
         self.home.shut_pocket(place);
@@ -318,20 +348,6 @@ impl Map {
     /// Allows again what [`Self::shut_pocket`] forbade.
     pub(super) fn open_pockets(&mut self) {
         self.home.open_pockets();
-    }
-
-    /// Forbids or allows all that is known of a zone.
-    pub fn set_zone(&mut self, zone: &Zone, entry: Entry) {
-        self.refresh();
-        let known = &self.home.derived.knowledge;
-        let cells: Vec<Cell> = (0..known.values().len())
-            .map(|index| known.cell(index))
-            .filter(|cell| zone.contains(cell.middle()))
-            .collect();
-        for cell in cells {
-            self.set_no_go(cell, entry);
-        }
-        self.refresh();
     }
 
     /// How much wheels and gyro differed where the robot drove over a cell, in radians a metre; 0 where it did not.
@@ -352,7 +368,9 @@ impl Map {
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
-        StoredMap::of_layers(&self.home.layers, &self.home.rooms).with_dock(self.home.dock)
+        StoredMap::of_layers(&self.home.layers, &self.home.rooms)
+            .with_dock(self.home.dock)
+            .with_annotations(self.home.annotations.clone())
     }
 
     /// Takes up a stored home in place of what is known.
@@ -376,7 +394,7 @@ impl Map {
 
 /// Whether a cell may be entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Entry {
+pub(super) enum Entry {
     /// It may.
     Allowed,
     /// It may not.

@@ -9,9 +9,11 @@
 //! of a job only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a
 //! new one, and so does a map that was drawn again with better poses.
 
+mod annotations;
 mod derived;
 mod distance;
 mod draw;
+mod editing;
 mod home;
 mod layers;
 mod raster;
@@ -24,8 +26,8 @@ mod swept;
 mod traces;
 mod walls;
 
+pub use annotations::Annotations;
 pub use distance::{DistanceField, FAR_M};
-pub use home::Entry;
 pub use layers::CellKnowledge;
 pub use raster::Raster;
 pub(crate) use reach::neighbours;

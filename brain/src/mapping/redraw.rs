@@ -4,10 +4,10 @@
 //! the map stays as it is.
 
 use super::home::HomeMap;
-use super::layers::Layers;
+use super::layers::{Flag, Layers};
 use super::swept::{Swath, SweptLayer};
 use super::traces::Path;
-use super::{Map, Mark};
+use super::{Cell, Map, Mark};
 use crate::geometry::{Pose2, normalize_rad};
 
 /// Sightings that are drawn in one step: about a millisecond of a desktop's core.
@@ -36,6 +36,11 @@ pub(super) struct Redrawing {
 }
 
 impl Redrawing {
+    /// A cell is not forbidden any more.
+    pub(super) fn allow(&mut self, cell: Cell) {
+        self.layers.change(cell, |evidence| evidence.clear(Flag::NoGo));
+    }
+
     /// Draws up to `most` sightings; `true` when none is left.
     fn go_on(&mut self, home: &HomeMap, job_from: usize, most: usize) -> bool {
         let sightings = home.sightings.get(self.next..).unwrap_or_default();

@@ -194,7 +194,8 @@ impl Store {
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { maps } => self.maps.set(maps),
-            Message::Done { .. } | Message::Mixes { .. } | Message::Packet { .. } => {}
+            // Nobody here has asked for an estimate of a job.
+            Message::Done { .. } | Message::Mixes { .. } | Message::Packet { .. } | Message::JobEstimate(_) => {}
         }
     }
 

@@ -1,9 +1,10 @@
 //! What the robot knows of the home, over all of its jobs.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{Pose, Rle};
+use crate::{NoGoView, Pose, Rle};
 
 /// The home as far as the robot knows it, in the frame of its poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,6 +34,9 @@ pub struct HomeView {
     /// Pose of a robot that stands on the dock, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dock: Option<Pose>,
+    /// No-go zones and virtual walls, by their numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub no_go: Vec<NoGoView>,
 }
 
 /// A version of the map of the home that the daemon keeps.
@@ -49,7 +53,7 @@ pub struct KeptMap {
 }
 
 /// A room.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RoomView {
     /// Identity, from 1; the same when the home is mapped again.
     pub id: u16,
@@ -59,6 +63,9 @@ pub struct RoomView {
     pub x: f64,
     /// A place in the middle of it, metres.
     pub y: f64,
+    /// What people call it, if anybody has named it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
 }
 
 /// A door between two rooms.

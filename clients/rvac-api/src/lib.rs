@@ -9,11 +9,13 @@
 extern crate alloc;
 
 mod home;
+mod order;
 mod request;
 mod thought;
 mod update;
 
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
+pub use order::{JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomNaming};
 pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{

@@ -4,6 +4,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
+use crate::{JobOrder, NoGoShape, RoomNaming};
+
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
@@ -72,6 +74,23 @@ pub enum RequestBody {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         strategy: Option<String>,
     },
+    /// Cleans rooms and zones of the home, in the order in which they stand.
+    Clean(JobOrder),
+    /// Asks what such a job will take from where the robot stands; answered by [`crate::Update::JobEstimate`]. Refused
+    /// while a job runs.
+    Estimate(JobOrder),
+    /// Forbids floor to all ways that are planned, from now on. Answered when the map with it is on the disk.
+    AddNoGo {
+        /// Where.
+        shape: NoGoShape,
+    },
+    /// Allows it again.
+    RemoveNoGo {
+        /// Number, as in [`crate::HomeView::no_go`].
+        number: u16,
+    },
+    /// Names a room. Answered when the map with the name is on the disk.
+    NameRoom(RoomNaming),
     /// Cleans a small disc around the present place.
     Spot,
     /// Stands still, keeps the job.

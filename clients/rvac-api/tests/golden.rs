@@ -7,8 +7,9 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
-    KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, PlannedWay, Pose, Request, RequestBody,
-    RobotDescription, RoomView, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
+    JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    NoGoShape, NoGoView, PlannedWay, Pose, Request, RequestBody, RobotDescription, RoomNaming, RoomView,
+    SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -301,6 +302,7 @@ fn the_home() {
             area_m2: 12.5,
             x: 1.0,
             y: 2.0,
+            name: None,
         }],
         doors: vec![DoorView {
             rooms: [1, 2],
@@ -314,10 +316,88 @@ fn the_home() {
             sigma_m: 0.25,
         }],
         dock: None,
+        no_go: vec![],
     };
     check(
-        &Update::Home(home),
+        &Update::Home(home.clone()),
         r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0}],"doors":[{"rooms":[1,2],"x":3.0,"y":4.0,"width_m":0.75}],"walls":[{"from":[0.0,1.0],"to":[2.0,1.0],"sigma_m":0.25}]}"#,
+    );
+    let told = HomeView {
+        rooms: vec![RoomView {
+            name: Some("Kitchen".to_owned()),
+            ..home.rooms[0].clone()
+        }],
+        doors: vec![],
+        walls: vec![],
+        no_go: vec![
+            NoGoView {
+                number: 2,
+                shape: NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]]),
+            },
+            NoGoView {
+                number: 4,
+                shape: NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+            },
+        ],
+        ..home
+    };
+    check(
+        &Update::Home(told),
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}]}"#,
+    );
+}
+
+#[test]
+fn orders() {
+    let order = JobOrder {
+        parts: vec![
+            JobPart::Room(3),
+            JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
+        ],
+        passes: 2,
+    };
+    request(
+        RequestBody::Clean(order.clone()),
+        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2}"#,
+    );
+    request(
+        RequestBody::Estimate(order),
+        r#"{"c":"estimate","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2}"#,
+    );
+    let short: Request = serde_json::from_str(r#"{"c":"clean","later":1,"id":4}"#).unwrap();
+    assert_eq!(short.body, RequestBody::Clean(JobOrder::default()));
+    request(
+        RequestBody::AddNoGo {
+            shape: NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]]),
+        },
+        r#"{"c":"add-no-go","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}}"#,
+    );
+    request(
+        RequestBody::RemoveNoGo { number: 2 },
+        r#"{"c":"remove-no-go","number":2}"#,
+    );
+    let naming = |name: Option<&str>| {
+        RequestBody::NameRoom(RoomNaming {
+            room: 3,
+            name: name.map(str::to_owned),
+        })
+    };
+    request(
+        naming(Some("Kitchen")),
+        r#"{"c":"name-room","room":3,"name":"Kitchen"}"#,
+    );
+    request(naming(None), r#"{"c":"name-room","room":3}"#);
+    let estimate = JobEstimate {
+        id: Some(4),
+        floor_m2: 12.5,
+        time_s: 900.0,
+        charge: 0.25,
+        share: 0.975,
+        share_low: 0.875,
+    };
+    check(
+        &Update::JobEstimate(estimate),
+        r#"{"e":"job-estimate","id":4,"floor_m2":12.5,"time_s":900.0,"charge":0.25,"share":0.975,"share_low":0.875}"#,
     );
 }
 

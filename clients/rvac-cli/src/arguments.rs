@@ -1,8 +1,12 @@
 //! What can be said on the command line.
 
+mod orders;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
+
+pub(crate) use orders::{EstimateOptions, OrderOptions, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb};
 
 /// LibreRVAC from the command line.
 #[derive(Debug, Parser)]
@@ -24,6 +28,14 @@ pub(crate) enum Subcommand {
     Watch(WatchOptions),
     /// What the robot knows of the home, which versions of its map are kept, and the way back to one of them.
     Map(MapJob),
+    /// Clean rooms and zones of the home; without any all of it.
+    Clean(OrderOptions),
+    /// What such a job will take.
+    Estimate(EstimateOptions),
+    /// The rooms of the home, and their names.
+    Rooms(RoomsJob),
+    /// No-go zones and virtual walls.
+    Zone(ZoneJob),
     /// What the robot decided lately, and why.
     Why(WhyOptions),
     /// Run a recording through the brain again.

@@ -20,7 +20,11 @@ pub(crate) fn start(strategy: Option<String>, daemon: &Daemon) -> anyhow::Result
 
 /// Sends a request and waits until vthal says how it went.
 pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&daemon.socket)?;
+    ask(&mut Connection::open(&daemon.socket)?, body)
+}
+
+/// As [`send`], over a connection that stands.
+pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Result<ExitCode> {
     connection.send(&Request {
         id: Some(REQUEST_ID),
         body,

@@ -8,6 +8,7 @@ mod control;
 mod home;
 mod lines;
 mod listen;
+mod orders;
 mod packet;
 mod probe;
 mod replay;
@@ -32,6 +33,10 @@ fn main() -> ExitCode {
         Subcommand::Status(options) => status::print(&options),
         Subcommand::Watch(options) => status::watch(&options),
         Subcommand::Map(job) => home::run(&job),
+        Subcommand::Clean(order) => orders::clean(&order),
+        Subcommand::Estimate(options) => orders::estimate(&options),
+        Subcommand::Rooms(job) => orders::rooms(&job),
+        Subcommand::Zone(job) => orders::zones(&job),
         Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),

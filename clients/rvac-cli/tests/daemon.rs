@@ -10,8 +10,9 @@ use std::process::Output;
 use std::thread::JoinHandle;
 
 use rvac_api::{
-    Decision, DeviceTable, Estimate, Failure, HomeView, KeptMap, LinkReading, LogEntry, LogLevel, Pose,
-    Request, RequestBody, RoomView, SEPARATOR, Status, Update,
+    Decision, DeviceTable, Estimate, Failure, HomeView, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading,
+    LogEntry, LogLevel, NoGoShape, Pose, Request, RequestBody, RoomNaming, RoomView, SEPARATOR, Status,
+    Update,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -248,6 +249,7 @@ fn at_home(request: &Request) -> Vec<Update> {
                     area_m2: 4.0,
                     x: 1.5,
                     y: 1.5,
+                    name: Some("Hall".to_owned()),
                 }],
                 ..HomeView::default()
             }),
@@ -270,8 +272,77 @@ fn at_home(request: &Request) -> Vec<Update> {
         RequestBody::Maps => vec![Update::Maps {
             maps: vec![kept(12), kept(11)],
         }],
+        RequestBody::Estimate(_) => vec![Update::JobEstimate(JobEstimate {
+            id: request.id,
+            floor_m2: 4.0,
+            time_s: 300.0,
+            charge: 0.25,
+            share: 0.98,
+            share_low: 0.9,
+        })],
         _ => obedient(request),
     }
+}
+
+#[test]
+fn orders_for_rooms_and_zones_go_out_under_their_names() {
+    let job = |parts, passes| JobOrder { parts, passes };
+    let rectangle = || vec![[-1.0, 0.0], [2.0, 0.0], [2.0, 1.5], [-1.0, 1.5]];
+    let naming = |name: Option<&str>| {
+        RequestBody::NameRoom(RoomNaming {
+            room: 1,
+            name: name.map(str::to_owned),
+        })
+    };
+    let add = |shape| RequestBody::AddNoGo { shape };
+    let cases: [(&[&str], RequestBody); 8] = [
+        (&["clean"], RequestBody::Clean(job(vec![], 1))),
+        (
+            &[
+                "clean", "--room", "hall", "--zone", "-1,0", "2,1.5", "--passes", "2",
+            ],
+            RequestBody::Clean(job(vec![JobPart::Room(1), JobPart::Zone(rectangle())], 2)),
+        ),
+        (&["rooms", "name", "1", "Entrance"], naming(Some("Entrance"))),
+        (&["rooms", "unname", "Hall"], naming(None)),
+        (
+            &["zone", "add", "-1,0", "2,1.5"],
+            add(NoGoShape::Zone(rectangle())),
+        ),
+        (
+            &["zone", "add", "0,0", "1,0", "--corner", "0,-1"],
+            add(NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [0.0, -1.0]])),
+        ),
+        (
+            &["zone", "wall", "-1,0", "2,1.5"],
+            add(NoGoShape::Wall([[-1.0, 0.0], [2.0, 1.5]])),
+        ),
+        (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
+    ];
+    for (place, (arguments, body)) in cases.into_iter().enumerate() {
+        let (output, asked) = Daemon::start(&format!("order-{place}"), at_home).rvac(arguments, "");
+        assert!(output.status.success(), "{arguments:?}: {output:?}");
+        let last = asked.last().expect("asks");
+        assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
+    }
+}
+
+#[test]
+fn an_estimate_is_told_and_an_unknown_room_is_named() {
+    let (output, _) = Daemon::start("estimate", at_home).rvac(&["estimate", "--room", "Hall"], "");
+    let words = text(&output.stdout);
+    assert!(
+        words.contains("4.0 m2") && words.contains("about 5 min"),
+        "{words}"
+    );
+    let (output, asked) = Daemon::start("attic", at_home).rvac(&["clean", "--room", "Attic"], "");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("no room is called \"Attic\": the map has 1 (Hall)"));
+    assert!(
+        !asked
+            .iter()
+            .any(|request| matches!(request.body, RequestBody::Clean(_)))
+    );
 }
 
 #[test]
@@ -283,7 +354,7 @@ fn the_home_is_told_with_its_rooms_and_a_picture() {
         "{words}"
     );
     assert!(
-        words.contains("room 1    4.0 m2\n") && words.ends_with("#1>\n"),
+        words.contains("room 1    4.0 m2, Hall\n") && words.ends_with("#1>\n"),
         "{words}"
     );
 }

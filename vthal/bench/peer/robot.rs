@@ -61,6 +61,11 @@ impl SyntheticRobot {
             .is_some_and(|(speed, until)| speed != 0 && Instant::now() < until)
     }
 
+    /// Stands on its dock from now on.
+    pub fn dock(&mut self) {
+        self.state.docked = true;
+    }
+
     /// Presses or lets go of a button.
     pub fn button(&mut self, button: u8, pressed: bool) {
         self.session

@@ -5,6 +5,8 @@ mod feed;
 mod firmware;
 mod link_facts;
 mod manual;
+mod orders;
+mod refusal;
 mod requests;
 mod thinking;
 
@@ -45,6 +47,8 @@ pub struct Core {
     events: Vec<FirmwareEvent>,
     stepped_us: u64,
     ended: bool,
+    /// Whoever changed the map since the brain's last step: client and number of the request.
+    edits: Vec<(ClientId, Option<u32>)>,
 }
 
 impl Core {
@@ -66,6 +70,7 @@ impl Core {
             events: Vec::new(),
             stepped_us: 0,
             ended: false,
+            edits: Vec::new(),
         }
     }
 

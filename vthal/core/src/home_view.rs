@@ -1,8 +1,8 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
-use brain::mapping::{Door, Room, WallSegment};
-use brain::{Brain, CELL_M, CellKnowledge, Raster};
-use rvac_api::{DoorView, HomeView, Rle, RoomView, WallView};
+use brain::mapping::{Annotations, Door, Room, WallSegment};
+use brain::{Brain, CELL_M, CellKnowledge, NoGo, Raster};
+use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, Rle, RoomView, WallView};
 
 use crate::to_api;
 
@@ -21,10 +21,16 @@ pub(crate) fn home_view(brain: &Brain) -> HomeView {
     let view = cells(map.knowledge(), rooms.labels());
     HomeView {
         revision: map.revision(),
-        rooms: rooms.rooms().iter().take(ITEMS_MAX).map(room).collect(),
+        rooms: rooms
+            .rooms()
+            .iter()
+            .take(ITEMS_MAX)
+            .map(|known| room(known, map.annotations()))
+            .collect(),
         doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
+        no_go: map.annotations().no_go().map(no_go).collect(),
         ..view
     }
 }
@@ -121,12 +127,24 @@ fn runs(values: &[u32]) -> Rle {
         .collect()
 }
 
-fn room(room: &Room) -> RoomView {
+fn no_go((number, no_go): (u16, &NoGo)) -> NoGoView {
+    let shape = match no_go.shape() {
+        brain::NoGoShape::Zone => {
+            let corners = no_go.area().corners().iter();
+            NoGoShape::Zone(corners.map(|corner| [corner.x_m, corner.y_m]).collect())
+        }
+        brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
+    };
+    NoGoView { number, shape }
+}
+
+fn room(room: &Room, annotations: &Annotations) -> RoomView {
     RoomView {
         id: room.id,
         area_m2: room.area_m2,
         x: room.middle.x_m,
         y: room.middle.y_m,
+        name: annotations.name(room.id).map(|name| name.as_str().to_owned()),
     }
 }
 

@@ -34,5 +34,6 @@ pub use config::{Checkpoints, CoreConfig, ExpertAccess, Recording};
 pub use core::Core;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    Delivery, Direction, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunStart,
+    Delivery, Direction, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
+    RunStart,
 };

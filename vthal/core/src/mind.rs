@@ -119,7 +119,9 @@ impl Mind {
                 Some(RunCause::Job)
             }
             Command::Manual { .. } => Some(RunCause::Manual),
-            Command::SetZone { .. }
+            Command::AddNoGo { .. }
+            | Command::RemoveNoGo { .. }
+            | Command::NameRoom { .. }
             | Command::Pause
             | Command::Resume
             | Command::Stop
@@ -206,6 +208,15 @@ impl Mind {
     pub(crate) fn offer(&mut self, now_us: u64, home: StoredMap, recorder: &mut Recorder<'_>) {
         self.end_run(now_us, RunEnd::Finished, recorder);
         self.kept_home = KeptHome::Offered(home);
+    }
+
+    /// Whether what the brain knows is the home that is kept, so that people may change it.
+    pub(crate) fn admit_edit(&self) -> Result<(), &'static str> {
+        match self.kept_home {
+            KeptHome::Offered(_) => Err("map-not-taken-up"),
+            KeptHome::Present if self.brain.estimate().lost => Err("place-unknown"),
+            KeptHome::Present => Ok(()),
+        }
     }
 
     /// The home as it is worth keeping; `None` while the one that was kept is a better one, or the robot is lost.

@@ -23,6 +23,8 @@ pub struct Outputs {
     pub home: Option<StoredMap>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
+    /// Maps that clients have changed, in order.
+    pub map_edits: Vec<MapEdit>,
     /// What clients ask of the kept control mixes, in order.
     pub mix_orders: Vec<MixOrder>,
 }
@@ -70,6 +72,17 @@ pub enum MapOrder {
     },
 }
 
+/// A map that a person has changed: the shell keeps it as the newest one and tells the client when it is on the disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapEdit {
+    /// Who changed it.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// The map with the change.
+    pub home: StoredMap,
+}
+
 impl Outputs {
     /// Empties everything and keeps the memory.
     pub fn clear(&mut self) {
@@ -81,6 +94,7 @@ impl Outputs {
         self.home = None;
         self.map_orders.clear();
         self.mix_orders.clear();
+        self.map_edits.clear();
     }
 }
 

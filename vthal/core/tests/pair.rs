@@ -1,7 +1,9 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
-use rvac_api::{CleaningPower, Request, RequestBody, Topic, Update};
+use rvac_api::{
+    CleaningPower, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, Topic, Update,
+};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
     BinaryKinds, Capabilities, Command, Description, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
@@ -9,7 +11,7 @@ use rvac_protocol::message::{
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
-use vthal_core::{ClientId, Core, CoreConfig, Input, MapOrder, Outputs, Record, Recording};
+use vthal_core::{ClientId, Core, CoreConfig, Input, MapEdit, MapOrder, Outputs, Record, Recording};
 
 const ANNA: ClientId = ClientId(1);
 const BERT: ClientId = ClientId(2);
@@ -31,6 +33,8 @@ struct Pair {
     homes: Vec<StoredMap>,
     /// What the shell should do with the kept ones.
     orders: Vec<MapOrder>,
+    /// Maps that clients have changed.
+    edits: Vec<MapEdit>,
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
@@ -58,6 +62,7 @@ impl Pair {
             records: Vec::new(),
             homes: Vec::new(),
             orders: Vec::new(),
+            edits: Vec::new(),
             to_robot: Vec::new(),
             hears_stop: true,
         };
@@ -84,6 +89,7 @@ impl Pair {
         self.records.extend(outputs.records);
         self.homes.extend(outputs.home);
         self.orders.extend(outputs.map_orders);
+        self.edits.extend(outputs.map_edits);
     }
 
     /// Asks and gives the reason of a refusal.
@@ -638,6 +644,169 @@ fn a_map_is_restored_at_rest_only_and_taken_up_on_the_dock() {
     pair.run_ms(200);
     assert!((pair.core.pose().x - 3.0).abs() < 1e-6, "{:?}", pair.core.pose());
     assert_eq!(pair.homes, [], "what was drawn before is not kept over it");
+}
+
+/// Two rooms' worth of floor around a dock, and a gyro.
+fn on_the_dock() -> Pair {
+    let floor = Raster::filled(Cell { x: 0, y: 0 }, 160, 120, CellKnowledge::Free);
+    let dock = Pose2 {
+        x_m: 2.0,
+        y_m: 0.5,
+        heading_rad: 1.5,
+    };
+    let mut pair = Pair::in_home(Some(StoredMap::from_raster(&floor, Some(dock))));
+    pair.state.docked = true;
+    pair.handle(Input::BoardHeading { heading_urad: 0 });
+    pair.run_ms(100);
+    pair
+}
+
+fn wall(from: [f64; 2], to: [f64; 2]) -> RequestBody {
+    RequestBody::AddNoGo {
+        shape: NoGoShape::Wall([from, to]),
+    }
+}
+
+fn clean(parts: Vec<JobPart>, passes: u8) -> JobOrder {
+    JobOrder { parts, passes }
+}
+
+#[test]
+fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
+    let mut pair = on_the_dock();
+    let name = RequestBody::NameRoom(RoomNaming {
+        room: 1,
+        name: Some("Kitchen".to_owned()),
+    });
+    let before = pair.updates.len();
+    assert_eq!(pair.ask(ANNA, name), None);
+    assert_eq!(pair.ask(BERT, wall([3.0, 1.0], [3.0, 2.0])), None);
+    pair.run_ms(200);
+    let is_done = |update: &Update| matches!(update, Update::Done { .. });
+    assert!(
+        !pair.updates[before..].iter().any(is_done),
+        "the shell says so, later"
+    );
+    let askers: Vec<_> = pair.edits.iter().map(|edit| (edit.client, edit.id)).collect();
+    assert_eq!(askers, [(ANNA, Some(1)), (BERT, Some(1))]);
+    let words = pair.edits[1].home.annotations();
+    assert_eq!(words.name(1).map(brain::RoomName::as_str), Some("Kitchen"));
+    assert_eq!(words.no_go().count(), 1);
+    let topics = vec![Topic::Home];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let told = pair.updates.iter().rev().find_map(|update| match update {
+        Update::Home(view) => Some(view),
+        _ => None,
+    });
+    let told = told.expect("a view at once");
+    assert_eq!(told.rooms[0].name.as_deref(), Some("Kitchen"));
+    assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
+}
+
+#[test]
+fn an_estimate_is_made_at_rest_and_a_part_is_cleaned() {
+    let mut pair = on_the_dock();
+    let zone = || JobPart::Zone(vec![[1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [1.0, 2.0]]);
+    assert_eq!(
+        pair.ask(ANNA, RequestBody::Estimate(clean(vec![zone()], 2))),
+        None
+    );
+    let found = pair.updates.iter().find_map(|update| match update {
+        Update::JobEstimate(found) => Some(*found),
+        _ => None,
+    });
+    let found = found.expect("an estimate");
+    assert!(
+        found.id == Some(1) && (1.7..2.3).contains(&found.floor_m2),
+        "{found:?}"
+    );
+    assert!(
+        found.time_s > 10.0 && found.charge > 0.0 && found.share_low > 0.5,
+        "{found:?}"
+    );
+    pair.records.clear();
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(vec![zone()], 2))), None);
+    pair.run_ms(200);
+    assert_eq!(pair.core.status().state, "starting");
+    let refused = pair.ask(ANNA, RequestBody::Estimate(clean(vec![], 1)));
+    assert_eq!(refused.as_deref(), Some("job-runs"));
+    // A change in the middle of a run is in its recording, like every command.
+    assert_eq!(pair.ask(ANNA, wall([3.2, 1.0], [3.2, 2.0])), None);
+    pair.run_ms(200);
+    let commands: Vec<_> = pair
+        .records
+        .iter()
+        .filter_map(|record| match record {
+            Record::Command { command, .. } => Some(command),
+            _ => None,
+        })
+        .collect();
+    assert!(matches!(commands[0], brain::Command::CleanParts { order } if order.passes() == 2));
+    assert!(matches!(commands[1], brain::Command::AddNoGo { .. }));
+    assert_eq!(pair.edits.len(), 1);
+}
+
+#[test]
+fn an_order_that_cannot_be_says_what_is_wrong_with_it() {
+    let mut pair = on_the_dock();
+    let name = |name: &str| {
+        RequestBody::NameRoom(RoomNaming {
+            room: 1,
+            name: Some(name.to_owned()),
+        })
+    };
+    let far = || JobPart::Zone(vec![[90.0, 0.0], [91.0, 0.0], [91.0, 1.0]]);
+    let thin = || JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0]]);
+    let cases = [
+        (
+            RequestBody::Clean(clean(vec![JobPart::Room(7)], 1)),
+            "no-such-room",
+            "has the rooms 1",
+        ),
+        (RequestBody::Clean(clean(vec![], 9)), "bad-order", "9 passes"),
+        (
+            RequestBody::Clean(clean(vec![far()], 1)),
+            "no-floor-there",
+            "x 0.0 to 4.0 m",
+        ),
+        (
+            RequestBody::Estimate(clean(vec![thin()], 1)),
+            "bad-zone",
+            "Part 1 is a zone with 2 corners",
+        ),
+        (wall([1.0, 1.0], [1.0, 1.0]), "bad-zone", "two places"),
+        (wall([900.0, 1.0], [1.0, 1.0]), "bad-zone", "within 500 m"),
+        (wall([1.5, 0.6], [2.5, 0.6]), "dock-inside", "x 2.00 m, y 0.50 m"),
+        (RequestBody::RemoveNoGo { number: 3 }, "no-such-no-go", "has none"),
+        (name(&"x".repeat(41)), "bad-name", "41 characters"),
+    ];
+    for (body, reason, detail) in cases {
+        let before = pair.updates.len();
+        let refused = pair.ask(ANNA, body.clone());
+        assert_eq!(refused.as_deref(), Some(reason), "{body:?}");
+        let text = pair.updates[before..].iter().find_map(|update| match update {
+            Update::Failed(failure) => Some(failure.text.clone()),
+            _ => None,
+        });
+        let text = text.expect("a sentence");
+        assert!(text.contains(detail) && text.ends_with('.'), "{text}");
+    }
+    pair.run_ms(200);
+    assert_eq!(pair.edits, []);
+}
+
+#[test]
+fn a_map_that_nobody_is_in_yet_is_not_changed() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    for body in [
+        wall([0.0, 1.0], [1.0, 1.0]),
+        RequestBody::Estimate(JobOrder::default()),
+        RequestBody::Clean(JobOrder::default()),
+    ] {
+        assert_eq!(pair.ask(ANNA, body).as_deref(), Some("map-not-taken-up"));
+    }
+    pair.run_ms(200);
+    assert_eq!(pair.edits, []);
 }
 
 #[test]

@@ -1,15 +1,21 @@
 //! Bytes of a stored map.
 //!
 //! `RVACMAP`, a version byte, then numbers of variable length (seven bits a byte, low ones first, signed ones zigzag), and
-//! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses are micrometres and microradians.
+//! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses and corners are micrometres and microradians.
+//!
+//! Version 1 ends after the layers; version 2 adds what people have said of the home.
+
+mod words;
 
 use super::{CELLS_MAX, Run, StoredMap};
 use crate::geometry::Pose2;
-use crate::mapping::Cell;
+use crate::mapping::{Annotations, Cell};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
-/// Version that is written; the only one that is read so far.
-const VERSION: u8 = 1;
+/// Version that is written.
+const VERSION: u8 = 2;
+/// Oldest version that is read.
+const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
 const RUNS_MAX: u64 = CELLS_MAX;
 
@@ -45,6 +51,10 @@ pub enum StoredMapError {
         /// Of the layer.
         found: u64,
     },
+    /// A no-go zone that no map can have.
+    NoGo,
+    /// A name that no room can have.
+    Name,
     /// Something follows the end.
     Trailing,
 }
@@ -55,7 +65,7 @@ impl core::fmt::Display for StoredMapError {
             Self::NotAMap => formatter.write_str("it does not begin like a map"),
             Self::Version(version) => write!(
                 formatter,
-                "it has version {version} and this program reads version {VERSION}"
+                "it has version {version} and this program reads {VERSION_MIN} to {VERSION}"
             ),
             Self::Checksum { computed, stored } => write!(
                 formatter,
@@ -72,6 +82,8 @@ impl core::fmt::Display for StoredMapError {
             Self::Cells { expected, found } => {
                 write!(formatter, "a layer has {found} cells instead of {expected}")
             }
+            Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
+            Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::Trailing => formatter.write_str("something follows its end"),
         }
     }
@@ -106,6 +118,7 @@ impl StoredMap {
                 put(&mut bytes, run.length.into());
             }
         }
+        words::put_words(&mut bytes, &self.annotations);
         let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -118,7 +131,7 @@ impl StoredMap {
     pub fn decode(bytes: &[u8]) -> Result<Self, StoredMapError> {
         let body = bytes.strip_prefix(MAGIC).ok_or(StoredMapError::NotAMap)?;
         let version = *body.first().ok_or(StoredMapError::Cut)?;
-        if version != VERSION {
+        if !(VERSION_MIN..=VERSION).contains(&version) {
             return Err(StoredMapError::Version(version));
         }
         let (whole, sum) = bytes.split_last_chunk::<4>().ok_or(StoredMapError::Cut)?;
@@ -127,7 +140,7 @@ impl StoredMap {
             return Err(StoredMapError::Checksum { computed, stored });
         }
         let body = whole.get(MAGIC.len() + 1..).ok_or(StoredMapError::Cut)?;
-        Reader { rest: body }.map()
+        Reader { rest: body }.map(version)
     }
 }
 
@@ -137,7 +150,7 @@ struct Reader<'bytes> {
 }
 
 impl Reader<'_> {
-    fn map(mut self) -> Result<StoredMap, StoredMapError> {
+    fn map(mut self, version: u8) -> Result<StoredMap, StoredMapError> {
         let dock = match self.number()? {
             0 => None,
             _ => Some(Pose2 {
@@ -156,6 +169,10 @@ impl Reader<'_> {
         let next_room = self.number()?.try_into().map_err(|_| StoredMapError::Number)?;
         let cells = self.layer(expected)?;
         let rooms = self.layer(expected)?;
+        let annotations = match version {
+            1 => Annotations::default(),
+            _ => self.words()?,
+        };
         if !self.rest.is_empty() {
             return Err(StoredMapError::Trailing);
         }
@@ -167,6 +184,7 @@ impl Reader<'_> {
             cells,
             rooms,
             next_room,
+            annotations,
         })
     }
 
@@ -246,8 +264,10 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
-    use crate::geometry::Pose2;
-    use crate::mapping::{Cell, CellKnowledge, Raster};
+    use crate::geometry::{Point2, Pose2};
+    use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
+    use crate::no_go::{NoGo, RoomName};
+    use crate::order::Zone;
 
     fn map() -> StoredMap {
         let mut raster = Raster::filled(Cell { x: -7, y: 300 }, 9, 5, CellKnowledge::Unknown);
@@ -265,7 +285,31 @@ mod tests {
             y_m: 2.5,
             heading_rad: -3.0,
         };
-        StoredMap::from_raster(&raster, Some(dock))
+        StoredMap::from_raster(&raster, Some(dock)).with_annotations(words())
+    }
+
+    fn words() -> Annotations {
+        let at = |x_m, y_m| Point2 { x_m, y_m };
+        let zone = Zone::new(vec![at(0.1, 0.2), at(1.0 / 3.0, 0.2), at(0.1, -7.0)]).unwrap();
+        let mut words = Annotations::default();
+        words.add(NoGo::zone(&zone).unwrap()).unwrap();
+        words
+            .add(NoGo::wall(at(0.0, 0.0), at(2.0 / 3.0, 1e-5)).unwrap())
+            .unwrap();
+        words.call(3, Some(RoomName::new("Köök").unwrap()));
+        words
+    }
+
+    #[test]
+    fn a_map_of_the_first_version_is_read() {
+        let mut bytes = b"RVACMAP\x01".to_vec();
+        // No dock, at the origin, 2 x 3 cells of one kind, no room yet.
+        bytes.extend([0, 0, 0, 2, 3, 1, 1, 5, 6, 0]);
+        bytes.extend(crc32(&bytes).to_le_bytes());
+        let map = StoredMap::decode(&bytes).unwrap();
+        assert_eq!(map.knowledge().values().len(), 6);
+        assert!(map.annotations().is_empty());
+        assert_eq!(StoredMap::decode(&map.encode()), Ok(map));
     }
 
     #[test]

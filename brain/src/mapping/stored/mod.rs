@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 pub use codec::StoredMapError;
 
+use super::annotations::Annotations;
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
 use super::rooms::Rooms;
 use super::{Cell, CellKnowledge, Raster};
@@ -30,6 +31,7 @@ pub struct StoredMap {
     rooms: Vec<Run>,
     /// Identity of the next room that has none yet.
     next_room: u16,
+    annotations: Annotations,
 }
 
 /// Equal cells side by side, rows joined.
@@ -55,6 +57,7 @@ impl StoredMap {
             cells,
             rooms: Vec::new(),
             next_room: 1,
+            annotations: Annotations::default(),
         }
     }
 
@@ -68,6 +71,18 @@ impl StoredMap {
     #[must_use]
     pub fn with_dock(self, dock: Option<Pose2>) -> Self {
         Self { dock, ..self }
+    }
+
+    /// What people have said of the home.
+    #[must_use]
+    pub fn annotations(&self) -> &Annotations {
+        &self.annotations
+    }
+
+    /// The same map with other words of people.
+    #[must_use]
+    pub fn with_annotations(self, annotations: Annotations) -> Self {
+        Self { annotations, ..self }
     }
 
     /// What is known of each cell.
@@ -92,7 +107,7 @@ impl StoredMap {
         labels.iter().filter(|label| **label != 0).count()
     }
 
-    /// Whether nothing is known.
+    /// Whether nothing is known, whatever people have said.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cells.iter().all(|run| run.value == 0)
@@ -128,6 +143,7 @@ impl StoredMap {
             cells: runs_of(raster.values().iter().copied()),
             rooms: labels,
             next_room: rooms.next(),
+            annotations: Annotations::default(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The home as the robot knows it: as a picture, and as rows for people who read.
 
-use rvac_api::{HomeView, Pose, SimulatedPlan};
+use rvac_api::{HomeView, Pose, RoomView, SimulatedPlan};
 
 use crate::figures::area_text;
 
@@ -97,9 +97,9 @@ impl<'a> Runs<'a> {
 pub struct RoomRow {
     /// Its identity.
     pub id: u16,
-    /// `Room 2`
+    /// `Room 2`, or what people call it
     pub name: String,
-    /// `12.4 m², doors to rooms 1 and 3`
+    /// `12.4 m², doors to Kitchen and Room 3`
     pub words: String,
 }
 
@@ -112,12 +112,18 @@ pub fn room_rows(home: &HomeView) -> Vec<RoomRow> {
         .take(ITEMS_MAX)
         .map(|room| RoomRow {
             id: room.id,
-            name: format!("Room {}", room.id),
+            name: room_name(room),
             words: format!("{}{}", area_text(room.area_m2), doors_text(home, room.id)),
         })
         .collect();
     rows.sort_by_key(|row| row.id);
     rows
+}
+
+/// What people call a room, else its number.
+#[must_use]
+pub fn room_name(room: &RoomView) -> String {
+    room.name.clone().unwrap_or_else(|| format!("Room {}", room.id))
 }
 
 fn doors_text(home: &HomeView, room: u16) -> String {
@@ -130,11 +136,15 @@ fn doors_text(home: &HomeView, room: u16) -> String {
     let mut others: Vec<u16> = doors.filter_map(|door| beyond(door.rooms)).collect();
     others.sort_unstable();
     others.dedup();
-    let names: Vec<String> = others.iter().map(u16::to_string).collect();
+    let name = |id: &u16| match home.rooms.iter().find(|room| room.id == *id) {
+        Some(room) => room_name(room),
+        None => format!("Room {id}"),
+    };
+    let names: Vec<String> = others.iter().map(name).collect();
     match names.as_slice() {
         [] => String::new(),
-        [only] => format!(", door to room {only}"),
-        [first @ .., last] => format!(", doors to rooms {} and {last}", first.join(", ")),
+        [only] => format!(", door to {only}"),
+        [first @ .., last] => format!(", doors to {} and {last}", first.join(", ")),
     }
 }
 
@@ -193,6 +203,7 @@ mod tests {
             area_m2: 12.44,
             x: 0.0,
             y: 0.0,
+            name: (id == 2).then(|| "Kitchen".to_owned()),
         };
         let door = |rooms| DoorView {
             rooms,
@@ -206,10 +217,10 @@ mod tests {
             ..HomeView::default()
         };
         let rows = room_rows(&home);
-        assert_eq!(rows[0].words, "12.4 m², doors to rooms 2 and 3");
+        assert_eq!(rows[0].words, "12.4 m², doors to Kitchen and Room 3");
         assert_eq!(
             (rows[2].name.as_str(), rows[2].words.as_str()),
-            ("Room 3", "12.4 m², door to room 1")
+            ("Room 3", "12.4 m², door to Room 1")
         );
     }
 }

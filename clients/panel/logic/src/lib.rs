@@ -27,7 +27,7 @@ pub use device_rows::{Row, Section, device_sections};
 pub use driver::{DriveLimits, Driver, Intent, Key};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
-pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_rows, wall_strokes};
+pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
 pub use log_book::{LogBook, LogFilter};
 pub use offers::{Offer, Offers, PauseKind};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};

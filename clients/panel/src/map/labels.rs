@@ -2,7 +2,7 @@
 //! rooms as a list on the page, so these are hidden from screen readers.
 
 use leptos::prelude::document;
-use panel_logic::ITEMS_MAX;
+use panel_logic::{ITEMS_MAX, room_name};
 use rvac_api::RoomView;
 use wasm_bindgen::JsCast;
 use web_sys::HtmlElement;
@@ -31,7 +31,7 @@ impl Labels {
 
     /// Takes the rooms that there are.
     pub(crate) fn name(&mut self, rooms: &[RoomView]) {
-        self.rooms = rooms.iter().take(ITEMS_MAX).copied().collect();
+        self.rooms = rooms.iter().take(ITEMS_MAX).cloned().collect();
         let Some(place) = &self.place else { return };
         while self.names.len() > self.rooms.len() {
             if let Some(name) = self.names.pop() {
@@ -47,7 +47,7 @@ impl Labels {
             self.names.push(name);
         }
         for (name, room) in self.names.iter().zip(&self.rooms) {
-            name.set_text_content(Some(&format!("Room {}", room.id)));
+            name.set_text_content(Some(&room_name(room)));
         }
     }
 

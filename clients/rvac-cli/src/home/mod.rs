@@ -1,5 +1,6 @@
 //! `rvac map`: what the robot knows of the home, which versions of it are kept, and the way back to one of them.
 
+pub(crate) mod known;
 mod picture;
 
 use std::io::{Write as _, stdout};
@@ -7,11 +8,12 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use anyhow::bail;
-use rvac_api::{Estimate, HomeView, KeptMap, Pose, Request, RequestBody, Topic, Update};
+use rvac_api::{Estimate, HomeView, KeptMap, Pose, Request, RequestBody, RoomView, Update};
 
 use crate::arguments::{Daemon, MapJob, MapVerb};
 use crate::control;
 use crate::socket::Connection;
+use known::KnownHome;
 use picture::picture;
 
 /// The daemon answers at once; this covers a machine under load.
@@ -28,27 +30,12 @@ pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
 }
 
 fn show(job: &MapJob) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&job.daemon.socket)?;
-    // Views come in this order, and those that a daemon without a robot does not have are left out: the status ends them.
-    connection.watch(vec![Topic::Home, Topic::Estimate, Topic::Pose, Topic::Status])?;
-    let deadline = Instant::now() + PATIENCE;
-    let (mut home, mut estimate, mut pose) = (None, None, None);
-    loop {
-        let Some(message) = connection.receive_until(deadline)? else {
-            bail!("vthal told nothing of the home within {} s", PATIENCE.as_secs());
-        };
-        match message.update {
-            Some(Update::Home(view)) => home = Some((view, message.text)),
-            Some(Update::Estimate(found)) => estimate = Some(found),
-            Some(Update::Pose(found)) => pose = Some(found),
-            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
-            Some(Update::Status(_)) => break,
-            _ => {}
-        }
-    }
-    let Some((home, text)) = home else {
-        bail!("no robot has been seen yet, so nothing is known of its home");
-    };
+    let KnownHome {
+        home,
+        text,
+        estimate,
+        pose,
+    } = known::ask(&mut Connection::open(&job.daemon.socket)?)?;
     if job.json {
         writeln!(stdout(), "{text}")?;
     } else {
@@ -87,13 +74,20 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
     }
     for room in &home.rooms {
         text += &format!(
-            "room {:<4} {:.1} m2{}\n",
+            "room {:<4} {:.1} m2{}{}\n",
             room.id,
             room.area_m2,
+            named(room),
             doors_of(home, room.id)
         );
     }
     text + &picture(home, pose)
+}
+
+fn named(room: &RoomView) -> String {
+    room.name
+        .as_ref()
+        .map_or_else(String::new, |name| format!(", {name}"))
 }
 
 /// How sure the robot is of its place, in words.

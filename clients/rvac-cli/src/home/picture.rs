@@ -146,6 +146,7 @@ mod tests {
             area_m2: 1.5,
             x: 0.75,
             y: 0.75,
+            name: None,
         }];
         let robot = Pose {
             x: 1.75,

@@ -23,6 +23,21 @@ pub(super) fn explain(reason: &str) -> &'static str {
         "error-stands" => "An error stands: remove its cause and acknowledge it first.",
         "docked" => "The robot is on its dock.",
         "battery-low" => "The battery is too low: charge the robot first.",
+        "map-not-taken-up" => {
+            "The robot has not stood on its dock since vthal began, so it does not know where in its map it is: put it on \
+             its dock."
+        }
+        "place-unknown" => "The robot does not know where it is: put it on its dock.",
+        "rest-out-of-reach" => {
+            "No way leads there from where the robot stands: look at doors and no-go zones."
+        }
+        "no-map" => "The robot has no map yet: let it clean once.",
+        "no-heading" => {
+            "Nothing but the wheels tells this robot its heading, so it has no map to find rooms by."
+        }
+        "too-many-no-gos" => {
+            "There are as many no-go zones and virtual walls as a home can have: remove one first."
+        }
         "not-sent" => "The robot did not take the command.",
         _ => "The robot cannot do this in its present state; the reason has the name of the cause.",
     }

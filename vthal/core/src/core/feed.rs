@@ -63,6 +63,11 @@ impl Feed {
         self.state_changed_us = Some(now_us);
     }
 
+    /// A person has changed the home and waits to see it: it is told at once.
+    pub(super) fn tell_home_now(&mut self) {
+        self.home_us = 0;
+    }
+
     /// Whether it has changed within the last `span_us`.
     pub(super) fn state_changed_within(&self, now_us: u64, span_us: u64) -> bool {
         self.state_changed_us

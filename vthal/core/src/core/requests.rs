@@ -4,7 +4,7 @@ use brain::{Command, StoredMap, StrategyName};
 use rvac_api::{Failure, LogLevel, Request, RequestBody, Topic, Update};
 use rvac_protocol::message::Inhibit;
 
-use super::explain::explain;
+use super::refusal::Refusal;
 use super::{Core, manual, recorder};
 use crate::arbiter::{Denied, Source, Stick};
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo};
@@ -28,7 +28,7 @@ impl Core {
         outputs: &mut Outputs,
     ) {
         let id = request.id;
-        // The shell answers these, when the disk has.
+        // The shell answers these when the disk has; an estimate is its own answer.
         let is_answered_later = matches!(
             request.body,
             RequestBody::Maps
@@ -36,16 +36,20 @@ impl Core {
                 | RequestBody::Mixes
                 | RequestBody::SaveMix { .. }
                 | RequestBody::RemoveMix { .. }
+                | RequestBody::AddNoGo { .. }
+                | RequestBody::RemoveNoGo { .. }
+                | RequestBody::NameRoom(_)
+                | RequestBody::Estimate(_)
         );
         let result = self.obey(now_us, (client, request), outputs);
         let update = match (result, id) {
             (Ok(()), _) if is_answered_later => return,
             (Ok(()), None) => return,
             (Ok(()), Some(id)) => Update::Done { id },
-            (Err(reason), id) => Update::Failed(Failure {
+            (Err(refusal), id) => Update::Failed(Failure {
                 id,
-                reason: reason.to_owned(),
-                text: explain(reason).to_owned(),
+                reason: refusal.reason.to_owned(),
+                text: refusal.text,
             }),
         };
         outputs.deliveries.push(Delivery {
@@ -59,7 +63,7 @@ impl Core {
         now_us: u64,
         (client, request): (ClientId, Request),
         outputs: &mut Outputs,
-    ) -> Result<(), Refused> {
+    ) -> Result<(), Refusal> {
         let id = request.id;
         match request.body {
             RequestBody::Hello { name } => {
@@ -72,12 +76,17 @@ impl Core {
             }
             RequestBody::Start { strategy } => {
                 let strategy = self.strategy_named(strategy.as_deref())?;
-                self.job(now_us, (client, Command::Clean { strategy }), outputs)
+                Ok(self.job(now_us, (client, Command::Clean { strategy }), outputs)?)
             }
-            RequestBody::Spot => self.job(now_us, (client, Command::Spot), outputs),
-            RequestBody::Pause => self.job(now_us, (client, Command::Pause), outputs),
-            RequestBody::Resume => self.job(now_us, (client, Command::Resume), outputs),
-            RequestBody::Dock => self.job(now_us, (client, Command::Dock), outputs),
+            RequestBody::Clean(order) => self.clean(now_us, (client, &order), outputs),
+            RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
+            RequestBody::AddNoGo { shape } => self.add_no_go(now_us, ((client, id), &shape), outputs),
+            RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, ((client, id), number), outputs),
+            RequestBody::NameRoom(naming) => self.name_room(now_us, ((client, id), &naming), outputs),
+            RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
+            RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),
+            RequestBody::Resume => Ok(self.job(now_us, (client, Command::Resume), outputs)?),
+            RequestBody::Dock => Ok(self.job(now_us, (client, Command::Dock), outputs)?),
             RequestBody::Stop => {
                 self.stop(now_us, client, outputs);
                 Ok(())
@@ -95,15 +104,15 @@ impl Core {
                     lease_us: u64::from(ttl) * 1000,
                 };
                 let power = manual::power(clean, power)?;
-                self.drive(now_us, (client, stick, power), outputs)
+                Ok(self.drive(now_us, (client, stick, power), outputs)?)
             }
             RequestBody::Release => {
                 self.release(now_us, client, outputs);
                 Ok(())
             }
-            RequestBody::Locate => self.locate(now_us, outputs),
-            RequestBody::Clear { reason } => self.clear(now_us, &reason, outputs),
-            RequestBody::Raw { packet } => self.raw(now_us, (client, &packet), outputs),
+            RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
+            RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
+            RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
             RequestBody::Maps => {
                 outputs.map_orders.push(MapOrder::List { client, id });
                 Ok(())
@@ -139,7 +148,7 @@ impl Core {
         }
     }
 
-    fn require_robot(&self) -> Result<(), Refused> {
+    pub(super) fn require_robot(&self) -> Result<(), Refused> {
         if self.ended {
             return Err("ending");
         }
@@ -151,7 +160,7 @@ impl Core {
         }
     }
 
-    fn job(
+    pub(super) fn job(
         &mut self,
         now_us: u64,
         (client, command): (ClientId, Command),

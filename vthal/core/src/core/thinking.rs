@@ -55,6 +55,8 @@ impl Core {
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();
         }
+        self.keep_edits(outputs);
+        let Some(mind) = &self.mind else { return };
         let after = mind.brain().status().state;
         if before != after {
             self.feed.state_changed(now_us);

@@ -8,12 +8,11 @@ mod sensors;
 mod state;
 
 pub use answer::Answered;
-pub use order::GivenOrder;
+pub use order::{GivenNoGo, GivenOrder};
 pub use state::BrainState;
 
-use brain::mapping::Entry;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{Body, BrainConfig, Command, Observation, Speeds, StrategyName};
+use brain::{Body, BrainConfig, Command, Observation, RoomName, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -243,12 +242,16 @@ pub enum GivenCommand {
     Clean(String),
     /// [`Command::CleanParts`]
     CleanParts(GivenOrder),
-    /// [`Command::SetZone`]
-    SetZone {
-        /// Corners of the zone, x and y in metres.
-        corners: Vec<[f64; 2]>,
-        /// Forbidden, else allowed.
-        forbidden: bool,
+    /// [`Command::AddNoGo`]
+    AddNoGo(GivenNoGo),
+    /// [`Command::RemoveNoGo`] by its number.
+    RemoveNoGo(u16),
+    /// [`Command::NameRoom`]
+    NameRoom {
+        /// Identity of the room.
+        room: u16,
+        /// Its name; absent = none any more.
+        name: Option<String>,
     },
     /// [`Command::Spot`]
     Spot,
@@ -282,9 +285,11 @@ impl From<&Command> for GivenCommand {
         match command {
             Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
             Command::CleanParts { order } => Self::CleanParts(order.into()),
-            Command::SetZone { zone, entry } => Self::SetZone {
-                corners: order::from_zone(zone),
-                forbidden: *entry == Entry::Forbidden,
+            Command::AddNoGo { no_go } => Self::AddNoGo(no_go.into()),
+            Command::RemoveNoGo { number } => Self::RemoveNoGo(*number),
+            Command::NameRoom { room, name } => Self::NameRoom {
+                room: *room,
+                name: name.as_ref().map(|name| name.as_str().to_owned()),
             },
             Command::Spot => Self::Spot,
             Command::Pause => Self::Pause,
@@ -319,12 +324,15 @@ impl GivenCommand {
             Self::CleanParts(order) => Command::CleanParts {
                 order: order.to_brain()?,
             },
-            Self::SetZone { corners, forbidden } => Command::SetZone {
-                zone: order::to_zone(corners)?,
-                entry: if *forbidden {
-                    Entry::Forbidden
-                } else {
-                    Entry::Allowed
+            Self::AddNoGo(no_go) => Command::AddNoGo {
+                no_go: no_go.to_brain()?,
+            },
+            Self::RemoveNoGo(number) => Command::RemoveNoGo { number: *number },
+            Self::NameRoom { room, name } => Command::NameRoom {
+                room: *room,
+                name: match name {
+                    None => None,
+                    Some(name) => Some(RoomName::new(name).ok()?),
                 },
             },
             Self::Spot => Command::Spot,
@@ -351,9 +359,8 @@ impl GivenCommand {
 
 #[cfg(test)]
 mod tests {
-    use brain::mapping::Entry;
     use brain::observation::BeaconRange;
-    use brain::{CleaningOrder, Command, HomePart, Observation, Point2, Zone};
+    use brain::{CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, Zone};
 
     use super::{Given, GivenCommand, Seen};
 
@@ -396,10 +403,18 @@ mod tests {
                 order: CleaningOrder::new(vec![HomePart::Room(3), HomePart::Zone(zone.clone())], 2)
                     .expect("a good order"),
             },
-            Command::SetZone {
-                zone,
-                entry: Entry::Forbidden,
+            Command::AddNoGo {
+                no_go: NoGo::zone(&zone).expect("a good zone"),
             },
+            Command::AddNoGo {
+                no_go: NoGo::wall(corners[0], corners[1]).expect("two places"),
+            },
+            Command::RemoveNoGo { number: 7 },
+            Command::NameRoom {
+                room: 3,
+                name: Some(RoomName::new("Köök").expect("a good name")),
+            },
+            Command::NameRoom { room: 3, name: None },
             Command::Clean {
                 strategy: brain::StrategyName::Bounce,
             },

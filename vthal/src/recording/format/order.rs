@@ -1,6 +1,6 @@
 //! Parts of a home as they stand in recordings and checkpoints.
 
-use brain::{CleaningOrder, HomePart, Point2, Zone};
+use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Point2, Zone};
 use serde::{Deserialize, Serialize};
 
 /// [`CleaningOrder`]
@@ -46,14 +46,46 @@ impl GivenOrder {
     }
 }
 
-pub(super) fn from_zone(zone: &Zone) -> Vec<[f64; 2]> {
+/// [`NoGo`]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GivenNoGo {
+    /// Corners, x and y in metres.
+    Zone(Vec<[f64; 2]>),
+    /// Both ends.
+    Wall([[f64; 2]; 2]),
+}
+
+impl From<&NoGo> for GivenNoGo {
+    fn from(no_go: &NoGo) -> Self {
+        match no_go.shape() {
+            NoGoShape::Zone => Self::Zone(from_zone(no_go.area())),
+            NoGoShape::Wall { from, to } => Self::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
+        }
+    }
+}
+
+impl GivenNoGo {
+    /// Back to the brain's own type; `None` for one that the brain would refuse.
+    pub(super) fn to_brain(&self) -> Option<NoGo> {
+        match self {
+            Self::Zone(corners) => NoGo::zone(&to_zone(corners)?).ok(),
+            Self::Wall(ends) => {
+                let [from, to] = ends.map(|[x_m, y_m]| Point2 { x_m, y_m });
+                NoGo::wall(from, to).ok()
+            }
+        }
+    }
+}
+
+fn from_zone(zone: &Zone) -> Vec<[f64; 2]> {
     zone.corners()
         .iter()
         .map(|corner| [corner.x_m, corner.y_m])
         .collect()
 }
 
-pub(super) fn to_zone(corners: &[[f64; 2]]) -> Option<Zone> {
+fn to_zone(corners: &[[f64; 2]]) -> Option<Zone> {
     let corners = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
     Zone::new(corners.collect()).ok()
 }

@@ -1,0 +1,84 @@
+//! What people have said of the home: where the robot must not go, and what rooms are called.
+
+use std::collections::BTreeMap;
+
+use crate::behavior::Reason;
+use crate::no_go::{NoGo, RoomName};
+
+/// Most no-go zones and virtual walls of a home.
+pub(super) const NO_GO_MAX: usize = 64;
+/// Most rooms with names, those included that are not found any more.
+pub(super) const NAMES_MAX: usize = 1_000;
+
+/// What people have said of the home.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Annotations {
+    pub(super) no_go: BTreeMap<u16, NoGo>,
+    /// Number of the next one; numbers are not used twice.
+    pub(super) next_no_go: u16,
+    pub(super) names: BTreeMap<u16, RoomName>,
+}
+
+impl Default for Annotations {
+    fn default() -> Self {
+        Self {
+            no_go: BTreeMap::new(),
+            next_no_go: 1,
+            names: BTreeMap::new(),
+        }
+    }
+}
+
+impl Annotations {
+    /// No-go zones and virtual walls by their numbers, which are from 1.
+    pub fn no_go(&self) -> impl Iterator<Item = (u16, &NoGo)> {
+        self.no_go.iter().map(|(number, no_go)| (*number, no_go))
+    }
+
+    /// What a room is called, if anybody has named it.
+    #[must_use]
+    pub fn name(&self, room: u16) -> Option<&RoomName> {
+        self.names.get(&room)
+    }
+
+    /// Whether nobody has said anything.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.no_go.is_empty() && self.names.is_empty()
+    }
+
+    pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), Reason> {
+        self.has_room_for_another()?;
+        let number = self.next_no_go;
+        self.next_no_go = number.checked_add(1).ok_or(Reason::TooManyNoGos)?;
+        self.no_go.insert(number, no_go);
+        Ok(())
+    }
+
+    pub(super) fn has_room_for_another(&self) -> Result<(), Reason> {
+        if self.no_go.len() < NO_GO_MAX && self.next_no_go < u16::MAX {
+            Ok(())
+        } else {
+            Err(Reason::TooManyNoGos)
+        }
+    }
+
+    /// Two rooms of one name could not be told apart.
+    pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), Reason> {
+        let is_taken = |(other, taken): (&u16, &RoomName)| *other != room && taken.sounds_like(name.as_str());
+        if self.names.iter().any(is_taken) {
+            return Err(Reason::NameTaken);
+        }
+        if self.names.len() >= NAMES_MAX && !self.names.contains_key(&room) {
+            return Err(Reason::BadName);
+        }
+        Ok(())
+    }
+
+    pub(super) fn call(&mut self, room: u16, name: Option<RoomName>) {
+        match name {
+            Some(name) => self.names.insert(room, name),
+            None => self.names.remove(&room),
+        };
+    }
+}

@@ -1,0 +1,171 @@
+//! People change the map: no-go zones, virtual walls, names of rooms.
+
+use super::home::{Entry, HomeMap};
+use super::layers::{CellBox, Flag};
+use super::{Annotations, Cell, CellKnowledge, Map, Raster};
+use crate::behavior::Reason;
+use crate::geometry::Point2;
+use crate::no_go::{NoGo, RoomName};
+use crate::order::Zone;
+
+impl Map {
+    /// What people have said of the home.
+    #[must_use]
+    pub fn annotations(&self) -> &Annotations {
+        &self.home.annotations
+    }
+
+    /// Whether `no_go` can be added: the map must know floor there, and the dock must stay within reach.
+    ///
+    /// # Errors
+    /// The named reason against it.
+    pub fn admit_no_go(&self, no_go: &NoGo) -> Result<(), Reason> {
+        self.home.annotations.has_room_for_another()?;
+        if self.knowledge().values().is_empty() {
+            return Err(Reason::NoMap);
+        }
+        let knowledge = self.knowledge();
+        let is_floor = |cell: Cell| {
+            let kind = knowledge.get(cell);
+            matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
+        };
+        let window = self.home.bounds().ok_or(Reason::NoMap)?;
+        if !cells_of(no_go.area(), window).any(is_floor) {
+            return Err(Reason::NoFloorThere);
+        }
+        let radius_m = self.home.pencil.body.radius_m;
+        match self.dock() {
+            Some(dock) if no_go.area().distance_m(dock.position()) < radius_m => Err(Reason::DockInside),
+            _ => Ok(()),
+        }
+    }
+
+    /// Forbids floor to all ways that are planned.
+    ///
+    /// # Errors
+    /// As [`Self::admit_no_go`]; then nothing is changed.
+    pub fn add_no_go(&mut self, no_go: NoGo) -> Result<(), Reason> {
+        self.admit_no_go(&no_go)?;
+        self.home.annotations.add(no_go)?;
+        self.home.paint_no_go();
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether there is a no-go zone or virtual wall of this number.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchNoGo`] when not.
+    pub fn admit_no_go_removal(&self, number: u16) -> Result<(), Reason> {
+        if self.home.annotations.no_go.contains_key(&number) {
+            Ok(())
+        } else {
+            Err(Reason::NoSuchNoGo)
+        }
+    }
+
+    /// Allows again what a no-go zone or virtual wall forbade, unless another one does, too.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchNoGo`]; then nothing is changed.
+    pub fn remove_no_go(&mut self, number: u16) -> Result<(), Reason> {
+        let removed = self.home.annotations.no_go.remove(&number);
+        let removed = removed.ok_or(Reason::NoSuchNoGo)?;
+        if let Some(window) = self.home.bounds() {
+            for cell in cells_of(removed.area(), window) {
+                self.home.flag(cell, Flag::NoGo, Entry::Allowed);
+                if let Some(redrawing) = &mut self.redrawing {
+                    redrawing.allow(cell);
+                }
+            }
+        }
+        self.home.paint_no_go();
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether a room may be called so; without a name it is called by its number.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchRoom`], or [`Reason::NameTaken`] by another room.
+    pub fn admit_room_name(&self, room: u16, name: Option<&RoomName>) -> Result<(), Reason> {
+        if self.rooms().rooms().iter().all(|known| known.id != room) {
+            return Err(Reason::NoSuchRoom);
+        }
+        name.map_or(Ok(()), |name| self.home.annotations.may_be_called(room, name))
+    }
+
+    /// Names a room, or takes its name away.
+    ///
+    /// # Errors
+    /// As [`Self::admit_room_name`]; then nothing is changed.
+    pub fn name_room(&mut self, room: u16, name: Option<RoomName>) -> Result<(), Reason> {
+        self.admit_room_name(room, name.as_ref())?;
+        self.home.annotations.call(room, name);
+        self.home.touch();
+        Ok(())
+    }
+}
+
+impl HomeMap {
+    /// Forbids the cells of all no-go zones within the tiles that there are.
+    pub(super) fn paint_no_go(&mut self) {
+        let Some(window) = self.bounds() else { return };
+        let areas = self.annotations.no_go.values().map(NoGo::area);
+        let cells: Vec<Cell> = areas.flat_map(|area| cells_of(area, window)).collect();
+        for cell in cells {
+            self.flag(cell, Flag::NoGo, Entry::Forbidden);
+        }
+        self.painted = Some(window);
+    }
+
+    /// Forbids also what has come into the map since, if anything is forbidden.
+    pub(super) fn paint_what_came(&mut self) {
+        if !self.annotations.no_go.is_empty() && self.painted != self.bounds() {
+            self.paint_no_go();
+        }
+    }
+
+    /// What would be known if nobody had forbidden anything: a wall that a person draws does not divide a room.
+    pub(super) fn knowledge_beneath(&self) -> Option<Raster<CellKnowledge>> {
+        if self.annotations.no_go.is_empty() {
+            return None;
+        }
+        let mut beneath = self.knowledge().clone();
+        for index in 0..beneath.values().len() {
+            let cell = beneath.cell(index);
+            if let Some(kind) = beneath.values_mut().get_mut(index)
+                && *kind == CellKnowledge::NoGo
+            {
+                *kind = self.knowledge_without(cell, Flag::NoGo);
+            }
+        }
+        Some(beneath)
+    }
+}
+
+/// Cells whose middles lie in a zone and that lie in `window`, row after row.
+fn cells_of(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + '_ {
+    let (low, high) = around(zone);
+    let (low, high) = (Cell::under(low), Cell::under(high));
+    let columns = low.x.max(window.low.x)..=high.x.min(window.high.x);
+    let rows = low.y.max(window.low.y)..=high.y.min(window.high.y);
+    rows.flat_map(move |y| columns.clone().map(move |x| Cell { x, y }))
+        .filter(|cell| zone.contains(cell.middle()))
+}
+
+/// Lowest and highest corner of the rectangle around a zone.
+fn around(zone: &Zone) -> (Point2, Point2) {
+    let first = zone.corners().first().copied().unwrap_or_default();
+    zone.corners().iter().fold((first, first), |(low, high), corner| {
+        let low = Point2 {
+            x_m: low.x_m.min(corner.x_m),
+            y_m: low.y_m.min(corner.y_m),
+        };
+        let high = Point2 {
+            x_m: high.x_m.max(corner.x_m),
+            y_m: high.y_m.max(corner.y_m),
+        };
+        (low, high)
+    })
+}

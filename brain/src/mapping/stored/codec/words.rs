@@ -1,0 +1,112 @@
+//! What people have said of the home, as bytes: the number of the next no-go zone, the zones and walls, the names.
+
+use super::{Reader, StoredMapError, put, put_signed};
+use crate::geometry::Point2;
+use crate::mapping::Annotations;
+use crate::mapping::annotations::{NAMES_MAX, NO_GO_MAX};
+use crate::no_go::{NoGo, NoGoShape, RoomName};
+use crate::order::Zone;
+
+const ZONE: u64 = 0;
+const WALL: u64 = 1;
+/// More corners than a zone can have are not read.
+const CORNERS_MAX: u64 = 64;
+
+pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
+    put(bytes, words.next_no_go.into());
+    put(bytes, words.no_go.len() as u64);
+    for (number, no_go) in &words.no_go {
+        put(bytes, u64::from(*number));
+        match no_go.shape() {
+            NoGoShape::Zone => {
+                put(bytes, ZONE);
+                put(bytes, no_go.area().corners().len() as u64);
+                for corner in no_go.area().corners() {
+                    put_point(bytes, *corner);
+                }
+            }
+            NoGoShape::Wall { from, to } => {
+                put(bytes, WALL);
+                put_point(bytes, from);
+                put_point(bytes, to);
+            }
+        }
+    }
+    put(bytes, words.names.len() as u64);
+    for (room, name) in &words.names {
+        put(bytes, u64::from(*room));
+        put(bytes, name.as_str().len() as u64);
+        bytes.extend_from_slice(name.as_str().as_bytes());
+    }
+}
+
+fn put_point(bytes: &mut Vec<u8>, point: Point2) {
+    for metres in [point.x_m, point.y_m] {
+        put_signed(bytes, libm::round(metres * 1e6) as i64);
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn words(&mut self) -> Result<Annotations, StoredMapError> {
+        let mut words = Annotations {
+            next_no_go: self.short()?,
+            ..Annotations::default()
+        };
+        for _ in 0..self.count(NO_GO_MAX)? {
+            let number = self.short()?;
+            let no_go = self.no_go()?;
+            if number >= words.next_no_go || words.no_go.insert(number, no_go).is_some() {
+                return Err(StoredMapError::NoGo);
+            }
+        }
+        for _ in 0..self.count(NAMES_MAX)? {
+            let room = self.short()?;
+            let name = self.name()?;
+            words.names.insert(room, name);
+        }
+        Ok(words)
+    }
+
+    fn no_go(&mut self) -> Result<NoGo, StoredMapError> {
+        let no_go = match self.number()? {
+            ZONE => {
+                let count = self.number()?;
+                if count > CORNERS_MAX {
+                    return Err(StoredMapError::NoGo);
+                }
+                let corners: Result<Vec<Point2>, StoredMapError> = (0..count).map(|_| self.point()).collect();
+                Zone::new(corners?).and_then(|zone| NoGo::zone(&zone))
+            }
+            WALL => NoGo::wall(self.point()?, self.point()?),
+            _ => return Err(StoredMapError::NoGo),
+        };
+        no_go.map_err(|_| StoredMapError::NoGo)
+    }
+
+    fn name(&mut self) -> Result<RoomName, StoredMapError> {
+        let length = usize::try_from(self.number()?).map_err(|_| StoredMapError::Name)?;
+        let (name, rest) = self.rest.split_at_checked(length).ok_or(StoredMapError::Cut)?;
+        self.rest = rest;
+        let name = core::str::from_utf8(name).map_err(|_| StoredMapError::Name)?;
+        RoomName::new(name).map_err(|_| StoredMapError::Name)
+    }
+
+    fn point(&mut self) -> Result<Point2, StoredMapError> {
+        Ok(Point2 {
+            x_m: self.millionths()?,
+            y_m: self.millionths()?,
+        })
+    }
+
+    fn short(&mut self) -> Result<u16, StoredMapError> {
+        self.number()?.try_into().map_err(|_| StoredMapError::Number)
+    }
+
+    fn count(&mut self, most: usize) -> Result<u64, StoredMapError> {
+        let count = self.number()?;
+        if count > most as u64 {
+            return Err(StoredMapError::Number);
+        }
+        Ok(count)
+    }
+}

@@ -1,0 +1,86 @@
+//! Jobs for parts of the home, what they will take, and what people say of the home.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// A job for parts of the home.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JobOrder {
+    /// Up to 32 parts, cleaned in this order; none means the whole home.
+    #[serde(default)]
+    pub parts: Vec<JobPart>,
+    /// How often each part is cleaned before the next, 1..=3.
+    #[serde(default = "once")]
+    pub passes: u8,
+}
+
+fn once() -> u8 {
+    1
+}
+
+impl Default for JobOrder {
+    fn default() -> Self {
+        Self {
+            parts: Vec::new(),
+            passes: once(),
+        }
+    }
+}
+
+/// A part of the home.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum JobPart {
+    /// A room by its identity.
+    Room(u16),
+    /// A polygon of 3 to 64 corners, metres in the frame of the map.
+    Zone(Vec<[f64; 2]>),
+}
+
+/// What a job will take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct JobEstimate {
+    /// Number of the request that asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<u32>,
+    /// Floor that can be swept, square metres.
+    pub floor_m2: f64,
+    /// Time, seconds, without pauses for charging.
+    pub time_s: f64,
+    /// Share of a full battery that the job and the way home take; above 1 the robot must charge in between.
+    pub charge: f64,
+    /// Share of `floor_m2` that is expected to be swept, 0..1.
+    pub share: f64,
+    /// The same if the robot knows its place half as well as it believes.
+    pub share_low: f64,
+}
+
+/// Floor that the robot must not enter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoGoShape {
+    /// A polygon of 3 to 64 corners, metres.
+    Zone(Vec<[f64; 2]>),
+    /// A virtual wall between two places, metres.
+    Wall([[f64; 2]; 2]),
+}
+
+/// A no-go zone or virtual wall of the map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NoGoView {
+    /// Its number, from 1; never used twice in a map.
+    pub number: u16,
+    /// What it forbids.
+    pub shape: NoGoShape,
+}
+
+/// A name for a room.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomNaming {
+    /// Identity of the room.
+    pub room: u16,
+    /// 1 to 40 characters; absent = the room has none any more.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+}

@@ -1,0 +1,139 @@
+//! What can be said of rooms and zones.
+
+use std::str::FromStr;
+
+use clap::Args;
+
+use super::Daemon;
+
+#[derive(Debug, Args)]
+pub(crate) struct OrderOptions {
+    /// A room by its name or number, as `rvac rooms` tells them; may be given several times, rooms are cleaned in this order.
+    #[arg(long, value_name = "ROOM")]
+    pub(crate) room: Vec<String>,
+    /// A rectangle between two opposite corners, metres in the map; may be given several times, zones come after rooms.
+    #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
+    pub(crate) zone: Vec<Place>,
+    /// How often each room and zone is cleaned before the next, 1 to 3.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) passes: u8,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct EstimateOptions {
+    #[command(flatten)]
+    pub(crate) order: OrderOptions,
+    /// Print the daemon's own JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RoomsJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<RoomsVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum RoomsVerb {
+    /// Name a room.
+    Name {
+        /// Its number, or the name it has.
+        room: String,
+        /// One line of 1 to 40 characters.
+        name: String,
+    },
+    /// Take a room's name away.
+    Unname {
+        /// Its name or number.
+        room: String,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ZoneJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<ZoneVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum ZoneVerb {
+    /// Forbid a rectangle between two opposite corners, or a polygon.
+    Add {
+        /// A corner, metres in the map.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        from: Place,
+        /// The opposite corner; of a polygon the next one.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        to: Place,
+        /// The third corner of a polygon; again for each further one.
+        #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+        corner: Vec<Place>,
+    },
+    /// Draw a wall that the robot shall see where there is none.
+    Wall {
+        /// One end, metres in the map.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        from: Place,
+        /// The other end.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        to: Place,
+    },
+    /// Allow again what a zone or wall forbids.
+    Remove {
+        /// Its number, as `rvac zone` tells it.
+        number: u16,
+    },
+}
+
+/// A place in the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) x_m: f64,
+    pub(crate) y_m: f64,
+}
+
+/// Text that is no place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NoPlace;
+
+impl core::fmt::Display for NoPlace {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter
+            .write_str("a place is two numbers of metres with a comma between them, for example 1.5,-0.25")
+    }
+}
+
+impl core::error::Error for NoPlace {}
+
+impl FromStr for Place {
+    type Err = NoPlace;
+
+    fn from_str(text: &str) -> Result<Self, NoPlace> {
+        let (x, y) = text.split_once(',').ok_or(NoPlace)?;
+        let metres = |text: &str| text.trim().parse().ok().filter(|metres: &f64| metres.is_finite());
+        Ok(Self {
+            x_m: metres(x).ok_or(NoPlace)?,
+            y_m: metres(y).ok_or(NoPlace)?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NoPlace, Place};
+
+    #[test]
+    fn a_place_is_two_finite_numbers() {
+        assert_eq!("1.5,-0.25".parse(), Ok(Place { x_m: 1.5, y_m: -0.25 }));
+        for wrong in ["", "1", "1;2", "1,2,3", "nan,0", "inf,1", "a,b"] {
+            assert_eq!(wrong.parse::<Place>(), Err(NoPlace), "{wrong}");
+        }
+    }
+}

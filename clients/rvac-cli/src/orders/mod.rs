@@ -1,0 +1,115 @@
+//! `rvac clean`, `rvac estimate`, `rvac rooms` and `rvac zone`: jobs for parts of the home, and what people say of it.
+
+mod rooms;
+mod zones;
+
+pub(crate) use rooms::rooms;
+pub(crate) use zones::zones;
+
+use std::io::{Write as _, stdout};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::bail;
+use rvac_api::{JobEstimate, JobOrder, JobPart, Request, RequestBody, Update};
+
+use crate::arguments::{EstimateOptions, OrderOptions, Place};
+use crate::control;
+use crate::home::known;
+use crate::socket::Connection;
+
+/// A plan of a large home takes a small board some seconds.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Number of our only numbered request.
+const REQUEST_ID: u32 = 1;
+
+pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&order.daemon.socket)?;
+    let body = RequestBody::Clean(to_order(order, &mut connection)?);
+    control::ask(&mut connection, body)
+}
+
+pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&options.order.daemon.socket)?;
+    let order = to_order(&options.order, &mut connection)?;
+    connection.send(&Request {
+        id: Some(REQUEST_ID),
+        body: RequestBody::Estimate(order),
+    })?;
+    let deadline = Instant::now() + PATIENCE;
+    while let Some(message) = connection.receive_until(deadline)? {
+        match message.update {
+            Some(Update::JobEstimate(_)) if options.json => {
+                writeln!(stdout(), "{}", message.text)?;
+                return Ok(ExitCode::SUCCESS);
+            }
+            Some(Update::JobEstimate(estimate)) => {
+                write!(stdout(), "{}", in_words(&estimate))?;
+                return Ok(ExitCode::SUCCESS);
+            }
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            _ => {}
+        }
+    }
+    bail!("vthal did not answer within {} s", PATIENCE.as_secs())
+}
+
+fn in_words(estimate: &JobEstimate) -> String {
+    let charging = if estimate.charge > 1.0 {
+        ", so it will charge in between"
+    } else {
+        ""
+    };
+    format!(
+        "floor     {:.1} m2\ntime      about {:.0} min\nbattery   {:.0} % of a full one, with the way home{charging}\n\
+         swept     about {:.0} % of the floor; {:.0} % if it knows its place half as well as it believes\n",
+        estimate.floor_m2,
+        (estimate.time_s / 60.0).ceil(),
+        100.0 * estimate.charge,
+        100.0 * estimate.share,
+        100.0 * estimate.share_low,
+    )
+}
+
+/// Rooms first, then zones, each in the order in which they were given.
+fn to_order(options: &OrderOptions, connection: &mut Connection) -> anyhow::Result<JobOrder> {
+    let mut parts = Vec::new();
+    if !options.room.is_empty() {
+        let home = known::ask(connection)?.home;
+        for name in &options.room {
+            parts.push(JobPart::Room(rooms::find(&home, name)?));
+        }
+    }
+    let corners = |places: &[Place]| places.iter().map(|place| [place.x_m, place.y_m]).collect();
+    for zone in options.zone.chunks_exact(2) {
+        parts.push(JobPart::Zone(zones::outline(corners(zone))));
+    }
+    Ok(JobOrder {
+        parts,
+        passes: options.passes,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_words;
+    use rvac_api::JobEstimate;
+
+    #[test]
+    fn an_estimate_says_what_a_job_takes() {
+        let estimate = JobEstimate {
+            id: Some(1),
+            floor_m2: 31.42,
+            time_s: 2_410.0,
+            charge: 1.2,
+            share: 0.978,
+            share_low: 0.91,
+        };
+        assert_eq!(
+            in_words(&estimate),
+            "floor     31.4 m2\ntime      about 41 min\nbattery   120 % of a full one, with the way home, so it will \
+             charge in between\nswept     about 98 % of the floor; 91 % if it knows its place half as well as it \
+             believes\n"
+        );
+    }
+}

@@ -1,0 +1,90 @@
+//! `rvac zone`: no-go zones and virtual walls.
+
+use std::io::{Write as _, stdout};
+use std::process::ExitCode;
+
+use rvac_api::{HomeView, NoGoShape, RequestBody};
+
+use crate::arguments::{Place, ZoneJob, ZoneVerb};
+use crate::control;
+use crate::home::known;
+use crate::socket::Connection;
+
+pub(crate) fn zones(job: &ZoneJob) -> anyhow::Result<ExitCode> {
+    let body = match &job.verb {
+        None => {
+            let home = known::ask(&mut Connection::open(&job.daemon.socket)?)?.home;
+            write!(stdout(), "{}", table(&home))?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Some(ZoneVerb::Add { from, to, corner }) => {
+            let corners = [from, to].into_iter().chain(corner).map(pair).collect();
+            RequestBody::AddNoGo {
+                shape: NoGoShape::Zone(outline(corners)),
+            }
+        }
+        Some(ZoneVerb::Wall { from, to }) => RequestBody::AddNoGo {
+            shape: NoGoShape::Wall([pair(from), pair(to)]),
+        },
+        Some(ZoneVerb::Remove { number }) => RequestBody::RemoveNoGo { number: *number },
+    };
+    control::send(body, &job.daemon)
+}
+
+fn pair(place: &Place) -> [f64; 2] {
+    [place.x_m, place.y_m]
+}
+
+/// Two corners are those of a rectangle along the axes of the map.
+pub(super) fn outline(corners: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    match corners.as_slice() {
+        &[[x, y], [far_x, far_y]] => vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]],
+        _ => corners,
+    }
+}
+
+fn table(home: &HomeView) -> String {
+    if home.no_go.is_empty() {
+        return "nothing is forbidden\n".to_owned();
+    }
+    let mut text = "number  what\n".to_owned();
+    for no_go in &home.no_go {
+        let (kind, corners) = match &no_go.shape {
+            NoGoShape::Zone(corners) => ("no-go zone   ", corners.as_slice()),
+            NoGoShape::Wall(ends) => ("virtual wall ", ends.as_slice()),
+        };
+        let places: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+        text += &format!("{:<7} {kind} {}\n", no_go.number, places.join(" "));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{outline, table};
+    use rvac_api::{HomeView, NoGoShape, NoGoView};
+
+    #[test]
+    fn two_corners_make_a_rectangle_and_more_are_what_they_are() {
+        let rectangle = outline(vec![[0.0, 1.0], [2.0, 3.0]]);
+        assert_eq!(rectangle, [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0], [0.0, 3.0]]);
+        let triangle = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        assert_eq!(outline(triangle.clone()), triangle);
+    }
+
+    #[test]
+    fn each_zone_has_a_line() {
+        let home = HomeView {
+            no_go: vec![NoGoView {
+                number: 3,
+                shape: NoGoShape::Wall([[0.0, -0.5], [1.0, 0.5]]),
+            }],
+            ..HomeView::default()
+        };
+        assert_eq!(
+            table(&home),
+            "number  what\n3       virtual wall  0.00,-0.50 1.00,0.50\n"
+        );
+        assert_eq!(table(&HomeView::default()), "nothing is forbidden\n");
+    }
+}

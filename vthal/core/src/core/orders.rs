@@ -1,0 +1,259 @@
+//! What clients order for parts of the home, and what they say of the home.
+
+use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Reason, RoomName, Zone};
+use rvac_api::{Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RoomNaming, Update};
+
+use super::Core;
+use super::refusal::Refusal;
+use crate::journal::Part;
+use crate::mind::Mind;
+use crate::outputs::{Delivery, Recipients};
+use crate::{ClientId, MapEdit, Outputs};
+
+/// Who asks, and the number of the request.
+type Asker = (ClientId, Option<u32>);
+
+impl Core {
+    pub(super) fn clean(
+        &mut self,
+        now_us: u64,
+        (client, order): (ClientId, &JobOrder),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        self.require_robot()?;
+        let order = to_order(order)?;
+        let mind = self.known_home()?;
+        let command = Command::CleanParts { order: order.clone() };
+        if let Err(reason) = mind.brain().admit(&command) {
+            return Err(Refusal::of_order(reason, &order, mind.brain()));
+        }
+        Ok(self.job(now_us, (client, command), outputs)?)
+    }
+
+    /// A plan of the whole order takes long enough to be felt by wheels that turn, so none is made while they may.
+    pub(super) fn estimate(
+        &self,
+        (client, id): Asker,
+        order: &JobOrder,
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        self.require_robot()?;
+        let order = to_order(order)?;
+        let mind = self.known_home()?;
+        if !mind.rests() {
+            return Err("job-runs".into());
+        }
+        let brain = mind.brain();
+        let found = brain
+            .estimate_order(&order)
+            .map_err(|reason| Refusal::of_order(reason, &order, brain))?;
+        outputs.deliveries.push(Delivery {
+            to: Recipients::One(client),
+            update: Update::JobEstimate(JobEstimate {
+                id,
+                floor_m2: found.floor_m2,
+                time_s: found.time_s,
+                charge: found.charge,
+                share: found.share,
+                share_low: found.share_low,
+            }),
+        });
+        Ok(())
+    }
+
+    pub(super) fn add_no_go(
+        &mut self,
+        now_us: u64,
+        (asker, shape): (Asker, &NoGoShape),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let no_go = to_no_go(shape)?;
+        let brain = self.known_home()?.brain();
+        let command = Command::AddNoGo { no_go };
+        brain.admit(&command).map_err(|reason| match reason {
+            Reason::NoFloorThere => Refusal::no_floor_there("it", brain),
+            Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
+            _ => Refusal::from(reason),
+        })?;
+        self.edit(now_us, (asker, command, "forbids floor of the map"), outputs);
+        Ok(())
+    }
+
+    pub(super) fn remove_no_go(
+        &mut self,
+        now_us: u64,
+        (asker, number): (Asker, u16),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let brain = self.known_home()?.brain();
+        let command = Command::RemoveNoGo { number };
+        brain
+            .admit(&command)
+            .map_err(|reason| Refusal::because(reason, no_such_no_go(number, brain)))?;
+        self.edit(now_us, (asker, command, "allows floor of the map again"), outputs);
+        Ok(())
+    }
+
+    pub(super) fn name_room(
+        &mut self,
+        now_us: u64,
+        (asker, naming): (Asker, &RoomNaming),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let room = naming.room;
+        let name = naming.name.as_deref().map(to_name).transpose()?;
+        let brain = self.known_home()?.brain();
+        let command = Command::NameRoom { room, name };
+        brain.admit(&command).map_err(|reason| match reason {
+            Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
+            Reason::NameTaken => {
+                Refusal::because(reason, "Another room is called so: take another name.".to_owned())
+            }
+            _ => Refusal::from(reason),
+        })?;
+        self.edit(now_us, (asker, command, "names a room"), outputs);
+        Ok(())
+    }
+
+    /// The brain, in the home that is kept.
+    fn known_home(&self) -> Result<&Mind, Refusal> {
+        let mind = self.mind.as_ref().ok_or("no-robot")?;
+        mind.admit_edit()?;
+        Ok(mind)
+    }
+
+    /// Gives the brain a change of the map; whoever wants it hears of it when it is on the disk.
+    fn edit(
+        &mut self,
+        now_us: u64,
+        (asker, command, what): (Asker, Command, &'static str),
+        outputs: &mut Outputs,
+    ) {
+        let text = format!("{} {what}", self.clients.name(asker.0));
+        self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+        self.command_brain(now_us, command, outputs);
+        self.edits.push(asker);
+    }
+
+    /// After the step in which the brain took them up: the map goes to the disk with all changes.
+    pub(super) fn keep_edits(&mut self, outputs: &mut Outputs) {
+        if self.edits.is_empty() {
+            return;
+        }
+        self.feed.tell_home_now();
+        let home = self.mind.as_ref().and_then(Mind::home_to_keep);
+        for (client, id) in self.edits.drain(..) {
+            match &home {
+                Some(home) => outputs.map_edits.push(MapEdit {
+                    client,
+                    id,
+                    home: home.clone(),
+                }),
+                None => outputs.deliveries.push(Delivery {
+                    to: Recipients::One(client),
+                    update: not_kept(id),
+                }),
+            }
+        }
+    }
+}
+
+/// The robot got lost within the step.
+fn not_kept(id: Option<u32>) -> Update {
+    Update::Failed(Failure {
+        id,
+        reason: Reason::PlaceUnknown.name().to_owned(),
+        text:
+            "The robot has just lost its way, so its map is not kept: try again when it stands on its dock."
+                .to_owned(),
+    })
+}
+
+fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
+    let part = |(place, part): (usize, &JobPart)| match part {
+        JobPart::Room(id) => Ok(HomePart::Room(*id)),
+        JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
+    };
+    let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
+    CleaningOrder::new(parts?, order.passes).map_err(|reason| {
+        let text = format!(
+            "{} parts and {} passes were ordered: a job has up to 32 parts and 1 to 3 passes.",
+            order.parts.len(),
+            order.passes
+        );
+        Refusal::because(reason, text)
+    })
+}
+
+fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {
+    let points = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
+    Zone::new(points.collect()).map_err(|reason| {
+        let far = corners
+            .iter()
+            .find(|[x, y]| !(x.abs() < 500.0 && y.abs() < 500.0));
+        let text = match far {
+            Some([x, y]) => format!("{what} has a corner at x {x} m, y {y} m: they must lie within 500 m."),
+            None => format!(
+                "{what} is a zone with {} corners: it must have 3 to 64.",
+                corners.len()
+            ),
+        };
+        Refusal::because(reason, text)
+    })
+}
+
+fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
+    match shape {
+        NoGoShape::Zone(corners) => Ok(NoGo::zone(&to_zone("The no-go zone", corners)?)?),
+        NoGoShape::Wall([[x, y], [to_x, to_y]]) => {
+            let (from, to) = (
+                Point2 { x_m: *x, y_m: *y },
+                Point2 {
+                    x_m: *to_x,
+                    y_m: *to_y,
+                },
+            );
+            NoGo::wall(from, to).map_err(|reason| {
+                let text = format!(
+                    "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
+                     places within 500 m."
+                );
+                Refusal::because(reason, text)
+            })
+        }
+    }
+}
+
+fn to_name(text: &str) -> Result<RoomName, Refusal> {
+    RoomName::new(text).map_err(|reason| {
+        let text = format!(
+            "The name has {} characters: it must be one line of 1 to 40.",
+            text.trim().chars().count()
+        );
+        Refusal::because(reason, text)
+    })
+}
+
+fn dock_inside(brain: &brain::Brain) -> String {
+    let place = brain.map().dock().unwrap_or_default();
+    format!(
+        "The dock stands there (x {:.2} m, y {:.2} m), and the robot could not reach it any more: leave room around it.",
+        place.x_m, place.y_m
+    )
+}
+
+fn no_such_no_go(number: u16, brain: &brain::Brain) -> String {
+    let numbers: Vec<String> = brain
+        .map()
+        .annotations()
+        .no_go()
+        .map(|(number, _)| number.to_string())
+        .collect();
+    if numbers.is_empty() {
+        return format!("There is no no-go zone {number}: the map has none.");
+    }
+    format!(
+        "There is no no-go zone {number}: the map has {}.",
+        numbers.join(", ")
+    )
+}
