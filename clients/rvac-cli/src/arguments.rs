@@ -44,6 +44,10 @@ pub(crate) enum Subcommand {
     Calibrate(CalibrateOptions),
     /// Look at a robot's raw readings, or record its gyro module.
     Probe(ProbeJob),
+    /// Drive by hand, with a gamepad or the keyboard.
+    Drive(DriveOptions),
+    /// The control mixes that the robot keeps; without a verb: list them.
+    Mix(MixJob),
     /// Start cleaning.
     Start {
         /// Strategy by name; the daemon's default when absent.
@@ -188,6 +192,51 @@ pub(crate) enum MapVerb {
     Restore {
         /// Its number, as `rvac map list` tells it.
         number: u64,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DriveOptions {
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Drive with gamepads alone, not with the keyboard of this terminal.
+    #[arg(long, conflicts_with = "readings")]
+    pub(crate) pad: bool,
+    /// Take what inputs read from the input, line by line: `pad-0-axis-1 -0.5`, `pad-0 gone`.
+    #[arg(long)]
+    pub(crate) readings: bool,
+    /// Drive by this mix of the robot; the standard one when absent.
+    #[arg(long, value_name = "NAME", conflicts_with = "mix_file")]
+    pub(crate) mix: Option<String>,
+    /// Drive by the mix in this file.
+    #[arg(long, value_name = "PATH")]
+    pub(crate) mix_file: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MixJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<MixVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum MixVerb {
+    /// Print a mix as a file that `save` takes.
+    Show {
+        /// Its name; the standard one when absent.
+        name: Option<String>,
+    },
+    /// Keep the mix of a file on the robot, in place of the one with the same name.
+    Save {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Remove a mix from the robot.
+    Remove {
+        /// Its name.
+        name: String,
     },
 }
 

@@ -5,9 +5,11 @@
 mod arguments;
 mod calibrate;
 mod control;
+mod drive;
 mod home;
 mod lines;
 mod listen;
+mod mixes;
 mod orders;
 mod packet;
 mod probe;
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),
         Subcommand::Probe(job) => probe::run(&job),
+        Subcommand::Drive(options) => drive::run(&options),
+        Subcommand::Mix(job) => mixes::run(&job),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

@@ -98,7 +98,7 @@ const DIRECTIONS: [Direction; 25] = [
     Direction { of: "mixer",         knows: &[],                                            never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
     Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer"], never: &[] },
-    Direction { of: "rvac-cli",      knows: &["rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["mixer", "rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
     Direction { of: "panel-server",  knows: &["rvac-api"],                                  never: &[] },
     Direction { of: "panel",         knows: &["panel-logic", "rvac-api"],                   never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["rvac-api"],                                  never: &["tokio", "leptos", "web-sys"] },
