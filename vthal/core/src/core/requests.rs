@@ -117,22 +117,9 @@ impl Core {
                 outputs.map_orders.push(MapOrder::List { client, id });
                 Ok(())
             }
-            RequestBody::Mixes => {
-                outputs.mix_orders.push(mix_order((client, id), MixTask::List));
-                Ok(())
-            }
-            RequestBody::SaveMix { profile } => {
-                outputs
-                    .mix_orders
-                    .push(mix_order((client, id), MixTask::Save(profile)));
-                Ok(())
-            }
-            RequestBody::RemoveMix { name } => {
-                outputs
-                    .mix_orders
-                    .push(mix_order((client, id), MixTask::Remove(name)));
-                Ok(())
-            }
+            RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
+            RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
+            RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
             RequestBody::RestoreMap { number } => {
                 self.admit_restored_map()?;
                 outputs.map_orders.push(MapOrder::Restore { client, id, number });
@@ -343,8 +330,14 @@ impl Core {
     }
 }
 
-const fn mix_order((client, id): (ClientId, Option<u32>), task: MixTask) -> MixOrder {
-    MixOrder { client, id, task }
+/// The shell does it, and answers the client.
+fn order_mix(
+    (client, id): (ClientId, Option<u32>),
+    task: MixTask,
+    outputs: &mut Outputs,
+) -> Result<(), Refusal> {
+    outputs.mix_orders.push(MixOrder { client, id, task });
+    Ok(())
 }
 
 fn denied(denied: Denied) -> Refused {
