@@ -6,6 +6,7 @@ use crate::checkpoint::Checkpoint;
 use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
 use crate::coverage::{JobEstimate, estimate};
+use crate::docking::BeamMemory;
 use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
@@ -24,6 +25,7 @@ pub struct Brain {
     config: BrainConfig,
     localization: Localization,
     map: Map,
+    beams: BeamMemory,
     behavior: Behavior,
     mind: Mind,
     contacts_before: Contacts,
@@ -43,6 +45,7 @@ impl Brain {
             config,
             localization,
             map: Map::new(config.body, config.sensors),
+            beams: BeamMemory::default(),
             behavior: Behavior::new(config),
             mind: Mind {
                 random: Random::new(seed),
@@ -75,6 +78,7 @@ impl Brain {
         }
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
+        self.beams.take(observation, &estimate);
         if self.localization.knows_heading(observation.time_us) {
             self.map.insert(&estimate, observation, advance);
         }
@@ -87,7 +91,7 @@ impl Brain {
         let situation = Situation::new(
             observation,
             advance,
-            (&self.localization, &self.map),
+            (&self.localization, &self.map, &self.beams),
             &self.config,
         );
         let intent = self.behavior.step(&situation, commands, &mut self.mind);

@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::action::{Decision, Motion};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
+use crate::docking::BeamMemory;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, Localization, PoseEstimate};
 use crate::mapping::Map;
@@ -27,6 +28,8 @@ pub(crate) struct Situation<'step> {
     pub(crate) is_tracked: bool,
     /// Way for which backing may still be commanded, in metres.
     pub(crate) way_back_m: f64,
+    /// What is heard of the dock, and where it was heard.
+    pub(crate) beams: &'step BeamMemory,
     pub(crate) config: &'step BrainConfig,
     /// Something besides the wheels tells the heading; without, no map is kept.
     pub(crate) knows_heading: bool,
@@ -40,7 +43,7 @@ impl<'step> Situation<'step> {
     pub(crate) fn new(
         observation: &'step Observation,
         advance: Advance,
-        (localization, map): (&Localization, &'step Map),
+        (localization, map, beams): (&Localization, &'step Map, &'step BeamMemory),
         config: &'step BrainConfig,
     ) -> Self {
         Self {
@@ -51,6 +54,7 @@ impl<'step> Situation<'step> {
             map,
             is_tracked: localization.explained().is_some(),
             way_back_m: localization.way_back_m(),
+            beams,
             config,
             knows_heading: localization.knows_heading(observation.time_us),
             touching: observation.is_touching(),

@@ -38,7 +38,9 @@ fn a_person_decides_over_a_job_that_waits_for_charge() {
         ("resume", "docked recharging"),
         ("pause\n charge 0.95\n wait 5", "paused command"),
         ("stop\n charge 0.95\n wait 5", "docked command"),
-        ("undocked", "paused released"),
+        ("wait 1.1\n undocked", "paused released"),
+        ("undocked", "starting dock-missed"),
+        ("undocked\n wait 4", "docking dock-missed"),
         ("lift\n charge 0.95\n wait 1", "docked recharging"),
     ] {
         check(&format!("{ON_THE_DOCK}\n {} => {end}", line.replace('\n', "\n ")));
@@ -58,6 +60,15 @@ fn a_job_that_ran_out_of_time_or_was_sent_home_does_not_go_on() {
     check(
         "up\n charge 0.5\n clean\n wait 4\n dock => docking command\n docked => docked docked\n charge 1 => docked docked",
     );
+}
+
+#[test]
+fn contacts_that_open_again_at_once_are_tried_a_few_times() {
+    let slip = "docked => docked docked\n undocked => starting dock-missed\n wait 4 => docking\n";
+    check(&format!(
+        "up\n dock\n wait 4 => docking\n {slip} {slip} {slip} docked => docked docked\n undocked => idle released"
+    ));
+    check("up\n dock\n wait 4\n docked\n wait 1.1\n undocked => idle released");
 }
 
 #[test]

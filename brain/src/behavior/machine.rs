@@ -86,6 +86,9 @@ pub(crate) struct Behavior {
     pub(super) tones: Vec<Tone>,
     pub(super) job_start: JobStart,
     pub(super) pocket: Option<Point2>,
+    /// When it came home, and how often it has slipped off since somebody sent it.
+    pub(super) home_us: Option<u64>,
+    pub(super) slips: u32,
     halt_until_us: u64,
 }
 
@@ -114,6 +117,8 @@ impl Behavior {
             tones: Vec::new(),
             job_start: JobStart::None,
             pocket: None,
+            home_us: None,
+            slips: 0,
         }
     }
 

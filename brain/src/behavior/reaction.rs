@@ -1,5 +1,6 @@
 //! What perceptions change, the gravest first.
 
+use super::job::Job;
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::task::{Mind, Situation};
@@ -126,7 +127,7 @@ impl Behavior {
     fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         match self.mode {
             Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
-            Mode::Docked if !self.facts.docked => self.enter(Mode::Idle, Reason::Released, mind),
+            Mode::Docked if !self.facts.docked => self.come_off(mind),
             Mode::Recharging => self.watch_charge(situation, mind),
             // Carried home by a person.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
@@ -140,6 +141,16 @@ impl Behavior {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// Off the dock without being sent.
+    fn come_off(&mut self, mind: &mut Mind) {
+        if self.slips_off() {
+            self.job = Some(Job::new(JobKind::Dock, self.figures()));
+            self.announce(Reason::DockMissed, mind);
+        } else {
+            self.enter(Mode::Idle, Reason::Released, mind);
         }
     }
 

@@ -133,6 +133,8 @@ reasons! {
     DockBeam => "dock-beam",
     /// The map tells where the dock is, and the robot knows where it is itself.
     DockKnown => "dock-known",
+    /// A beam of the dock was heard there before.
+    DockHeard => "dock-heard",
     /// Contact, but not with the contacts of the dock.
     DockMissed => "dock-missed",
     /// No beam of the dock is heard where one should be.

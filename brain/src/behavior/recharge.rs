@@ -14,6 +14,9 @@ use crate::task::{Mind, Situation};
 /// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
 const LOOK_BELOW: f32 = 0.5;
 const LOOK_US: u64 = 20_000_000;
+/// Contacts that open so soon after they have closed were met at their edge; and the times that it comes back then.
+const SLIPS_OFF_US: u64 = 1_000_000;
+const SLIPS_MAX: u32 = 3;
 
 impl Behavior {
     /// What driving and cleaning take, as far as it was learnt.
@@ -86,6 +89,7 @@ impl Behavior {
     /// On the dock at the end of the way home.
     pub(super) fn arrive(&mut self, mind: &mut Mind) {
         let figures = self.figures();
+        self.home_us = Some(self.facts.now_us);
         match self.put_off.take() {
             None => self.end_job(Reason::Docked, mind),
             Some(job) => {
@@ -93,6 +97,16 @@ impl Behavior {
                 self.enter(Mode::Recharging, Reason::Recharging, mind);
             }
         }
+    }
+
+    /// Whether the robot, which is not on the dock any more, has slipped off by itself and should try again.
+    pub(super) fn slips_off(&mut self) -> bool {
+        let since_us = self.home_us.take().map(|home_us| self.facts.now_us - home_us);
+        let slips = since_us.is_some_and(|since_us| since_us < SLIPS_OFF_US)
+            && self.slips < SLIPS_MAX
+            && !self.facts.wheel_drop;
+        self.slips += u32::from(slips);
+        slips
     }
 
     /// Nobody can see the dock: the job waits as it did on the way home.
@@ -119,7 +133,10 @@ impl Behavior {
             .observation
             .battery_charge
             .is_some_and(|charge| charge >= self.config.battery_charged);
-        if !self.facts.docked {
+        if !self.facts.docked && self.slips_off() {
+            self.put_off_again();
+            self.announce(Reason::DockMissed, mind);
+        } else if !self.facts.docked {
             self.hold(Reason::Released, mind);
         } else if charged && !self.facts.battery_low && !self.facts.wheel_drop {
             self.announce(Reason::Charged, mind);

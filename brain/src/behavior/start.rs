@@ -81,6 +81,7 @@ impl Behavior {
     pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut Mind) {
         self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
+        self.slips = 0;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading {

@@ -11,6 +11,7 @@ mod wall_bounce;
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
 pub(crate) use estimate::estimate;
+pub(crate) use perimeter::{LapStep, Perimeter};
 use systematic::Systematic;
 use wall_bounce::WallBounce;
 

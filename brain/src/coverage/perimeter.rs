@@ -44,7 +44,7 @@ const TROUBLES_MAX: u32 = 6;
 
 /// The lap.
 #[derive(Debug, Default)]
-pub(super) struct Perimeter {
+pub(crate) struct Perimeter {
     wall: WallFollower,
     away: Option<Turn>,
     astray: Option<Astray>,
@@ -70,7 +70,7 @@ struct Footprint {
 
 /// State of the lap after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum LapStep {
+pub(crate) enum LapStep {
     /// On it.
     Going(Motion),
     /// It cannot go on by its own means.
@@ -81,7 +81,7 @@ pub(super) enum LapStep {
 
 impl Perimeter {
     /// Half-done movements are void; the track stays.
-    pub(super) fn interrupted(&mut self) {
+    pub(crate) fn interrupted(&mut self) {
         self.wall.interrupted();
         self.away = None;
         if let Some(astray) = &mut self.astray {
@@ -89,12 +89,26 @@ impl Perimeter {
         }
     }
 
+    /// Another lap after one that is over, at a wall that is not on the track yet, if there is one.
+    pub(crate) fn begin_again(&mut self) {
+        self.interrupted();
+        self.astray = None;
+        self.again_m = 0.0;
+        self.islands = 0;
+        self.troubles = 0;
+    }
+
+    /// Whether it is getting away from something that it touched.
+    pub(crate) fn is_evading(&self) -> bool {
+        self.wall.is_evading()
+    }
+
     /// Way that was made, metres.
-    pub(super) fn way_m(&self) -> f64 {
+    pub(crate) fn way_m(&self) -> f64 {
         self.way_m
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> LapStep {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> LapStep {
         self.turned_rad += situation.advance.turn_rad;
         self.way_m += situation.advance.distance_m.max(0.0);
         if self.way_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {

@@ -55,10 +55,16 @@ const RETRY_AWAY_M: f64 = 0.5;
 pub(super) const TRIES_MAX: u32 = 5;
 /// Scans that may fail or lead nowhere in one approach.
 const SCANS_MAX: u32 = 8;
-/// Angle between the dock and the way to the line, seen from beside the line.
-const ASIDE_RAD: f64 = 0.9;
+/// Angles between the dock and the way to the line, seen from beside the line: the shortest way first, then ways that lead
+/// past what stood in it.
+const ASIDE_RAD: [f64; 3] = [0.9, 0.35, 0.6];
 /// The same from so near that the line is too short: away from the dock.
 const ASIDE_NEAR_RAD: f64 = 2.2;
+/// The same from beside the dock, at its wall: to a place in front of it.
+const BESIDE_RAD: f64 = 1.4;
+const BESIDE_M: f64 = 0.75;
+/// What is seen on one side only so much more than on the other is the wall of the dock, share of a touch.
+const WALL_LEVEL: f64 = 0.1;
 /// Longest way to the line, and from a place where only the near field is heard, metres.
 const ASIDE_MAX_M: f64 = 1.5;
 const ASIDE_NEAR_M: f64 = 0.5;
@@ -73,6 +79,8 @@ pub(super) struct Approach {
     scans: u32,
     wiggles: u32,
     wiggle_side: f64,
+    /// Ways to the line that were tried.
+    asides: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -128,9 +136,12 @@ pub(super) enum ApproachStep {
 }
 
 impl Approach {
-    /// An approach by the beams alone.
-    pub(super) fn by_beams() -> Self {
-        Self::beginning(Phase::Scan(Scan::new()))
+    /// An approach by the beams alone, after so many others.
+    pub(super) fn by_beams(others: u32) -> Self {
+        Self {
+            asides: others as usize,
+            ..Self::beginning(Phase::Scan(Scan::new()))
+        }
     }
 
     /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
@@ -149,6 +160,7 @@ impl Approach {
             scans: 0,
             wiggles: 0,
             wiggle_side: 1.0,
+            asides: 0,
         }
     }
 
@@ -213,29 +225,48 @@ impl Approach {
                     return ApproachStep::Spent;
                 }
                 mind.decide("dock-scan", Reason::DockBeam, bearing_rad);
-                self.phase = self.after_scan(self.heading_rad + bearing_rad, hearing, mind);
+                self.phase = self.after_scan(bearing_rad, hearing, (situation, mind));
                 ApproachStep::Going(Motion::Halt)
             }
         }
     }
 
-    /// Where to go from a place from which the dock lies in direction `dock_rad`.
-    fn after_scan(&mut self, dock_rad: f64, hearing: &Hearing, mind: &mut Mind) -> Phase {
+    /// Where to go from a place from which the dock lies `bearing_rad` left of straight ahead.
+    fn after_scan(
+        &mut self,
+        bearing_rad: f64,
+        hearing: &Hearing,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Phase {
+        let dock_rad = self.heading_rad + bearing_rad;
         // To a robot that faces the dock the line lies on the right when it hears the left lobe.
         let to_line = match hearing.lobe() {
             Lobe::Both => return Phase::Line(Line::along(dock_rad)),
             Lobe::Left => -1.0,
             Lobe::Right => 1.0,
-            Lobe::None if mind.random.coin() => 1.0,
-            Lobe::None => -1.0,
+            Lobe::None => {
+                away_from_wall(bearing_rad, situation).unwrap_or(if mind.random.coin() { 1.0 } else { -1.0 })
+            }
         };
         let is_near = hearing.is_near();
         mind.decide("dock-line", Reason::DockBeam, to_line);
+        let (aside_rad, left_m) = match (is_near, hearing.lobe()) {
+            (false, _) => (self.aside_rad(), ASIDE_MAX_M),
+            (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
+            (true, _) => (ASIDE_NEAR_RAD, ASIDE_NEAR_M),
+        };
         Phase::Leg(Leg {
-            heading_rad: dock_rad + to_line * if is_near { ASIDE_NEAR_RAD } else { ASIDE_RAD },
-            left_m: if is_near { ASIDE_NEAR_M } else { ASIDE_MAX_M },
+            heading_rad: dock_rad + to_line * aside_rad,
+            left_m,
             to_line: !is_near,
         })
+    }
+
+    fn aside_rad(&self) -> f64 {
+        ASIDE_RAD
+            .get(self.asides % ASIDE_RAD.len())
+            .copied()
+            .unwrap_or_default()
     }
 
     fn leg(
@@ -245,6 +276,7 @@ impl Approach {
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         if situation.touching {
+            self.asides += 1;
             return self.free_oneself(mind);
         }
         leg.left_m -= situation.advance.distance_m.max(0.0);
@@ -453,6 +485,18 @@ impl Line {
             TRIM_M_PER_S
         }
     }
+}
+
+/// The side to which the wall of the dock does not lie, seen by a robot that faces the dock: +1 left, -1 right; `None` when
+/// no wall is seen.
+fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
+    let sensors = situation.config.sensors.proximity.sensors();
+    let on_left: f64 = sensors
+        .iter()
+        .zip(&situation.observation.proximity)
+        .map(|(sensor, level)| libm::sin(sensor.heading_rad - bearing_rad) * f64::from(*level))
+        .sum();
+    (on_left.abs() > WALL_LEVEL).then_some(-on_left.signum())
 }
 
 /// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.

@@ -1,4 +1,5 @@
-//! Home to the dock: by the map to a place in front of it, then in by its beams; where neither helps, search.
+//! Home to the dock: by the map to a place in front of it, or to where its beams were heard, then in by the beams; where
+//! neither helps, search.
 //!
 //! Terms. *Lobe*: half of the space before the dock, filled by one of its two side beams; where both are heard is the
 //! line that leads straight in. *Near field*: a weak beam around the dock. A receiver reports the sum of what it hears.
@@ -8,6 +9,8 @@
 
 mod approach;
 mod hearing;
+mod memory;
+mod roam;
 mod scan;
 mod search;
 mod travel;
@@ -17,7 +20,8 @@ use crate::behavior::Reason;
 use crate::geometry::{Pose2, normalize_rad};
 use crate::task::{Mind, Plan, Situation, Task};
 use approach::{Approach, ApproachStep};
-use hearing::Hearing;
+pub(crate) use memory::BeamMemory;
+use memory::Vain;
 use search::Search;
 use travel::{Travel, TravelStep};
 
@@ -27,13 +31,21 @@ const SURE_M: f64 = 0.8;
 const IGNORE_S: f64 = 15.0;
 /// How long a robot that knows the way searches by chance after the way was blocked or led to silence.
 const SEARCH_S: f64 = 40.0;
+/// Within this of a place where nothing was heard nothing is expected, metres; where the beams were heard and the way in
+/// failed, another place beside it may do.
+const SILENT_M: f64 = 0.5;
+const MISSED_M: f64 = 0.25;
+/// Ways back to where beams were heard, in one task.
+const BACK_TO_BEAMS_MAX: u32 = 12;
 
 /// The task.
 #[derive(Debug, Default)]
 pub(crate) struct Docking {
-    hearing: Hearing,
     phase: Phase,
     search: Search,
+    vain: Vec<Vain>,
+    back_to_beams: u32,
+    approaches: u32,
     elapsed_s: f64,
     /// Beams are left alone for so long.
     ignore_s: f64,
@@ -46,8 +58,10 @@ enum Phase {
     /// About to decide.
     #[default]
     Undecided,
-    /// By the map.
+    /// By the map, to the dock.
     Travel(Box<Travel>),
+    /// By the map, to where a beam was heard.
+    Back(Box<Travel>),
     /// By the beams.
     Approach(Approach),
     /// To where it has not been yet.
@@ -60,7 +74,6 @@ impl Task for Docking {
         self.elapsed_s += time_s;
         self.ignore_s = (self.ignore_s - time_s).max(0.0);
         self.search_s = (self.search_s - time_s).max(0.0);
-        self.hearing.take(&situation.observation.dock_beams);
         self.search.note(situation);
         if self.elapsed_s > situation.config.dock_budget_s {
             return Plan::Finished(Reason::DockNotFound);
@@ -71,9 +84,13 @@ impl Task for Docking {
                 let step = travel.step(situation, mind);
                 self.after_travel(step, situation, mind)
             }
+            Phase::Back(travel) => {
+                let step = travel.step(situation, mind);
+                self.after_back(step, mind)
+            }
             Phase::Approach(approach) => {
-                let step = approach.step(&self.hearing, (situation, &mut *mind));
-                self.after_approach(step, mind)
+                let step = approach.step(situation.beams.hearing(), (situation, &mut *mind));
+                self.after_approach(step, situation, mind)
             }
             Phase::Search => self.search.step(situation, mind),
             Phase::Undecided => Plan::Go(Motion::Halt),
@@ -82,7 +99,7 @@ impl Task for Docking {
 
     fn interrupted(&mut self) {
         match &mut self.phase {
-            Phase::Travel(travel) => travel.interrupted(),
+            Phase::Travel(travel) | Phase::Back(travel) => travel.interrupted(),
             Phase::Search => self.search.interrupted(),
             Phase::Approach(_) | Phase::Undecided => self.phase = Phase::Undecided,
         }
@@ -101,27 +118,48 @@ impl Docking {
                 }
             }
             Phase::Search if self.search.is_evading() || !situation.is_free() => {}
-            Phase::Search | Phase::Undecided => self.choose(known, mind),
+            Phase::Back(travel) if travel.is_evading() || !situation.is_free() => {}
+            Phase::Back(_) | Phase::Search | Phase::Undecided => self.choose(known, situation, mind),
         }
     }
 
-    fn choose(&mut self, known: Result<Pose2, Reason>, mind: &mut Mind) {
+    fn choose(&mut self, known: Result<Pose2, Reason>, situation: &Situation<'_>, mind: &mut Mind) {
         let may_travel = self.search_s <= 0.0;
         match known {
             Ok(dock) if may_travel => {
                 mind.decide("dock-travel", Reason::DockKnown, 0.0);
-                self.phase = Phase::Travel(Box::new(Travel::to(dock)));
+                self.phase = Phase::Travel(Box::new(Travel::to_dock(dock)));
             }
-            _ if self.hearing.is_any() && self.ignore_s <= 0.0 => {
-                mind.decide("approach", Reason::DockBeam, 0.0);
-                self.phase = Phase::Approach(Approach::by_beams());
+            _ if situation.beams.hearing().is_any() && self.ignore_s <= 0.0 => {
+                self.begin_approach(Reason::DockBeam, mind);
             }
+            _ if matches!(self.phase, Phase::Back(_)) => {}
+            Err(_) if may_travel && self.begin_back(situation, mind) => {}
             _ => {
                 if !matches!(self.phase, Phase::Search) {
                     self.begin_search(known.err().unwrap_or(Reason::NoBeam), mind);
                 }
             }
         }
+    }
+
+    /// Back to where a beam was heard, if there is such a place.
+    fn begin_back(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> bool {
+        let heard_at = situation.beams.goals(&self.vain);
+        if heard_at.is_empty() || self.back_to_beams >= BACK_TO_BEAMS_MAX {
+            return false;
+        }
+        self.back_to_beams += 1;
+        mind.decide("dock-travel", Reason::DockHeard, heard_at.len() as f64);
+        self.search.interrupted();
+        self.phase = Phase::Back(Box::new(Travel::to_beam(heard_at)));
+        true
+    }
+
+    fn begin_approach(&mut self, reason: Reason, mind: &mut Mind) {
+        mind.decide("approach", reason, f64::from(self.approaches));
+        self.phase = Phase::Approach(Approach::by_beams(self.approaches));
+        self.approaches += 1;
     }
 
     fn begin_search(&mut self, reason: Reason, mind: &mut Mind) {
@@ -148,7 +186,22 @@ impl Docking {
         Plan::Go(Motion::Halt)
     }
 
-    fn after_approach(&mut self, step: ApproachStep, mind: &mut Mind) -> Plan {
+    fn after_back(&mut self, step: TravelStep, mind: &mut Mind) -> Plan {
+        match step {
+            TravelStep::Going(motion) => return Plan::Go(motion),
+            TravelStep::Held(reason) => return Plan::Trouble(reason),
+            TravelStep::Arrived => {
+                self.begin_approach(Reason::DockHeard, mind);
+            }
+            TravelStep::Blocked => {
+                self.search_s = SEARCH_S;
+                self.begin_search(Reason::WayBlocked, mind);
+            }
+        }
+        Plan::Go(Motion::Halt)
+    }
+
+    fn after_approach(&mut self, step: ApproachStep, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         let reason = match step {
             ApproachStep::Going(motion) => return Plan::Go(motion),
             ApproachStep::Held(reason) => {
@@ -158,11 +211,20 @@ impl Docking {
             ApproachStep::Silent => Reason::NoBeam,
             ApproachStep::Spent => Reason::DockMissed,
         };
+        self.vain.push(Vain {
+            at: situation.pose.position(),
+            within_m: if reason == Reason::NoBeam {
+                SILENT_M
+            } else {
+                MISSED_M
+            },
+            time_us: situation.observation.time_us,
+        });
         self.ignore_s = IGNORE_S;
-        self.search_s = if reason == Reason::NoBeam {
-            SEARCH_S
-        } else {
-            IGNORE_S
+        self.search_s = match (reason, known_dock(situation)) {
+            (Reason::NoBeam, Ok(_)) => SEARCH_S,
+            (Reason::NoBeam, Err(_)) => 0.0,
+            _ => IGNORE_S,
         };
         self.begin_search(reason, mind);
         Plan::Go(Motion::Halt)

@@ -1,248 +1,70 @@
-//! Looking for the dock where nobody knows where it is: straight ways to where the robot has not been yet.
-//!
-//! Terms. *Block*: a square of half a metre. A robot that came through a block has seen its neighbours, too: beams reach
-//! far. *Ray*: a straight way from here that the map does not bar; it is worth as many blocks as it leads through that were
-//! not seen.
+//! Looking for the dock where nobody knows where it is. Docks stand at walls, and who goes along the walls of a home comes
+//! through all of its rooms: so it follows the walls until it comes back to where it was, and listens. Where that has brought
+//! nothing it roams, and follows the next wall that it does not know.
 
-use core::f64::consts::{FRAC_PI_3, TAU};
-use std::collections::BTreeSet;
-
+use super::roam::Roam;
 use crate::action::Motion;
 use crate::behavior::Reason;
-use crate::coverage::Bounce;
-use crate::coverage::systematic::encounter;
-use crate::geometry::{Point2, normalize_rad};
-use crate::manoeuvre::Evasion;
-use crate::mapping::{Cell, CellKnowledge};
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::coverage::{LapStep, Perimeter};
+use crate::task::{Mind, Plan, Situation};
 
-/// Edge of a block, metres.
-const BLOCK_M: f64 = 0.5;
-/// Directions that are looked at, and the steps and the length of a ray, metres.
-const DIRECTIONS: u32 = 32;
-const RAY_STEP_M: f64 = 0.1;
-const RAY_M: f64 = 5.0;
-/// A ray begins beyond the body, metres.
-const RAY_FROM_M: f64 = 0.3;
-/// A ray that comes so near to something that was touched ends there, metres.
-const TOUCHED_M: f64 = 0.17;
-/// Touched places kept; the oldest go first.
-const TOUCHED_MAX: usize = 400;
-/// A robot on a way without news looks for a better one after so much of it, metres.
-const LOOK_EVERY_M: f64 = 1.0;
-/// A better way is one with so many steps of news more.
-const BETTER_STEPS: f64 = 8.0;
-/// Ways back after a contact and at a cliff, metres.
-const CONTACT_BACK_M: f64 = 0.04;
-const CLIFF_BACK_M: f64 = 0.08;
-/// Ways shorter than this in a row, metres, mean a pocket: out of it by bouncing.
-const SHORT_M: f64 = 0.3;
-const SHORT_MAX: u32 = 4;
-/// It bounces for so long, seconds.
-const BOUNCE_S: f64 = 15.0;
-/// Speeds: cruise is the configuration's, this one is for something near ahead.
-const NEAR_M_PER_S: f64 = 0.12;
-/// Proximity level that means something near.
-const NEAR_LEVEL: f32 = 0.45;
+/// Way of roaming between two laps, metres: across a room and through a door.
+const ROAM_M: f64 = 10.0;
 
 /// The search. What it has seen it keeps over approaches that failed.
 #[derive(Debug, Default)]
 pub(super) struct Search {
-    seen: BTreeSet<(i32, i32)>,
-    touched: Vec<Point2>,
-    evasion: Option<Evasion>,
-    bounce: Option<(Bounce, f64)>,
-    run_m: f64,
-    without_news_m: f64,
-    short_runs: u32,
+    lap: Perimeter,
+    roam: Roam,
+    /// Way that it still roams; `None` = along walls.
+    roam_left_m: Option<f64>,
 }
 
 impl Search {
     /// Whether it is just getting away from something.
     pub(super) fn is_evading(&self) -> bool {
-        self.evasion.is_some()
-            || self
-                .bounce
-                .as_ref()
-                .is_some_and(|(bounce, _)| bounce.is_evading())
+        if self.roam_left_m.is_some() {
+            self.roam.is_evading()
+        } else {
+            self.lap.is_evading()
+        }
     }
 
     /// The robot was moved by somebody else.
     pub(super) fn interrupted(&mut self) {
-        self.evasion = None;
-        self.bounce = None;
+        self.lap.interrupted();
+        self.roam.interrupted();
     }
 
     /// Notes where the robot is, whoever drives it.
     pub(super) fn note(&mut self, situation: &Situation<'_>) {
-        let (x, y) = block(situation.pose.position());
-        let mut is_news = false;
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)] {
-            is_news |= self.seen.insert((x.saturating_add(dx), y.saturating_add(dy)));
-        }
-        let way_m = situation.advance.distance_m.max(0.0);
-        self.without_news_m = if is_news { 0.0 } else { self.without_news_m + way_m };
+        self.roam.note(situation);
     }
 
     pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        if let Some((bounce, left_s)) = &mut self.bounce {
-            *left_s -= situation.advance.time_s;
-            if *left_s > 0.0 || bounce.is_evading() || !situation.is_free() {
-                return bounce.step(situation, mind);
-            }
-            self.bounce = None;
-        }
-        let evades = self.evasion.is_some();
-        match Evasion::pursue(&mut self.evasion, situation) {
-            Some(Ok(motion)) => return Plan::Go(motion),
-            Some(Err(reason)) => {
-                self.interrupted();
-                return Plan::Trouble(reason);
-            }
-            None => {}
-        }
-        if evades {
-            self.run_m = 0.0;
-        }
-        self.run_m += situation.advance.distance_m.max(0.0);
-        if let Some(reason) = encounter(situation) {
-            return self.turn_from(reason, situation, mind);
-        }
-        if self.without_news_m > LOOK_EVERY_M {
-            self.without_news_m = 0.0;
-            if let Some(turn_rad) = self.better_way(situation, mind) {
-                mind.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
-                self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
-                return Plan::Go(Motion::Halt);
-            }
-        }
-        Plan::Go(ahead(situation))
-    }
-
-    /// Away from what was met, to where most is new.
-    fn turn_from(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        self.remember(reason, situation);
-        self.short_runs = if self.run_m < SHORT_M {
-            self.short_runs + 1
-        } else {
-            0
+        let Some(left_m) = self.roam_left_m else {
+            return self.follow_walls(situation, mind);
         };
-        mind.decide("back-off", reason, self.run_m);
-        if self.short_runs > SHORT_MAX {
-            self.short_runs = 0;
-            self.bounce = Some((Bounce::default(), BOUNCE_S));
-            return Plan::Go(Motion::Halt);
+        if left_m <= 0.0 && !situation.is_free() && !self.roam.is_evading() {
+            mind.decide("follow-wall", Reason::DockUnknown, 0.0);
+            self.roam_left_m = None;
+            self.lap.begin_again();
+            return self.follow_walls(situation, mind);
         }
-        let away_rad = match reason {
-            Reason::BumpLeft | Reason::CliffLeft => -FRAC_PI_3,
-            Reason::BumpRight | Reason::CliffRight => FRAC_PI_3,
-            _ => 0.0,
-        };
-        let turn_rad = self.best(situation, mind, |turn_rad| {
-            let from_met_rad = normalize_rad(turn_rad + away_rad);
-            from_met_rad.abs() > 1.1
-        });
-        let turn_rad = turn_rad.map_or(core::f64::consts::PI, |(turn_rad, _)| turn_rad);
-        self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(CLIFF_BACK_M, turn_rad)
-        } else {
-            Evasion::from_contact(CONTACT_BACK_M, turn_rad)
-        });
-        Plan::Go(Motion::Halt)
+        self.roam_left_m = Some(left_m - situation.advance.distance_m.max(0.0));
+        self.roam.step(situation, mind)
     }
 
-    fn remember(&mut self, reason: Reason, situation: &Situation<'_>) {
-        let side = match reason {
-            Reason::BumpLeft | Reason::CliffLeft => 0.7,
-            Reason::BumpRight | Reason::CliffRight => -0.7,
-            _ => 0.0,
-        };
-        let (sin, cos) = libm::sincos(side);
-        let radius_m = situation.config.body.radius_m;
-        if self.touched.len() >= TOUCHED_MAX {
-            self.touched.remove(0);
-        }
-        self.touched.push(situation.pose.transform(Point2 {
-            x_m: radius_m * cos,
-            y_m: radius_m * sin,
-        }));
-    }
-
-    /// A turn to a way that is worth leaving this one for.
-    fn better_way(&self, situation: &Situation<'_>, mind: &mut Mind) -> Option<f64> {
-        let (turn_rad, news) = self.best(situation, mind, |_| true)?;
-        let straight = self.news(situation, 0.0);
-        (news > straight + BETTER_STEPS).then_some(turn_rad)
-    }
-
-    /// The turn to the way with most news, among those that are allowed; chance decides between equal ones.
-    fn best(
-        &self,
-        situation: &Situation<'_>,
-        mind: &mut Mind,
-        allowed: impl Fn(f64) -> bool,
-    ) -> Option<(f64, f64)> {
-        (0..DIRECTIONS)
-            .map(|direction| normalize_rad(TAU * f64::from(direction) / f64::from(DIRECTIONS)))
-            .filter(|turn_rad| allowed(*turn_rad))
-            .map(|turn_rad| {
-                (
-                    turn_rad,
-                    self.news(situation, turn_rad) + mind.random.between(0.0, 3.0),
-                )
-            })
-            .max_by(|one, other| one.1.total_cmp(&other.1))
-    }
-
-    /// Steps of a ray that lead through blocks that were not seen; a free ray without news is worth a little.
-    fn news(&self, situation: &Situation<'_>, turn_rad: f64) -> f64 {
-        let (sin, cos) = libm::sincos(turn_rad);
-        let knowledge = situation.map.knowledge();
-        let (mut way_m, mut news) = (RAY_FROM_M, 0.0);
-        while way_m < RAY_M {
-            let at = situation.pose.transform(Point2 {
-                x_m: way_m * cos,
-                y_m: way_m * sin,
-            });
-            let bars = matches!(
-                knowledge.get(Cell::under(at)),
-                Some(CellKnowledge::Occupied | CellKnowledge::Cliff | CellKnowledge::NoGo)
-            );
-            if bars
-                || self
-                    .touched
-                    .iter()
-                    .any(|touched| touched.distance_m(at) < TOUCHED_M)
-            {
-                break;
+    fn follow_walls(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        match self.lap.step(situation, mind) {
+            LapStep::Going(motion) => Plan::Go(motion),
+            LapStep::Trouble(reason) => Plan::Trouble(reason),
+            LapStep::Over(reason) => {
+                mind.decide("leave-wall", reason, self.lap.way_m());
+                self.roam.interrupted();
+                self.roam_left_m = Some(ROAM_M);
+                Plan::Go(Motion::Halt)
             }
-            news += if self.seen.contains(&block(at)) { 0.1 } else { 1.0 };
-            way_m += RAY_STEP_M;
         }
-        news
-    }
-}
-
-fn block(at: Point2) -> (i32, i32) {
-    (
-        libm::floor(at.x_m / BLOCK_M) as i32,
-        libm::floor(at.y_m / BLOCK_M) as i32,
-    )
-}
-
-/// Straight ahead, slower when something is near.
-fn ahead(situation: &Situation<'_>) -> Motion {
-    let proximity = &situation.observation.proximity;
-    let third = proximity.len() / 3;
-    let front = proximity.get(third..proximity.len() - third).unwrap_or_default();
-    let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
-    let is_near = front.iter().any(|level| *level > NEAR_LEVEL);
-    Motion::Drive {
-        speed_m_per_s: if is_near {
-            cruise_m_per_s.min(NEAR_M_PER_S)
-        } else {
-            cruise_m_per_s
-        },
-        turn_rad_per_s: 0.0,
     }
 }

@@ -1,4 +1,4 @@
-//! The way to a place in front of the dock, by the map.
+//! The way to a place in front of the dock, or to one where it was heard, by the map.
 //!
 //! What stands in the way is remembered for some minutes and gone round; when no way is left the memory is cleared, because
 //! people and chairs move, and the way is tried again. All of it is bounded by counts.
@@ -15,6 +15,9 @@ use crate::task::{Mind, Situation};
 /// not touch. With the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is
 /// one cell too narrow in the map.
 const KEEP_OFF_M: [f64; 3] = [0.05, 0.01, -0.015];
+/// The same on the way back to where the robot has been: it fits through there, and what the map says of it was drawn with a
+/// pose that has drifted since.
+const KEEP_OFF_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
 /// Distances from the dock at which the beams are taken up, metres: the best one first.
 const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
 /// Places beside the line are worse than places on it: detour for each metre.
@@ -36,10 +39,13 @@ const PLANS_MAX: u32 = 40;
 /// Times that obstructions are forgotten.
 const FORGET_MAX: u32 = 2;
 
-/// The way to the dock.
+/// The way.
 #[derive(Debug)]
 pub(super) struct Travel {
-    dock: Pose2,
+    goals: Vec<Goal>,
+    keep_off_m: &'static [f64],
+    /// Why it leads there.
+    reason: Reason,
     follower: Option<Follower>,
     evasion: Option<Evasion>,
     obstructions: Obstructions,
@@ -54,7 +60,7 @@ pub(super) struct Travel {
 pub(super) enum TravelStep {
     /// On it.
     Going(Motion),
-    /// In front of the dock.
+    /// There.
     Arrived,
     /// No way is left.
     Blocked,
@@ -64,9 +70,20 @@ pub(super) enum TravelStep {
 
 impl Travel {
     /// To the place in front of `dock`, the pose of a robot on its contacts.
-    pub(super) fn to(dock: Pose2) -> Self {
+    pub(super) fn to_dock(dock: Pose2) -> Self {
+        Self::to(goals(dock), &KEEP_OFF_M, Reason::DockKnown)
+    }
+
+    /// To one of the places where it was heard.
+    pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
+        Self::to(heard_at, &KEEP_OFF_BACK_M, Reason::DockHeard)
+    }
+
+    fn to(goals: Vec<Goal>, keep_off_m: &'static [f64], reason: Reason) -> Self {
         Self {
-            dock,
+            goals,
+            keep_off_m,
+            reason,
             follower: None,
             evasion: None,
             obstructions: Obstructions::default(),
@@ -75,6 +92,11 @@ impl Travel {
             forgotten: 0,
             planned_from: None,
         }
+    }
+
+    /// Whether it is just getting away from something.
+    pub(super) fn is_evading(&self) -> bool {
+        self.evasion.is_some()
     }
 
     /// The robot was moved by somebody else.
@@ -131,14 +153,13 @@ impl Travel {
         if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
             return TravelStep::Blocked;
         }
-        let goals = goals(self.dock);
         let blocked = self.obstructions.points(situation.observation.time_us);
-        for keep_off_m in KEEP_OFF_M {
+        for keep_off_m in self.keep_off_m {
             let radius_m = situation.config.body.radius_m + keep_off_m;
             let ground = reachable(situation.map.knowledge(), radius_m, &blocked);
-            if let Some(pieces) = plan_way(&ground, situation.pose, &goals) {
+            if let Some(pieces) = plan_way(&ground, situation.pose, &self.goals) {
                 let way_m = pieces.iter().map(|piece| piece.length_m).sum();
-                mind.decide("dock-way", Reason::DockKnown, way_m);
+                mind.decide("dock-way", self.reason, way_m);
                 self.follower = Some(Follower::new(pieces));
                 return TravelStep::Going(Motion::Halt);
             }

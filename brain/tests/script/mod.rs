@@ -158,8 +158,9 @@ impl Stage {
             self.backed_m = self.backed_m.min(0.15);
         }
         self.driven_by_hand = self.brain.status().state == BehaviorState::Manual;
+        // Wheels that turn on the spot move the middle by what rounding leaves.
         assert!(
-            self.backed_m <= 0.15,
+            self.backed_m <= 0.15 + 1e-9,
             "{} m back: {:?}",
             self.backed_m,
             self.brain.status()

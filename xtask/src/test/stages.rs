@@ -221,7 +221,8 @@ fn link(long: bool) -> Result {
     check(&mut command)
 }
 
-/// Many runs of the logic built for this machine, and a few of the real firmware, which take two thousand times as long.
+/// Many runs of the logic built for this machine, some of them for the other robot, and a few of the real firmware, which take
+/// two thousand times as long.
 fn faults(long: bool) -> Result {
     workspace::build(&["rvac-sim"], Profile::Release)?;
     let elf = firmware::usual_elf()?;
@@ -239,7 +240,9 @@ fn faults(long: bool) -> Result {
         "--firmware",
     ]);
     on_chip.arg(elf);
-    checks(&mut [run(&["--seeds", seeds, "--minutes", "10"]), on_chip])
+    let other_seeds = if long { "0..10000" } else { "0..100" };
+    let other = run(&["--robot", "relax", "--seeds", other_seeds, "--minutes", "2"]);
+    checks(&mut [run(&["--seeds", seeds, "--minutes", "10"]), other, on_chip])
 }
 
 fn headless(_long: bool) -> Result {

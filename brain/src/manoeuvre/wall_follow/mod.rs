@@ -61,6 +61,11 @@ const CONTACT_BACK_M: f64 = 0.02;
 const EDGE_BACK_M: f64 = 0.08;
 /// Turn away from an edge, radians.
 const EDGE_TURN_RAD: f64 = 0.9;
+/// Added to it for each edge on little way before: where edges meet, three of them in 5 s would latch the firmware (S8).
+const EDGES_TURN_RAD: f64 = 0.7;
+const EDGES_MAX: u32 = 2;
+/// As `EDGES_TURN_RAD`: the way, metres.
+const EDGES_M: f64 = 0.7;
 /// Contacts on less than `CROWDED_M` add this much to the turn each, radians.
 const CROWDED_RAD: f64 = 0.35;
 /// As `CROWDED_RAD`: the way, metres.
@@ -78,6 +83,9 @@ pub(crate) struct WallFollower {
     /// Contacts on little way, and the way since the last one.
     contacts: u32,
     since_contact_m: f64,
+    /// The same for edges of the floor.
+    edges: u32,
+    since_edge_m: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,6 +169,10 @@ impl WallFollower {
         if self.since_contact_m > CROWDED_M {
             self.contacts = 0;
         }
+        self.since_edge_m += way_m;
+        if self.since_edge_m > EDGES_M {
+            self.edges = 0;
+        }
         self.dark_m = (self.dark_m - DARK_M * way_m / DARK_FORGET_M).max(0.0);
     }
 
@@ -169,7 +181,10 @@ impl WallFollower {
         if situation.at_cliff {
             let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
             mind.decide("back-off", reason, 0.0);
-            self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, EDGE_TURN_RAD));
+            let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
+            self.edges = (self.edges + 1).min(EDGES_MAX);
+            self.since_edge_m = 0.0;
+            self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
             self.line.give_up();
             self.phase = Phase::Pass { left_m: EDGE_PASS_M };
             return WallStep::Going(Motion::Halt);
