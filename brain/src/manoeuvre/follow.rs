@@ -28,6 +28,13 @@ const TURN_MIN_RAD_PER_S: f64 = 0.4;
 const TURN_DONE_RAD: f64 = 0.06;
 /// Share of the highest turn rate that arcs use: the rest is for steering.
 const ARC_SHARE: f64 = 0.8;
+/// With less way ahead than this, and less than that left of a piece, the robot goes on with the next one, metres: what it sees
+/// tells better than its place where the way ends.
+const TURN_BEFORE_M: f64 = 0.02;
+const SHORT_OF_M: f64 = 0.08;
+/// Off a straight by more than the first and less than the second the robot keeps aside of something, metres.
+const ASIDE_MIN_M: f64 = 0.005;
+const ASIDE_MAX_M: f64 = 0.03;
 /// Farther from the way than this the robot does not follow it any more.
 const LOST_M: f64 = 0.25;
 /// As `LOST_M`, for the heading.
@@ -60,6 +67,36 @@ pub(crate) struct Caution {
     pub(crate) speed_m_per_s: f64,
     /// Keep this much to the left of the way (negative: to the right).
     pub(crate) offset_m: f64,
+    /// Go this much to the left of where it is now (negative: to the right), unless the way leads farther that way anyhow.
+    pub(crate) aside_m: f64,
+    /// Way straight ahead until something is touched, as far as it is seen.
+    pub(crate) ahead_m: f64,
+}
+
+impl Default for Caution {
+    /// Nothing is near.
+    fn default() -> Self {
+        Self {
+            speed_m_per_s: f64::INFINITY,
+            offset_m: 0.0,
+            aside_m: 0.0,
+            ahead_m: f64::INFINITY,
+        }
+    }
+}
+
+impl Caution {
+    /// What of an offset is to be made good.
+    fn off_m(&self, offset_m: f64) -> f64 {
+        let off_m = offset_m - self.offset_m;
+        if self.aside_m > 0.0 {
+            off_m.min(-self.aside_m)
+        } else if self.aside_m < 0.0 {
+            off_m.max(-self.aside_m)
+        } else {
+            off_m
+        }
+    }
 }
 
 /// Where the robot is on a piece.
@@ -96,6 +133,19 @@ impl Follower {
         corners
     }
 
+    /// The place on the way beside the robot, where it keeps a little off a straight.
+    pub(crate) fn beside(&self, situation: &Situation<'_>) -> Option<Point2> {
+        let piece = self
+            .pieces
+            .get(self.current)
+            .filter(|piece| !is_turn(piece) && piece.turn_rad == 0.0)?;
+        let fix = Fix::on(piece, situation.pose);
+        let off_m = fix.offset_m.abs();
+        let is_beside = (0.0..=piece.length_m).contains(&fix.along_m);
+        (is_beside && (ASIDE_MIN_M..ASIDE_MAX_M).contains(&off_m))
+            .then(|| piece.at(fix.along_m / piece.length_m).position())
+    }
+
     /// Whether a turn on the spot is being made.
     pub(crate) fn turns_on_spot(&self) -> bool {
         self.pieces.get(self.current).is_some_and(is_turn)
@@ -109,7 +159,11 @@ impl Follower {
                 }
             } else {
                 let fix = Fix::on(&piece, situation.pose);
-                if fix.along_m < piece.length_m - 0.5 * LAG_S * situation.config.speeds.cruise_m_per_s {
+                let left_m = piece.length_m - fix.along_m;
+                let is_at_wall = caution.ahead_m < TURN_BEFORE_M
+                    && left_m < SHORT_OF_M
+                    && self.current + 1 < self.pieces.len();
+                if !is_at_wall && left_m > 0.5 * LAG_S * situation.config.speeds.cruise_m_per_s {
                     return self.drive(&piece, &fix, (situation, caution));
                 }
             }
@@ -149,12 +203,12 @@ impl Follower {
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
         let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
         let left_m = piece.length_m - fix.along_m;
-        let speed_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
+        let free_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
             .min(self.braked(left_m, cruise_m_per_s, turn_max))
-            .min(caution.speed_m_per_s)
             .max(CREEP_M_PER_S);
+        let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CREEP_M_PER_S));
         let curvature = self.curvature_ahead(piece, left_m, LAG_S * speed_m_per_s);
-        let offset_m = fix.offset_m - caution.offset_m;
+        let offset_m = caution.off_m(fix.offset_m);
         let steer = -HEADING_GAIN_PER_S * fix.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
         let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
             0.0
@@ -162,10 +216,11 @@ impl Follower {
             steer
         };
         // A robot that looks elsewhere first turns.
-        let speed_m_per_s = speed_m_per_s * libm::cos(fix.heading_rad).max(0.2);
+        let facing = libm::cos(fix.heading_rad).max(0.2);
         FollowStep::Going(Motion::Drive {
-            speed_m_per_s,
-            turn_rad_per_s: (speed_m_per_s * curvature + steer).clamp(-turn_max, turn_max),
+            speed_m_per_s: speed_m_per_s * facing,
+            // Caution does not slow the turn: an arc gets tighter before something near, and turns away from it.
+            turn_rad_per_s: (free_m_per_s * facing * curvature + steer).clamp(-turn_max, turn_max),
         })
     }
 
@@ -230,8 +285,23 @@ impl Fix {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fix, Piece};
+    use super::{Caution, Fix, Piece};
     use crate::geometry::Pose2;
+
+    #[test]
+    fn going_aside_counts_from_where_the_robot_is_and_the_way_may_ask_for_more() {
+        let aside = |aside_m: f64| Caution {
+            aside_m,
+            ..Caution::default()
+        };
+        assert_eq!(aside(0.0).off_m(0.02), 0.02);
+        // Off to the right, a little more to the left is asked for than the way does, then less.
+        assert_eq!(aside(0.03).off_m(-0.01), -0.03);
+        assert_eq!(aside(0.03).off_m(-0.05), -0.05);
+        // Off to the left of a way beside something on the right, it stays off.
+        assert_eq!(aside(0.01).off_m(0.02), -0.01);
+        assert_eq!(aside(-0.01).off_m(-0.02), 0.01);
+    }
 
     #[test]
     fn a_robot_on_an_arc_has_no_offset_and_one_inside_of_it_has() {

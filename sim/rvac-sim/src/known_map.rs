@@ -1,7 +1,7 @@
 //! The plan of a home as a map that a robot could have made of it.
 
 use brain::mapping::{CellKnowledge, StoredMap};
-use brain::{CELL_M, Cell, Pose2, Raster};
+use brain::{CELL_M, Cell, Point2, Pose2, Raster};
 use home::{Cell as PlanCell, Home, Pose};
 
 /// The home in the map frame of a robot, every cell as it is in truth; doors that are ever open stand open. `docked` is the pose
@@ -38,6 +38,7 @@ pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) 
             };
         }
     }
+    keep_thin(&home, map_from_plan, &mut knowledge);
     let dock = docked.map(|docked| {
         let pose = map_from_plan.then(docked);
         Pose2 {
@@ -47,4 +48,32 @@ pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) 
         }
     });
     StoredMap::from_raster(&knowledge, dock)
+}
+
+/// Things thinner than a cell of the map, which lie between the middles of its cells: legs, mostly.
+fn keep_thin(home: &Home, map_from_plan: Pose, knowledge: &mut Raster<CellKnowledge>) {
+    let grid = home.grid();
+    for (index, _) in grid
+        .cells
+        .iter()
+        .enumerate()
+        .filter(|(_, kind)| **kind == PlanCell::Obstacle)
+    {
+        let (column, row) = (index % grid.width, index / grid.width);
+        let (x_m, y_m) = map_from_plan.point(
+            (column as f64 + 0.5) * grid.cell_m,
+            (row as f64 + 0.5) * grid.cell_m,
+        );
+        let cell = Cell::under(Point2 { x_m, y_m });
+        let is_shown = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].iter().any(|(x, y)| {
+            let beside = Cell {
+                x: cell.x + x,
+                y: cell.y + y,
+            };
+            knowledge.get(beside) != Some(&CellKnowledge::Free)
+        });
+        if !is_shown && let Some(kind) = knowledge.get_mut(cell) {
+            *kind = CellKnowledge::Occupied;
+        }
+    }
 }

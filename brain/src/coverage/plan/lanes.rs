@@ -14,11 +14,12 @@ use super::stretches::{Stretch, Stretches};
 use crate::mapping::CELL_M;
 
 /// Cells that one edge less of border is worth.
-const BORDER_CELLS: i16 = 2;
+const BORDER_CELLS: i16 = 1;
 /// Least share of what a lane over wholly open floor gains in the same time, for each round.
-const ROUND_SHARES: [f64; 2] = [0.35, 0.12];
-/// Turning to enter and leave a lane, in radians: added to a lane's time.
-const ENTER_RAD: f64 = 4.0;
+const ROUND_SHARES: [f64; 2] = [0.35, 0.07];
+/// What it costs to enter and leave a lane, in radians of turning: added to a lane's time. Besides the turns themselves it
+/// stands for the braking and for the way between lanes.
+const ENTER_RAD: f64 = 6.0;
 
 /// A straight piece of the way.
 #[derive(Clone, Copy, Debug, PartialEq)]

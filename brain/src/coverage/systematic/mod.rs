@@ -9,11 +9,13 @@
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
 mod assignment;
+mod caution;
 mod edges;
 mod frontier;
 mod obstructions;
 mod passed;
 mod reachable;
+mod shyness;
 
 use super::astray::Astray;
 use super::perimeter::{LapStep, Perimeter};
@@ -21,16 +23,18 @@ use super::plan::{CoveragePlan, PlanSettings, plan_area, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::Point2;
-use crate::manoeuvre::{Caution, Evasion, FollowStep, Follower};
+use crate::manoeuvre::{Evasion, FollowStep, Follower};
 use crate::mapping::{CELL_M, CellKnowledge, Raster};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
+pub(crate) use caution::caution;
 use edges::Edges;
 use frontier::hopeful;
 pub(crate) use obstructions::Obstructions;
 use passed::Passed;
 pub(crate) use reachable::reachable;
+use shyness::Shyness;
 
 /// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
 pub(super) const KEEP_OFF_M: f64 = 0.01;
@@ -61,14 +65,6 @@ const FRESH_WON_M2: f64 = 0.5;
 /// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
 /// place is known to centimetres only loses a little floor along all walls.
 const WHOLE_SHARE: f64 = 0.85;
-/// Proximity level ahead that means contact within a few centimetres.
-const NEAR_LEVEL: f32 = 0.6;
-/// Speed towards something near: a soft contact.
-const NEAR_M_PER_S: f64 = 0.1;
-/// Proximity level at a side that means the body nearly touches.
-const BESIDE_LEVEL: f32 = 0.85;
-/// How far the robot evades what nearly touches its side.
-const ASIDE_M: f64 = 0.02;
 
 /// A robot that sees nothing plans in a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
@@ -111,6 +107,8 @@ pub(crate) struct Systematic {
     floor_m2: f64,
     /// Much less than that can be reached now.
     is_cut_off: bool,
+    /// It keeps off what it has just touched.
+    shyness: Shyness,
 }
 
 impl Task for Systematic {
@@ -228,6 +226,7 @@ impl Systematic {
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         mind.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
+        self.shyness.touched(reason);
         self.follower = None;
         self.evasion = Some(if situation.at_cliff {
             self.edges.note(situation.observation.time_us);
@@ -257,7 +256,13 @@ impl Systematic {
                 }
                 continue;
             };
-            match follower.step(situation, caution(situation, follower)) {
+            let mut caution = caution(situation, follower);
+            caution.offset_m += self.shyness.offset_m(situation.advance);
+            let step = follower.step(situation, caution);
+            if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
+                passed.give_up(beside);
+            }
+            match step {
                 FollowStep::Going(motion) => return Plan::Go(motion),
                 FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
                 FollowStep::Arrived => {}
@@ -403,27 +408,5 @@ pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
         Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
     } else {
         None
-    }
-}
-
-/// What the infrared sensors advise. They are ordered from the right side counter-clockwise; a single one looks to the
-/// right.
-pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
-    let proximity = &situation.observation.proximity;
-    let third = (proximity.len() / 3).max(1);
-    let last = proximity.len().saturating_sub(third).max(third);
-    let highest = |levels: &[f32]| levels.iter().copied().fold(0.0, f32::max);
-    let part = |range: core::ops::Range<usize>| highest(proximity.get(range).unwrap_or_default());
-    let (right, left) = (part(0..third), part(last..proximity.len()));
-    let ahead = part(third..last);
-    let offset_m = match (left > BESIDE_LEVEL, right > BESIDE_LEVEL) {
-        (true, false) => -ASIDE_M,
-        (false, true) => ASIDE_M,
-        _ => 0.0,
-    };
-    let slow = ahead > NEAR_LEVEL && !follower.turns_on_spot();
-    Caution {
-        speed_m_per_s: if slow { NEAR_M_PER_S } else { f64::INFINITY },
-        offset_m,
     }
 }

@@ -1,6 +1,6 @@
 //! Where something was met that stands in the way of plans.
 //!
-//! A contact near to what the map knows is first taken for a robot that came too near to it; met again, it stands there.
+//! A contact near to something that the map shows is first taken for a robot that came too near to it; met again, it stands there.
 
 use crate::behavior::Reason;
 use crate::geometry::Point2;
@@ -17,6 +17,9 @@ const SAME_M: f64 = 0.12;
 const KNOWN_M: f64 = 0.06;
 /// Direction of a contact on one side from straight ahead when nothing else tells, radians.
 const SIDE_RAD: f64 = 0.7;
+/// So far to either side of `SIDE_RAD` it may be, and of straight ahead when both halves of the bumper are pressed, radians.
+const SIDE_SPREAD_RAD: f64 = 0.35;
+const AHEAD_SPREAD_RAD: f64 = 0.2;
 /// Proximity level of a sensor that looks at what was touched.
 const TOUCH_LEVEL: f32 = 0.5;
 
@@ -30,18 +33,17 @@ pub(crate) struct Obstructions {
 struct Met {
     since_us: u64,
     at: Point2,
+    /// Where it may be as well: the bumper does not tell more.
+    beside: [Point2; 2],
     is_believed: bool,
 }
 
 impl Obstructions {
     /// Notes what was met.
     pub(crate) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
-        let (sin, cos) = libm::sincos(bearing_rad(reason, situation));
-        let radius_m = situation.config.body.radius_m;
-        let at = situation.pose.transform(Point2 {
-            x_m: radius_m * cos,
-            y_m: radius_m * sin,
-        });
+        let (bearing, spread_rad) = bearing_rad(reason, situation);
+        let at = rim(bearing, situation);
+        let beside = [-spread_rad, spread_rad].map(|aside_rad| rim(bearing + aside_rad, situation));
         let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
         if self.met.len() >= KEPT_MAX {
             self.met.remove(0);
@@ -49,6 +51,7 @@ impl Obstructions {
         self.met.push(Met {
             since_us: situation.observation.time_us,
             at,
+            beside,
             is_believed: is_again || !is_known(at, situation),
         });
     }
@@ -65,9 +68,19 @@ impl Obstructions {
         self.met
             .iter()
             .filter(|met| met.is_believed)
-            .map(|met| met.at)
+            .flat_map(|met| [met.at, met.beside[0], met.beside[1]])
             .collect()
     }
+}
+
+/// The point of the rim in a direction from straight ahead.
+fn rim(bearing_rad: f64, situation: &Situation<'_>) -> Point2 {
+    let (sin, cos) = libm::sincos(bearing_rad);
+    let radius_m = situation.config.body.radius_m;
+    situation.pose.transform(Point2 {
+        x_m: radius_m * cos,
+        y_m: radius_m * sin,
+    })
 }
 
 /// Whether the map knows of something near a point.
@@ -81,25 +94,28 @@ fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
                 x: middle.x.saturating_add(shift),
                 y: middle.y.saturating_add(rise),
             };
-            knowledge.get(cell) != Some(&CellKnowledge::Free)
+            !matches!(
+                knowledge.get(cell),
+                None | Some(CellKnowledge::Free | CellKnowledge::Unknown)
+            )
         })
     })
 }
 
-/// Direction of what was met from straight ahead: that of the proximity sensor that sees most on this side, else the
-/// middle of the side.
-fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> f64 {
+/// Direction of what was met from straight ahead, and how far to either side of that it may be: that of the proximity sensor
+/// that sees most on this side, else somewhere in the middle of the side.
+fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
     let side = match reason {
         Reason::BumpLeft | Reason::CliffLeft => 1.0,
         Reason::BumpRight | Reason::CliffRight => -1.0,
-        _ => return 0.0,
+        _ => return (0.0, AHEAD_SPREAD_RAD),
     };
     let levels = &situation.observation.proximity;
     let sensors = situation.config.sensors.proximity;
-    let mut best = (TOUCH_LEVEL, side * SIDE_RAD);
+    let mut best = (TOUCH_LEVEL, (side * SIDE_RAD, SIDE_SPREAD_RAD));
     for (level, sensor) in levels.iter().zip(sensors.sensors()) {
         if sensor.heading_rad * side > 0.0 && *level > best.0 {
-            best = (*level, sensor.heading_rad);
+            best = (*level, (sensor.heading_rad, 0.0));
         }
     }
     best.1

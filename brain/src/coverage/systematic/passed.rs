@@ -72,6 +72,16 @@ impl Passed {
             return;
         }
         self.last = Some(place);
+        self.paint(place);
+    }
+
+    /// Counts what would have been swept from a place beside the way that the robot really takes: a strip that it left out
+    /// because it came too near to something is not worth another way.
+    pub(super) fn give_up(&mut self, place: Point2) {
+        self.paint(place);
+    }
+
+    fn paint(&mut self, place: Point2) {
         let cell = Cell::under(place);
         let column = i64::from(cell.x) - i64::from(self.cells.origin().x);
         let row = i64::from(cell.y) - i64::from(self.cells.origin().y);

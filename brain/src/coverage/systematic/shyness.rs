@@ -1,0 +1,66 @@
+//! After a touch on one side the robot keeps a little to the other: it has been wrong about its place there, and would touch
+//! the same thing again on the same way.
+
+use crate::behavior::Reason;
+use crate::localization::Advance;
+
+/// How far it keeps off its way, metres.
+const OFFSET_M: f64 = 0.015;
+/// For how much way, metres.
+const WAY_M: f64 = 0.5;
+
+/// What is left of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Shyness {
+    offset_m: f64,
+    left_m: f64,
+}
+
+impl Shyness {
+    /// Something was touched.
+    pub(super) fn touched(&mut self, reason: Reason) {
+        let offset_m = match reason {
+            Reason::BumpLeft => -OFFSET_M,
+            Reason::BumpRight => OFFSET_M,
+            _ => 0.0,
+        };
+        *self = Self {
+            offset_m,
+            left_m: WAY_M,
+        };
+    }
+
+    /// What to keep to the left of the way (negative: to the right), metres.
+    pub(super) fn offset_m(&mut self, advance: Advance) -> f64 {
+        self.left_m -= advance.distance_m.max(0.0);
+        if self.left_m > 0.0 { self.offset_m } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OFFSET_M, Shyness, WAY_M};
+    use crate::behavior::Reason;
+    use crate::localization::Advance;
+
+    fn ahead(distance_m: f64) -> Advance {
+        Advance {
+            distance_m,
+            ..Advance::default()
+        }
+    }
+
+    #[test]
+    fn it_keeps_away_from_the_side_that_touched_and_forgets_it_on_the_way() {
+        let mut shyness = Shyness::default();
+        assert_eq!(shyness.offset_m(ahead(0.1)), 0.0);
+        shyness.touched(Reason::BumpLeft);
+        assert_eq!(shyness.offset_m(ahead(-0.03)), -OFFSET_M, "backing off is no way");
+        assert_eq!(shyness.offset_m(ahead(0.9 * WAY_M)), -OFFSET_M);
+        assert_eq!(shyness.offset_m(ahead(0.2 * WAY_M)), 0.0);
+        shyness.touched(Reason::BumpRight);
+        assert_eq!(shyness.offset_m(ahead(0.0)), OFFSET_M);
+        shyness.touched(Reason::BumpFront);
+        assert_eq!(shyness.offset_m(ahead(0.0)), 0.0);
+    }
+}
