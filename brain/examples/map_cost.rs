@@ -168,5 +168,6 @@ fn main() {
             was: Pose2::IDENTITY,
             is: Pose2::IDENTITY,
         }]);
+        map.finish_redraw();
     });
 }

@@ -24,11 +24,7 @@ impl Derived {
     /// Takes up what is dirty in `layers`.
     pub(super) fn refresh(&mut self, layers: &mut Layers) {
         let changed = layers.take_dirty();
-        let Some(bounds) = layers.bounds() else { return };
-        if window(&self.knowledge) != Some(bounds) {
-            self.knowledge = grown(&self.knowledge, bounds, CellKnowledge::Unknown);
-            self.distance.cover(bounds);
-        }
+        self.cover(layers);
         let mut solid: Option<CellBox> = None;
         for part in changed {
             if let Some(moved) = self.copy(layers, part) {
@@ -44,6 +40,27 @@ impl Derived {
         }
         if let Some(last) = solid {
             self.distance.renew(&self.knowledge, last);
+        }
+    }
+
+    /// Takes up what is dirty in one tile of `layers`, if there is one.
+    pub(super) fn refresh_tile(&mut self, layers: &mut Layers) {
+        let Some(part) = layers.take_dirty_tile() else {
+            return;
+        };
+        self.cover(layers);
+        if let Some(solid) = self.copy(layers, part) {
+            self.distance.renew(&self.knowledge, solid);
+        }
+    }
+
+    /// The rasters grow with the layers.
+    fn cover(&mut self, layers: &Layers) {
+        if let Some(bounds) = layers.bounds()
+            && window(&self.knowledge) != Some(bounds)
+        {
+            self.knowledge = grown(&self.knowledge, bounds, CellKnowledge::Unknown);
+            self.distance.cover(bounds);
         }
     }
 

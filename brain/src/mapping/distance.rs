@@ -196,9 +196,11 @@ pub(super) fn meet(one: CellBox, other: CellBox) -> Option<CellBox> {
 pub(super) fn grown<T: Clone>(raster: &Raster<T>, window: CellBox, empty: T) -> Raster<T> {
     let (width, height) = window.size();
     let mut larger = Raster::filled(window.low, width, height, empty);
-    for (index, value) in raster.values().iter().enumerate() {
-        if let Some(place) = larger.get_mut(raster.cell(index)) {
-            *place = value.clone();
+    for (row, values) in raster.values().chunks_exact(raster.width().max(1)).enumerate() {
+        let begin = larger.index(raster.cell(row * raster.width()));
+        let end = begin.map_or(0, |begin| begin + values.len());
+        if let Some(places) = begin.and_then(|begin| larger.values_mut().get_mut(begin..end)) {
+            places.clone_from_slice(values);
         }
     }
     larger

@@ -198,10 +198,12 @@ impl HomeMap {
     }
 
     /// Takes up layers that were drawn again; what was seen meanwhile is in them.
-    pub(super) fn take_redrawn(&mut self, layers: Layers) {
+    pub(super) fn take_redrawn(&mut self, layers: Layers, derived: Derived) {
         self.layers = layers;
         self.paint_no_go();
-        self.derive_anew();
+        self.derived = derived;
+        self.derived.refresh(&mut self.layers);
+        self.revision = self.revision.wrapping_add(1);
         self.redrawn = self.redrawn.wrapping_add(1);
     }
 

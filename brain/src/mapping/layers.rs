@@ -243,6 +243,30 @@ impl Layers {
             .collect()
     }
 
+    /// One of these boxes, that of the tile that has waited longest.
+    pub(super) fn take_dirty_tile(&mut self) -> Option<CellBox> {
+        if self.dirty.is_empty() {
+            return None;
+        }
+        let place = self.dirty.remove(0);
+        self.tiles.get_mut(place)?.dirty.take()
+    }
+
+    /// Tiles in which knowledge may have changed.
+    pub(super) fn dirty_tiles(&self) -> usize {
+        self.dirty.len()
+    }
+
+    /// Everything counts as changed: for rasters that know nothing yet.
+    pub(super) fn soil(&mut self) {
+        for (key, place) in &self.tile_at {
+            if let Some(tile) = self.tiles.get_mut(*place) {
+                tile.dirty = Some(tile_box(*key));
+            }
+        }
+        self.dirty = self.tile_at.values().copied().collect();
+    }
+
     /// Every cell about which something was gathered, row after row within tiles, tiles in the order of their keys.
     pub(super) fn gathered(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
         self.tile_at.iter().flat_map(|(&(tile_x, tile_y), &place)| {
@@ -297,6 +321,21 @@ impl Layers {
         self.tiles.push(Tile::new());
         self.tile_at.insert(key, self.tiles.len() - 1);
         Some(self.tiles.len() - 1)
+    }
+}
+
+/// The cells of a tile.
+fn tile_box(key: TileKey) -> CellBox {
+    let low = Cell {
+        x: key.0 * TILE_CELLS,
+        y: key.1 * TILE_CELLS,
+    };
+    CellBox {
+        low,
+        high: Cell {
+            x: low.x + TILE_CELLS - 1,
+            y: low.y + TILE_CELLS - 1,
+        },
     }
 }
 

@@ -8,6 +8,8 @@ use home::{Beacons, Pose as TruePose};
 use rvac_api::{LogEntry, Pose, Request, RequestBody, Status};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
+use crate::HostCost;
+
 /// A core and the shell's duties towards it.
 #[derive(Debug)]
 pub struct Host {
@@ -18,6 +20,7 @@ pub struct Host {
     checkpoint: Option<Checkpoint>,
     /// Lines of its log, if somebody wants them.
     log: Option<Vec<LogEntry>>,
+    cost: HostCost,
     born_us: u64,
 }
 
@@ -33,6 +36,7 @@ impl Host {
             pending: Vec::new(),
             checkpoint: None,
             log: None,
+            cost: HostCost::default(),
             born_us: now_us,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -94,7 +98,9 @@ impl Host {
     }
 
     fn handle(&mut self, now_us: u64, input: Input<'_>) {
-        self.core.handle(now_us - self.born_us, input, &mut self.outputs);
+        let (core, outputs) = (&mut self.core, &mut self.outputs);
+        let age_us = now_us - self.born_us;
+        self.cost.measure(age_us, || core.handle(age_us, input, outputs));
         self.pending.append(&mut self.outputs.link);
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.checkpoint = Some(checkpoint);
@@ -103,6 +109,12 @@ impl Host {
             log.append(&mut self.outputs.log);
         }
         self.outputs.clear();
+    }
+
+    /// What its core has taken of a processor.
+    #[must_use]
+    pub const fn cost(&self) -> HostCost {
+        self.cost
     }
 
     /// From now on its log is kept.

@@ -208,6 +208,7 @@ impl Household {
             let belief = Belief {
                 pose: Pose::new(believed.x, believed.y, believed.heading),
                 state: host.state(),
+                lost: host.brain().is_some_and(|brain| brain.estimate().lost),
             };
             let truth_in_map = self.map_from_plan.then(truth.pose);
             self.figures.sample(truth, truth_in_map, &belief);

@@ -3,7 +3,7 @@
 use home::Truth;
 use serde::Serialize;
 
-use crate::{Figures, Robot};
+use crate::{Figures, HostCost, Robot};
 
 /// The figures of a run, as one JSON object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,6 +39,8 @@ pub struct Report {
     pub sim_seconds: f64,
     /// Time on the wall.
     pub wall_seconds: f64,
+    /// What the host took of a processor; `null` where nobody measured it.
+    pub host_cost: Option<HostCost>,
 }
 
 impl Report {
@@ -63,6 +65,7 @@ impl Report {
             figures: None,
             sim_seconds: robot.now_ms() as f64 / 1000.0,
             wall_seconds: 0.0,
+            host_cost: None,
         }
     }
 }
@@ -108,6 +111,13 @@ impl std::fmt::Display for Report {
                 spent.still_s,
                 spent.contact_s,
                 spent.again_s
+            )?;
+        }
+        if let Some(cost) = self.host_cost {
+            writeln!(
+                formatter,
+                "host          {:.1} s of a processor, longest step {:.0} us, {} steps over 2 ms",
+                cost.processor_s, cost.step_max_us, cost.long_steps
             )?;
         }
         writeln!(formatter, "violations    {}", self.monitor_violations)?;

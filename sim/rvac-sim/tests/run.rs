@@ -53,10 +53,13 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "pose_rmse_30_min_m",
         "pose_rmse_60_min_m",
         "pose_rmse_120_min_m",
+        "pose_rmse_aligned_m",
         "pose_error_max_m",
         "heading_rmse_deg",
         "lost_seconds",
         "lost_times",
+        "lost_unnoticed_s",
+        "lost_false_alarm_s",
         "map_iou",
         "wall_error_m",
         "estimate_error",
@@ -65,14 +68,21 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "state",
         "sim_seconds",
         "wall_seconds",
+        "host_cost",
     ];
     wanted.sort_unstable();
     assert_eq!(keys, wanted);
     assert_eq!(first["sim_seconds"], 120.0);
     assert!(first["path_m"].as_f64().unwrap() > 5.0, "it moves: {first}");
     assert!(first["covered"].as_f64().unwrap() > 0.05, "it sweeps: {first}");
-    first["wall_seconds"] = Value::Null;
-    second["wall_seconds"] = Value::Null;
+    assert!(
+        first["host_cost"]["processor_s"].as_f64().unwrap() > 0.0,
+        "it is measured: {first}"
+    );
+    for report in [&mut first, &mut second] {
+        report["wall_seconds"] = Value::Null;
+        report["host_cost"] = Value::Null;
+    }
     assert_eq!(first, second);
     assert_ne!(first["path_m"], report("8")["path_m"]);
 }

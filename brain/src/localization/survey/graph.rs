@@ -54,9 +54,6 @@ pub(super) struct Mark {
 
 /// Deviations within which a mark counts fully: Cauchy's constant, squared.
 const KERNEL: f64 = 5.0;
-/// Most rounds, and steps that end them, metres or radians.
-const ROUNDS: usize = 5;
-const STILL: f64 = 5e-4;
 /// Longest believed step of a round, metres or radians.
 const STEP_MAX: f64 = 0.5;
 
@@ -89,7 +86,8 @@ pub(super) struct Graph {
 }
 
 /// Places of the unknowns.
-struct Unknowns {
+#[derive(Clone, Debug)]
+pub(super) struct Unknowns {
     square: usize,
     /// For each wall the place of its offset; a direction of its own comes right after it.
     walls: Vec<usize>,
@@ -97,32 +95,7 @@ struct Unknowns {
 }
 
 impl Graph {
-    /// Moves everything to where it fits best; `false` when there is no best.
-    pub(super) fn optimize(&mut self) -> bool {
-        for _ in 0..ROUNDS {
-            match self.round() {
-                Some(longest) if longest < STILL => return true,
-                Some(_) => {}
-                None => return false,
-            }
-        }
-        true
-    }
-
-    /// One step of Gauss and Newton; gives the longest change.
-    fn round(&mut self) -> Option<f64> {
-        let unknowns = self.unknowns();
-        let mut system = self.system(&unknowns);
-        self.add_steps(&mut system);
-        for mark in &self.marks {
-            self.add_mark(mark, &unknowns, &mut system);
-        }
-        let change = system.solve()?;
-        self.apply(&unknowns, &change);
-        Some(change.iter().fold(0.0, |longest, step| step.abs().max(longest)))
-    }
-
-    fn unknowns(&self) -> Unknowns {
+    pub(super) fn unknowns(&self) -> Unknowns {
         let square = 3 * self.nodes.len();
         let mut count = square + usize::from(self.square_rad.is_some());
         let mut walls = Vec::with_capacity(self.walls.len());
@@ -134,7 +107,7 @@ impl Graph {
     }
 
     /// The empty system, with what keeps every unknown from flying off.
-    fn system(&self, unknowns: &Unknowns) -> System {
+    pub(super) fn system(&self, unknowns: &Unknowns) -> System {
         let mut first: Vec<usize> = (0..self.nodes.len())
             .flat_map(|node| [3 * node.saturating_sub(1); 3])
             .collect();
@@ -157,9 +130,9 @@ impl Graph {
         system
     }
 
-    fn add_steps(&self, system: &mut System) {
-        for (index, pair) in self.nodes.windows(2).enumerate() {
-            let [before, after] = pair else { continue };
+    /// Adds the step from a node to the next one.
+    pub(super) fn add_step(&self, index: usize, system: &mut System) {
+        if let (Some(before), Some(after)) = (self.nodes.get(index), self.nodes.get(index + 1)) {
             let (from, to) = (3 * index, 3 * index + 3);
             let made = before.pose.inverse() * after.pose;
             let (sin, cos) = libm::sincos(before.pose.heading_rad);
@@ -188,7 +161,7 @@ impl Graph {
         }
     }
 
-    fn add_mark(&self, mark: &Mark, unknowns: &Unknowns, system: &mut System) {
+    pub(super) fn add_mark(&self, mark: &Mark, unknowns: &Unknowns, system: &mut System) {
         let (Some(node), Some(wall), Some(place)) = (
             self.nodes.get(mark.node),
             self.walls.get(mark.wall),
@@ -226,7 +199,7 @@ impl Graph {
         system.add_residual(&slopes, off_m, weight / variance_m2);
     }
 
-    fn apply(&mut self, unknowns: &Unknowns, change: &[f64]) {
+    pub(super) fn apply(&mut self, unknowns: &Unknowns, change: &[f64]) {
         let step = |unknown: usize| {
             change
                 .get(unknown)
@@ -261,30 +234,33 @@ impl Graph {
         }
     }
 
-    /// Ends and number of marks of each wall anew, from the marks as they lie now.
-    pub(super) fn measure_walls(&mut self) {
+    /// Nothing is known of where the walls end any more.
+    pub(super) fn forget_ends(&mut self) {
         for wall in &mut self.walls {
             (wall.low_m, wall.high_m, wall.marks) = (f64::INFINITY, f64::NEG_INFINITY, 0);
             wall.first = usize::MAX;
         }
-        for mark in &self.marks {
-            let (Some(node), Some(wall)) = (self.nodes.get(mark.node), self.walls.get_mut(mark.wall)) else {
-                continue;
-            };
-            let (_, along_m) = wall.place_of(node.pose.transform(mark.stroke.middle));
-            wall.low_m = wall.low_m.min(along_m - mark.stroke.half_m);
-            wall.high_m = wall.high_m.max(along_m + mark.stroke.half_m);
-            wall.first = wall.first.min(mark.node);
-            wall.marks += 1;
-        }
+    }
+
+    /// The wall of a mark reaches as far as the mark.
+    pub(super) fn reach(&mut self, mark: &Mark) {
+        let (Some(node), Some(wall)) = (self.nodes.get(mark.node), self.walls.get_mut(mark.wall)) else {
+            return;
+        };
+        let (_, along_m) = wall.place_of(node.pose.transform(mark.stroke.middle));
+        wall.low_m = wall.low_m.min(along_m - mark.stroke.half_m);
+        wall.high_m = wall.high_m.max(along_m + mark.stroke.half_m);
+        wall.first = wall.first.min(mark.node);
+        wall.marks += 1;
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::{Graph, Mark, Node, Wall, direction};
     use crate::geometry::{Point2, Pose2, normalize_rad};
     use crate::localization::survey::kalman::StepVariance;
+    use crate::localization::survey::optimization::optimized;
     use crate::localization::survey::stroke::Stroke;
     use crate::random::Random;
     use core::f64::consts::FRAC_PI_2;
@@ -297,7 +273,7 @@ mod tests {
 
     /// Two laps along the inside of a room of 5 by 3 m that is turned by `turned_rad`, with a node every half metre and errors
     /// of the steps; the walls are seen as they are.
-    fn laps(turned_rad: f64, seed: u64) -> (Graph, Vec<Pose2>) {
+    pub(in crate::localization::survey) fn laps(turned_rad: f64, seed: u64) -> (Graph, Vec<Pose2>) {
         let mut random = Random::new(seed);
         let (mut truth, mut graph) = (Vec::new(), Graph::default());
         let begin = Pose2 {
@@ -366,7 +342,7 @@ mod tests {
         (graph, truth)
     }
 
-    fn rmse_m(graph: &Graph, truth: &[Pose2]) -> f64 {
+    pub(in crate::localization::survey) fn rmse_m(graph: &Graph, truth: &[Pose2]) -> f64 {
         let squares: f64 = graph
             .nodes
             .iter()
@@ -383,7 +359,7 @@ mod tests {
         for seed in 1..60 {
             let (mut graph, truth) = laps(0.1 * seed as f64 - 3.0, seed);
             sums_m[0] += rmse_m(&graph, &truth);
-            assert!(graph.optimize());
+            assert!(optimized(&mut graph));
             let after_m = rmse_m(&graph, &truth);
             assert!(after_m < 0.2, "{after_m} m with seed {seed}");
             sums_m[1] += after_m;
@@ -398,11 +374,11 @@ mod tests {
     fn a_wall_that_is_mistaken_for_another_does_not_bend_the_home() {
         for seed in 1..60 {
             let (mut graph, truth) = laps(0.0, seed);
-            assert!(graph.optimize());
+            assert!(optimized(&mut graph));
             let right_m = rmse_m(&graph, &truth);
             // From the middle of the second lap a cupboard is seen that stands 25 cm before the wall.
             graph.marks[37].stroke.middle.y_m = -0.05;
-            assert!(graph.optimize());
+            assert!(optimized(&mut graph));
             let off_m = graph.off_m(&graph.marks[37]);
             assert!(off_m > 0.2, "{off_m} m with seed {seed}");
             assert!(rmse_m(&graph, &truth) < right_m + 0.03, "seed {seed}");
@@ -421,7 +397,7 @@ mod tests {
                 for (quarter, wall) in graph.walls.iter_mut().enumerate() {
                     wall.quarter = square_rad.map(|_| (quarter as u8 + 1) % 4);
                 }
-                assert!(graph.optimize());
+                assert!(optimized(&mut graph));
                 *off += graph.nodes[31].pose.position().distance_m(truth[31].position());
             }
         }

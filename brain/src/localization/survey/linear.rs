@@ -1,6 +1,10 @@
 //! A symmetric positive system of equations whose rows begin late: a chain of poses and, below it, the things that many
 //! of them saw. Cholesky's factor of such a matrix begins no earlier in any row (skyline storage).
 
+use core::task::Poll;
+
+use super::work::Work;
+
 /// `matrix * x = right`, with the lower half of the matrix.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
@@ -59,26 +63,31 @@ impl System {
         self.values.get(*start..end).unwrap_or_default()
     }
 
-    /// The solution; `None` when the matrix is not positive.
-    pub(super) fn solve(mut self) -> Option<Vec<f64>> {
-        for row in 0..self.first.len() {
-            self.factor_row(row)?;
+    /// Begins to solve it.
+    pub(super) fn solve(self) -> Solving {
+        Solving {
+            stage: Stage::Factor { column: None },
+            row: 0,
+            system: self,
         }
-        self.substitute()
     }
 
-    fn factor_row(&mut self, row: usize) -> Option<()> {
+    /// Makes entries of a row of the factor from `column` on, `None` = from its first. Gives the column of the next one; none
+    /// is left when that is beyond the row.
+    fn factor_row(&mut self, row: usize, column: Option<usize>, work: &mut Work) -> Option<usize> {
         let first = *self.first.get(row)?;
         let start = *self.start.get(row)?;
-        for column in first..=row {
+        for column in column.unwrap_or(first)..=row {
+            if !work.is_left() {
+                return Some(column);
+            }
             let their_first = *self.first.get(column)?;
             let from = first.max(their_first);
             let length = column.saturating_sub(from);
             let own = self.values.get(start + from - first..)?.get(..length)?;
             let theirs = self.row(column).get(from - their_first..)?.get(..length)?;
-            let dot: f64 = own.iter().zip(theirs).map(|(one, other)| one * other).sum();
             let place = start + column - first;
-            let left = *self.values.get(place)? - dot;
+            let left = *self.values.get(place)? - dot(own, theirs);
             let value = if column == row {
                 // Written so that NaN is not positive.
                 let is_positive = left > 1e-12;
@@ -90,39 +99,134 @@ impl System {
                 left / self.row(column).last()?
             };
             *self.values.get_mut(place)? = value;
+            work.spend(length + ENTRY_WORK);
         }
+        Some(row + 1)
+    }
+
+    /// One row of the way from the first unknown to the last.
+    fn substitute_forward(&mut self, row: usize, work: &mut Work) -> Option<()> {
+        let first = *self.first.get(row)?;
+        let (diagonal, before) = self.row(row).split_last()?;
+        let known = self.right.get(first..)?.get(..before.len())?;
+        let value = (self.right.get(row)? - dot(before, known)) / diagonal;
+        work.spend(before.len() + ENTRY_WORK);
+        *self.right.get_mut(row)? = value;
         Some(())
     }
 
-    fn substitute(mut self) -> Option<Vec<f64>> {
-        let mut x = core::mem::take(&mut self.right);
-        for row in 0..x.len() {
-            let first = *self.first.get(row)?;
-            let (diagonal, before) = self.row(row).split_last()?;
-            let dot: f64 = before
-                .iter()
-                .zip(x.get(first..)?)
-                .map(|(factor, known)| factor * known)
-                .sum();
-            *x.get_mut(row)? = (x.get(row)? - dot) / diagonal;
+    /// One row of the way back.
+    fn substitute_back(&mut self, row: usize, work: &mut Work) -> Option<()> {
+        let first = *self.first.get(row)?;
+        let start = *self.start.get(row)?;
+        let (diagonal, before) = self.values.get(start..=start + row - first)?.split_last()?;
+        let value = self.right.get(row)? / diagonal;
+        *self.right.get_mut(row)? = value;
+        for (factor, left) in before.iter().zip(self.right.get_mut(first..)?) {
+            *left -= factor * value;
         }
-        for row in (0..x.len()).rev() {
-            let first = *self.first.get(row)?;
-            let (diagonal, before) = self.row(row).split_last()?;
-            let value = x.get(row)? / diagonal;
-            *x.get_mut(row)? = value;
-            for (factor, left) in before.iter().zip(x.get_mut(first..)?) {
-                *left -= factor * value;
+        work.spend(before.len() + ENTRY_WORK);
+        Some(())
+    }
+}
+
+/// What an entry takes besides the multiplications.
+const ENTRY_WORK: usize = 10;
+
+/// Sum of the products, in four sums side by side: processors wait for one.
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    let (ones, others) = (one.chunks_exact(4), other.chunks_exact(4));
+    let rest: f64 = ones
+        .remainder()
+        .iter()
+        .zip(others.remainder())
+        .map(|(one, other)| one * other)
+        .sum();
+    let mut sums = [0.0; 4];
+    for (one, other) in ones.zip(others) {
+        for ((sum, one), other) in sums.iter_mut().zip(one).zip(other) {
+            *sum += one * other;
+        }
+    }
+    rest + (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// A system that is being solved, piece by piece.
+#[derive(Clone, Debug)]
+pub(super) struct Solving {
+    system: System,
+    stage: Stage,
+    row: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    /// Cholesky's factor; `None` = a row begins.
+    Factor {
+        column: Option<usize>,
+    },
+    Forward,
+    Back,
+}
+
+impl Solving {
+    /// Goes on while work is left. Gives the solution, or `None` when the matrix is not positive.
+    pub(super) fn go_on(&mut self, work: &mut Work) -> Poll<Option<Vec<f64>>> {
+        while work.is_left() {
+            match self.piece(work) {
+                Some(true) => return Poll::Ready(Some(core::mem::take(&mut self.system.right))),
+                Some(false) => {}
+                None => return Poll::Ready(None),
             }
         }
-        Some(x)
+        Poll::Pending
+    }
+
+    /// Does a piece; `true` when it was the last one.
+    fn piece(&mut self, work: &mut Work) -> Option<bool> {
+        let count = self.system.first.len();
+        match self.stage {
+            Stage::Factor { .. } if self.row == count => (self.stage, self.row) = (Stage::Forward, 0),
+            Stage::Factor { column } => {
+                let next = self.system.factor_row(self.row, column, work)?;
+                if next > self.row {
+                    (self.stage, self.row) = (Stage::Factor { column: None }, self.row + 1);
+                } else {
+                    self.stage = Stage::Factor { column: Some(next) };
+                }
+            }
+            Stage::Forward if self.row == count => self.stage = Stage::Back,
+            Stage::Forward => {
+                self.system.substitute_forward(self.row, work)?;
+                self.row += 1;
+            }
+            Stage::Back if self.row == 0 => return Some(true),
+            Stage::Back => {
+                self.row -= 1;
+                self.system.substitute_back(self.row, work)?;
+            }
+        }
+        Some(false)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::System;
+    use super::{System, Work};
     use crate::random::Random;
+    use core::task::Poll;
+
+    /// The solution, made in steps of so much work, and how many steps that took.
+    fn solved(system: System, step: usize) -> (Option<Vec<f64>>, u32) {
+        let mut solving = system.solve();
+        let mut steps = 1;
+        loop {
+            match solving.go_on(&mut Work::of(step)) {
+                Poll::Ready(found) => return (found, steps),
+                Poll::Pending => steps += 1,
+            }
+        }
+    }
 
     #[test]
     fn the_solution_makes_all_residuals_least() {
@@ -146,7 +250,11 @@ mod tests {
         for (slopes, value) in &residuals {
             system.add_residual(slopes, *value, 3.0);
         }
-        let found = system.solve().unwrap();
+        let (in_steps, steps) = solved(system.clone(), 40);
+        assert!(steps > 30, "{steps} steps");
+        let (found, _) = solved(system, usize::MAX);
+        assert_eq!(in_steps, found, "steps change nothing");
+        let found = found.unwrap();
         for (found, truth) in found.iter().zip(&truth) {
             assert!((found - truth).abs() < 1e-9, "{found} instead of {truth}");
         }
@@ -156,9 +264,9 @@ mod tests {
     fn what_is_not_determined_has_no_solution() {
         let mut system = System::new(vec![0, 0]);
         system.add_residual(&[(0, 1.0), (1, 1.0)], 1.0, 1.0);
-        assert_eq!(system.solve(), None);
+        assert_eq!(solved(system, 1_000).0, None);
         let mut system = System::new(vec![0]);
         system.add_residual(&[(0, f64::NAN)], 1.0, 1.0);
-        assert_eq!(system.solve(), None);
+        assert_eq!(solved(system, 1_000).0, None);
     }
 }

@@ -2,23 +2,29 @@
 //!
 //! The infrared sensors see pieces of wall ([`stroke`]) on short ways along them ([`visit`]). A piece of wall that lies where
 //! one was seen before corrects the pose at once ([`kalman`]), and now and then all poses and walls are fitted anew
-//! ([`graph`]), with right angles where the home has them ([`square`]). The map is then drawn again with the better poses.
+//! ([`graph`], [`optimization`]), with right angles where the home has them ([`square`]), while the robot drives on ([`fit`]).
+//! The map is then drawn again with the better poses.
 
+mod fit;
 mod graph;
 mod kalman;
 mod linear;
+mod optimization;
 mod square;
 mod stroke;
+mod tidy;
 mod visit;
 mod walls;
+mod work;
 
+use fit::{Fit, Fitted};
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
 use visit::{Visit, VisitLog};
 
 use super::Advance;
 use crate::config::ProximityLayout;
-use crate::geometry::Pose2;
+use crate::geometry::{Pose2, normalize_rad};
 use crate::mapping::Keyframe;
 use crate::observation::Observation;
 
@@ -64,9 +70,12 @@ pub(super) struct Survey {
     here: usize,
     pending: Pending,
     marks_fitted: usize,
+    fit: Option<Box<Fit>>,
     drawn_us: u64,
     /// Poses of the nodes with which the map was drawn.
     drawn: Vec<Pose2>,
+    /// A pose has moved since by enough to draw the map again.
+    outdated: bool,
 }
 
 /// Deviations of what counts turns.
@@ -127,8 +136,10 @@ impl Survey {
             here: 0,
             pending: Pending::default(),
             marks_fitted: 0,
+            fit: None,
             drawn_us: 0,
             drawn: Vec::new(),
+            outdated: false,
         }
     }
 
@@ -145,25 +156,36 @@ impl Survey {
         observation: &Observation,
     ) -> Option<Fix> {
         self.pending.add(advance);
-        let visit = self.log.follow((odom, advance), observation, &self.layout)?;
-        if visit.strokes.is_empty() {
+        let visit = self.log.follow((odom, advance), observation, &self.layout);
+        let seen_rad = visit
+            .filter(|visit| !visit.strokes.is_empty())
+            .map(|visit| self.take(&visit, turns));
+        let fitted_rad = self.fit_on();
+        if seen_rad.is_none() && fitted_rad.is_none() {
             return None;
         }
-        self.step_to(&visit, turns);
+        let mut now = self.belief;
+        let step = self.odom.inverse() * odom;
+        now.step(step, self.pending.variance(step, turns));
+        let (sigma_m, sigma_rad) = now.sigmas();
+        Some(Fix {
+            map_from_odom: now.pose * odom.inverse(),
+            turned_rad: seen_rad.unwrap_or(0.0) + fitted_rad.unwrap_or(0.0),
+            sigma_m,
+            sigma_rad,
+        })
+    }
+
+    /// Takes in a visit, and gives by how much its walls turned the belief, radians.
+    fn take(&mut self, visit: &Visit, turns: TurnSigmas) -> f64 {
+        self.step_to(visit, turns);
         let before_rad = self.belief.pose.heading_rad;
         self.place_strokes(&visit.strokes);
         if let Some(node) = self.graph.nodes.get_mut(self.here) {
             node.pose = self.belief.pose;
             self.drawn.push(node.pose);
         }
-        self.fit();
-        let (sigma_m, sigma_rad) = self.belief.sigmas();
-        Some(Fix {
-            map_from_odom: self.belief.pose * self.odom.inverse(),
-            turned_rad: crate::geometry::normalize_rad(self.belief.pose.heading_rad - before_rad),
-            sigma_m,
-            sigma_rad,
-        })
+        normalize_rad(self.belief.pose.heading_rad - before_rad)
     }
 
     /// The belief moves to the visit's end, where there is a new node while there may be more.
@@ -184,43 +206,57 @@ impl Survey {
         }
     }
 
-    /// Fits all poses and walls anew when enough is new.
-    fn fit(&mut self) {
+    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. When the fit is taken up it gives by
+    /// how much that turned the belief, radians.
+    fn fit_on(&mut self) -> Option<f64> {
+        match self.fit.take() {
+            Some(fit) => match fit.go_on() {
+                Err(fit) => {
+                    self.fit = Some(fit);
+                    None
+                }
+                Ok(fitted) => fitted.map(|fitted| self.take_up(fitted)),
+            },
+            None => {
+                self.begin_fit();
+                None
+            }
+        }
+    }
+
+    fn begin_fit(&mut self) {
         let marks = self.graph.marks.len();
         let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
-        if marks < self.marks_fitted + due {
-            return;
+        if marks >= self.marks_fitted + due {
+            self.marks_fitted = marks;
+            self.fit = Fit::of(&self.graph);
         }
-        let before = self.graph.clone();
-        self.tidy();
-        square::square(&mut self.graph);
-        if self.graph.optimize() {
-            self.tidy();
-            if let Some(here) = self.graph.nodes.get(self.here) {
-                self.belief.pose = here.pose;
-            }
-        } else {
-            self.graph = before;
-        }
-        self.marks_fitted = self.graph.marks.len();
+    }
+
+    fn take_up(&mut self, fitted: Fitted) -> f64 {
+        let moved = fitted.moved;
+        self.graph = fitted.with_news_of(&self.graph);
+        self.belief.pose = moved * self.belief.pose;
+        self.marks_fitted = self.marks_fitted.min(self.graph.marks.len());
+        self.outdated = self
+            .graph
+            .nodes
+            .iter()
+            .zip(&self.drawn)
+            .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
+        moved.heading_rad
     }
 
     /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
     pub(super) fn redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
         let began_us = self.graph.nodes.first()?.time_us;
         let pause_us = REDRAW_US.max(self.drawn_us.saturating_sub(began_us) / REDRAW_SHARE);
-        if time_us < self.drawn_us.max(began_us).saturating_add(pause_us) {
-            return None;
-        }
-        let nodes = &self.graph.nodes;
-        let moved = nodes
-            .iter()
-            .zip(&self.drawn)
-            .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
-        if !moved {
+        if !self.outdated || time_us < self.drawn_us.max(began_us).saturating_add(pause_us) {
             return None;
         }
         self.drawn_us = time_us;
+        self.outdated = false;
+        let nodes = &self.graph.nodes;
         self.drawn = nodes.iter().map(|node| node.pose).collect();
         Some(
             nodes

@@ -20,14 +20,16 @@ const NEAR_RAD: f64 = 0.12;
 /// Looks at the strokes as they lie now, and lets the walls share directions or not.
 pub(super) fn square(graph: &mut Graph) {
     graph.square_rad = found(graph);
-    for index in 0..graph.walls.len() {
-        let square_rad = graph.square_rad;
-        if let Some(wall) = graph.walls.get_mut(index) {
-            wall.quarter = square_rad.and_then(|square_rad| quarter(square_rad, wall.normal_rad, 0.0));
-            if let (Some(quarter), Some(square_rad)) = (wall.quarter, square_rad) {
-                turn_to(wall, square_rad + f64::from(quarter) * FRAC_PI_2);
-            }
-        }
+    for wall in &mut graph.walls {
+        directed(wall, graph.square_rad);
+    }
+}
+
+/// The wall gets the direction of its quarter, if it is near to one of a home with right angles.
+pub(super) fn directed(wall: &mut Wall, square_rad: Option<f64>) {
+    wall.quarter = square_rad.and_then(|square_rad| quarter(square_rad, wall.normal_rad, 0.0));
+    if let (Some(quarter), Some(square_rad)) = (wall.quarter, square_rad) {
+        turn_to(wall, square_rad + f64::from(quarter) * FRAC_PI_2);
     }
 }
 

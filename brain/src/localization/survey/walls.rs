@@ -18,11 +18,6 @@ const WALL_SIGMA_M: f64 = 0.03;
 const BEYOND_M: f64 = 0.6;
 /// Another wall that fits nearly as well, metres, makes it open on which one the stroke lies.
 const RIVAL_M: f64 = 0.12;
-/// Walls nearer to each other than this are one, metres, if the gap between their ends is no longer than that.
-const MERGE_M: f64 = 0.05;
-const MERGE_GAP_M: f64 = 0.5;
-/// A mark this far off its wall was never on it, metres.
-const TORN_OFF_M: f64 = 0.12;
 
 impl Survey {
     /// Lets the strokes of the newest node correct the belief, and remembers on which walls they lie.
@@ -150,55 +145,6 @@ impl Survey {
         let gate_m = (GATE * libm::sqrt(variance_m2)).min(GATE_MAX_M);
         (off_m.abs() <= gate_m && beyond_m <= BEYOND_M).then(|| off_m.abs())
     }
-
-    /// Tears off what does not fit, joins walls that are one, and drops those that nothing lies on.
-    pub(super) fn tidy(&mut self) {
-        self.graph.measure_walls();
-        let graph = &self.graph;
-        let fits: Vec<bool> = graph
-            .marks
-            .iter()
-            .map(|mark| graph.off_m(mark).abs() <= TORN_OFF_M)
-            .collect();
-        let mut fits = fits.into_iter();
-        self.graph.marks.retain(|_| fits.next().unwrap_or(true));
-        let joined = self.joined();
-        for mark in &mut self.graph.marks {
-            mark.wall = joined.get(mark.wall).copied().unwrap_or(mark.wall);
-        }
-        self.graph.measure_walls();
-        self.drop_bare();
-    }
-
-    /// For each wall the one that it is a part of.
-    fn joined(&self) -> Vec<usize> {
-        let walls = &self.graph.walls;
-        let mut joined: Vec<usize> = (0..walls.len()).collect();
-        for (index, wall) in walls.iter().enumerate() {
-            let other = walls
-                .iter()
-                .take(index)
-                .enumerate()
-                .find(|(other, longer)| joined.get(*other) == Some(other) && are_one(longer, wall));
-            if let (Some((other, _)), Some(place)) = (other, joined.get_mut(index)) {
-                *place = other;
-            }
-        }
-        joined
-    }
-
-    fn drop_bare(&mut self) {
-        let mut places = Vec::with_capacity(self.graph.walls.len());
-        let mut kept = 0;
-        for wall in &self.graph.walls {
-            places.push(kept);
-            kept += usize::from(wall.marks > 0);
-        }
-        for mark in &mut self.graph.marks {
-            mark.wall = places.get(mark.wall).copied().unwrap_or(mark.wall);
-        }
-        self.graph.walls.retain(|wall| wall.marks > 0);
-    }
 }
 
 /// What is known of the wall of a stroke.
@@ -207,24 +153,4 @@ enum Known {
     /// It may be one of several.
     Open,
     New,
-}
-
-fn are_one(one: &Wall, other: &Wall) -> bool {
-    let turned_rad = normalize_rad(one.normal_rad - other.normal_rad);
-    if turned_rad.abs() > 0.5 * GATE_RAD || one.quarter != other.quarter {
-        return false;
-    }
-    let end = |along_m: f64| {
-        let tangent = direction(other.normal_rad + core::f64::consts::FRAC_PI_2);
-        let normal = direction(other.normal_rad);
-        one.place_of(crate::geometry::Point2 {
-            x_m: other.anchor.x_m + normal.x_m * other.offset_m + tangent.x_m * along_m,
-            y_m: other.anchor.y_m + normal.y_m * other.offset_m + tangent.y_m * along_m,
-        })
-    };
-    let ends = [end(other.low_m), end(other.high_m)];
-    let is_near = ends.iter().all(|(off_m, _)| off_m.abs() <= MERGE_M);
-    let low_m = ends[0].1.min(ends[1].1);
-    let high_m = ends[0].1.max(ends[1].1);
-    is_near && (low_m - one.high_m).max(one.low_m - high_m) <= MERGE_GAP_M
 }

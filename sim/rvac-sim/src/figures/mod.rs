@@ -4,6 +4,8 @@
 //! until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the pose are
 //! of the whole run, since the robot must know its way home too.
 
+mod alignment;
+mod honesty;
 mod lost;
 mod pose_error;
 mod time_spent;
@@ -12,6 +14,8 @@ use brain::BehaviorState;
 use home::{Pose, Truth};
 use serde::Serialize;
 
+use alignment::Alignment;
+use honesty::HonestyWatch;
 use lost::LostWatch;
 use pose_error::PoseError;
 pub use time_spent::TimeSpent;
@@ -57,6 +61,8 @@ pub struct Figures {
     pub pose_rmse_60_min_m: Option<f64>,
     /// The same at 120 minutes.
     pub pose_rmse_120_min_m: Option<f64>,
+    /// Root mean square of the distance that is left when the believed way is laid over the true one as a whole.
+    pub pose_rmse_aligned_m: Option<f64>,
     /// Largest distance between believed and true place.
     pub pose_error_max_m: f64,
     /// Root mean square of the error of the heading, degrees.
@@ -65,6 +71,10 @@ pub struct Figures {
     pub lost_seconds: f64,
     /// How often that happened.
     pub lost_times: u32,
+    /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
+    pub lost_unnoticed_s: f64,
+    /// Seconds in which the robot said that it is lost, and its place was right within half a metre.
+    pub lost_false_alarm_s: f64,
     /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
     /// the reachable floor, and what it wrongly takes for free. `null` = it has no map.
     pub map_iou: Option<f64>,
@@ -83,6 +93,7 @@ pub struct Figures {
 pub(crate) struct Belief {
     pub(crate) pose: Pose,
     pub(crate) state: Option<BehaviorState>,
+    pub(crate) lost: bool,
 }
 
 /// What the figures are of.
@@ -109,6 +120,8 @@ pub(crate) struct Collector {
     contacts: u32,
     pose_error: PoseError,
     lost: LostWatch,
+    honesty: HonestyWatch,
+    alignment: Alignment,
     time: TimeWatch,
     last: Option<BehaviorState>,
     docked: bool,
@@ -155,6 +168,8 @@ impl Collector {
             contacts: 0,
             pose_error: PoseError::default(),
             lost: LostWatch::default(),
+            honesty: HonestyWatch::default(),
+            alignment: Alignment::default(),
             time: TimeWatch::new(&floor),
             last: None,
             docked: false,
@@ -187,7 +202,9 @@ impl Collector {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
+        self.alignment.sample(belief.pose, truth_in_map);
         self.lost.sample(now_ms, error_m);
+        self.honesty.sample(now_ms, error_m, belief.lost);
     }
 
     fn job_s(&self, now_ms: u64) -> f64 {
@@ -235,10 +252,13 @@ impl Collector {
             pose_rmse_30_min_m: at_30,
             pose_rmse_60_min_m: at_60,
             pose_rmse_120_min_m: at_120,
+            pose_rmse_aligned_m: self.alignment.rmse_m(),
             pose_error_max_m: self.pose_error.max_m(),
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
             lost_seconds: self.lost.seconds(),
             lost_times: self.lost.times(),
+            lost_unnoticed_s: self.honesty.unnoticed_s(),
+            lost_false_alarm_s: self.honesty.false_alarm_s(),
             map_iou: None,
             wall_error_m: None,
             estimate_error: None,
@@ -285,6 +305,7 @@ mod tests {
         Belief {
             pose: Pose::default(),
             state: Some(state),
+            lost: false,
         }
     }
 

@@ -6,7 +6,7 @@ use brain::command::StrategyName;
 use home::Home;
 use robot::RobotSettings;
 use rvac_sim::run::{RunEnd, start_cleaning};
-use rvac_sim::{Figures, Host, Household, PoseSource, Scene};
+use rvac_sim::{Figures, Host, HostCost, Household, PoseSource, Scene};
 use serde::Serialize;
 use vthal_core::CoreConfig;
 
@@ -77,6 +77,7 @@ pub(crate) struct Run {
     pub(crate) violations: u32,
     pub(crate) sim_seconds: f64,
     pub(crate) wall_seconds: f64,
+    pub(crate) host_cost: HostCost,
     #[serde(flatten)]
     pub(crate) figures: Figures,
 }
@@ -120,6 +121,7 @@ impl Run {
             violations: report.monitor_violations,
             sim_seconds: report.sim_seconds,
             wall_seconds: started.elapsed().as_secs_f64(),
+            host_cost: household.host().map(Host::cost).unwrap_or_default(),
             figures: report.figures.map_or_else(Figures::default, |figures| *figures),
         }
     }

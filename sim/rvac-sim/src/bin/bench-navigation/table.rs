@@ -30,7 +30,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 21] = [
+const FIGURES: [Figure; 25] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -46,6 +46,8 @@ const FIGURES: [Figure; 21] = [
     less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),
     less("heading_rmse_deg", |run| run.figures.heading_rmse_deg),
     less("lost_seconds", |run| Some(run.figures.lost_seconds)),
+    less("lost_unnoticed_s", |run| Some(run.figures.lost_unnoticed_s)),
+    less("lost_false_alarm_s", |run| Some(run.figures.lost_false_alarm_s)),
     more("docked", |run| Some(f64::from(u8::from(run.figures.docked)))),
     less("stuck", |run| Some(f64::from(run.stuck))),
     less("foot_contacts", |run| Some(f64::from(run.foot_contacts))),
@@ -53,6 +55,10 @@ const FIGURES: [Figure; 21] = [
         Some(f64::from(run.foot_pushed_max_ms))
     }),
     less("violations", |run| Some(f64::from(run.violations))),
+    less("host_step_max_us", |run| Some(run.host_cost.step_max_us)),
+    less("host_s_per_hour", |run| {
+        Some(run.host_cost.processor_s * 3600.0 / run.sim_seconds)
+    }),
     more("times_real_time", |run| Some(run.sim_seconds / run.wall_seconds)),
 ];
 

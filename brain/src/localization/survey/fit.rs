@@ -1,0 +1,202 @@
+//! All poses and walls fitted anew, while the robot drives on.
+//!
+//! The fit works on a copy of the graph, in many steps of little work each: a home has some thousand unknowns, and a small
+//! board would think about them for seconds. When it is done the graph takes it up, and what came to the graph meanwhile
+//! is moved along with the last pose that the fit knew.
+
+use core::task::Poll;
+
+use super::graph::{Graph, Mark};
+use super::optimization::Optimization;
+use super::square::{directed, square};
+use super::tidy::tidy;
+use super::work::Work;
+use crate::geometry::{Pose2, normalize_rad};
+
+/// Work of a step: a quarter of a millisecond of a desktop's core.
+const STEP_WORK: usize = 300_000;
+
+/// A fit that is under way.
+#[derive(Clone, Debug)]
+pub(super) struct Fit {
+    graph: Graph,
+    stage: Stage,
+    /// For each wall at the beginning the one that it became.
+    became: Vec<Option<usize>>,
+    /// How many marks there were at the beginning.
+    marks: usize,
+    /// The last pose at the beginning.
+    last: Pose2,
+}
+
+/// What comes next. Each but the optimization is one pass over the marks, and a step of its own.
+#[derive(Clone, Debug)]
+enum Stage {
+    Tidy,
+    Square,
+    Optimize(Box<Optimization>),
+    TidyAgain,
+}
+
+impl Fit {
+    /// Of the graph as it is now; `None` while it has no nodes.
+    pub(super) fn of(graph: &Graph) -> Option<Box<Self>> {
+        Some(Box::new(Self {
+            stage: Stage::Tidy,
+            became: (0..graph.walls.len()).map(Some).collect(),
+            marks: graph.marks.len(),
+            last: graph.nodes.last()?.pose,
+            graph: graph.clone(),
+        }))
+    }
+
+    /// Does a step. When it was the last one it gives the fit if there is one.
+    pub(super) fn go_on(mut self: Box<Self>) -> Result<Option<Fitted>, Box<Self>> {
+        match &mut self.stage {
+            Stage::Tidy => {
+                self.tidy();
+                self.stage = Stage::Square;
+            }
+            Stage::Square => {
+                square(&mut self.graph);
+                self.stage = Stage::Optimize(Box::default());
+            }
+            Stage::Optimize(optimization) => {
+                match optimization.go_on(&mut self.graph, &mut Work::of(STEP_WORK)) {
+                    Poll::Pending => {}
+                    Poll::Ready(true) => self.stage = Stage::TidyAgain,
+                    Poll::Ready(false) => return Ok(None),
+                }
+            }
+            Stage::TidyAgain => {
+                self.tidy();
+                return Ok(Some(self.fitted()));
+            }
+        }
+        Err(self)
+    }
+
+    fn tidy(&mut self) {
+        let places = tidy(&mut self.graph);
+        for wall in &mut self.became {
+            *wall = wall.and_then(|wall| places.get(wall).copied().flatten());
+        }
+    }
+
+    fn fitted(self) -> Fitted {
+        let last = self.graph.nodes.last().map_or(self.last, |node| node.pose);
+        Fitted {
+            moved: last * self.last.inverse(),
+            graph: self.graph,
+            became: self.became,
+            marks: self.marks,
+        }
+    }
+}
+
+/// A fit that is done.
+#[derive(Clone, Debug)]
+pub(super) struct Fitted {
+    graph: Graph,
+    /// How what came since is moved, in the map.
+    pub(super) moved: Pose2,
+    became: Vec<Option<usize>>,
+    marks: usize,
+}
+
+impl Fitted {
+    /// The fitted graph with what has come to `since` after the fit began.
+    pub(super) fn with_news_of(mut self, since: &Graph) -> Graph {
+        let known = self.graph.nodes.len();
+        for node in since.nodes.iter().skip(known) {
+            let mut node = *node;
+            node.pose = self.moved * node.pose;
+            self.graph.nodes.push(node);
+        }
+        for wall in since.walls.iter().skip(self.became.len()) {
+            let mut wall = *wall;
+            wall.anchor = self.moved.transform(wall.anchor);
+            wall.normal_rad = normalize_rad(wall.normal_rad + self.moved.heading_rad);
+            directed(&mut wall, self.graph.square_rad);
+            wall.marks = 0;
+            self.became.push(Some(self.graph.walls.len()));
+            self.graph.walls.push(wall);
+        }
+        for mark in since.marks.iter().skip(self.marks) {
+            if let Some(wall) = self.became.get(mark.wall).copied().flatten() {
+                let mark = Mark { wall, ..*mark };
+                self.graph.reach(&mark);
+                self.graph.marks.push(mark);
+            }
+        }
+        self.graph
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fit, Fitted};
+    use crate::localization::survey::graph::tests::{laps, rmse_m};
+    use crate::localization::survey::graph::{Graph, Wall};
+
+    /// The fit of a graph, and how many steps it took.
+    fn fitted(graph: &Graph) -> (Fitted, u32) {
+        let mut fit = Fit::of(graph).unwrap();
+        let mut steps = 1;
+        loop {
+            match fit.go_on() {
+                Ok(fitted) => return (fitted.unwrap(), steps),
+                Err(more) => (fit, steps) = (more, steps + 1),
+            }
+        }
+    }
+
+    #[test]
+    fn a_fit_takes_several_steps_and_what_came_meanwhile_moves_along() {
+        for seed in 1..20 {
+            let (since, truth) = laps(0.2, seed);
+            let mut began = since.clone();
+            began.nodes.truncate(50);
+            began.marks.truncate(50);
+            let (fitted, steps) = fitted(&began);
+            assert!(steps >= 4, "{steps} steps");
+            let graph = fitted.with_news_of(&since);
+            assert_eq!(graph.nodes.len(), since.nodes.len());
+            for (before, after) in graph.nodes.windows(2).zip(since.nodes.windows(2)).skip(49) {
+                let (made, was) = (
+                    before[0].pose.inverse() * before[1].pose,
+                    after[0].pose.inverse() * after[1].pose,
+                );
+                assert!(made.position().distance_m(was.position()) < 1e-9, "seed {seed}");
+            }
+            let (before_m, after_m) = (rmse_m(&since, &truth), rmse_m(&graph, &truth));
+            assert!(
+                after_m < before_m.max(0.1),
+                "{before_m} and {after_m} m, seed {seed}"
+            );
+        }
+    }
+
+    #[test]
+    fn marks_that_came_meanwhile_follow_their_walls_and_new_walls_come_after_the_old_ones() {
+        let (mut began, _) = laps(0.0, 3);
+        // Nothing lies on the first wall, so that the others move up.
+        began.marks.retain(|mark| mark.wall != 0);
+        let mut since = began.clone();
+        let wall = Wall {
+            first: since.nodes.len() - 1,
+            ..since.walls[2]
+        };
+        since.walls.push(wall);
+        for wall in [0, 2, 4] {
+            let mark = began.marks[5];
+            since.marks.push(super::Mark { wall, ..mark });
+        }
+        let graph = fitted(&began).0.with_news_of(&since);
+        assert_eq!(graph.walls.len(), 4);
+        let news: Vec<usize> = graph.marks.iter().rev().take(2).map(|mark| mark.wall).collect();
+        assert_eq!(news, [3, 1], "the mark on the wall that is gone is gone");
+        let count: u32 = graph.walls.iter().map(|wall| wall.marks).sum();
+        assert_eq!(count as usize, graph.marks.len());
+    }
+}

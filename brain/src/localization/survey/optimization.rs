@@ -1,0 +1,117 @@
+//! All poses and walls moved to where they fit best, by Gauss and Newton, piece by piece.
+
+use core::task::Poll;
+
+use super::graph::{Graph, Unknowns};
+use super::linear::{Solving, System};
+use super::work::Work;
+
+/// Most rounds, and steps that end them, metres or radians.
+const ROUNDS: usize = 5;
+const STILL: f64 = 5e-4;
+/// Work of a step between two nodes, of a mark, and of moving a node.
+const STEP_WORK: usize = 250;
+const MARK_WORK: usize = 250;
+const MOVE_WORK: usize = 15;
+
+/// The rounds.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Optimization {
+    rounds: usize,
+    round: Round,
+}
+
+/// What a round is about to do.
+#[derive(Clone, Debug, Default)]
+enum Round {
+    #[default]
+    Begin,
+    /// Steps, then marks, go into the system.
+    Gather {
+        unknowns: Unknowns,
+        system: System,
+        next: usize,
+    },
+    Solve {
+        unknowns: Unknowns,
+        solving: Solving,
+    },
+}
+
+impl Optimization {
+    /// Goes on while work is left, with the same graph each time. Gives whether there is a best place for all.
+    pub(super) fn go_on(&mut self, graph: &mut Graph, work: &mut Work) -> Poll<bool> {
+        while work.is_left() {
+            match core::mem::take(&mut self.round) {
+                Round::Begin => {
+                    let unknowns = graph.unknowns();
+                    self.round = Round::Gather {
+                        system: graph.system(&unknowns),
+                        unknowns,
+                        next: 0,
+                    };
+                    work.spend(MOVE_WORK * graph.nodes.len());
+                }
+                Round::Gather {
+                    unknowns,
+                    system,
+                    next,
+                } => self.round = gather(unknowns, (system, next), graph, work),
+                Round::Solve {
+                    unknowns,
+                    mut solving,
+                } => match solving.go_on(work) {
+                    Poll::Pending => self.round = Round::Solve { unknowns, solving },
+                    Poll::Ready(None) => return Poll::Ready(false),
+                    Poll::Ready(Some(change)) => {
+                        graph.apply(&unknowns, &change);
+                        work.spend(MOVE_WORK * graph.nodes.len());
+                        self.rounds += 1;
+                        let is_still = change.iter().all(|step| step.abs() < STILL);
+                        if is_still || self.rounds == ROUNDS {
+                            return Poll::Ready(true);
+                        }
+                    }
+                },
+            }
+        }
+        Poll::Pending
+    }
+}
+
+/// Puts steps and marks from `next` on into the system while work is left.
+fn gather(
+    unknowns: Unknowns,
+    (mut system, mut next): (System, usize),
+    graph: &Graph,
+    work: &mut Work,
+) -> Round {
+    let steps = graph.nodes.len().saturating_sub(1);
+    while work.is_left() {
+        if next < steps {
+            graph.add_step(next, &mut system);
+            work.spend(STEP_WORK);
+        } else if let Some(mark) = graph.marks.get(next - steps) {
+            graph.add_mark(mark, &unknowns, &mut system);
+            work.spend(MARK_WORK);
+        } else {
+            return Round::Solve {
+                unknowns,
+                solving: system.solve(),
+            };
+        }
+        next += 1;
+    }
+    Round::Gather {
+        unknowns,
+        system,
+        next,
+    }
+}
+
+/// Does all of it at once.
+#[cfg(test)]
+pub(super) fn optimized(graph: &mut Graph) -> bool {
+    let mut work = Work::of(usize::MAX);
+    Optimization::default().go_on(graph, &mut work) == Poll::Ready(true)
+}
