@@ -1,13 +1,16 @@
 //! Where on the map could the last metres have been? A trail is laid over every place in every direction; the best ones
 //! are moved about until they fit best.
 //!
-//! A coarse grid of poses is tried with wide tolerances, and most of them are given up after a few points. That costs
-//! some tens of milliseconds for a home, and nothing has to be drawn by chance.
+//! A coarse grid of poses is tried with wide tolerances, and most of them are given up after a few points. That costs some
+//! hundred milliseconds for a home, in many steps, and nothing has to be drawn by chance.
 
+use super::Advance;
 use super::particles::Surroundings;
 use super::trail::{Trace, Trail};
 use crate::geometry::{Point2, Pose2, normalize_rad};
 
+/// Poses that are tried in one step: a millisecond of a desktop's core.
+const PLACES_A_STEP: usize = 300;
 /// Directions that are tried.
 const DIRECTIONS: u32 = 72;
 /// Points of each kind.
@@ -69,19 +72,143 @@ pub(super) struct Candidate {
     pub(super) score: f64,
 }
 
-/// All places where the trail fits, the best one first. Empty when the trail tells too little.
-pub(super) fn search(map: &impl Surroundings, trail: &Trail, radius_m: f64) -> Vec<Candidate> {
-    let coarse = probes(trail, COARSE);
-    let fine = probes(trail, FINE);
-    let solid = coarse.iter().filter(|probe| probe.trace == Trace::Solid).count();
-    if solid < SOLID_MIN {
-        return Vec::new();
+/// A search that is under way. The robot drives on meanwhile.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    coarse: Vec<Probe>,
+    fine: Vec<Probe>,
+    /// Solid points of the trail.
+    solid: usize,
+    radius_m: f64,
+    places: Vec<Point2>,
+    stage: Stage,
+    /// Least score of a coarse candidate, in solid points.
+    least: f64,
+    found: Vec<Candidate>,
+    /// From where the robot was when the search began to where it is.
+    moved: Pose2,
+}
+
+/// What is done next.
+#[derive(Clone, Debug)]
+enum Stage {
+    /// The trail in this direction at the places from this one on.
+    Coarse {
+        direction: u32,
+        turned: Vec<Probe>,
+        place: usize,
+    },
+    /// The candidates from this one on are moved about.
+    Refine {
+        next: usize,
+    },
+    Done,
+}
+
+impl Search {
+    /// For a robot of this radius; `None` when the trail tells too little.
+    pub(super) fn of(map: &impl Surroundings, trail: &Trail, radius_m: f64) -> Option<Self> {
+        let coarse = probes(trail, COARSE);
+        let solid = coarse.iter().filter(|probe| probe.trace == Trace::Solid).count();
+        (solid >= SOLID_MIN).then(|| Self {
+            fine: probes(trail, FINE),
+            solid,
+            radius_m,
+            places: map.places(),
+            stage: coarse_stage(&coarse, 0),
+            coarse,
+            least: COARSE_SHARE * solid as f64,
+            found: Vec::new(),
+            moved: Pose2::IDENTITY,
+        })
     }
-    let mut found = coarse_candidates(map, &coarse, (radius_m, solid));
-    for candidate in &mut found {
-        *candidate = refined(map, &fine, (radius_m, solid), candidate.pose);
+
+    /// The robot has moved on.
+    pub(super) fn follow(&mut self, advance: Advance) {
+        self.moved = self.moved.after_arc(advance.distance_m, advance.turn_rad);
     }
-    distinct(found)
+
+    /// Does a step.
+    pub(super) fn go_on(&mut self, map: &impl Surroundings) {
+        match core::mem::replace(&mut self.stage, Stage::Done) {
+            Stage::Coarse {
+                direction,
+                turned,
+                place,
+            } => self.stage = self.try_places(map, direction, (turned, place)),
+            Stage::Refine { next } => {
+                if let Some(candidate) = self.found.get_mut(next) {
+                    let trail = (self.radius_m, self.solid);
+                    *candidate = refined(map, &self.fine, trail, candidate.pose);
+                    self.stage = Stage::Refine { next: next + 1 };
+                } else {
+                    self.found = distinct(core::mem::take(&mut self.found));
+                }
+            }
+            Stage::Done => {}
+        }
+    }
+
+    /// All places where the robot may be now, the best one first; `None` while the search goes on.
+    pub(super) fn places(&self) -> Option<Vec<Candidate>> {
+        let moved = |candidate: &Candidate| Candidate {
+            pose: candidate.pose * self.moved,
+            ..*candidate
+        };
+        matches!(self.stage, Stage::Done).then(|| self.found.iter().map(moved).collect())
+    }
+
+    /// Tries the trail at some more places, and says what comes next.
+    fn try_places(
+        &mut self,
+        map: &impl Surroundings,
+        direction: u32,
+        (turned, place): (Vec<Probe>, usize),
+    ) -> Stage {
+        let solid = self.solid as f64;
+        let tried = self.places.iter().skip(place).take(PLACES_A_STEP);
+        for place in tried {
+            let trail = (self.radius_m, self.solid, self.least);
+            let Some(score) = score(map, &turned, *place, trail) else {
+                continue;
+            };
+            self.least = self.least.max(COARSE_OF_BEST * score * solid);
+            self.found.push(Candidate {
+                pose: Pose2 {
+                    x_m: place.x_m,
+                    y_m: place.y_m,
+                    heading_rad: direction_rad(direction),
+                },
+                score,
+            });
+        }
+        let place = place + PLACES_A_STEP;
+        if place < self.places.len() {
+            return Stage::Coarse {
+                direction,
+                turned,
+                place,
+            };
+        }
+        if direction + 1 < DIRECTIONS {
+            return coarse_stage(&self.coarse, direction + 1);
+        }
+        best_first(&mut self.found);
+        self.found = thinned(core::mem::take(&mut self.found));
+        Stage::Refine { next: 0 }
+    }
+}
+
+fn coarse_stage(coarse: &[Probe], direction: u32) -> Stage {
+    Stage::Coarse {
+        direction,
+        turned: turned(coarse, direction_rad(direction)),
+        place: 0,
+    }
+}
+
+fn direction_rad(direction: u32) -> f64 {
+    normalize_rad(core::f64::consts::TAU * f64::from(direction) / f64::from(DIRECTIONS))
 }
 
 fn probes(trail: &Trail, tolerance: Tolerance) -> Vec<Probe> {
@@ -119,37 +246,6 @@ fn greatest_divisor(mut one: usize, mut other: usize) -> usize {
         (one, other) = (other, one % other);
     }
     one
-}
-
-fn coarse_candidates(
-    map: &impl Surroundings,
-    probes: &[Probe],
-    (radius_m, solid): (f64, usize),
-) -> Vec<Candidate> {
-    let places = map.places();
-    let mut least = COARSE_SHARE * solid as f64;
-    let mut found: Vec<Candidate> = Vec::new();
-    for direction in 0..DIRECTIONS {
-        let heading_rad =
-            normalize_rad(core::f64::consts::TAU * f64::from(direction) / f64::from(DIRECTIONS));
-        let turned = turned(probes, heading_rad);
-        for place in &places {
-            let Some(score) = score(map, &turned, *place, (radius_m, solid, least)) else {
-                continue;
-            };
-            least = least.max(COARSE_OF_BEST * score * solid as f64);
-            found.push(Candidate {
-                pose: Pose2 {
-                    x_m: place.x_m,
-                    y_m: place.y_m,
-                    heading_rad,
-                },
-                score,
-            });
-        }
-    }
-    best_first(&mut found);
-    thinned(found)
 }
 
 /// The best ones, not more than a few of each place.

@@ -7,7 +7,7 @@ use super::beacons::Heard;
 use super::confidence::{Confidence, Verdict};
 use super::estimate::turn_variance;
 use super::particles::{Motion, ParticleFilter, Spread, Surroundings};
-use super::search::{Candidate, search};
+use super::search::{Candidate, Search};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
 use crate::config::SensorLayout;
@@ -80,6 +80,8 @@ pub(super) struct Tracker {
     trail: Trail,
     /// Way until the next search of a lost robot, metres.
     search_in_m: f64,
+    /// The search that is under way.
+    searching: Option<Box<Search>>,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -100,6 +102,7 @@ impl Tracker {
             heard: Vec::new(),
             trail: Trail::default(),
             search_in_m: 0.0,
+            searching: None,
             radius_m,
             layout,
         }
@@ -110,6 +113,7 @@ impl Tracker {
         self.filter.gather(pose, Spread { sigma_m, sigma_rad });
         self.forget_motion();
         self.confidence = Confidence::default();
+        self.searching = None;
         self.lost = false;
     }
 
@@ -119,6 +123,7 @@ impl Tracker {
         self.forget_motion();
         self.confidence = Confidence::none();
         self.search_in_m = (SEARCH_FROM_M - self.trail.length_m()).max(0.0);
+        self.searching = None;
         self.lost = true;
     }
 
@@ -152,6 +157,10 @@ impl Tracker {
     ) -> Option<PoseEstimate> {
         let Moved { advance, pose, .. } = moved;
         self.collect(advance);
+        if let Some(search) = &mut self.searching {
+            search.follow(advance);
+            search.go_on(map);
+        }
         let felt = self.felt(observation);
         if self.was_lifted(observation, advance) {
             self.trail.forget();
@@ -204,9 +213,12 @@ impl Tracker {
         let (estimate, share) = self.filter.cluster();
         self.confidence.take(self.filter.fit(map, estimate.pose));
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
-        if self.search_in_m <= 0.0 {
+        if self.searching.is_none() && self.search_in_m <= 0.0 {
             self.search_in_m = SEARCH_EVERY_M;
-            let places = search(map, &self.trail, self.radius_m);
+            self.searching = Search::of(map, &self.trail, self.radius_m).map(Box::new);
+        }
+        if let Some(places) = self.searching.as_ref().and_then(|search| search.places()) {
+            self.searching = None;
             if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;

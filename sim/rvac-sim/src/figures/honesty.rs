@@ -43,8 +43,8 @@ mod tests {
         for second in 1..=100_u64 {
             let (error_m, says_lost) = match second {
                 ..=10 => (0.1, false),
-                ..=30 => (0.8, false),
-                ..=95 => (0.8, true),
+                11..=30 => (0.8, false),
+                31..=95 => (0.8, true),
                 _ => (0.2, true),
             };
             watch.sample(second * 1000, error_m, says_lost);
