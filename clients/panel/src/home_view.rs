@@ -1,11 +1,12 @@
-//! What the robot knows of the home, in words: how sure it is, the rooms, and the kept versions of the map.
+//! What the robot knows of the home, in words: how sure it is, the rooms, what is forbidden, and the kept versions of the map.
 
 use std::time::Duration;
 
 use leptos::prelude::*;
-use panel_logic::{RoomRow, area_text, estimate_sentences};
+use panel_logic::{area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
+use crate::rooms_view::{NoGoList, RoomList};
 use crate::store::Store;
 
 /// The list of kept maps is asked for so often while it is looked at.
@@ -28,15 +29,8 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <ul class="sentences">
                 {move || sentences().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
             </ul>
-            <h3 id="rooms-title">"Rooms"</h3>
-            <ul id="rooms" class="rows" aria-labelledby="rooms-title">
-                <For each=move || store.rooms.get() key=|row| (row.id, row.words.clone()) let:row>
-                    {room(row)}
-                </For>
-            </ul>
-            <Show when=move || store.rooms.with(Vec::is_empty)>
-                <p class="hint">"No room is known yet: the robot finds them while it cleans."</p>
-            </Show>
+            <RoomList store />
+            <NoGoList store />
             <h3 id="maps-title">"Kept maps"</h3>
             <ul id="maps" class="rows" aria-labelledby="maps-title">
                 {move || {
@@ -48,15 +42,6 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
                 <p class="hint">"None yet: a map is kept when a run ends."</p>
             </Show>
         </div>
-    }
-}
-
-fn room(row: RoomRow) -> impl IntoView {
-    view! {
-        <li>
-            <span class="name">{row.name}</span>
-            <span class="words">{row.words}</span>
-        </li>
     }
 }
 

@@ -10,7 +10,7 @@ use rvac_api::{
 use rvac_api::Update as Message;
 
 use crate::link::Link;
-use crate::map::MapHandle;
+use crate::map::{MapHandle, Orders};
 
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
@@ -41,6 +41,8 @@ pub(crate) struct Store {
     pub(crate) decisions: RwSignal<DecisionBook>,
     /// Versions of the map that the daemon keeps, newest first.
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
+    /// What a person wants of the home.
+    pub(crate) orders: Orders,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
@@ -66,6 +68,7 @@ impl Store {
             estimate: RwSignal::new(None),
             decisions: RwSignal::new(DecisionBook::default()),
             maps: RwSignal::new(Vec::new()),
+            orders: Orders::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
             driver: StoredValue::new(Driver::default()),
@@ -96,6 +99,11 @@ impl Store {
     /// Asks for something that nobody pressed a button for.
     pub(crate) fn ask_quietly(self, body: RequestBody) {
         self.send(None, body);
+    }
+
+    /// Asks under a number of its own.
+    pub(crate) fn ask_as(self, id: u32, body: RequestBody) {
+        self.send(Some(id), body);
     }
 
     /// Sends what the driver wants now. To be called ten times a second and at each change.
@@ -185,6 +193,7 @@ impl Store {
                 if self.rooms.with_untracked(|rooms| *rooms != rows) {
                     self.rooms.set(rows);
                 }
+                self.orders.on_home(&home);
                 self.map.with_value(|map| map.on_home(&home));
             }
             Message::Estimate(estimate) => {
@@ -194,8 +203,8 @@ impl Store {
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { maps } => self.maps.set(maps),
-            // Nobody here has asked for an estimate of a job.
-            Message::Done { .. } | Message::Mixes { .. } | Message::Packet { .. } | Message::JobEstimate(_) => {}
+            Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
+            Message::Done { .. } | Message::Mixes { .. } | Message::Packet { .. } => {}
         }
     }
 
@@ -207,6 +216,9 @@ impl Store {
     }
 
     fn on_failed(self, failure: Failure) {
+        if self.orders.on_failed(&failure) {
+            return;
+        }
         if failure.id == Some(DRIVE_ID) {
             self.driver.update_value(Driver::on_refused);
         }

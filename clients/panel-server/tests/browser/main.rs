@@ -29,12 +29,21 @@ struct Visit {
 impl Visit {
     /// Starts all parts and waits for the robot; `None`, and a word about it, when browser tests are not wanted.
     async fn begin(screen: Screen) -> Option<Self> {
+        Self::with(Stack::start, screen).await
+    }
+
+    /// In a home that the robot knows.
+    async fn begin_at_home(screen: Screen) -> Option<Self> {
+        Self::with(Stack::start_at_home, screen).await
+    }
+
+    async fn with(start: fn() -> Stack, screen: Screen) -> Option<Self> {
         if std::env::var_os("RVAC_BROWSER_TESTS").is_none() {
             println!("skipped: RVAC_BROWSER_TESTS is not set");
             return None;
         }
         let turn = ONE_AT_A_TIME.lock().await;
-        let stack = Stack::start();
+        let stack = start();
         let browser = Browser::open(&stack, screen).await;
         browser.until_state(&["idle", "docked"]).await;
         Some(Self {
@@ -248,6 +257,81 @@ async fn what_the_robot_knows_and_decides_is_shown() {
     // A run that is over leaves a map behind, some seconds later; the sheet that is open shows it then.
     browser
         .until("return document.querySelectorAll('#maps li').length > 0")
+        .await;
+}
+
+/// Number of rooms that are chosen, by the list.
+const CHOSEN: &str = "return String(document.querySelectorAll('#rooms [aria-pressed=true]').length)";
+
+/// The first room of the list is chosen, named, and cleaned twice; what it takes is told before.
+async fn clean_one_room(browser: &Browser, shots: &str) {
+    browser.click("#tab-home").await;
+    browser
+        .until("return document.querySelectorAll('#rooms .choose').length > 1")
+        .await;
+    browser.click("#rooms .choose").await;
+    assert_eq!(browser.text(CHOSEN).await, "1");
+    browser
+        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
+        .await;
+    browser.shot(&format!("{shots}-room-chosen")).await;
+    browser.click("#passes-2").await;
+    browser.click("#clean-chosen").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return document.getElementById('order-bar') === null")
+        .await;
+    assert_eq!(browser.text(CHOSEN).await, "0", "the choice has become a job");
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+}
+
+#[tokio::test]
+async fn one_room_is_chosen_in_the_list_and_cleaned() {
+    for (screen, shots) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
+        let Some(visit) = Visit::begin_at_home(screen).await else {
+            return;
+        };
+        clean_one_room(&visit.browser, shots).await;
+    }
+}
+
+#[tokio::test]
+async fn a_wall_is_drawn_with_keys_and_removed_and_a_room_gets_a_name() {
+    let Some(visit) = Visit::begin_at_home(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#tab-home").await;
+    browser
+        .until("return document.querySelectorAll('#rooms .choose').length > 1")
+        .await;
+    browser.click("#draw-wall").await;
+    browser
+        .text("document.getElementById('map').focus(); return ''")
+        .await;
+    for key in ["Enter", "ArrowLeft", "ArrowLeft", "Enter"] {
+        let press = format!(
+            "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', {{key: '{key}', bubbles: true}})); return ''"
+        );
+        browser.text(&press).await;
+    }
+    browser
+        .until("return document.querySelectorAll('#no-go li').length === 1")
+        .await;
+    browser.shot("desktop-virtual-wall").await;
+    browser.click("#no-go button").await;
+    browser
+        .until("return document.querySelectorAll('#no-go li').length === 0")
+        .await;
+
+    browser.click("#rooms li button[aria-expanded]").await;
+    let typed = "const field = document.getElementById('room-name'); field.value = 'Kitchen'; \
+                 field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
+    browser.text(typed).await;
+    browser.click("#save-name").await;
+    browser
+        .until("return document.querySelector('#rooms .choose')?.textContent.includes('Kitchen')")
         .await;
 }
 

@@ -59,6 +59,15 @@ impl Drop for Process {
     }
 }
 
+/// What the robot knows at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Home {
+    /// Nothing.
+    Unknown,
+    /// The home it is in.
+    Kept,
+}
+
 /// A binary that cargo put beside that of the server.
 fn binary(name: &str) -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_panel-server")).with_file_name(name)
@@ -69,7 +78,17 @@ fn root() -> PathBuf {
 }
 
 impl Stack {
+    /// In a home that the robot does not know.
     pub(crate) fn start() -> Self {
+        Self::new(Home::Unknown)
+    }
+
+    /// In a home whose map was kept.
+    pub(crate) fn start_at_home() -> Self {
+        Self::new(Home::Kept)
+    }
+
+    fn new(home: Home) -> Self {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
@@ -82,6 +101,9 @@ impl Stack {
             vthal: None,
             address: String::new(),
         };
+        if home == Home::Kept {
+            stack.keep_map();
+        }
         stack.start_simulator();
         stack.start_vthal();
         stack.start_server();
@@ -104,6 +126,33 @@ impl Stack {
         command.arg("--socket").arg(self.folder.join("vthal.sock"));
         command.arg("--state").arg(self.folder.join("state"));
         self.vthal = Some(Process::start(&mut command).0);
+    }
+
+    /// The map that a host has of the simulated home after a minute in it, as if it had been kept.
+    fn keep_map(&self) {
+        let maps = self.folder.join("state/maps");
+        std::fs::create_dir_all(&maps).unwrap();
+        let mut command = Command::new(binary("rvac-sim"));
+        command.current_dir(root()).stdout(Stdio::null());
+        command.args([
+            "run",
+            "--robot",
+            "sr8730",
+            "--seed",
+            "7",
+            "--home",
+            "homes/two-room-flat.toml",
+        ]);
+        command.args([
+            "--known-map",
+            "--minutes",
+            "1",
+            "--strategy",
+            "systematic",
+            "--save-map",
+        ]);
+        let status = command.arg(maps.join("000001.map")).status().unwrap();
+        assert!(status.success(), "the simulator makes no map");
     }
 
     fn start_simulator(&mut self) {

@@ -7,6 +7,8 @@ use crate::figures::area_text;
 /// Kinds of cells of a plan that only the robot's own map has, beside those of [`SimulatedPlan`]: not to be entered, and
 /// floor of a room. Rooms share the tints in turn.
 pub(crate) const NO_GO: u32 = 5;
+/// Floor of a room that a person has chosen.
+pub(crate) const CHOSEN: u32 = 6;
 /// First kind for floor of a room.
 pub(crate) const ROOM: u32 = 16;
 /// Tints of rooms.
@@ -16,9 +18,9 @@ const CELLS_MAX: u64 = 1 << 24;
 /// Rooms, doors and walls that are drawn or listed at most.
 pub const ITEMS_MAX: usize = 1_000;
 
-/// The home as a plan, each room in its tint.
+/// The home as a plan, each room in its tint; those that are chosen share one.
 #[must_use]
-pub fn home_plan(home: &HomeView) -> SimulatedPlan {
+pub fn home_plan(home: &HomeView, chosen: &[u16]) -> SimulatedPlan {
     let total = u64::from(home.width) * u64::from(home.height);
     SimulatedPlan {
         name: String::new(),
@@ -31,13 +33,13 @@ pub fn home_plan(home: &HomeView) -> SimulatedPlan {
             heading: 0.0,
             t: 0.0,
         },
-        cells: merged(&home.cells, &home.room_cells, total.min(CELLS_MAX)),
+        cells: merged((&home.cells, &home.room_cells), chosen, total.min(CELLS_MAX)),
         dock: home.dock,
     }
 }
 
 /// Runs of cells with the rooms in them. Neither needs to be as long as it should.
-fn merged(cells: &[u32], rooms: &[u32], total: u64) -> Vec<u32> {
+fn merged((cells, rooms): (&[u32], &[u32]), chosen: &[u16], total: u64) -> Vec<u32> {
     let mut rooms = Runs::new(rooms);
     let mut merged = Vec::new();
     let mut left = total;
@@ -48,6 +50,7 @@ fn merged(cells: &[u32], rooms: &[u32], total: u64) -> Vec<u32> {
         while length > 0 {
             let (room, span) = rooms.take(length);
             let shown = match kind {
+                1 if chosen.iter().any(|id| u32::from(*id) == room) => CHOSEN,
                 1 if room > 0 => ROOM + (room - 1) % ROOM_TINTS,
                 1..=3 => kind,
                 4 => NO_GO,
@@ -173,18 +176,19 @@ mod tests {
             room_cells: vec![0, 2, 2, 3, 0, 1],
             ..HomeView::default()
         };
-        let plan = home_plan(&home);
+        let plan = home_plan(&home, &[]);
         assert_eq!(plan.cells, [0, 1, 1, 1, 17, 1, 2, 1, 5, 1, 3, 1]);
+        assert_eq!(home_plan(&home, &[2]).cells, [0, 1, 1, 1, 6, 1, 2, 1, 5, 1, 3, 1]);
         assert_eq!((plan.origin.x, plan.origin.y), (-1.0, 0.2));
         assert_eq!((plan.width, plan.height), (6, 1));
     }
 
     #[test]
     fn runs_that_do_not_fit_do_no_harm() {
-        assert_eq!(merged(&[1, u32::MAX], &[], 4), [1, 4]);
-        assert_eq!(merged(&[1, 3, 7], &[9, 0, 1, 1], 9), [16, 1, 1, 2]);
+        assert_eq!(merged((&[1, u32::MAX], &[]), &[], 4), [1, 4]);
+        assert_eq!(merged((&[1, 3, 7], &[9, 0, 1, 1]), &[], 9), [16, 1, 1, 2]);
         assert_eq!(
-            merged(&[1, 2, 2, u32::MAX], &[u32::MAX, u32::MAX], 3),
+            merged((&[1, 2, 2, u32::MAX], &[u32::MAX, u32::MAX]), &[], 3),
             [16 + (u32::MAX - 1) % 6, 2, 2, 1]
         );
         let huge = HomeView {
@@ -193,7 +197,7 @@ mod tests {
             cells: vec![1, u32::MAX],
             ..HomeView::default()
         };
-        assert_eq!(home_plan(&huge).cells, [1, 1 << 24]);
+        assert_eq!(home_plan(&huge, &[]).cells, [1, 1 << 24]);
     }
 
     #[test]

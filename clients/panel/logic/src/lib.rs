@@ -17,6 +17,8 @@ mod log_book;
 mod offers;
 mod plan;
 mod playout;
+mod room_choice;
+mod sketch;
 mod swept_grid;
 mod thoughts;
 
@@ -32,5 +34,7 @@ pub use log_book::{LogBook, LogFilter};
 pub use offers::{Offer, Offers, PauseKind};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
+pub use room_choice::{PASSES_MAX, RoomChoice, job_estimate_text, room_at};
+pub use sketch::{NoGoRow, Sketch, Tool, no_go_rows};
 pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};

@@ -3,7 +3,7 @@
 use rvac_api::{Pose, SimulatedPlan};
 
 use crate::Bounds;
-use crate::home::{NO_GO, ROOM, ROOM_TINTS};
+use crate::home::{CHOSEN, NO_GO, ROOM, ROOM_TINTS};
 
 /// Cells that a plan may have: 4096 by 4096, which every WebGL2 takes as a texture.
 const SIDE_MAX: u32 = 4096;
@@ -21,6 +21,8 @@ pub struct PlanPalette {
     pub rug: [u8; 3],
     /// Floor that must not be entered.
     pub no_go: [u8; 3],
+    /// Floor of rooms that a person has chosen.
+    pub chosen: [u8; 3],
     /// Floor of rooms, in turn.
     pub rooms: [[u8; 3]; ROOM_TINTS as usize],
 }
@@ -34,6 +36,7 @@ impl PlanPalette {
             3 => self.cliff,
             4 => self.rug,
             NO_GO => self.no_go,
+            CHOSEN => self.chosen,
             _ => match kind
                 .checked_sub(ROOM)
                 .and_then(|room| self.rooms.get(room as usize))
@@ -194,6 +197,7 @@ mod tests {
         cliff: [3, 3, 3],
         rug: [4, 4, 4],
         no_go: [5, 5, 5],
+        chosen: [7, 7, 7],
         rooms: [[6, 6, 6]; 6],
     };
 

@@ -40,6 +40,11 @@ impl Gestures {
         self.touches.retain(|touch| touch.id != id);
     }
 
+    /// Whether exactly one finger is down.
+    pub(crate) fn is_single(&self) -> bool {
+        self.touches.len() == 1
+    }
+
     /// A touch moved to a pixel.
     pub(crate) fn moved(&mut self, id: i32, (x, y): (f64, f64)) -> Movement {
         let before = self.touches.clone();

@@ -4,11 +4,15 @@ mod gestures;
 mod gl;
 mod handle;
 mod labels;
+mod order_bar;
+mod orders;
 mod palette;
 mod renderer;
 mod scene;
 mod shaders;
+mod sketch_view;
 mod view;
 
 pub(crate) use handle::MapHandle;
+pub(crate) use orders::Orders;
 pub(crate) use view::MapView;

@@ -51,7 +51,8 @@ const LIGHT: Palette = Palette {
         obstacle: bytes(0x8a_96_a6),
         cliff: bytes(0xf0_cf_c2),
         rug: bytes(0xf1_ec_e1),
-        no_go: bytes(0xf3_d6_d6),
+        no_go: bytes(0xf0_b9_b9),
+        chosen: bytes(0xa8_cf_fb),
         rooms: [
             bytes(0xe9_f1_fc),
             bytes(0xfd_f1_e4),
@@ -79,7 +80,8 @@ const DARK: Palette = Palette {
         obstacle: bytes(0x59_68_7b),
         cliff: bytes(0x53_34_2c),
         rug: bytes(0x28_31_3b),
-        no_go: bytes(0x45_2a_2e),
+        no_go: bytes(0x6b_30_38),
+        chosen: bytes(0x2a_56_8c),
         rooms: [
             bytes(0x1f_2d_42),
             bytes(0x35_2d_28),

@@ -406,6 +406,9 @@ impl Renderer {
     }
 }
 
+/// Radius of the mark in a door, of its width: a hint, and no obstacle to the eye.
+const DOOR_SHARE: f64 = 0.25;
+
 /// A negative size is one in device pixels.
 fn bump_marks(scene: &Scene, ratio: f64) -> Vec<f32> {
     let size = -(BUMP_RADIUS_PX * ratio) as f32;
@@ -437,7 +440,7 @@ fn body_marks(scene: &Scene, places: Places) -> Vec<f32> {
             y: door.y,
             ..Pose::default()
         };
-        mark(at, 0.5 * door.width_m, DOOR)
+        mark(at, DOOR_SHARE * door.width_m, DOOR)
     });
     let spread = scene.uncertainty_m();
     let spread = places

@@ -74,6 +74,8 @@ pub(crate) struct Scene {
     ground: Ground,
     true_plan: Option<SimulatedPlan>,
     known_plan: Option<SimulatedPlan>,
+    home: Option<HomeView>,
+    chosen: Vec<u16>,
     doors: Vec<DoorView>,
     /// Walls as strokes, and the planned way as dashes.
     pub(crate) walls: Vec<f32>,
@@ -106,6 +108,8 @@ impl Default for Scene {
             ground: Ground::Known,
             true_plan: None,
             known_plan: None,
+            home: None,
+            chosen: Vec::new(),
             doors: Vec::new(),
             walls: Vec::new(),
             way: Vec::new(),
@@ -142,13 +146,27 @@ impl Scene {
 
     /// Takes what the robot knows of the home.
     pub(crate) fn on_home(&mut self, home: &HomeView) {
-        self.known_plan = (home.width > 0).then(|| home_plan(home));
+        self.home = (home.width > 0).then(|| home.clone());
+        self.draw_home();
         self.doors = home.doors.iter().take(ITEMS_MAX).copied().collect();
         self.walls = wall_strokes(home);
         self.strokes_changed = true;
         if self.ground == Ground::Known {
             self.show(Ground::Known);
         }
+    }
+
+    /// Takes the rooms that a person has chosen.
+    pub(crate) fn choose(&mut self, rooms: &[u16]) {
+        if self.chosen != rooms {
+            self.chosen = rooms.to_vec();
+            self.draw_home();
+            self.plan_changed = true;
+        }
+    }
+
+    fn draw_home(&mut self) {
+        self.known_plan = self.home.as_ref().map(|home| home_plan(home, &self.chosen));
     }
 
     /// Takes where the robot means to drive.

@@ -131,8 +131,8 @@ void main() {
     paint(c, thought_colour, 0.16 * under(1.0, d));
     paint(c, thought_colour, 0.55 * band(1.0 - 2.0 * soft, 1.0, d));
   } else if (k > 4.5) {
-    paint(c, front_colour, 0.45 * under(1.0, d));
-    paint(c, body_colour, 0.8 * band(1.0 - 3.0 * soft, 1.0, d));
+    paint(c, halo_colour, 0.35 * under(1.0, d));
+    paint(c, body_colour, 0.3 * band(1.0 - 2.0 * soft, 1.0, d));
   } else {
     vec2 q = abs(p) - vec2(0.55, 0.85);
     float box = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - 0.12;

@@ -5,14 +5,16 @@ use std::time::Duration;
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::html;
 use leptos::prelude::*;
-use panel_logic::{View, scale_bar};
+use panel_logic::{Tool, View, scale_bar};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 use web_sys::ResizeObserver;
 
 use super::MapHandle;
 use super::gestures::{Gestures, Movement};
+use super::order_bar::OrderBar;
 use super::scene::{CameraMode, Ground, Scene};
+use super::sketch_view::SketchView;
 use crate::icons::{Icon, icon};
 use crate::store::Store;
 
@@ -28,7 +30,15 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
     let failure = RwSignal::new(None::<String>);
     let mode = RwSignal::new(CameraMode::Fitted);
     let footer = RwSignal::new(Footer::default());
-    refresh(store, mode, footer);
+    let ground = RwSignal::new(Ground::Known);
+    refresh(store, (mode, ground), footer);
+    Effect::new(move |_| {
+        store.orders.choice.with(|choice| {
+            store
+                .map
+                .with_value(|map| map.change(|scene| scene.choose(choice.rooms())));
+        });
+    });
     let follow = {
         let map = StoredValue::new_local(map.clone());
         move |_| {
@@ -52,7 +62,8 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
         <section class="map" aria-label="Map">
             <MapCanvas store mode failure />
             <RoomNames store />
-            <GroundSwitch store />
+            <SketchView store />
+            <GroundSwitch store shown=ground />
             <Show when=move || failure.get().is_some()>
                 <p class="map-failure" role="alert">
                     {move || failure.get()} " The map cannot be drawn; everything else works."
@@ -74,6 +85,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
                     {icon(Icon::Follow)}
                 </button>
             </div>
+            <OrderBar store />
             <MapFooter store footer />
         </section>
     }
@@ -93,8 +105,7 @@ fn RoomNames(store: Store) -> impl IntoView {
 
 /// What lies under path and robot, where there is a choice: only a simulated home has a true plan.
 #[component]
-fn GroundSwitch(store: Store) -> impl IntoView {
-    let shown = RwSignal::new(Ground::True);
+fn GroundSwitch(store: Store, shown: RwSignal<Ground>) -> impl IntoView {
     let simulated = move || store.home.with(Option::is_some);
     let choice = move |ground: Ground, id: &'static str, label: &'static str| {
         let choose = move |_| {
@@ -112,12 +123,6 @@ fn GroundSwitch(store: Store) -> impl IntoView {
             </button>
         }
     };
-    // A plan that comes is shown.
-    Effect::new(move |_| {
-        if simulated() {
-            shown.set(Ground::True);
-        }
-    });
     view! {
         <Show when=simulated>
             <div class="ground-switch" role="group" aria-label="What the map shows">
@@ -169,7 +174,7 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
 }
 
 /// Keeps the figures beside the map up to date, four times a second.
-fn refresh(store: Store, mode: RwSignal<CameraMode>, footer: RwSignal<Footer>) {
+fn refresh(store: Store, (mode, ground): (RwSignal<CameraMode>, RwSignal<Ground>), footer: RwSignal<Footer>) {
     let update = move || {
         store.map.with_value(|map| {
             map.publish_figures();
@@ -187,6 +192,10 @@ fn refresh(store: Store, mode: RwSignal<CameraMode>, footer: RwSignal<Footer>) {
             };
             if footer.with_untracked(|now| *now != next) {
                 footer.set(next);
+            }
+            let shown = map.with(|scene| scene.ground());
+            if ground.get_untracked() != shown {
+                ground.set(shown);
             }
             let current = map.with(|scene| scene.mode);
             if mode.get_untracked() != current {
@@ -251,8 +260,10 @@ fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<
             }
         });
     };
+    let press = StoredValue::new(None::<Press>);
     let on_down = move |event: PointerEvent| {
         gestures.update_value(|gestures| gestures.down(event.pointer_id(), place(&event)));
+        press.set_value(begin_press(store, gestures, &event));
         if let Some(canvas) = canvas.get_untracked() {
             canvas.set_pointer_capture(event.pointer_id()).ok(); // A pointer that is gone already ends the gesture by itself.
         }
@@ -260,21 +271,35 @@ fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<
     let on_move = move |event: PointerEvent| {
         let movement =
             gestures.try_update_value(|gestures| gestures.moved(event.pointer_id(), place(&event)));
-        move_camera(store, mode, movement.unwrap_or(Movement::Nothing));
+        let movement = movement.unwrap_or(Movement::Nothing);
+        if draws(store) && !matches!(movement, Movement::Pinch { .. }) {
+            store.orders.pointer.set(Some(map_place(store, place(&event))));
+        } else {
+            move_camera(store, mode, movement);
+        }
     };
-    let on_up = move |event: PointerEvent| gestures.update_value(|gestures| gestures.up(event.pointer_id()));
+    let on_up = move |event: PointerEvent| {
+        gestures.update_value(|gestures| gestures.up(event.pointer_id()));
+        if let Some(press) = press.try_update_value(Option::take).flatten() {
+            end_press(store, press, place(&event));
+        }
+    };
+    let on_cancel = move |event: PointerEvent| {
+        gestures.update_value(|gestures| gestures.up(event.pointer_id()));
+        press.set_value(None);
+    };
     view! {
         <canvas
             node_ref=canvas
             id="map"
             tabindex="0"
             role="img"
-            aria-label="Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot."
+            aria-label="Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot, Enter points at the middle."
             on:wheel=on_wheel
             on:pointerdown=on_down
             on:pointermove=on_move
             on:pointerup=on_up
-            on:pointercancel=on_up
+            on:pointercancel=on_cancel
             on:keydown=move |event| on_key(store, mode, &event)
         ></canvas>
     }
@@ -282,6 +307,61 @@ fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<
 
 fn place(event: &PointerEvent) -> (f64, f64) {
     (f64::from(event.offset_x()), f64::from(event.offset_y()))
+}
+
+/// A finger that is down and may become a tap, or the second corner of a drawing.
+#[derive(Clone, Copy, Debug)]
+struct Press {
+    at: (f64, f64),
+    /// This press has set the first corner.
+    has_begun: bool,
+}
+
+/// A tap moves less than this, CSS pixels.
+const TAP_PX: f64 = 8.0;
+
+fn draws(store: Store) -> bool {
+    store
+        .orders
+        .sketch
+        .with_untracked(|sketch| sketch.tool() != Tool::Choose)
+}
+
+fn map_place(store: Store, (x, y): (f64, f64)) -> (f64, f64) {
+    store
+        .map
+        .with_value(|map| map.with(|scene| scene.camera.map_from_screen(x, y)))
+}
+
+/// A second finger zooms: what the first one began is dropped.
+fn begin_press(store: Store, gestures: StoredValue<Gestures>, event: &PointerEvent) -> Option<Press> {
+    if !gestures.with_value(Gestures::is_single) {
+        store.orders.sketch.update(|sketch| sketch.take(sketch.tool()));
+        return None;
+    }
+    let at = place(event);
+    let has_begun = draws(store)
+        && store
+            .orders
+            .sketch
+            .with_untracked(|sketch| sketch.first().is_none());
+    if has_begun {
+        store.point_at(map_place(store, at));
+    }
+    Some(Press { at, has_begun })
+}
+
+/// Two taps draw, and so does one drag.
+fn end_press(store: Store, press: Press, (x, y): (f64, f64)) {
+    let is_tap = (x - press.at.0).hypot(y - press.at.1) < TAP_PX;
+    let points = if draws(store) {
+        !(press.has_begun && is_tap)
+    } else {
+        is_tap
+    };
+    if points {
+        store.point_at(map_place(store, (x, y)));
+    }
 }
 
 fn move_camera(store: Store, mode: RwSignal<CameraMode>, movement: Movement) {
@@ -299,6 +379,18 @@ fn on_key(store: Store, mode: RwSignal<CameraMode>, event: &KeyboardEvent) {
     if event.ctrl_key() || event.alt_key() || event.meta_key() {
         return;
     }
+    match event.key().as_str() {
+        "Enter" | " " => {
+            event.prevent_default();
+            store.point_at(middle(store));
+            return;
+        }
+        "Escape" => {
+            store.take_tool(Tool::Choose);
+            return;
+        }
+        _ => {}
+    }
     let change: fn(&mut Scene) = match event.key().as_str() {
         "ArrowLeft" => |scene| pan(scene, PAN_PX, 0.0),
         "ArrowRight" => |scene| pan(scene, -PAN_PX, 0.0),
@@ -312,6 +404,16 @@ fn on_key(store: Store, mode: RwSignal<CameraMode>, event: &KeyboardEvent) {
     };
     event.prevent_default();
     apply(store, mode, change);
+    if draws(store) {
+        store.orders.pointer.set(Some(middle(store)));
+    }
+}
+
+/// The place in the middle of the map.
+fn middle(store: Store) -> (f64, f64) {
+    store
+        .map
+        .with_value(|map| map.with(|scene| scene.camera.middle()))
 }
 
 /// Attaches the map to its canvas, follows its size, and survives the loss of graphics memory.

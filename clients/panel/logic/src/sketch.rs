@@ -1,0 +1,179 @@
+//! Drawing no-go zones and virtual walls by two places.
+
+use rvac_api::{HomeView, NoGoShape};
+
+/// Corners nearer to each other than this are one place that was tapped twice, metres.
+const APART_MIN_M: f64 = 0.05;
+
+/// What taps on the map do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Choose rooms.
+    #[default]
+    Choose,
+    /// Draw a virtual wall from one place to another.
+    Wall,
+    /// Draw a no-go zone between two opposite corners.
+    Zone,
+}
+
+/// What is being drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sketch {
+    tool: Tool,
+    first: Option<(f64, f64)>,
+}
+
+impl Sketch {
+    /// Takes a tool; what was begun is dropped.
+    pub fn take(&mut self, tool: Tool) {
+        *self = Self { tool, first: None };
+    }
+
+    /// The tool in hand.
+    #[must_use]
+    pub fn tool(self) -> Tool {
+        self.tool
+    }
+
+    /// Where it was begun, if it was.
+    #[must_use]
+    pub fn first(self) -> Option<(f64, f64)> {
+        self.first
+    }
+
+    /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down.
+    pub fn point(&mut self, place: (f64, f64)) -> Option<NoGoShape> {
+        let Some(first) = self.first else {
+            self.first = (self.tool != Tool::Choose).then_some(place);
+            return None;
+        };
+        let shape = self.shape_to(first, place)?;
+        self.take(Tool::Choose);
+        Some(shape)
+    }
+
+    fn shape_to(self, (x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> Option<NoGoShape> {
+        let (wide, high) = ((far_x - x).abs(), (far_y - y).abs());
+        match self.tool {
+            Tool::Choose => None,
+            Tool::Wall => {
+                (wide.hypot(high) >= APART_MIN_M).then_some(NoGoShape::Wall([[x, y], [far_x, far_y]]))
+            }
+            Tool::Zone => (wide.min(high) >= APART_MIN_M)
+                .then(|| NoGoShape::Zone(vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]])),
+        }
+    }
+
+    /// What to do next, for people; nothing while nothing is drawn.
+    #[must_use]
+    pub fn hint(self) -> Option<&'static str> {
+        match (self.tool, self.first) {
+            (Tool::Choose, _) => None,
+            (Tool::Wall, None) => Some("Tap one end of the wall, or move it to the cross and press Enter."),
+            (Tool::Wall, Some(_)) => Some("Now the other end."),
+            (Tool::Zone, None) => {
+                Some("Tap one corner of the zone, or move it to the cross and press Enter.")
+            }
+            (Tool::Zone, Some(_)) => Some("Now the opposite corner."),
+        }
+    }
+}
+
+/// A no-go zone or virtual wall as a row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoGoRow {
+    /// Its number.
+    pub number: u16,
+    /// `Virtual wall 3`
+    pub name: String,
+    /// `1.2 m`
+    pub words: String,
+}
+
+/// What is forbidden, by number.
+#[must_use]
+pub fn no_go_rows(home: &HomeView) -> Vec<NoGoRow> {
+    let row = |no_go: &rvac_api::NoGoView| match &no_go.shape {
+        NoGoShape::Wall([from, to]) => NoGoRow {
+            number: no_go.number,
+            name: format!("Virtual wall {}", no_go.number),
+            words: format!("{:.1} m", (to[0] - from[0]).hypot(to[1] - from[1])),
+        },
+        NoGoShape::Zone(corners) => NoGoRow {
+            number: no_go.number,
+            name: format!("No-go zone {}", no_go.number),
+            words: extent(corners),
+        },
+    };
+    home.no_go.iter().map(row).collect()
+}
+
+/// `1.5 x 0.8 m`
+fn extent(corners: &[[f64; 2]]) -> String {
+    let span = |axis: usize| {
+        let values = corners.iter().filter_map(|corner| corner.get(axis).copied());
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        (high - low).max(0.0)
+    };
+    format!("{:.1} x {:.1} m", span(0), span(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Sketch, Tool, no_go_rows};
+    use rvac_api::{HomeView, NoGoShape, NoGoView};
+
+    #[test]
+    fn two_places_make_a_wall_and_the_tool_is_laid_down() {
+        let mut sketch = Sketch::default();
+        assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert_eq!(sketch, Sketch::default(), "without a tool nothing is drawn");
+        sketch.take(Tool::Wall);
+        assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert_eq!(sketch.point((1.0, 1.01)), None, "the same place again");
+        let wall = sketch.point((1.0, 2.0));
+        assert_eq!(wall, Some(NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]])));
+        assert_eq!(sketch, Sketch::default());
+    }
+
+    #[test]
+    fn a_zone_lies_between_opposite_corners_and_has_a_width() {
+        let mut sketch = Sketch::default();
+        sketch.take(Tool::Zone);
+        assert!(sketch.hint().is_some_and(|hint| hint.contains("corner")));
+        sketch.point((2.0, 3.0));
+        assert_eq!(sketch.first(), Some((2.0, 3.0)));
+        assert_eq!(sketch.point((0.0, 3.01)), None);
+        let zone = sketch.point((0.0, 1.0));
+        let corners = vec![[2.0, 3.0], [0.0, 3.0], [0.0, 1.0], [2.0, 1.0]];
+        assert_eq!(zone, Some(NoGoShape::Zone(corners)));
+    }
+
+    #[test]
+    fn what_is_forbidden_has_a_name_and_a_size() {
+        let view = |number, shape| NoGoView { number, shape };
+        let home = HomeView {
+            no_go: vec![
+                view(2, NoGoShape::Wall([[0.0, 0.0], [3.0, 4.0]])),
+                view(5, NoGoShape::Zone(vec![[0.0, 0.0], [1.5, 0.0], [1.5, 0.8]])),
+                view(6, NoGoShape::Zone(vec![])),
+            ],
+            ..HomeView::default()
+        };
+        let words: Vec<String> = no_go_rows(&home)
+            .iter()
+            .map(|row| format!("{}, {}", row.name, row.words))
+            .collect();
+        assert_eq!(
+            words,
+            [
+                "Virtual wall 2, 5.0 m",
+                "No-go zone 5, 1.5 x 0.8 m",
+                "No-go zone 6, 0.0 x 0.0 m"
+            ]
+        );
+    }
+}

@@ -1,0 +1,133 @@
+//! Over the map: the chosen rooms with what cleaning them takes, and what to do next while something is drawn.
+
+use leptos::prelude::*;
+use panel_logic::{Offer, PASSES_MAX, Tool};
+use rvac_api::RequestBody;
+
+use crate::store::Store;
+
+#[component]
+pub(crate) fn OrderBar(store: Store) -> impl IntoView {
+    let orders = store.orders;
+    let has_choice = Memo::new(move |_| orders.choice.with(|choice| !choice.rooms().is_empty()));
+    let state = Memo::new(move |_| {
+        store.status.with(|status| {
+            status
+                .as_ref()
+                .map(|status| status.state.clone())
+                .unwrap_or_default()
+        })
+    });
+    // The choice has become a job.
+    Effect::new(move |_| {
+        if state.get() == "starting" {
+            orders.choice.update(panel_logic::RoomChoice::clear);
+        }
+    });
+    let chosen = Memo::new(move |_| orders.choice.get());
+    Effect::new(move |_| {
+        // Read, not only tracked: a memo that nobody reads is never made, and tells of nothing.
+        chosen.with(|_| state.with(|_| store.ask_prospect()));
+    });
+    let hint = move || orders.sketch.with(|sketch| sketch.hint());
+    view! {
+        <div class="order-place">
+            <Show when=move || hint().is_some()>
+                <div class="order-bar" id="sketch-bar" role="status">
+                    <p>{hint}</p>
+                    <button type="button" class="small" id="sketch-cancel" on:click=move |_| store.take_tool(Tool::Choose)>
+                        "Cancel"
+                    </button>
+                </div>
+            </Show>
+            <Show when=move || has_choice.get()>
+                <ChosenRooms store />
+            </Show>
+        </div>
+    }
+}
+
+#[component]
+fn ChosenRooms(store: Store) -> impl IntoView {
+    let orders = store.orders;
+    let names = move || {
+        let rooms = store.rooms.get();
+        let name = |id: &u16| rooms.iter().find(|row| row.id == *id).map(|row| row.name.clone());
+        orders.choice.with(|choice| {
+            choice
+                .rooms()
+                .iter()
+                .filter_map(name)
+                .collect::<Vec<_>>()
+                .join(", ")
+        })
+    };
+    let prospect = move || {
+        orders
+            .prospect
+            .get()
+            .unwrap_or_else(|| "The robot reckons what this takes.".to_owned())
+    };
+    let offer = Memo::new(move |_| store.offers().start);
+    let waits = move || match offer.get() {
+        Offer::NotNow(why) => Some(why),
+        Offer::Ready | Offer::Absent => None,
+    };
+    let clean = move |_| {
+        let order = orders.choice.with_untracked(panel_logic::RoomChoice::order);
+        if let (Some(order), Offer::Ready) = (order, offer.get_untracked()) {
+            store.ask(RequestBody::Clean(order));
+        }
+    };
+    view! {
+        <div class="order-bar" id="order-bar" role="group" aria-label="Chosen rooms">
+            <p><strong id="chosen-rooms">{names}</strong></p>
+            <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
+            <div class="order-tools">
+                <Passes store />
+                <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
+                    "Choose none"
+                </button>
+                <button
+                    type="button"
+                    class="small strong"
+                    id="clean-chosen"
+                    aria-disabled=move || if waits().is_some() { "true" } else { "false" }
+                    title=waits
+                    on:click=clean
+                >
+                    "Clean these"
+                    <span class="visually-hidden">{move || waits().map(|why| format!(", not now: {why}"))}</span>
+                </button>
+            </div>
+        </div>
+    }
+}
+
+#[component]
+fn Passes(store: Store) -> impl IntoView {
+    let choice = store.orders.choice;
+    let button = move |passes: u8| {
+        let label = if passes == 1 {
+            "Once".to_owned()
+        } else {
+            format!("{passes} times")
+        };
+        view! {
+            <button
+                type="button"
+                id=format!("passes-{passes}")
+                aria-label=label
+                aria-pressed=move || if choice.with(|choice| choice.passes() == passes) { "true" } else { "false" }
+                on:click=move |_| choice.update(|choice| choice.set_passes(passes))
+            >
+                {format!("{passes}x")}
+            </button>
+        }
+    };
+    view! {
+        <div class="passes" role="group" aria-label="How often each room is cleaned">
+            {(1..=PASSES_MAX).map(button).collect_view()}
+        </div>
+    }
+}

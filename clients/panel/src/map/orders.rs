@@ -1,0 +1,138 @@
+//! What a person wants of the home: rooms to be cleaned, floor that is forbidden.
+
+use leptos::prelude::*;
+use panel_logic::{NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows, room_at};
+use rvac_api::{Failure, HomeView, JobEstimate, NoGoShape, RequestBody};
+
+use super::scene::Ground;
+use crate::store::Store;
+
+/// Numbers of requests for estimates begin here, so that they are known from all others.
+const FIRST_ESTIMATE: u32 = 1_000;
+
+/// Handles on all of it; cheap to copy.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Orders {
+    /// Rooms that are chosen.
+    pub(crate) choice: RwSignal<RoomChoice>,
+    /// What cleaning them takes, or why nobody knows; nothing while the robot reckons.
+    pub(crate) prospect: RwSignal<Option<String>>,
+    /// What is being drawn.
+    pub(crate) sketch: RwSignal<Sketch>,
+    /// Where the pointer is while something is drawn, in the map.
+    pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
+    /// What is forbidden.
+    pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
+    home: StoredValue<HomeView>,
+    asked: StoredValue<u32>,
+}
+
+impl Orders {
+    pub(crate) fn new() -> Self {
+        Self {
+            choice: RwSignal::new(RoomChoice::default()),
+            prospect: RwSignal::new(None),
+            sketch: RwSignal::new(Sketch::default()),
+            pointer: RwSignal::new(None),
+            no_go: RwSignal::new(Vec::new()),
+            home: StoredValue::new(HomeView::default()),
+            asked: StoredValue::new(FIRST_ESTIMATE),
+        }
+    }
+
+    pub(crate) fn on_home(self, home: &HomeView) {
+        let rows = no_go_rows(home);
+        if self.no_go.with_untracked(|known| *known != rows) {
+            self.no_go.set(rows);
+        }
+        let mut choice = self.choice.get_untracked();
+        if choice.retain_known(home) {
+            self.choice.set(choice);
+        }
+        self.home.set_value(home.clone());
+    }
+
+    /// The newest estimate counts; one for another choice came too late.
+    pub(crate) fn on_estimate(self, estimate: &JobEstimate) {
+        if estimate.id == Some(self.asked.get_value()) {
+            self.prospect.set(Some(job_estimate_text(estimate)));
+        }
+    }
+
+    /// Whether the refusal is that of an estimate, which stands beside the choice.
+    pub(crate) fn on_failed(self, failure: &Failure) -> bool {
+        let is_newest = failure.id == Some(self.asked.get_value());
+        if is_newest {
+            self.prospect.set(Some(failure.text.clone()));
+        }
+        is_newest || failure.id.is_some_and(|id| id >= FIRST_ESTIMATE)
+    }
+
+    /// Number of the next request for an estimate.
+    fn next_number(self) -> u32 {
+        self.asked
+            .try_update_value(|number| {
+                *number = number.wrapping_add(1).max(FIRST_ESTIMATE);
+                *number
+            })
+            .unwrap_or(FIRST_ESTIMATE)
+    }
+}
+
+impl Store {
+    /// Chooses a room or takes it out.
+    pub(crate) fn toggle_room(self, room: u16) {
+        self.orders.choice.update(|choice| choice.toggle(room));
+        self.show_known_home();
+    }
+
+    /// Begins to draw, or lays the tool down.
+    pub(crate) fn take_tool(self, tool: Tool) {
+        self.orders.sketch.update(|sketch| sketch.take(tool));
+        self.orders.pointer.set(None);
+        if tool != Tool::Choose {
+            self.show_known_home();
+        }
+    }
+
+    /// A person pointed at a place of the map.
+    pub(crate) fn point_at(self, place: (f64, f64)) {
+        if self.orders.sketch.with_untracked(|sketch| sketch.tool()) == Tool::Choose {
+            if let Some(room) = self.orders.home.with_value(|home| room_at(home, place)) {
+                self.toggle_room(room);
+            }
+            return;
+        }
+        let drawn = self
+            .orders
+            .sketch
+            .try_update(|sketch| sketch.point(place))
+            .flatten();
+        if let Some(shape) = drawn {
+            self.orders.pointer.set(None);
+            self.forbid(shape);
+        }
+    }
+
+    fn forbid(self, shape: NoGoShape) {
+        self.ask(RequestBody::AddNoGo { shape });
+    }
+
+    /// Asks what cleaning the chosen rooms takes.
+    pub(crate) fn ask_prospect(self) {
+        self.orders.prospect.set(None);
+        if let Some(order) = self.orders.choice.with_untracked(panel_logic::RoomChoice::order) {
+            let number = self.orders.next_number();
+            self.ask_as(number, RequestBody::Estimate(order));
+        }
+    }
+
+    /// Rooms and what is forbidden are seen in what the robot knows, not in the true home of a simulator.
+    fn show_known_home(self) {
+        self.map.with_value(|map| {
+            if map.with(|scene| scene.ground()) != Ground::Known {
+                map.change(|scene| scene.show(Ground::Known));
+            }
+        });
+    }
+}

@@ -1,0 +1,144 @@
+//! The rooms as a list with actions, and what is forbidden: all that can be done on the map, for keyboard and screen reader.
+
+use leptos::ev::SubmitEvent;
+use leptos::prelude::*;
+use panel_logic::{NoGoRow, RoomRow, Tool};
+use rvac_api::{RequestBody, RoomNaming};
+
+use crate::store::Store;
+
+/// Longest name of a room, in characters.
+const NAME_MAX: &str = "40";
+
+#[component]
+pub(crate) fn RoomList(store: Store) -> impl IntoView {
+    let renamed = RwSignal::new(None::<u16>);
+    view! {
+        <h3 id="rooms-title">"Rooms"</h3>
+        <ul id="rooms" class="rows" aria-labelledby="rooms-title">
+            <For
+                each=move || store.rooms.get()
+                key=|row| (row.id, row.name.clone(), row.words.clone())
+                let:row
+            >
+                <Room store row renamed />
+            </For>
+        </ul>
+        <Show when=move || store.rooms.with(Vec::is_empty)>
+            <p class="hint">"No room is known yet: the robot finds them while it cleans."</p>
+        </Show>
+        <Show when=move || store.rooms.with(|rooms| !rooms.is_empty())>
+            <p class="hint">"Press a room here or tap it on the map to choose it for cleaning."</p>
+        </Show>
+    }
+}
+
+#[component]
+fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
+    let RoomRow { id, name, words } = row;
+    let choice = store.orders.choice;
+    let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
+    let is_renamed = move || renamed.get() == Some(id);
+    let rename_label = format!("Rename {name}");
+    let shown = name.clone();
+    view! {
+        <li>
+            <button
+                type="button"
+                class="small choose"
+                id=format!("room-{id}")
+                aria-pressed=move || if place.get().is_some() { "true" } else { "false" }
+                on:click=move |_| store.toggle_room(id)
+            >
+                {move || place.get().map(|place| format!("{place}. "))}
+                {shown}
+            </button>
+            <span class="words">{words}</span>
+            <button
+                type="button"
+                class="small"
+                aria-label=rename_label
+                aria-expanded=move || if is_renamed() { "true" } else { "false" }
+                on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
+            >
+                "Rename"
+            </button>
+        </li>
+        <Show when=is_renamed>
+            <RenameForm store id name=name.clone() renamed />
+        </Show>
+    }
+}
+
+#[component]
+fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>>) -> impl IntoView {
+    let text = RwSignal::new(name.clone());
+    let save = move |event: SubmitEvent| {
+        event.prevent_default();
+        let name = Some(text.get_untracked()).filter(|name| !name.trim().is_empty());
+        store.ask(RequestBody::NameRoom(RoomNaming { room: id, name }));
+        renamed.set(None);
+    };
+    view! {
+        <li>
+            <form class="rename" on:submit=save>
+                <label class="field grow">
+                    {format!("New name of {name}; empty for its number")}
+                    <input
+                        id="room-name"
+                        maxlength=NAME_MAX
+                        autocomplete="off"
+                        prop:value=move || text.get()
+                        on:input=move |event| text.set(event_target_value(&event))
+                    />
+                </label>
+                <button type="submit" class="small" id="save-name">"Save"</button>
+            </form>
+        </li>
+    }
+}
+
+#[component]
+pub(crate) fn NoGoList(store: Store) -> impl IntoView {
+    let tool = move |tool: Tool, id: &'static str, label: &'static str| {
+        view! {
+            <button type="button" class="small" id=id on:click=move |_| store.take_tool(tool)>
+                {label}
+            </button>
+        }
+    };
+    view! {
+        <h3 id="no-go-title">"Not to be entered"</h3>
+        <ul id="no-go" class="rows" aria-labelledby="no-go-title">
+            <For each=move || store.orders.no_go.get() key=|row| (row.number, row.words.clone()) let:row>
+                {no_go(store, row)}
+            </For>
+        </ul>
+        <Show when=move || store.orders.no_go.with(Vec::is_empty)>
+            <p class="hint">"Nothing is forbidden."</p>
+        </Show>
+        <div class="draw-tools">
+            {tool(Tool::Wall, "draw-wall", "Draw a virtual wall")}
+            {tool(Tool::Zone, "draw-zone", "Draw a no-go zone")}
+        </div>
+    }
+}
+
+fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
+    let NoGoRow { number, name, words } = row;
+    let label = format!("Remove {name}");
+    view! {
+        <li>
+            <span class="name">{name}</span>
+            <span class="words">{words}</span>
+            <button
+                type="button"
+                class="small"
+                aria-label=label
+                on:click=move |_| store.ask(RequestBody::RemoveNoGo { number })
+            >
+                "Remove"
+            </button>
+        </li>
+    }
+}
