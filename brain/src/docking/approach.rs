@@ -6,6 +6,7 @@
 use core::f64::consts::PI;
 
 use super::hearing::{Hearing, Lobe};
+use super::line::Line;
 use super::scan::{Scan, ScanStep};
 use crate::action::Motion;
 use crate::behavior::Reason;
@@ -13,35 +14,14 @@ use crate::geometry::normalize_rad;
 use crate::manoeuvre::{Evasion, EvasionStep};
 use crate::task::{Mind, Situation};
 
-/// Speed on the line far from the dock, and while one lobe alone is heard.
-const LINE_M_PER_S: f64 = 0.2;
-const TRIM_M_PER_S: f64 = 0.12;
-/// Speed in the near field: contacts are met softly.
-const FINAL_M_PER_S: f64 = 0.05;
 /// Speed beside the line.
 const ASIDE_M_PER_S: f64 = 0.18;
-/// Turn back to the line while one lobe alone is heard, radians; less in the near field, where nothing has time to straighten.
-const TRIM_RAD: f64 = 0.22;
-const TRIM_NEAR_RAD: f64 = 0.14;
-/// What a base that beams alone have told learns when the line was lost and found again, radians.
-const LEARN_RAD: f64 = 0.02;
-/// Way to the side by which the robot goes on into the line after it has found it again, metres: to its middle.
-const MIDDLE_M: f64 = 0.05;
-const MIDDLE_NEAR_M: f64 = 0.02;
-/// From this way into the near field on it drives straight, metres: 0.1 m before the contacts.
-const STRAIGHT_M: f64 = 0.26;
 /// Steering, rad/s for each radian.
 const STEER_PER_S: f64 = 2.5;
 /// Greater errors of the heading are turned away on the spot.
 const TURN_FIRST_RAD: f64 = 0.3;
 /// Rates of such a turn, rad/s.
 const TURN_RAD_PER_S: (f64, f64) = (0.4, 1.2);
-/// The near field begins 0.36 m before the contacts; who has driven so far in it has missed them, metres.
-const NEAR_MAX_M: f64 = 0.6;
-/// Longest way on the line, metres: beams reach 3 m.
-const LINE_MAX_M: f64 = 4.0;
-/// Silence in front for so long means that the line is lost, seconds.
-const SILENCE_S: f64 = 1.0;
 /// Way back and turn of a wiggle at the contacts: 5 degrees.
 const WIGGLE_BACK_M: f64 = 0.03;
 const WIGGLE_RAD: f64 = 0.087;
@@ -91,20 +71,6 @@ enum Phase {
     Evade(Evasion, After),
 }
 
-/// The drive along the line.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    base_rad: f64,
-    /// The base is the map's.
-    is_known: bool,
-    lobe: Lobe,
-    /// Way to the side that is left to the middle of the line.
-    middle_m: f64,
-    silent_s: f64,
-    way_m: f64,
-    near_m: f64,
-}
-
 /// A straight way in some direction.
 #[derive(Clone, Copy, Debug)]
 struct Leg {
@@ -146,10 +112,7 @@ impl Approach {
 
     /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
     pub(super) fn from_map(bearing_rad: f64) -> Self {
-        Self::beginning(Phase::Line(Line {
-            is_known: true,
-            ..Line::along(bearing_rad)
-        }))
+        Self::beginning(Phase::Line(Line::of_map(bearing_rad)))
     }
 
     fn beginning(phase: Phase) -> Self {
@@ -299,11 +262,11 @@ impl Approach {
         }
         line.follow(hearing, situation.advance.distance_m, situation.advance.time_s);
         self.phase = Phase::Line(line);
-        if line.near_m > NEAR_MAX_M || line.way_m > LINE_MAX_M {
-            return self.leave(line.base_rad, mind);
+        if line.is_missed() {
+            return self.leave(line.base_rad(), mind);
         }
         let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
-        if line.silent_s > SILENCE_S && error_rad.abs() < TURN_FIRST_RAD {
+        if line.is_lost() && error_rad.abs() < TURN_FIRST_RAD {
             self.phase = Phase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
@@ -323,11 +286,11 @@ impl Approach {
             return self.turn_round(Evasion::from_contact, reason, mind);
         }
         if self.wiggles >= WIGGLES_MAX {
-            return self.leave(line.base_rad, mind);
+            return self.leave(line.base_rad(), mind);
         }
         self.wiggles += 1;
         mind.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
-        let base_rad = line.base_rad + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
+        let base_rad = line.base_rad() + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
         self.wiggle_side = -self.wiggle_side;
         let turn_rad = normalize_rad(base_rad - self.heading_rad);
         self.phase = Phase::Evade(
@@ -410,83 +373,6 @@ impl Approach {
     }
 }
 
-impl Line {
-    fn along(base_rad: f64) -> Self {
-        Self {
-            base_rad,
-            is_known: false,
-            lobe: Lobe::Both,
-            middle_m: 0.0,
-            silent_s: 0.0,
-            way_m: 0.0,
-            near_m: 0.0,
-        }
-    }
-
-    fn follow(&mut self, hearing: &Hearing, distance_m: f64, time_s: f64) {
-        self.silent_s = if hearing.is_in_front() {
-            0.0
-        } else {
-            self.silent_s + time_s
-        };
-        self.way_m += distance_m.max(0.0);
-        if hearing.is_near() || self.near_m > 0.0 {
-            self.near_m += distance_m.max(1e-6);
-        }
-        self.take_lobe(hearing.lobe(), distance_m);
-    }
-
-    fn take_lobe(&mut self, lobe: Lobe, distance_m: f64) {
-        match lobe {
-            Lobe::None => {}
-            Lobe::Left | Lobe::Right => {
-                self.lobe = lobe;
-                self.middle_m = if self.near_m > 0.0 {
-                    MIDDLE_NEAR_M
-                } else {
-                    MIDDLE_M
-                };
-            }
-            Lobe::Both if self.lobe != Lobe::Both => {
-                self.middle_m -= self.trim_rad() * distance_m.max(0.0);
-                if self.middle_m <= 0.0 {
-                    if !self.is_known {
-                        self.base_rad += LEARN_RAD * toward_line(self.lobe);
-                    }
-                    self.lobe = Lobe::Both;
-                }
-            }
-            Lobe::Both => {}
-        }
-    }
-
-    fn trim_rad(&self) -> f64 {
-        if self.near_m > 0.0 {
-            TRIM_NEAR_RAD
-        } else {
-            TRIM_RAD
-        }
-    }
-
-    fn setpoint_rad(&self) -> f64 {
-        if self.near_m > STRAIGHT_M {
-            self.base_rad
-        } else {
-            self.base_rad + self.trim_rad() * toward_line(self.lobe)
-        }
-    }
-
-    fn speed_m_per_s(&self) -> f64 {
-        if self.near_m > 0.0 {
-            FINAL_M_PER_S
-        } else if self.lobe == Lobe::Both && self.silent_s == 0.0 {
-            LINE_M_PER_S
-        } else {
-            TRIM_M_PER_S
-        }
-    }
-}
-
 /// The side to which the wall of the dock does not lie, seen by a robot that faces the dock: +1 left, -1 right; `None` when
 /// no wall is seen.
 fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
@@ -497,13 +383,4 @@ fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
         .map(|(sensor, level)| libm::sin(sensor.heading_rad - bearing_rad) * f64::from(*level))
         .sum();
     (on_left.abs() > WALL_LEVEL).then_some(-on_left.signum())
-}
-
-/// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.
-fn toward_line(lobe: Lobe) -> f64 {
-    match lobe {
-        Lobe::Left => -1.0,
-        Lobe::Right => 1.0,
-        Lobe::Both | Lobe::None => 0.0,
-    }
 }

@@ -9,6 +9,7 @@
 
 mod approach;
 mod hearing;
+mod line;
 mod memory;
 mod roam;
 mod scan;

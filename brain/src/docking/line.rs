@@ -1,0 +1,154 @@
+//! The drive along the line between the two lobes of the dock.
+//!
+//! Terms are those of [`super::approach`].
+
+use super::hearing::{Hearing, Lobe};
+
+/// Speed on the line far from the dock, and while one lobe alone is heard.
+const LINE_M_PER_S: f64 = 0.2;
+const TRIM_M_PER_S: f64 = 0.12;
+/// Speed in the near field: contacts are met softly.
+const FINAL_M_PER_S: f64 = 0.05;
+/// Turn back to the line while one lobe alone is heard, radians; less in the near field, where nothing has time to straighten.
+const TRIM_RAD: f64 = 0.22;
+const TRIM_NEAR_RAD: f64 = 0.14;
+/// What a base that beams alone have told learns when the line was lost and found again, radians.
+const LEARN_RAD: f64 = 0.02;
+/// Way to the side by which the robot goes on into the line after it has found it again, metres: to its middle.
+const MIDDLE_M: f64 = 0.05;
+const MIDDLE_NEAR_M: f64 = 0.02;
+/// From this way into the near field on it drives straight, metres: 0.1 m before the contacts.
+const STRAIGHT_M: f64 = 0.26;
+/// The near field begins 0.36 m before the contacts; who has driven so far in it has missed them, metres.
+const NEAR_MAX_M: f64 = 0.6;
+/// Longest way on the line, metres: beams reach 3 m.
+const LINE_MAX_M: f64 = 4.0;
+/// Silence in front for so long means that the line is lost, seconds.
+const SILENCE_S: f64 = 1.0;
+
+/// The drive along the line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    base_rad: f64,
+    /// The base is the map's.
+    is_known: bool,
+    lobe: Lobe,
+    /// Way to the side that is left to the middle of the line.
+    middle_m: f64,
+    silent_s: f64,
+    way_m: f64,
+    near_m: f64,
+}
+
+impl Line {
+    /// In this direction, which beams have told.
+    pub(super) fn along(base_rad: f64) -> Self {
+        Self {
+            base_rad,
+            is_known: false,
+            lobe: Lobe::Both,
+            middle_m: 0.0,
+            silent_s: 0.0,
+            way_m: 0.0,
+            near_m: 0.0,
+        }
+    }
+
+    /// In this direction, which the map has told.
+    pub(super) fn of_map(base_rad: f64) -> Self {
+        Self {
+            is_known: true,
+            ..Self::along(base_rad)
+        }
+    }
+
+    /// Its direction as far as it is known, radians.
+    pub(super) fn base_rad(&self) -> f64 {
+        self.base_rad
+    }
+
+    /// So far along it that the contacts were missed.
+    pub(super) fn is_missed(&self) -> bool {
+        self.near_m > NEAR_MAX_M || self.way_m > LINE_MAX_M
+    }
+
+    /// Nothing was heard in front for too long.
+    pub(super) fn is_lost(&self) -> bool {
+        self.silent_s > SILENCE_S
+    }
+
+    /// Takes in what is heard after a step of the drive.
+    pub(super) fn follow(&mut self, hearing: &Hearing, distance_m: f64, time_s: f64) {
+        self.silent_s = if hearing.is_in_front() {
+            0.0
+        } else {
+            self.silent_s + time_s
+        };
+        self.way_m += distance_m.max(0.0);
+        if hearing.is_near() || self.near_m > 0.0 {
+            self.near_m += distance_m.max(1e-6);
+        }
+        self.take_lobe(hearing.lobe(), distance_m);
+    }
+
+    fn take_lobe(&mut self, lobe: Lobe, distance_m: f64) {
+        match lobe {
+            Lobe::None => {}
+            Lobe::Left | Lobe::Right => {
+                self.lobe = lobe;
+                self.middle_m = if self.near_m > 0.0 {
+                    MIDDLE_NEAR_M
+                } else {
+                    MIDDLE_M
+                };
+            }
+            Lobe::Both if self.lobe != Lobe::Both => {
+                self.middle_m -= self.trim_rad() * distance_m.max(0.0);
+                if self.middle_m <= 0.0 {
+                    if !self.is_known {
+                        self.base_rad += LEARN_RAD * toward_line(self.lobe);
+                    }
+                    self.lobe = Lobe::Both;
+                }
+            }
+            Lobe::Both => {}
+        }
+    }
+
+    fn trim_rad(&self) -> f64 {
+        if self.near_m > 0.0 {
+            TRIM_NEAR_RAD
+        } else {
+            TRIM_RAD
+        }
+    }
+
+    /// Direction to drive in, radians.
+    pub(super) fn setpoint_rad(&self) -> f64 {
+        if self.near_m > STRAIGHT_M {
+            self.base_rad
+        } else {
+            self.base_rad + self.trim_rad() * toward_line(self.lobe)
+        }
+    }
+
+    /// Speed to drive at.
+    pub(super) fn speed_m_per_s(&self) -> f64 {
+        if self.near_m > 0.0 {
+            FINAL_M_PER_S
+        } else if self.lobe == Lobe::Both && self.silent_s == 0.0 {
+            LINE_M_PER_S
+        } else {
+            TRIM_M_PER_S
+        }
+    }
+}
+
+/// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.
+fn toward_line(lobe: Lobe) -> f64 {
+    match lobe {
+        Lobe::Left => -1.0,
+        Lobe::Right => 1.0,
+        Lobe::Both | Lobe::None => 0.0,
+    }
+}
