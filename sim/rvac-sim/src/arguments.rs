@@ -139,6 +139,9 @@ pub(crate) struct RunArguments {
     /// Keep what happened in this folder, for `rvac-sim report`.
     #[arg(long, value_name = "DIR")]
     pub(crate) keep: Option<PathBuf>,
+    /// Tell what the host took of this machine's processor, too; it differs from run to run.
+    #[arg(long)]
+    pub(crate) host_cost: bool,
     /// Give the host a perfect map of the home at the start.
     #[arg(long)]
     pub(crate) known_map: bool,

@@ -76,7 +76,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let report = report?;
     let report = Report {
         wall_seconds: started.elapsed().as_secs_f64(),
-        host_cost: household.host().map(Host::cost),
+        host_cost: household.host().filter(|_| arguments.host_cost).map(Host::cost),
         ..report
     };
     if let Some(folder) = &arguments.keep {

@@ -39,7 +39,8 @@ pub struct Report {
     pub sim_seconds: f64,
     /// Time on the wall.
     pub wall_seconds: f64,
-    /// What the host took of a processor; `null` where nobody measured it.
+    /// What the host took of a processor; left out unless somebody asked, since it differs from run to run.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub host_cost: Option<HostCost>,
 }
 
