@@ -292,12 +292,7 @@ impl Brain {
         (left, right): (bool, bool),
     ) {
         let bearing_rad = SIDE_RAD * (f64::from(u8::from(left)) - f64::from(u8::from(right)));
-        let (sin, cos) = libm::sincos(bearing_rad);
-        let radius_m = self.config.body.radius_m;
-        let in_base = Point2 {
-            x_m: radius_m * cos,
-            y_m: radius_m * sin,
-        };
+        let in_base = Point2::in_direction(bearing_rad, self.config.body.radius_m);
         let seen = SeenAt {
             time_us,
             odom: estimate.odom.transform(in_base),

@@ -7,7 +7,7 @@ use crate::mapping::{Cell, CellKnowledge, Map};
 /// Most parts of an order.
 const PARTS_MAX: usize = 32;
 /// Most corners of a zone.
-const CORNERS_MAX: usize = 64;
+pub(crate) const CORNERS_MAX: usize = 64;
 /// Most passes over a part.
 const PASSES_MAX: u8 = 3;
 /// Corners of a zone are nearer to the map's origin than this, metres.

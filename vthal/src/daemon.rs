@@ -162,9 +162,7 @@ impl Daemon {
                 return;
             }
         };
-        for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
-            self.tell(client, &update);
-        }
+        self.tell_done((client, id), answer);
     }
 
     fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
@@ -176,6 +174,11 @@ impl Daemon {
                 return;
             }
         };
+        self.tell_done((client, id), answer);
+    }
+
+    /// What came of an order, if it has an answer of its own, and that it is done, if whoever asked numbered it.
+    fn tell_done(&mut self, (client, id): (ClientId, Option<u32>), answer: Option<Update>) {
         for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
             self.tell(client, &update);
         }

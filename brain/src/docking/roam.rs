@@ -157,15 +157,11 @@ impl Roam {
             Reason::BumpRight | Reason::CliffRight => -0.7,
             _ => 0.0,
         };
-        let (sin, cos) = libm::sincos(side);
-        let radius_m = situation.config.body.radius_m;
         if self.touched.len() >= TOUCHED_MAX {
             self.touched.remove(0);
         }
-        self.touched.push(situation.pose.transform(Point2 {
-            x_m: radius_m * cos,
-            y_m: radius_m * sin,
-        }));
+        let in_base = Point2::in_direction(side, situation.config.body.radius_m);
+        self.touched.push(situation.pose.transform(in_base));
     }
 
     /// A turn to a way that is worth leaving this one for.

@@ -17,6 +17,16 @@ impl Point2 {
     /// The origin.
     pub const ORIGIN: Self = Self { x_m: 0.0, y_m: 0.0 };
 
+    /// The point so many metres from the origin, in a direction counter-clockwise from the x axis.
+    #[must_use]
+    pub fn in_direction(bearing_rad: f64, distance_m: f64) -> Self {
+        let (sin, cos) = libm::sincos(bearing_rad);
+        Self {
+            x_m: distance_m * cos,
+            y_m: distance_m * sin,
+        }
+    }
+
     /// Distance to `other` in metres.
     #[must_use]
     pub fn distance_m(self, other: Self) -> f64 {

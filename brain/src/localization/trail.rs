@@ -102,12 +102,8 @@ impl Trail {
             return;
         }
         let side = f64::from(u8::from(contacts.left)) - f64::from(u8::from(contacts.right));
-        let (sin, cos) = libm::sincos(side * core::f64::consts::FRAC_PI_4);
         self.put(
-            Point2 {
-                x_m: radius_m * cos,
-                y_m: radius_m * sin,
-            },
+            Point2::in_direction(side * core::f64::consts::FRAC_PI_4, radius_m),
             Trace::Solid,
         );
     }

@@ -150,11 +150,12 @@ impl Pencil {
         let steps = libm::ceil((to_rad - from_rad) * radius_m / (0.7 * CELL_M)).clamp(1.0, 64.0);
         let mut last = None;
         for step in 0..=steps as u32 {
-            let (sin, cos) = libm::sincos(from_rad + (to_rad - from_rad) * f64::from(step) / steps);
-            let cell = Cell::under(sighting.pose.transform(Point2 {
-                x_m: radius_m * cos,
-                y_m: radius_m * sin,
-            }));
+            let bearing_rad = from_rad + (to_rad - from_rad) * f64::from(step) / steps;
+            let cell = Cell::under(
+                sighting
+                    .pose
+                    .transform(Point2::in_direction(bearing_rad, radius_m)),
+            );
             if last == Some(cell) {
                 continue;
             }

@@ -75,12 +75,8 @@ impl Obstructions {
 
 /// The point of the rim in a direction from straight ahead.
 fn rim(bearing_rad: f64, situation: &Situation<'_>) -> Point2 {
-    let (sin, cos) = libm::sincos(bearing_rad);
-    let radius_m = situation.config.body.radius_m;
-    situation.pose.transform(Point2 {
-        x_m: radius_m * cos,
-        y_m: radius_m * sin,
-    })
+    let in_base = Point2::in_direction(bearing_rad, situation.config.body.radius_m);
+    situation.pose.transform(in_base)
 }
 
 /// Whether the map knows of something near a point.

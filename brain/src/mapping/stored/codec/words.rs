@@ -5,12 +5,10 @@ use crate::geometry::Point2;
 use crate::mapping::Annotations;
 use crate::mapping::annotations::{NAMES_MAX, NO_GO_MAX};
 use crate::no_go::{NoGo, NoGoShape, RoomName};
-use crate::order::Zone;
+use crate::order::{CORNERS_MAX, Zone};
 
 const ZONE: u64 = 0;
 const WALL: u64 = 1;
-/// More corners than a zone can have are not read.
-const CORNERS_MAX: u64 = 64;
 
 pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
     put(bytes, words.next_no_go.into());
@@ -71,7 +69,7 @@ impl Reader<'_> {
         let no_go = match self.number()? {
             ZONE => {
                 let count = self.number()?;
-                if count > CORNERS_MAX {
+                if count > CORNERS_MAX as u64 {
                     return Err(StoredMapError::NoGo);
                 }
                 let corners: Result<Vec<Point2>, StoredMapError> = (0..count).map(|_| self.point()).collect();
