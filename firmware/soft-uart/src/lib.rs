@@ -31,6 +31,14 @@
 //! anything after it. `poll` must be called at least once in half a turn of the counter (53 s at 40 MHz) and is usually
 //! called a thousand times a second.
 //!
+//! # Noise
+//! A pulse shorter than 0.38 bits changes nothing when it is apart: when nothing else changes within its own length before and
+//! after it. A pulse nearer to an edge moves that edge by up to twice its length. Two edges in a row may be moved against each
+//! other by less than half a bit, the lateness of interrupts and the difference of the clocks over the bits between them
+//! included. A pulse of 0.19 bits beside one of them is harmless with clocks 1 % apart, and so is one of 0.09 bits beside each.
+//! Beyond that a byte may be wrong or a [`Received::FramingError`], and the next one is well.
+//!
+//! # Finding the rate
 //! The rate is found from the letter `U` (0x55, ten edges one bit apart) and found again when the other side comes back
 //! with another rate: see [`Receiver`].
 //!

@@ -4,7 +4,6 @@ mod line;
 
 use line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
 use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
-use proptest::test_runner::{Config, RngSeed};
 use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, Received, Receiver, Trust};
 
 const LATE: f64 = 0.25;
@@ -42,19 +41,50 @@ fn bauds() -> impl Strategy<Value = Baud> {
     prop::sample::select(&Baud::ALL[..])
 }
 
-/// The same cases in each run. Of random ones one failed once, not understood yet: at 9600 baud, seven bytes 0 and one 49, seed
-/// 4793115401972074202, offset 0, no clock error, the last byte was told as a framing error. The packet's seal covers for it.
-fn same_cases() -> Config {
-    Config {
-        cases: 300,
-        rng_seed: RngSeed::Fixed(1),
-        ..Config::default()
+/// How long a pulse of noise beside an edge is at most, in bits, if every second edge has one, and if all have, with clocks
+/// that are `SLOW` apart at most.
+const TOUCH_ONE: f64 = 0.19;
+const TOUCH_ALL: f64 = 0.09;
+const SLOW: f64 = 0.01;
+
+/// A pulse that begins or ends nearer to an edge than it is long.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    is_before: bool,
+    /// Its length, as a share of the longest.
+    length: f64,
+    /// Its distance from the edge, as a share of its length.
+    distance: f64,
+}
+
+fn touches() -> impl Strategy<Value = Vec<Touch>> {
+    let share = || prop_oneof![Just(1.0), 0.05..1.0];
+    let touch = (any::<bool>(), share(), share()).prop_map(|(is_before, length, distance)| Touch {
+        is_before,
+        length,
+        distance,
+    });
+    prop::collection::vec(touch, 400)
+}
+
+/// Puts one pulse of at most `longest` counts beside each edge for which `is_touched` holds.
+fn touch_edges(line: &mut Line, longest: f64, touches: &[Touch], is_touched: impl Fn(usize) -> bool) {
+    let edges = line.edges.clone();
+    for (number, ((edge, _), touch)) in edges.iter().zip(touches).enumerate() {
+        if is_touched(number) {
+            let length = longest * touch.length;
+            let distance = length * touch.distance;
+            let begins = if touch.is_before {
+                edge - distance - length
+            } else {
+                edge + distance
+            };
+            line.noise(begins, length);
+        }
     }
 }
 
 proptest! {
-    #![proptest_config(same_cases())]
-
     #[test]
     fn random_bytes_with_random_gaps_arrive(
         baud in bauds(),
@@ -74,31 +104,82 @@ proptest! {
         assert_eq!(receiver.trust(), Trust::Locked(baud));
     }
 
-    /// One pulse of noise in each byte, up to a fifth of a bit, wherever it falls.
+    /// Pulses that are farther from all else than they are long, as many as find room.
     #[test]
-    fn short_pulses_change_nothing(
+    fn pulses_apart_change_nothing(
         baud in bauds(),
         bytes in prop::collection::vec(any::<u8>(), 1..40),
-        clock_error in -0.01..0.01,
+        clock_error in -ERROR..ERROR,
+        late_bits in 0.0..LATE,
         (seed, offset) in any::<(u64, u32)>(),
     ) {
-        let mut line = Line::new(Faults { clock_error, late_bits: 0.0 }, seed);
+        let mut line = Line::new(Faults { clock_error, late_bits }, seed);
         let mut random = Random::new(seed);
+        send_with_pauses(&mut line, baud, &bytes, &mut random);
         let bit = bit_counts(baud);
-        let mut pulses = Vec::new();
-        for byte in &bytes {
-            let start = line.time;
-            line.byte(baud, *byte);
-            line.pause_bits(baud, 3.0 * random.share());
-            pulses.push((start + random.share() * (line.time - start), (0.01 + 0.19 * random.share()) * bit));
-        }
-        for (at, counts) in pulses {
-            line.noise(at, counts);
+        let (start, length) = (50_000.0, line.time - 50_000.0);
+        for _ in 0..6 * bytes.len() {
+            line.noise_apart(start + random.share() * length, (0.01 + 0.37 * random.share()) * bit);
         }
         let mut receiver = receiver(baud);
         assert_eq!(hear(&line, &mut receiver, offset), good(&bytes));
         assert_eq!(receiver.rate(), Some(baud));
     }
+
+    /// A pulse beside every second edge, before it or behind it.
+    #[test]
+    fn a_pulse_of_a_fifth_of_a_bit_beside_an_edge_changes_nothing(
+        baud in bauds(),
+        bytes in prop::collection::vec(any::<u8>(), 1..40),
+        clock_error in -SLOW..SLOW,
+        touches in touches(),
+        first in 0_usize..2,
+        (seed, offset) in any::<(u64, u32)>(),
+    ) {
+        let mut line = Line::new(Faults { clock_error, late_bits: 0.0 }, seed);
+        send_with_pauses(&mut line, baud, &bytes, &mut Random::new(seed));
+        touch_edges(&mut line, TOUCH_ONE * bit_counts(baud), &touches, |number| number % 2 == first);
+        assert_eq!(hear(&line, &mut receiver(baud), offset), good(&bytes));
+    }
+
+    #[test]
+    fn pulses_of_a_tenth_of_a_bit_beside_every_edge_change_nothing(
+        baud in bauds(),
+        bytes in prop::collection::vec(any::<u8>(), 1..40),
+        clock_error in -SLOW..SLOW,
+        touches in touches(),
+        (seed, offset) in any::<(u64, u32)>(),
+    ) {
+        let mut line = Line::new(Faults { clock_error, late_bits: 0.0 }, seed);
+        send_with_pauses(&mut line, baud, &bytes, &mut Random::new(seed));
+        touch_edges(&mut line, TOUCH_ALL * bit_counts(baud), &touches, |_| true);
+        assert_eq!(hear(&line, &mut receiver(baud), offset), good(&bytes));
+    }
+}
+
+fn send_with_pauses(line: &mut Line, baud: Baud, bytes: &[u8], random: &mut Random) {
+    for byte in bytes {
+        line.byte(baud, *byte);
+        line.pause_bits(baud, 3.0 * random.share());
+    }
+}
+
+/// A pulse of 0.15 bits, 0.14 bits before the start bit, lets that one seem to begin 0.29 bits early, and one of 0.19 bits
+/// behind the next edge lets this one seem to come 0.25 bits late: half a bit too much between them. A UART that looks at the
+/// middle of each bit sees the same early start, and its first look at data falls into the second pulse.
+#[test]
+fn two_pulses_that_pull_two_edges_apart_spoil_a_byte_and_not_the_next() {
+    let baud = Baud::B9600;
+    let bit = bit_counts(baud);
+    let mut line = Line::new(CLEAN, 1);
+    let start = line.time;
+    line.byte(baud, b'1');
+    line.pause_bits(baud, 1.0);
+    line.byte(baud, b'2');
+    line.noise(start - 0.29 * bit, 0.15 * bit);
+    line.noise(start + 1.06 * bit, 0.19 * bit);
+    let heard = hear(&line, &mut receiver(baud), 0);
+    assert_eq!(heard, [Received::FramingError, Received::Byte(b'2')]);
 }
 
 #[test]

@@ -6,6 +6,8 @@ use soft_uart::{Baud, Edge, Level, Received, Receiver};
 
 /// Counts of the receiver's counter a second.
 pub(crate) const COUNTS_PER_S: u32 = 40_000_000;
+/// How far the distance of two edges may be off in the counter's stamps, whose lowest bit is not kept, in counts.
+const STAMP: f64 = 4.0;
 /// Counts between two looks of the main loop.
 pub(crate) const LOOK_COUNTS: u64 = 40_000;
 
@@ -58,6 +60,8 @@ pub(crate) struct Line {
     pub(crate) time: f64,
     faults: Faults,
     random: Random,
+    /// When pulses of noise began, and how long they are.
+    pulses: Vec<(f64, f64)>,
 }
 
 pub(crate) fn bit_counts(baud: Baud) -> f64 {
@@ -73,6 +77,7 @@ impl Line {
             time: 100_000.0,
             faults,
             random: Random::new(seed),
+            pulses: Vec::new(),
         }
     }
 
@@ -133,6 +138,24 @@ impl Line {
             .map_or(Level::High, |before| self.edges[before].1);
         self.edges
             .splice(index..index, [(at, level.inverted()), (at + counts, level)]);
+    }
+
+    /// The same where no change is nearer than the pulse is long and no other pulse is nearer than that one is long;
+    /// elsewhere nothing.
+    pub(crate) fn noise_apart(&mut self, at: f64, counts: f64) {
+        let end = at + counts;
+        let is_change_near = self
+            .edges
+            .iter()
+            .any(|(time, _)| *time > at - counts - STAMP && *time < end + counts + STAMP);
+        let is_pulse_near = self
+            .pulses
+            .iter()
+            .any(|(begins, counts)| end > begins - counts - STAMP && at < begins + 2.0 * counts + STAMP);
+        if !is_change_near && !is_pulse_near {
+            self.pulses.push((at, counts));
+            self.noise(at, counts);
+        }
     }
 }
 
