@@ -138,18 +138,18 @@ impl Firmwares {
 
 fn program(subject: Subject) -> &'static [&'static str] {
     match subject {
-        Subject::Link => &["--package", "rvac-channel", "--bin", "bench-link"],
-        Subject::Relay => &["--package", "vthal", "--bin", "bench-relay"],
-        Subject::Kill => &["--package", "vthal", "--bin", "bench-kill"],
-        Subject::Sim => &["--package", "rvac-sim", "--bin", "rvac-sim"],
+        Subject::Link => &["--bin", "bench-link"],
+        Subject::Relay => &["--bin", "bench-relay"],
+        Subject::Kill => &["--bin", "bench-kill"],
+        Subject::Sim => &["--bin", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
-        Subject::Safety => &["--package", "trials", "--bin", "bench-safety"],
-        Subject::Flips => &["--package", "trials", "--bin", "bench-flips"],
-        Subject::Charges => &["--package", "trials", "--bin", "bench-charges"],
-        Subject::Coverage => &["--package", "rvac-sim", "--bin", "bench-coverage"],
-        Subject::Navigation => &["--package", "rvac-sim", "--bin", "bench-navigation"],
-        Subject::Docking => &["--package", "rvac-sim", "--bin", "bench-docking"],
-        Subject::Firmware => &["--package", "rvac-sim", "--bin", "bench-firmware"],
+        Subject::Safety => &["--bin", "bench-safety"],
+        Subject::Flips => &["--bin", "bench-flips"],
+        Subject::Charges => &["--bin", "bench-charges"],
+        Subject::Coverage => &["--bin", "bench-coverage"],
+        Subject::Navigation => &["--bin", "bench-navigation"],
+        Subject::Docking => &["--bin", "bench-docking"],
+        Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
 

@@ -47,15 +47,16 @@ pub(crate) fn program(name: &str, profile: Profile) -> PathBuf {
     target().join(profile.folder()).join(name)
 }
 
-/// Builds the named packages with all their programs.
-pub(crate) fn build(packages: &[&str], profile: Profile) -> anyhow::Result<()> {
+/// Builds programs by their names. No package is named: with one cargo would choose other features for what all share, and
+/// build it a second time; and the other programs of a package are not waited for.
+pub(crate) fn build(programs: &[&str], profile: Profile) -> anyhow::Result<()> {
     let mut command = cargo();
     command.arg("build").arg("--locked");
-    for package in packages {
-        command.args(["--package", package]);
+    for program in programs {
+        command.args(["--bin", program]);
     }
     if profile == Profile::Release {
         command.arg("--release");
     }
-    crate::process::run(&format!("build {}", packages.join(", ")), &mut command)
+    crate::process::run(&format!("build {}", programs.join(", ")), &mut command)
 }

@@ -7,15 +7,15 @@ use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use cordlib::board::{
-    Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels, CliffSensors,
-    Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders, HeadingSensor, Lights, Link, Probe,
-    Parts, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
-    WheelMotors,
+    Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
+    CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
+    Encoders, HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
+    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use cordlib::{Cord, Parameters};
 use rvac_protocol::message::{
-    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS, PROBE_PORTS, PROXIMITY_SENSORS, Refusal,
-    ResetCause, WheelDrops,
+    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS,
+    PROBE_PORTS, PROXIMITY_SENSORS, Refusal, ResetCause, WheelDrops,
 };
 use rvac_units::{
     Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Temperature, Throttle, Tick,

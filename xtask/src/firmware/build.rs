@@ -55,10 +55,7 @@ pub(crate) fn build(
     if !options.features.is_empty() {
         cargo.arg("--features").arg(options.features.join(","));
     }
-    // What this shell wants of other programs is not part of the firmware.
-    cargo
-        .env_remove("RUSTFLAGS")
-        .env_remove("CARGO_ENCODED_RUSTFLAGS");
+    forget_wishes(&mut cargo);
     cargo
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_PROFILE_RELEASE_TRIM_PATHS", "all")
@@ -88,9 +85,7 @@ pub(crate) fn build_others(what: &str, words: &[&str]) -> anyhow::Result<PathBuf
     let tools = toolchain::choose(&toolchain::MIPS)?;
     let target = workspace::target().join("cross");
     let mut cargo = tools.cargo();
-    cargo
-        .env_remove("RUSTFLAGS")
-        .env_remove("CARGO_ENCODED_RUSTFLAGS");
+    forget_wishes(&mut cargo);
     cargo
         .args(["build", "--release", "--locked"])
         .args(words)
@@ -98,6 +93,19 @@ pub(crate) fn build_others(what: &str, words: &[&str]) -> anyhow::Result<PathBuf
         .arg(&target);
     process::run(&format!("build {what} with {}", tools.name()), &mut cargo)?;
     Ok(target.join(toolchain::MIPS.triple).join("release"))
+}
+
+/// What this shell wants of other programs is not part of the firmware.
+fn forget_wishes(cargo: &mut Command) {
+    for (name, _) in std::env::vars_os().filter(|(name, _)| is_wish(name)) {
+        cargo.env_remove(name);
+    }
+}
+
+/// Whether this variable changes what the compiler makes of the same sources.
+fn is_wish(name: &OsStr) -> bool {
+    name.to_str()
+        .is_some_and(|name| name.ends_with("RUSTFLAGS") || name.starts_with("CARGO_PROFILE_"))
 }
 
 /// A folder with sources and a folder for what is built of them.
@@ -225,11 +233,25 @@ fn fnv1a_64(start: u64, bytes: &[u8]) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{identity, with_identity};
+    use super::{identity, is_wish, with_identity};
     use std::ffi::{OsStr, OsString};
 
     fn words(text: &str) -> Vec<OsString> {
         text.split(' ').map(OsString::from).collect()
+    }
+
+    #[test]
+    fn wishes_of_the_shell_are_flags_and_profiles() {
+        for name in [
+            "RUSTFLAGS",
+            "CARGO_ENCODED_RUSTFLAGS",
+            "CARGO_PROFILE_RELEASE_LTO",
+        ] {
+            assert!(is_wish(OsStr::new(name)), "{name}");
+        }
+        for name in ["PATH", "CARGO_HOME", "CARGO_TARGET_DIR"] {
+            assert!(!is_wish(OsStr::new(name)), "{name}");
+        }
     }
 
     #[test]

@@ -71,7 +71,7 @@ pub(super) fn of_emulator(_long: bool) -> Result {
     let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
     let mut pace = robot_command(&pace);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
-    workspace::build(&["rvac-cli"], workspace::Profile::Dev)?;
+    workspace::build(&["rvac"], workspace::Profile::Dev)?;
     let owner = tests(&mut owner(&elf));
     all([tests(&mut command), owner, check(&mut pace)]
         .into_iter()
@@ -82,7 +82,7 @@ pub(super) fn of_emulator(_long: bool) -> Result {
 fn owner(elf: &Path) -> Command {
     let mut command = workspace::cargo();
     command
-        .args(["test", "--locked", "--package", "rvac-sim", "--test", "owner"])
+        .args(["test", "--locked", "--test", "owner"])
         .args(["--no-fail-fast", "--", "--test-threads", "6"])
         .env("RVAC_FIRMWARE", elf)
         .env(
@@ -104,15 +104,7 @@ const TRIALS: [(&str, &[&str]); 3] = [
 
 fn trial(program: &str, words: &[&str], elf: &Path) -> Command {
     let mut command = workspace::cargo();
-    command.args([
-        "run",
-        "--release",
-        "--quiet",
-        "--locked",
-        "--package",
-        "trials",
-        "--bin",
-    ]);
+    command.args(["run", "--release", "--quiet", "--locked", "--bin"]);
     command.args([program, "--"]).args(words);
     command.arg("--firmware").arg(elf);
     command

@@ -97,8 +97,9 @@ pub(super) const STAGES: [Stage; 15] = [
 ];
 
 /// Manifests of the workspaces besides the main one.
-const OTHERS: [&str; 6] = [
+const OTHERS: [&str; 7] = [
     "clients/panel/Cargo.toml",
+    "firmware/size-probe/Cargo.toml",
     "firmware/pic32mx3-hal/Cargo.toml",
     "firmware/sr8730/Cargo.toml",
     "sim/pic32/proof/Cargo.toml",
@@ -207,8 +208,6 @@ fn link(long: bool) -> Result {
         "--release",
         "--quiet",
         "--locked",
-        "--package",
-        "rvac-channel",
         "--bin",
         "bench-link",
         "--",
@@ -242,7 +241,8 @@ fn faults(long: bool) -> Result {
     on_chip.arg(elf);
     let other_seeds = if long { "0..10000" } else { "0..100" };
     let other = run(&["--robot", "relax", "--seeds", other_seeds, "--minutes", "2"]);
-    checks(&mut [run(&["--seeds", seeds, "--minutes", "10"]), other, on_chip])
+    let minutes = if long { "10" } else { "4" };
+    checks(&mut [run(&["--seeds", seeds, "--minutes", minutes]), other, on_chip])
 }
 
 fn headless(_long: bool) -> Result {
@@ -261,7 +261,7 @@ fn headless(_long: bool) -> Result {
 }
 
 fn kill(long: bool) -> Result {
-    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
+    workspace::build(&["rvac-sim", "vthal", "bench-kill"], Profile::Dev)?;
     let mut command = Command::new(program("bench-kill", Profile::Dev));
     command.current_dir(workspace::root());
     command.args([
@@ -278,22 +278,15 @@ fn browser(_long: bool) -> Result {
     system::need("chromium", &["chromium"])?;
     system::need("chromedriver", &["chromium-driver"])?;
     let assets = panel::build()?;
+    let elf = firmware::usual_elf()?;
     workspace::build(&["rvac-sim", "vthal", "panel-server"], Profile::Dev)?;
     let screenshots = workspace::target().join("screenshots");
     std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
-    let mut command = cargo(&[
-        "test",
-        "--locked",
-        "--package",
-        "panel-server",
-        "--test",
-        "browser",
-        "--",
-        "--nocapture",
-    ]);
+    let mut command = cargo(&["test", "--locked", "--test", "browser", "--", "--nocapture"]);
     command
         .env("RVAC_BROWSER_TESTS", "1")
         .env("RVAC_PANEL", assets)
+        .env("RVAC_FIRMWARE", elf)
         .env("RVAC_SCREENSHOTS", screenshots);
     tests(&mut command)
 }
