@@ -1,8 +1,8 @@
 //! The panel in a real browser, in front of the real daemon and the real simulator.
 //!
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
-//! `RVAC_PANEL`, and the binaries `vthal` and `rvac-sim` beside that of the server. Screenshots go to the folder named by
-//! `RVAC_SCREENSHOTS`.
+//! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
+//! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod browser;
@@ -35,6 +35,11 @@ impl Visit {
     /// In a home that the robot knows.
     async fn begin_at_home(screen: Screen) -> Option<Self> {
         Self::with(Stack::start_at_home, screen).await
+    }
+
+    /// With the robot's real firmware in an emulated chip.
+    async fn begin_emulated(screen: Screen) -> Option<Self> {
+        Self::with(Stack::start_emulated, screen).await
     }
 
     async fn with(start: fn() -> Stack, screen: Screen) -> Option<Self> {
@@ -91,6 +96,39 @@ async fn start_cleans_and_stop_stands() {
     let witness = Witness::watch(&visit.stack.simulator_socket());
     let stood = witness.stands_within(Duration::from_secs(3));
     assert!(stood.is_some(), "the robot still moves three seconds after Stop");
+}
+
+/// The very bytes that would be written to a robot, behind the same page.
+#[tokio::test]
+async fn the_real_firmware_cleans_and_stop_stands() {
+    let Some(visit) = Visit::begin_emulated(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    browser.click("#strategy option[value=bounce]").await;
+    browser.click("#start").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return document.body.innerText.includes('Way of cleaning: bounce.')")
+        .await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
+        .await;
+    browser.shot("desktop-emulated").await;
+
+    browser.click("#stop").await;
+    let clicked = Instant::now();
+    let stood = witness
+        .stands_within(Duration::from_secs(3))
+        .expect("the robot still moves three seconds after Stop");
+    let after = stood.saturating_duration_since(clicked);
+    println!("the emulated robot stood {} ms after Stop", after.as_millis());
+    browser.until_state(&["idle"]).await;
+    assert!(
+        !witness.moves_within(Duration::from_secs(1)),
+        "the robot moves again after Stop"
+    );
 }
 
 #[tokio::test]

@@ -80,15 +80,21 @@ fn root() -> PathBuf {
 impl Stack {
     /// In a home that the robot does not know.
     pub(crate) fn start() -> Self {
-        Self::new(Home::Unknown)
+        Self::new(Home::Unknown, None)
     }
 
     /// In a home whose map was kept.
     pub(crate) fn start_at_home() -> Self {
-        Self::new(Home::Kept)
+        Self::new(Home::Kept, None)
     }
 
-    fn new(home: Home) -> Self {
+    /// In a home that the robot does not know, with the robot's real firmware in an emulated chip.
+    pub(crate) fn start_emulated() -> Self {
+        let firmware = std::env::var_os("RVAC_FIRMWARE").expect("RVAC_FIRMWARE names the robot's firmware");
+        Self::new(Home::Unknown, Some(Path::new(&firmware)))
+    }
+
+    fn new(home: Home, firmware: Option<&Path>) -> Self {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
@@ -104,7 +110,7 @@ impl Stack {
         if home == Home::Kept {
             stack.keep_map();
         }
-        stack.start_simulator();
+        stack.start_simulator(firmware);
         stack.start_vthal();
         stack.start_server();
         stack
@@ -155,7 +161,8 @@ impl Stack {
         assert!(status.success(), "the simulator makes no map");
     }
 
-    fn start_simulator(&mut self) {
+    /// `firmware` runs in an emulated chip; without it the simulator's own does.
+    fn start_simulator(&mut self, firmware: Option<&Path>) {
         let mut command = Command::new(binary("rvac-sim"));
         command.current_dir(root());
         command.args([
@@ -169,6 +176,9 @@ impl Stack {
         ]);
         command.arg("--link").arg(self.folder.join("serial"));
         command.arg("--socket").arg(self.simulator_socket());
+        if let Some(firmware) = firmware {
+            command.arg("--firmware").arg(firmware);
+        }
         self.processes.push(Process::start(&mut command).0);
     }
 
