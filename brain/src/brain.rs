@@ -97,6 +97,7 @@ impl Brain {
         let intent = self.behavior.step(&situation, commands, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
+            self.map.avoid(self.behavior.avoided());
         }
         if let Some(pocket) = intent.pocket {
             self.map.shut_pocket(pocket);
@@ -176,6 +177,16 @@ impl Brain {
         self.behavior.status()
     }
 
+    /// Identity of the room in which the robot is, if it knows both.
+    #[must_use]
+    pub fn room(&self) -> Option<u16> {
+        let estimate = self.estimate();
+        self.map
+            .rooms()
+            .room_at(estimate.pose.position())
+            .filter(|_| estimate.is_sure())
+    }
+
     /// The map of the running or last job.
     #[must_use]
     pub fn map(&self) -> &Map {
@@ -247,6 +258,7 @@ impl Brain {
         self.behavior.learn_energy(checkpoint.energy);
         if let Some(job) = &checkpoint.job {
             self.behavior.restore(job.clone());
+            self.map.avoid(self.behavior.avoided());
         }
     }
 

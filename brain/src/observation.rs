@@ -27,6 +27,8 @@ pub struct Observation {
     pub docked: bool,
     /// Battery charge 0..1, if measured.
     pub battery_charge: Option<f32>,
+    /// What the charger says; `None` where the firmware controls none or has not measured yet.
+    pub charge_flow: Option<ChargeFlow>,
     /// Names of what keeps the firmware from moving, for example `wheel-drop`; empty when it may move.
     pub inhibits: Vec<&'static str>,
     /// The link to the firmware is up and its telemetry is fresh.
@@ -65,11 +67,23 @@ impl Default for Observation {
             beacon_ranges: Vec::new(),
             docked: false,
             battery_charge: None,
+            charge_flow: None,
             inhibits: Vec::new(),
             link_up: true,
             speed_share: 1.0,
         }
     }
+}
+
+/// What flows from the dock into the pack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChargeFlow {
+    /// Current flows.
+    Flowing,
+    /// None flows, and that has a reason: the pack is full, too warm or too cold, or the charger names a fault.
+    Withheld,
+    /// None flows, though the pack needs it and could take it.
+    Missing,
 }
 
 /// Distance to a radio beacon, measured by time of flight or guessed from the strength of its signal.

@@ -3,15 +3,18 @@
 use crate::behavior::Reason;
 use crate::geometry::Point2;
 use crate::mapping::{Cell, CellKnowledge, Map};
+use crate::no_go::NoGo;
 
 /// Most parts of an order.
 const PARTS_MAX: usize = 32;
 /// Most corners of a zone.
 pub(crate) const CORNERS_MAX: usize = 64;
+/// Most places that a job may be told to keep out of.
+const AVOID_MAX: usize = 16;
 /// Most passes over a part.
 const PASSES_MAX: u8 = 3;
 /// Corners of a zone are nearer to the map's origin than this, metres.
-const FAR_M: f64 = 500.0;
+pub const FAR_M: f64 = 500.0;
 
 /// A polygon on the floor in the map frame. Edges may cross; what lies inside an odd number of times is in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +112,7 @@ impl HomePart {
 pub struct CleaningOrder {
     parts: Vec<HomePart>,
     passes: u8,
+    avoid: Vec<NoGo>,
 }
 
 impl Default for CleaningOrder {
@@ -116,6 +120,7 @@ impl Default for CleaningOrder {
         Self {
             parts: Vec::new(),
             passes: 1,
+            avoid: Vec::new(),
         }
     }
 }
@@ -127,10 +132,32 @@ impl CleaningOrder {
     /// [`Reason::BadOrder`] for more parts or another number of passes.
     pub fn new(parts: Vec<HomePart>, passes: u8) -> Result<Self, Reason> {
         if parts.len() <= PARTS_MAX && (1..=PASSES_MAX).contains(&passes) {
-            Ok(Self { parts, passes })
+            Ok(Self {
+                parts,
+                passes,
+                avoid: Vec::new(),
+            })
         } else {
             Err(Reason::BadOrder)
         }
+    }
+
+    /// The same, and the robot keeps out of up to 16 places until the next job begins.
+    ///
+    /// # Errors
+    /// [`Reason::TooManyNoGos`] for more of them.
+    pub fn avoiding(self, avoid: Vec<NoGo>) -> Result<Self, Reason> {
+        if avoid.len() <= AVOID_MAX {
+            Ok(Self { avoid, ..self })
+        } else {
+            Err(Reason::TooManyNoGos)
+        }
+    }
+
+    /// Where the robot does not go in this job.
+    #[must_use]
+    pub fn avoid(&self) -> &[NoGo] {
+        &self.avoid
     }
 
     /// The parts in their order.
@@ -162,7 +189,7 @@ impl CleaningOrder {
                 _ => {}
             }
         }
-        Ok(())
+        self.avoid.iter().try_for_each(|no_go| map.may_forbid(no_go))
     }
 }
 

@@ -101,6 +101,28 @@ fn a_zone_is_cleaned_and_little_else() {
 }
 
 #[test]
+fn the_room_that_it_is_in_is_told() {
+    let mut stage = Stage::new();
+    let home = stage.brain.room();
+    assert!(home.is_some());
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((4.0, 0.5), (5.5, 2.0)))], 1).unwrap();
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::CleanParts { order }),
+        10.0,
+    );
+    let mut seconds = 0;
+    while stage.brain.room() == home && seconds < 60 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        seconds += 1;
+    }
+    let other = stage.brain.room();
+    assert!(other.is_some() && other != home, "{other:?} after {seconds} s");
+    assert!(stage.world.pose.x_m > 2.9, "it is in the other room");
+}
+
+#[test]
 fn parts_are_cleaned_in_their_order() {
     let (first, second) = (zone((4.0, 2.6), (5.8, 3.8)), zone((0.3, 0.3), (2.0, 1.8)));
     let order = CleaningOrder::new(vec![HomePart::Zone(first), HomePart::Zone(second)], 1).unwrap();
@@ -312,4 +334,46 @@ fn edits_that_make_no_sense_are_refused_by_name() {
         brain.admit(&Command::AddNoGo { no_go: around }),
         Err(Reason::DockInside)
     );
+}
+
+#[test]
+fn a_job_keeps_out_of_what_it_was_told_to_avoid_and_the_next_one_does_not() {
+    let (low, high) = ((4.2, 1.0), (5.2, 3.0));
+    let avoid = NoGo::zone(&zone(low, high)).expect("a rectangle");
+    let whole = CleaningOrder::default();
+    let order = whole.clone().avoiding(vec![avoid]).expect("one place");
+    let mut stage = Stage::new();
+    let floor_m2 = |stage: &Stage, order| stage.brain.estimate_order(order).expect("a plan").floor_m2;
+    assert!(floor_m2(&stage, &order) < floor_m2(&stage, &whole) - 2.0);
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    assert!(stage.swept(low, high) < 0.3, "{}", stage.swept(low, high));
+    assert!(stage.swept((0.3, 0.3), (2.7, 3.7)) > 0.95, "the rest is cleaned");
+    let rooms = stage.brain.map().rooms().rooms().len();
+    assert_eq!(rooms, 2, "what a job avoids divides no room");
+    stage.clean(&whole);
+    assert!(stage.swept(low, high) > 0.9, "{}", stage.swept(low, high));
+}
+
+#[test]
+fn a_job_that_is_taken_up_again_still_avoids() {
+    let mut stage = Stage::new();
+    let avoid = NoGo::zone(&zone((4.2, 1.0), (5.2, 3.0))).expect("a rectangle");
+    let order = CleaningOrder::default().avoiding(vec![avoid]).expect("one place");
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::CleanParts { order }),
+        20.0,
+    );
+    let mut successor = Brain::new(config(), 7);
+    successor.restore(&stage.brain.checkpoint());
+    stage.brain = successor;
+    let mut seconds = 0.0;
+    while stage.brain.status().state != BehaviorState::Idle && seconds < 3_000.0 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        seconds += 1.0;
+    }
+    assert!(stage.swept((4.2, 1.0), (5.2, 3.0)) < 0.3);
+    assert!(stage.swept((0.3, 0.3), (2.7, 3.7)) > 0.9);
 }

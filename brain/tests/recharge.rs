@@ -72,6 +72,41 @@ fn contacts_that_open_again_at_once_are_tried_a_few_times() {
 }
 
 #[test]
+fn home_is_where_current_flows() {
+    let there =
+        "up\n charge 0.5\n current missing\n dock\n wait 4 => docking command\n docked => docking command\n";
+    check(&format!(
+        "{there} wait 5 => docking\n current flows => docked docked"
+    ));
+    check(&format!(
+        "{there} wait 5 => docking\n current withheld => docked docked"
+    ));
+    check(&format!("{there} lift => paused wheel-drop"));
+    // The contacts open before anything flows.
+    check(&format!(
+        "{there} wait 5\n undocked => starting dock-missed\n wait 4 => docking"
+    ));
+    let dry = "docked => docking\n wait 21 => starting no-charge-current\n undocked\n wait 4 => docking\n";
+    let stage = check(&format!(
+        "up\n charge 0.5\n current missing\n dock\n wait 4 => docking\n {dry} {dry}
+         docked => docking
+         wait 21 => docked no-charge-current
+         wait 60 => docked no-charge-current
+         current flows => docked docked"
+    ));
+    assert!(stage.backed_m <= 0.15);
+}
+
+#[test]
+fn a_job_does_not_wait_for_charge_on_a_dead_dock() {
+    let dry = "docked => docking\n wait 21 => starting no-charge-current\n undocked\n wait 4 => docking\n";
+    check(&format!(
+        "up\n charge 0.5\n current missing\n clean\n wait 4\n charge 0.1 => docking battery-low\n {dry} {dry}
+         docked\n wait 21 => paused no-charge-current"
+    ));
+}
+
+#[test]
 fn a_lost_dock_leaves_the_job_with_a_person() {
     let short = BrainConfig {
         dock_budget_s: 15.0,

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
-use brain::observation::BeaconRange;
+use brain::observation::{BeaconRange, ChargeFlow};
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{LogEntry, LogLevel, Pose, Status};
@@ -89,6 +89,7 @@ fn records() -> Vec<Record> {
         proximity: vec![0.5; 8],
         dock_beams: vec![0, 3],
         battery_charge: Some(0.94),
+        charge_flow: Some(ChargeFlow::Flowing),
         beacon_ranges: vec![BeaconRange {
             beacon: 2,
             range_m: 3.5,

@@ -1,7 +1,7 @@
 //! What an observation means for the state machine.
 
 use super::Reason;
-use crate::observation::Observation;
+use crate::observation::{ChargeFlow, Observation};
 
 /// Digest of one observation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -11,6 +11,7 @@ pub(crate) struct Facts {
     pub(crate) wheel_drop: bool,
     pub(crate) docked: bool,
     pub(crate) battery_low: bool,
+    pub(crate) charge_flow: Option<ChargeFlow>,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.
@@ -54,6 +55,7 @@ impl Facts {
             battery_low: observation
                 .battery_charge
                 .is_some_and(|charge| charge < battery_low),
+            charge_flow: observation.charge_flow,
             touching: observation.is_touching(),
             at_cliff: observation.is_at_cliff(),
             ..Self::default()

@@ -5,6 +5,7 @@ use crate::coverage;
 use crate::docking::Docking;
 use crate::geometry::TurnSide;
 use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
+use crate::no_go::NoGo;
 use crate::order::CleaningOrder;
 use crate::random::Random;
 use crate::recovery::{Ladder, Pen, ProgressWatch, SlipWatch};
@@ -81,6 +82,11 @@ impl Job {
             brushes: false,
             returns: false,
         }
+    }
+
+    /// Where it does not go.
+    pub(super) fn avoided(&self) -> &[NoGo] {
+        self.order.avoid()
     }
 
     /// The robot stood still or was moved by a person: only the purpose of the job is still true, and what was tried to come

@@ -86,6 +86,9 @@ pub(crate) struct Behavior {
     pub(super) tones: Vec<Tone>,
     pub(super) job_start: JobStart,
     pub(super) pocket: Option<Point2>,
+    /// Since when it stands on contacts without current, and how often it drove in again for that.
+    pub(super) contacts_us: Option<u64>,
+    pub(super) dry_tries: u32,
     /// When it came home, and how often it has slipped off since somebody sent it.
     pub(super) home_us: Option<u64>,
     pub(super) slips: u32,
@@ -117,6 +120,8 @@ impl Behavior {
             tones: Vec::new(),
             job_start: JobStart::None,
             pocket: None,
+            contacts_us: None,
+            dry_tries: 0,
             home_us: None,
             slips: 0,
         }
@@ -200,6 +205,8 @@ impl Behavior {
             | Mode::Stuck
             | Mode::Error { .. } => self.rest(),
             Mode::Starting { since_us } => self.start(since_us, mind),
+            // The charger begins when nothing turns.
+            Mode::Working if self.waits_for_current() => self.rest(),
             Mode::Working => self.work(situation, mind),
             Mode::Manual(drive) => self.drive_manually(drive),
         }
@@ -220,6 +227,7 @@ impl Behavior {
         self.reason = reason;
         self.armed_us = None;
         self.starved_since_us = None;
+        self.contacts_us = None;
         let state = self.state();
         if moved && !state.moves() {
             self.halt_until_us = self.facts.now_us + HALT_US;

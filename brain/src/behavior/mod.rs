@@ -5,6 +5,7 @@
 //! firmware would have to refuse.
 
 mod admission;
+mod contacts;
 mod facts;
 mod job;
 mod machine;

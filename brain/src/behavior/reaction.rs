@@ -128,6 +128,8 @@ impl Behavior {
         match self.mode {
             Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
             Mode::Docked if !self.facts.docked => self.come_off(mind),
+            Mode::Docked => self.watch_dry_dock(mind),
+            Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(mind),
             Mode::Recharging => self.watch_charge(situation, mind),
             // Carried home by a person.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
@@ -135,7 +137,7 @@ impl Behavior {
             }
             Mode::Starting { .. } | Mode::Working if self.facts.docked => {
                 if self.drives_home() {
-                    self.arrive(mind);
+                    self.meet_contacts(mind);
                 } else if self.mode == Mode::Working && self.facts.disarmed.docked {
                     self.leave_dock(mind);
                 }
@@ -169,7 +171,7 @@ impl Behavior {
     }
 
     fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
-        if self.mode != Mode::Working {
+        if self.mode != Mode::Working || self.waits_for_current() {
             return;
         }
         let Some(job) = &self.job else { return };

@@ -137,6 +137,8 @@ reasons! {
     DockHeard => "dock-heard",
     /// Contact, but not with the contacts of the dock.
     DockMissed => "dock-missed",
+    /// On the contacts, and no current flows.
+    NoChargeCurrent => "no-charge-current",
     /// No beam of the dock is heard where one should be.
     NoBeam => "no-beam",
     /// Nobody knows where the dock is.

@@ -102,11 +102,16 @@ impl Behavior {
     /// Whether the robot, which is not on the dock any more, has slipped off by itself and should try again.
     pub(super) fn slips_off(&mut self) -> bool {
         let since_us = self.home_us.take().map(|home_us| self.facts.now_us - home_us);
-        let slips = since_us.is_some_and(|since_us| since_us < SLIPS_OFF_US)
-            && self.slips < SLIPS_MAX
-            && !self.facts.wheel_drop;
-        self.slips += u32::from(slips);
-        slips
+        since_us.is_some_and(|since_us| since_us < SLIPS_OFF_US)
+            && !self.facts.wheel_drop
+            && self.slips_left()
+    }
+
+    /// Counts a slip, and tells whether there may be one more try.
+    pub(super) fn slips_left(&mut self) -> bool {
+        let left = self.slips < SLIPS_MAX;
+        self.slips += u32::from(left);
+        left
     }
 
     /// Nobody can see the dock: the job waits as it did on the way home.

@@ -82,6 +82,7 @@ impl Behavior {
         self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
         self.slips = 0;
+        self.dry_tries = 0;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading {

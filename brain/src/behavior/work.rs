@@ -7,6 +7,7 @@ use crate::action::Motion;
 use crate::command::StrategyName;
 use crate::geometry::Point2;
 use crate::localization::Advance;
+use crate::no_go::NoGo;
 use crate::recovery::{self, Grip, Traction, Whereabouts};
 use crate::task::{Mind, Plan, Situation};
 
@@ -215,6 +216,11 @@ impl Behavior {
     /// Corners of the way that the running or waiting job means to drive.
     pub(crate) fn planned_way(&self) -> Vec<Point2> {
         self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
+    }
+
+    /// Where the running or waiting job does not go.
+    pub(crate) fn avoided(&self) -> &[NoGo] {
+        self.job.as_ref().map_or(&[], Job::avoided)
     }
 
     /// Kind of the running or waiting job.

@@ -47,7 +47,8 @@ pub(crate) fn estimate(
         cruise_m_per_s: config.speeds.cruise_m_per_s,
         turn_rad_per_s: config.speeds.turn_max_rad_per_s,
     };
-    let ground = reachable(map.knowledge(), config.body.radius_m + KEEP_OFF_M, &[]);
+    let knowledge = map.knowledge_avoiding(order.avoid());
+    let ground = reachable(&knowledge, config.body.radius_m + KEEP_OFF_M, &[]);
     let mut sum = Sum::at(start);
     if order.parts().is_empty() {
         sum.add(part_of((None, order), (map, &ground), sum.pose, &settings));
@@ -128,32 +129,33 @@ fn part_of(
     let plan = plan_area(ground, (wanted, |_| false), start, settings);
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = order.passes();
+    let (kept, kept_low) = kept((map, &wanted), settings, passes);
     PartEstimate {
         end,
         time_s: DRIVEN * f64::from(passes) * plan.time_s,
-        kept: kept((map, &wanted), settings, (1.0, passes)),
-        kept_low: kept((map, &wanted), settings, (DOUBT, passes)),
+        kept,
+        kept_low,
         plan,
     }
 }
 
-/// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells.
-fn kept(
-    (map, wanted): (&Map, &impl Fn(Cell) -> bool),
-    settings: &PlanSettings,
-    (doubt, passes): (f64, u8),
-) -> f64 {
+/// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells, and the
+/// same with more doubt.
+fn kept((map, wanted): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
     let knowledge = map.knowledge();
-    let (mut cells, mut sum) = (0_u32, 0.0);
+    let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
+    let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
     for index in 0..knowledge.values().len() {
         let cell = knowledge.cell(index);
         if knowledge.values().get(index) == Some(&CellKnowledge::Free) && wanted(cell) {
             let sigma_m = map.sigma_m(cell).unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M);
             cells += 1;
-            sum += 1.0 - libm::pow(gap_share(doubt * sigma_m, settings), f64::from(passes));
+            sum += 1.0 - left(sigma_m);
+            sum_low += 1.0 - left(DOUBT * sigma_m);
         }
     }
-    if cells == 0 { 0.0 } else { sum / f64::from(cells) }
+    let cells = f64::from(cells.max(1));
+    (sum / cells, sum_low / cells)
 }
 
 /// Expected share of the floor between two lanes that neither of them sweeps, when the place of each is uncertain.

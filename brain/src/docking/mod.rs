@@ -26,8 +26,6 @@ use memory::Vain;
 use search::Search;
 use travel::{Travel, TravelStep};
 
-/// A pose that is no surer than this leads nowhere, metres.
-const SURE_M: f64 = 0.8;
 /// How long beams are left alone after an approach that failed: elsewhere the next one may be better.
 const IGNORE_S: f64 = 15.0;
 /// How long a robot that knows the way searches by chance after the way was blocked or led to silence.
@@ -242,7 +240,7 @@ pub(crate) fn way_home_m(situation: &Situation<'_>) -> Option<f64> {
 fn known_dock(situation: &Situation<'_>) -> Result<Pose2, Reason> {
     let estimate = situation.estimate;
     let dock = situation.map.dock().ok_or(Reason::DockUnknown)?;
-    if estimate.lost || estimate.sigma_m > SURE_M {
+    if !estimate.is_sure() {
         return Err(Reason::PlaceUnknown);
     }
     Ok(dock)

@@ -20,6 +20,17 @@ pub struct PoseEstimate {
     pub odom: Pose2,
 }
 
+impl PoseEstimate {
+    /// A pose that is no surer than this is in no room and leads nowhere, metres.
+    const SURE_M: f64 = 0.8;
+
+    /// Whether the place may be told by the names of the map.
+    #[must_use]
+    pub fn is_sure(&self) -> bool {
+        !self.lost && self.sigma_m <= Self::SURE_M
+    }
+}
+
 /// Standard deviations of a pose that nothing but odometry carries on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Drift {

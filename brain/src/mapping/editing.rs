@@ -21,6 +21,11 @@ impl Map {
     /// The named reason against it.
     pub fn admit_no_go(&self, no_go: &NoGo) -> Result<(), Reason> {
         self.home.annotations.has_room_for_another()?;
+        self.may_forbid(no_go)
+    }
+
+    /// Whether there is floor that `no_go` forbids, and the dock stays within reach.
+    pub(crate) fn may_forbid(&self, no_go: &NoGo) -> Result<(), Reason> {
         if self.knowledge().values().is_empty() {
             return Err(Reason::NoMap);
         }
@@ -50,6 +55,26 @@ impl Map {
         self.home.paint_no_go();
         self.home.touch();
         Ok(())
+    }
+
+    /// Forbids floor until the next job begins.
+    pub(crate) fn avoid(&mut self, avoid: &[NoGo]) {
+        let Some(window) = self.home.bounds() else { return };
+        let cells = avoid.iter().flat_map(|no_go| cells_of(no_go.area(), window));
+        self.home.shut(cells);
+    }
+
+    /// Cells of what is known that a job would have to keep out of.
+    pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
+        let mut knowledge = self.knowledge().clone();
+        if let Some(window) = self.home.bounds() {
+            for cell in avoid.iter().flat_map(|no_go| cells_of(no_go.area(), window)) {
+                if let Some(kind) = knowledge.get_mut(cell) {
+                    *kind = CellKnowledge::NoGo;
+                }
+            }
+        }
+        knowledge
     }
 
     /// Whether there is a no-go zone or virtual wall of this number.
@@ -128,7 +153,7 @@ impl HomeMap {
 
     /// What would be known if nobody had forbidden anything: a wall that a person draws does not divide a room.
     pub(super) fn knowledge_beneath(&self) -> Option<Raster<CellKnowledge>> {
-        if self.annotations.no_go.is_empty() {
+        if self.annotations.no_go.is_empty() && self.pockets.is_empty() {
             return None;
         }
         let mut beneath = self.knowledge().clone();
@@ -137,7 +162,7 @@ impl HomeMap {
             if let Some(kind) = beneath.values_mut().get_mut(index)
                 && *kind == CellKnowledge::NoGo
             {
-                *kind = self.knowledge_without(cell, Flag::NoGo);
+                *kind = self.knowledge_without(cell, &[Flag::NoGo, Flag::Pocket]);
             }
         }
         Some(beneath)

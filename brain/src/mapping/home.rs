@@ -43,7 +43,7 @@ pub(super) struct HomeMap {
     revision: u32,
     redrawn: u32,
     /// Cells that are shut until the next job.
-    pockets: Vec<Cell>,
+    pub(super) pockets: Vec<Cell>,
     pub(super) annotations: Annotations,
     /// Where no-go zones were last painted.
     pub(super) painted: Option<CellBox>,
@@ -116,17 +116,19 @@ impl HomeMap {
     fn shut_pocket(&mut self, place: Point2) {
         let reach = libm::ceil(POCKET_M / CELL_M) as i32;
         let middle = Cell::under(place);
-        for (column, row) in
-            (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| (column, row)))
-        {
-            if column * column + row * row <= reach * reach {
-                let cell = Cell {
-                    x: middle.x.saturating_add(column),
-                    y: middle.y.saturating_add(row),
-                };
-                self.flag(cell, Flag::Pocket, Entry::Forbidden);
-                self.pockets.push(cell);
-            }
+        let around = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| (column, row)));
+        let within = around.filter(|(column, row)| column * column + row * row <= reach * reach);
+        self.shut(within.map(|(column, row)| Cell {
+            x: middle.x.saturating_add(column),
+            y: middle.y.saturating_add(row),
+        }));
+    }
+
+    /// Forbids cells until [`Self::open_pockets`].
+    pub(super) fn shut(&mut self, cells: impl Iterator<Item = Cell>) {
+        for cell in cells {
+            self.flag(cell, Flag::Pocket, Entry::Forbidden);
+            self.pockets.push(cell);
         }
         self.refresh();
     }
@@ -157,9 +159,9 @@ impl HomeMap {
     }
 
     /// What would be known of a cell without a flag.
-    pub(super) fn knowledge_without(&self, cell: Cell, flag: Flag) -> CellKnowledge {
+    pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
         let mut evidence = self.layers.at(cell);
-        evidence.clear(flag);
+        flags.iter().for_each(|flag| evidence.clear(*flag));
         evidence.knowledge()
     }
 

@@ -6,14 +6,15 @@
 //!
 //! Verbs: `up`, `down` (link); `wait SECONDS`; `clean`, `spot`, `dock`, `pause`, `resume`, `stop`, `clear`; `drive V W`,
 //! `release`; `press left|right|both|none`; `cliff`, `floor`; `lift`, `put`; `inhibit NAME`, `free NAME`; `docked`,
-//! `undocked`; `charge SHARE`; `block`, `unblock` (wheels do not turn); `deaf` (the firmware ignores `arm`).
+//! `undocked`; `charge SHARE`;
+//! `current flows|withheld|missing`; `block`, `unblock` (wheels do not turn); `deaf` (the firmware ignores `arm`).
 #![allow(
     dead_code,
     reason = "every test file is a crate of its own and uses another part of this"
 )]
 
 use brain::action::Tone;
-use brain::observation::{Cliffs, Contacts};
+use brain::observation::{ChargeFlow, Cliffs, Contacts};
 use brain::{
     Actions, BehaviorState, Body, Brain, BrainConfig, Command, Motion, Observation, Speeds, StrategyName,
 };
@@ -207,6 +208,13 @@ impl Stage {
             "docked" => (seen.docked, seen.inhibits) = (true, vec!["docked", "not-armed"]),
             "undocked" => seen.docked = false,
             "charge" => seen.battery_charge = Some(number(0) as f32),
+            "current" => {
+                seen.charge_flow = Some(match arguments[0] {
+                    "flows" => ChargeFlow::Flowing,
+                    "withheld" => ChargeFlow::Withheld,
+                    _ => ChargeFlow::Missing,
+                });
+            }
             "block" => self.blocked = true,
             "unblock" => self.blocked = false,
             "deaf" => self.deaf = true,

@@ -10,9 +10,9 @@ use crate::{Name, NameError};
 /// Pads are numbered 0..=3, in the order in which they were found.
 const PADS: u8 = 4;
 /// Axes of one pad.
-const AXES: u8 = 16;
+pub(crate) const AXES: u8 = 16;
 /// Buttons of one pad.
-const BUTTONS: u8 = 32;
+pub(crate) const BUTTONS: u8 = 32;
 /// Longest name of a key.
 const KEY_LENGTH_MAX: usize = 24;
 

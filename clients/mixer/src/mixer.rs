@@ -155,7 +155,7 @@ impl Mixer {
         Mixed {
             state: self.state,
             held: step.held,
-            outputs: outputs.into_iter().map(|output| self.limited(output)).collect(),
+            outputs: self.limited(outputs),
             switches: self.switches.iter().map(|switch| switch.on).collect(),
             fired,
         }
@@ -237,17 +237,14 @@ impl Mixer {
         fired
     }
 
-    fn limited(&self, mixed: MixedOutput) -> MixedOutput {
-        let output = self
-            .profile
-            .outputs
-            .iter()
-            .find(|output| output.output == mixed.name);
-        let value = output.map_or(0.0, |output| match self.state {
-            MixState::Live => output.value(mixed.value),
-            MixState::Failsafe => output.failsafe,
-        });
-        MixedOutput { value, ..mixed }
+    fn limited(&self, mut outputs: Vec<MixedOutput>) -> Vec<MixedOutput> {
+        for (mixed, output) in outputs.iter_mut().zip(&self.profile.outputs) {
+            mixed.value = match self.state {
+                MixState::Live => output.value(mixed.value),
+                MixState::Failsafe => output.failsafe,
+            };
+        }
+        outputs
     }
 }
 

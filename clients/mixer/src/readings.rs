@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::input::{AXES, BUTTONS};
 use crate::{Device, KeyCode, Source};
 
 /// An input that left its place by so much is the one that a person means. Sticks at rest wander by less.
@@ -107,12 +108,12 @@ impl Readings {
         for (pad, reading) in &self.pads {
             let pad = *pad;
             all.extend(
-                (0..16)
+                (0..AXES)
                     .take(reading.axes.len())
                     .map(|axis| Source::PadAxis { pad, axis }),
             );
             all.extend(
-                (0..32)
+                (0..BUTTONS)
                     .take(reading.buttons.len())
                     .map(|button| Source::PadButton { pad, button }),
             );

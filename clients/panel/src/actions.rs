@@ -18,6 +18,7 @@ struct Face {
 
 #[component]
 pub(crate) fn Actions(store: Store) -> impl IntoView {
+    // Empty as long as the robot chooses.
     let strategy = RwSignal::new(String::new());
     let chosen = move || {
         let strategies = store.strategies.get_untracked();
@@ -66,7 +67,8 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
             <Show when=move || store.strategies.with(|strategies| strategies.len() > 1)>
                 <label class="field">
                     "Way of cleaning"
-                    <select on:change=move |event| strategy.set(event_target_value(&event))>
+                    <select id="strategy" on:change=move |event| strategy.set(event_target_value(&event))>
+                        <option value="">"The robot chooses"</option>
                         <For each=move || store.strategies.get() key=String::clone let:name>
                             <option value=name.clone()>{name.clone()}</option>
                         </For>

@@ -48,13 +48,27 @@ fn reason_text(status: &Status) -> String {
             .driver
             .as_ref()
             .map_or_else(String::new, |driver| format!("In the driver's seat: {driver}.")),
-        (true, "cleaning") => status
-            .strategy
-            .as_ref()
-            .map_or_else(String::new, |name| format!("Way of cleaning: {name}.")),
+        (true, "cleaning") => cleaning_text(status),
         (true, _) => String::new(),
         (false, _) => code_text(&status.reason),
     }
+}
+
+/// How it cleans, and where.
+fn cleaning_text(status: &Status) -> String {
+    let strategy = status
+        .strategy
+        .as_ref()
+        .map(|name| format!("Way of cleaning: {name}."));
+    let room = status
+        .room
+        .as_ref()
+        .map(|room| format!("Now in {}.", room.title()));
+    [room, strategy]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The sentences for a code; a code without any is shown as it is.

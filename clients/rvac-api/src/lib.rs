@@ -20,8 +20,8 @@ pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,
-    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, SimulatedPlan, SimulatedTruth, Status, Update,
-    Versions,
+    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, SimulatedPlan, SimulatedTruth, Status,
+    Update, Versions,
 };
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.

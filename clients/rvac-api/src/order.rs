@@ -13,6 +13,9 @@ pub struct JobOrder {
     /// How often each part is cleaned before the next, 1..=3.
     #[serde(default = "once")]
     pub passes: u8,
+    /// Up to 16 places that the robot keeps out of until the next job begins.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub avoid: Vec<NoGoShape>,
 }
 
 fn once() -> u8 {
@@ -24,6 +27,7 @@ impl Default for JobOrder {
         Self {
             parts: Vec::new(),
             passes: once(),
+            avoid: Vec::new(),
         }
     }
 }

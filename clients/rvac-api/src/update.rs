@@ -151,6 +151,27 @@ pub struct Status {
     /// Name of the client in the driver's seat.
     #[serde(default)]
     pub driver: Option<String>,
+    /// The room in which the robot is, if it knows the home and its place in it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<RoomHere>,
+}
+
+/// The room in which the robot is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RoomHere {
+    /// Identity as in [`RoomView`](crate::RoomView), from 1.
+    pub id: u16,
+    /// What people call it, if anybody has named it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+}
+
+impl RoomHere {
+    /// What to call it in a sentence.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.name.clone().unwrap_or_else(|| format!("room {}", self.id))
+    }
 }
 
 /// A pose in the map frame.

@@ -8,8 +8,8 @@
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
     JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlannedWay, Pose, Request, RequestBody, RobotDescription, RoomNaming, RoomView,
-    SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
+    NoGoShape, NoGoView, PlannedWay, Pose, Request, RequestBody, RobotDescription, RoomHere, RoomNaming,
+    RoomView, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -228,7 +228,19 @@ fn what_the_robot_does() {
         path_m: 4.5,
         bumps: 2,
         driver: None,
+        room: None,
     };
+    let named = Status {
+        room: Some(RoomHere {
+            id: 2,
+            name: Some("Kitchen".to_owned()),
+        }),
+        ..status.clone()
+    };
+    check(
+        &Update::Status(named),
+        r#"{"e":"status","state":"cleaning","reason":"command","strategy":"bounce","inhibits":["bumper"],"job_s":12.5,"swept_m2":3.25,"path_m":4.5,"bumps":2,"driver":null,"room":{"id":2,"name":"Kitchen"}}"#,
+    );
     check(
         &Update::Status(status),
         r#"{"e":"status","state":"cleaning","reason":"command","strategy":"bounce","inhibits":["bumper"],"job_s":12.5,"swept_m2":3.25,"path_m":4.5,"bumps":2,"driver":null}"#,
@@ -355,7 +367,16 @@ fn orders() {
             JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
         ],
         passes: 2,
+        avoid: Vec::new(),
     };
+    let avoiding = JobOrder {
+        avoid: vec![NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]])],
+        ..order.clone()
+    };
+    request(
+        RequestBody::Clean(avoiding),
+        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2,"avoid":[{"wall":[[0.0,0.5],[1.0,0.5]]}]}"#,
+    );
     request(
         RequestBody::Clean(order.clone()),
         r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2}"#,

@@ -1,4 +1,4 @@
-//! Requests that are answered by done or refused.
+//! Requests and what answers them.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use crate::arguments::Daemon;
 use crate::socket::Connection;
 
 /// The daemon answers at once; this covers a machine under load.
-const ANSWER: Duration = Duration::from_secs(10);
+pub(crate) const ANSWER: Duration = Duration::from_secs(10);
 /// Number of our only request.
 const REQUEST_ID: u32 = 1;
 
@@ -25,19 +25,35 @@ pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCod
 
 /// As [`send`], over a connection that stands.
 pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Result<ExitCode> {
+    answer(connection, (body, ANSWER), |update, _| match update {
+        Update::Done { id: REQUEST_ID } => Some(ExitCode::SUCCESS),
+        _ => None,
+    })
+}
+
+/// Sends a request and waits for the update that answers it, which `found` knows; it is also given the daemon's own text.
+pub(crate) fn answer<Found>(
+    connection: &mut Connection,
+    (body, patience): (RequestBody, Duration),
+    found: impl Fn(Update, String) -> Option<Found>,
+) -> anyhow::Result<Found> {
     connection.send(&Request {
         id: Some(REQUEST_ID),
         body,
     })?;
-    let deadline = Instant::now() + ANSWER;
+    let deadline = Instant::now() + patience;
     while let Some(message) = connection.receive_until(deadline)? {
         match message.update {
-            Some(Update::Done { id: REQUEST_ID }) => return Ok(ExitCode::SUCCESS),
             Some(Update::Failed(failure)) if failure.id.is_none_or(|id| id == REQUEST_ID) => {
                 bail!("refused ({}): {}", failure.reason, failure.text);
             }
-            _ => {}
+            Some(update) => {
+                if let Some(found) = found(update, message.text) {
+                    return Ok(found);
+                }
+            }
+            None => {}
         }
     }
-    bail!("vthal did not answer within {} s", ANSWER.as_secs())
+    bail!("vthal did not answer within {} s", patience.as_secs())
 }

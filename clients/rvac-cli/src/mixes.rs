@@ -3,13 +3,12 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use anyhow::anyhow;
-use mixer::{Profile, standard_profile};
+use mixer::standard_profile;
 use rvac_api::RequestBody;
 
 use crate::arguments::{MixJob, MixVerb};
 use crate::control;
-use crate::drive::{kept_profiles, read_profile};
+use crate::drive::{kept_profiles, named_profile, read_profile};
 use crate::socket::Connection;
 
 pub(crate) fn run(job: &MixJob) -> anyhow::Result<ExitCode> {
@@ -48,14 +47,8 @@ fn list(job: &MixJob) -> anyhow::Result<ExitCode> {
 fn show(job: &MixJob, name: Option<&str>) -> anyhow::Result<ExitCode> {
     let profile = match name {
         None => standard_profile(),
-        Some(name) => named(job, name)?,
+        Some(name) => named_profile(name, &mut Connection::open(&job.daemon.socket)?)?,
     };
     writeln!(std::io::stdout(), "{}", profile.to_pretty_json())?;
     Ok(ExitCode::SUCCESS)
-}
-
-fn named(job: &MixJob, name: &str) -> anyhow::Result<Profile> {
-    let profiles = kept_profiles(&mut Connection::open(&job.daemon.socket)?)?;
-    let found = profiles.into_iter().find(|profile| profile.name.as_str() == name);
-    found.ok_or_else(|| anyhow!("the robot keeps no mix `{name}`: `rvac mix` lists them"))
 }

@@ -107,6 +107,9 @@ fn status_in_words(status: &Status) -> String {
         status.path_m,
         status.bumps
     );
+    if let Some(room) = &status.room {
+        line += &format!(", in {}", room.title());
+    }
     if !status.inhibits.is_empty() {
         line += &format!(", held by {}", status.inhibits.join(", "));
     }

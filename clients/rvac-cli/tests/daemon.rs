@@ -286,7 +286,11 @@ fn at_home(request: &Request) -> Vec<Update> {
 
 #[test]
 fn orders_for_rooms_and_zones_go_out_under_their_names() {
-    let job = |parts, passes| JobOrder { parts, passes };
+    let job = |parts, passes| JobOrder {
+        parts,
+        passes,
+        ..JobOrder::default()
+    };
     let rectangle = || vec![[-1.0, 0.0], [2.0, 0.0], [2.0, 1.5], [-1.0, 1.5]];
     let naming = |name: Option<&str>| {
         RequestBody::NameRoom(RoomNaming {

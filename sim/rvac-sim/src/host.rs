@@ -20,7 +20,8 @@ pub struct Host {
     checkpoint: Option<Checkpoint>,
     /// Lines of its log, if somebody wants them.
     log: Option<Vec<LogEntry>>,
-    cost: HostCost,
+    /// What its core takes of a processor, if somebody wants to know.
+    cost: Option<HostCost>,
     born_us: u64,
 }
 
@@ -36,7 +37,7 @@ impl Host {
             pending: Vec::new(),
             checkpoint: None,
             log: None,
-            cost: HostCost::default(),
+            cost: None,
             born_us: now_us,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -100,7 +101,11 @@ impl Host {
     fn handle(&mut self, now_us: u64, input: Input<'_>) {
         let (core, outputs) = (&mut self.core, &mut self.outputs);
         let age_us = now_us - self.born_us;
-        self.cost.measure(age_us, || core.handle(age_us, input, outputs));
+        let step = || core.handle(age_us, input, outputs);
+        match &mut self.cost {
+            Some(cost) => cost.measure(age_us, step),
+            None => step(),
+        }
         self.pending.append(&mut self.outputs.link);
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.checkpoint = Some(checkpoint);
@@ -111,9 +116,14 @@ impl Host {
         self.outputs.clear();
     }
 
-    /// What its core has taken of a processor.
+    /// From now on it is measured what its core takes of a processor, which costs some of that itself.
+    pub fn measure_cost(&mut self) {
+        self.cost.get_or_insert_default();
+    }
+
+    /// What its core has taken of a processor since [`Self::measure_cost`]; `None` = nobody asked.
     #[must_use]
-    pub const fn cost(&self) -> HostCost {
+    pub const fn cost(&self) -> Option<HostCost> {
         self.cost
     }
 

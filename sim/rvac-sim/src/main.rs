@@ -69,6 +69,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     if let Some(path) = &arguments.map {
         household = household.with_map(read_map(path)?);
     }
+    if let Some(host) = household.host_mut().filter(|_| arguments.host_cost) {
+        host.measure_cost();
+    }
     let report = run_until(&mut household, (&settings, arguments.end()), |share| {
         progress.show(share);
     });
@@ -76,7 +79,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let report = report?;
     let report = Report {
         wall_seconds: started.elapsed().as_secs_f64(),
-        host_cost: household.host().filter(|_| arguments.host_cost).map(Host::cost),
+        host_cost: household.host().and_then(Host::cost),
         ..report
     };
     if let Some(folder) = &arguments.keep {

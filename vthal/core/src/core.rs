@@ -10,7 +10,7 @@ mod refusal;
 mod requests;
 mod thinking;
 
-use rvac_api::{Pose, Status, Topic, Update};
+use rvac_api::{Pose, RoomHere, Status, Topic, Update};
 
 use crate::arbiter::Arbiter;
 use crate::clients::Clients;
@@ -147,6 +147,7 @@ impl Core {
             .iter()
             .map(|&name| name.to_owned())
             .collect();
+        status.room = room_here(mind.brain());
         status.driver = self.arbiter.driver().map(|client| self.clients.name(client));
         status
     }
@@ -359,4 +360,13 @@ fn recorder(recording: Recording, outputs: &mut Outputs) -> Recorder<'_> {
     Recorder {
         records: (recording == Recording::On).then_some(&mut outputs.records),
     }
+}
+
+fn room_here(brain: &brain::Brain) -> Option<RoomHere> {
+    let id = brain.room()?;
+    let name = brain.map().annotations().name(id);
+    Some(RoomHere {
+        id,
+        name: name.map(|name| name.as_str().to_owned()),
+    })
 }

@@ -146,6 +146,7 @@ fn because(reason: &str) -> String {
         "charged" => "there is charge enough to go on",
         "dock-known" => "its map tells where the dock is",
         "dock-missed" => "it touched something, but not the contacts of the dock",
+        "no-charge-current" => "it stands on the dock's contacts, but no current flows",
         "no-beam" => "it hears no beam of the dock where one should be",
         "dock-unknown" => "nobody knows where the dock is",
         "place-unknown" => "it does not know where it is",

@@ -157,5 +157,6 @@ pub(crate) fn status(status: brain::Status, job: JobFigures) -> rvac_api::Status
         path_m: job.path_m,
         bumps: job.bumps,
         driver: None,
+        room: None,
     }
 }

@@ -668,7 +668,11 @@ fn wall(from: [f64; 2], to: [f64; 2]) -> RequestBody {
 }
 
 fn clean(parts: Vec<JobPart>, passes: u8) -> JobOrder {
-    JobOrder { parts, passes }
+    JobOrder {
+        parts,
+        passes,
+        ..JobOrder::default()
+    }
 }
 
 #[test]

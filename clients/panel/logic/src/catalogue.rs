@@ -216,6 +216,11 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "It did not find the dock in time.",
         "Carry it to the dock.",
     ),
+    entry(
+        "no-charge-current",
+        "It stands on the dock, but no current flows.",
+        "See whether the dock has power; wipe its contacts and those of the robot.",
+    ),
     entry("dock-beam", "It hears the dock.", ""),
     entry(
         "lease-ended",

@@ -77,11 +77,13 @@ impl RoomChoice {
         (!parts.is_empty()).then_some(JobOrder {
             parts,
             passes: self.passes,
+            ..JobOrder::default()
         })
     }
 }
 
-/// `18.2 m², about 25 min, 41 % of the battery; about 97 % of it will be swept, 91 % at worst`
+/// `18.2 m², about 25 min, 41 % of a full battery; 97 % of the floor will be swept, 91 % if the robot is less sure of its
+/// place than it believes`
 #[must_use]
 pub fn job_estimate_text(estimate: &JobEstimate) -> String {
     let charge = 100.0 * estimate.charge.max(0.0);

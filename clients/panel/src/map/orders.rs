@@ -1,8 +1,8 @@
 //! What a person wants of the home: rooms to be cleaned, floor that is forbidden.
 
 use leptos::prelude::*;
-use panel_logic::{NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows, room_at};
-use rvac_api::{Failure, HomeView, JobEstimate, NoGoShape, RequestBody};
+use panel_logic::{NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows};
+use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
 use super::scene::Ground;
 use crate::store::Store;
@@ -23,7 +23,6 @@ pub(crate) struct Orders {
     pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
     /// What is forbidden.
     pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
-    home: StoredValue<HomeView>,
     asked: StoredValue<u32>,
 }
 
@@ -35,7 +34,6 @@ impl Orders {
             sketch: RwSignal::new(Sketch::default()),
             pointer: RwSignal::new(None),
             no_go: RwSignal::new(Vec::new()),
-            home: StoredValue::new(HomeView::default()),
             asked: StoredValue::new(FIRST_ESTIMATE),
         }
     }
@@ -49,7 +47,6 @@ impl Orders {
         if choice.retain_known(home) {
             self.choice.set(choice);
         }
-        self.home.set_value(home.clone());
     }
 
     /// The newest estimate counts; one for another choice came too late.
@@ -98,7 +95,8 @@ impl Store {
     /// A person pointed at a place of the map.
     pub(crate) fn point_at(self, place: (f64, f64)) {
         if self.orders.sketch.with_untracked(|sketch| sketch.tool()) == Tool::Choose {
-            if let Some(room) = self.orders.home.with_value(|home| room_at(home, place)) {
+            let room = self.map.with_value(|map| map.with(|scene| scene.room_at(place)));
+            if let Some(room) = room {
                 self.toggle_room(room);
             }
             return;
@@ -110,12 +108,8 @@ impl Store {
             .flatten();
         if let Some(shape) = drawn {
             self.orders.pointer.set(None);
-            self.forbid(shape);
+            self.ask(RequestBody::AddNoGo { shape });
         }
-    }
-
-    fn forbid(self, shape: NoGoShape) {
-        self.ask(RequestBody::AddNoGo { shape });
     }
 
     /// Asks what cleaning the chosen rooms takes.

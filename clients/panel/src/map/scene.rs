@@ -1,8 +1,8 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, wall_strokes,
-    way_dashes,
+    Bounds, Camera, ITEMS_MAX, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, room_at,
+    wall_strokes, way_dashes,
 };
 use rvac_api::{
     BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
@@ -163,6 +163,11 @@ impl Scene {
             self.draw_home();
             self.plan_changed = true;
         }
+    }
+
+    /// The room under a place of the map.
+    pub(crate) fn room_at(&self, place: (f64, f64)) -> Option<u16> {
+        room_at(self.home.as_ref()?, place)
     }
 
     fn draw_home(&mut self) {

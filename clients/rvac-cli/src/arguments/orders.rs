@@ -14,6 +14,10 @@ pub(crate) struct OrderOptions {
     /// A rectangle between two opposite corners, metres in the map; may be given several times, zones come after rooms.
     #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
     pub(crate) zone: Vec<Place>,
+    /// A rectangle between two opposite corners, metres in the map, that the robot keeps out of until the next job begins; may be
+    /// given several times. `rvac zone` forbids floor for good.
+    #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
+    pub(crate) avoid: Vec<Place>,
     /// How often each room and zone is cleaned before the next, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) passes: u8,

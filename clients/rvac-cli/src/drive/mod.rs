@@ -21,7 +21,7 @@ use crate::arguments::DriveOptions;
 use crate::socket::Connection;
 use session::Session;
 
-pub(crate) use profile::{kept as kept_profiles, read as read_profile};
+pub(crate) use profile::{kept as kept_profiles, named as named_profile, read as read_profile};
 
 /// Something that came in.
 #[derive(Debug)]

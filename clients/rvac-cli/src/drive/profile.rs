@@ -1,16 +1,12 @@
 //! Which profile drives, and which robot is driven.
 
-use std::time::{Duration, Instant};
-
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{Context as _, anyhow};
 use mixer::{Profile, standard_profile};
-use rvac_api::{Request, RequestBody, RobotDescription, Update};
+use rvac_api::{RequestBody, RobotDescription, Update};
 
 use crate::arguments::DriveOptions;
+use crate::control;
 use crate::socket::Connection;
-
-/// The daemon answers at once; this covers a machine under load.
-const ANSWER: Duration = Duration::from_secs(10);
 
 /// The profile that was named, or the standard one.
 pub(super) fn chosen(options: &DriveOptions, connection: &mut Connection) -> anyhow::Result<Profile> {
@@ -20,6 +16,11 @@ pub(super) fn chosen(options: &DriveOptions, connection: &mut Connection) -> any
     let Some(name) = &options.mix else {
         return Ok(standard_profile());
     };
+    named(name, connection)
+}
+
+/// The profile of this name that the daemon keeps.
+pub(crate) fn named(name: &str, connection: &mut Connection) -> anyhow::Result<Profile> {
     kept(connection)?
         .into_iter()
         .find(|profile| profile.name.as_str() == name)
@@ -35,11 +36,8 @@ pub(crate) fn read(path: &std::path::Path) -> anyhow::Result<Profile> {
 
 /// The profiles that the daemon keeps.
 pub(crate) fn kept(connection: &mut Connection) -> anyhow::Result<Vec<Profile>> {
-    connection.send(&Request {
-        id: None,
-        body: RequestBody::Mixes,
-    })?;
-    let mixes = wait(connection, |update| match update {
+    let request = (RequestBody::Mixes, control::ANSWER);
+    let mixes = control::answer(connection, request, |update, _| match update {
         Update::Mixes { mixes } => Some(mixes),
         _ => None,
     })?;
@@ -48,28 +46,12 @@ pub(crate) fn kept(connection: &mut Connection) -> anyhow::Result<Vec<Profile>> 
 
 /// What the daemon says of the robot; asked anew, because nobody has read the greeting before.
 pub(super) fn robot(connection: &mut Connection) -> anyhow::Result<RobotDescription> {
-    connection.send(&Request {
-        id: None,
-        body: RequestBody::Hello {
-            name: "rvac drive".to_owned(),
-        },
-    })?;
-    let robot = wait(connection, |update| match update {
+    let hello = RequestBody::Hello {
+        name: "rvac drive".to_owned(),
+    };
+    let robot = control::answer(connection, (hello, control::ANSWER), |update, _| match update {
         Update::Hello { robot, .. } => Some(robot),
         _ => None,
     })?;
     robot.ok_or_else(|| anyhow!("no robot is attached: check the serial cable and the robot's power"))
-}
-
-fn wait<Found>(
-    connection: &mut Connection,
-    found: impl Fn(Update) -> Option<Found>,
-) -> anyhow::Result<Found> {
-    let deadline = Instant::now() + ANSWER;
-    while let Some(message) = connection.receive_until(deadline)? {
-        if let Some(found) = message.update.and_then(&found) {
-            return Ok(found);
-        }
-    }
-    bail!("vthal did not answer within {} s", ANSWER.as_secs())
 }

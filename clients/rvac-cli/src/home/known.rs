@@ -1,14 +1,12 @@
 //! What the robot knows of the home, asked once.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::bail;
 use rvac_api::{Estimate, HomeView, Pose, Topic, Update};
 
+use crate::control::ANSWER;
 use crate::socket::Connection;
-
-/// The daemon answers at once; this covers a machine under load.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// The home, how sure the robot is of its place, and where that is.
 #[derive(Debug)]
@@ -23,11 +21,11 @@ pub(crate) struct KnownHome {
 pub(crate) fn ask(connection: &mut Connection) -> anyhow::Result<KnownHome> {
     // Views come in this order, and those that a daemon without a robot does not have are left out: the status ends them.
     connection.watch(vec![Topic::Home, Topic::Estimate, Topic::Pose, Topic::Status])?;
-    let deadline = Instant::now() + PATIENCE;
+    let deadline = Instant::now() + ANSWER;
     let (mut found, mut estimate, mut pose) = (None, None, None);
     loop {
         let Some(message) = connection.receive_until(deadline)? else {
-            bail!("vthal told nothing of the home within {} s", PATIENCE.as_secs());
+            bail!("vthal told nothing of the home within {} s", ANSWER.as_secs());
         };
         match message.update {
             Some(Update::Home(view)) => found = Some((view, message.text)),

@@ -5,21 +5,15 @@ mod picture;
 
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{SystemTime, UNIX_EPOCH};
 
-use anyhow::bail;
-use rvac_api::{Estimate, HomeView, KeptMap, Pose, Request, RequestBody, RoomView, Update};
+use rvac_api::{Estimate, HomeView, KeptMap, Pose, RequestBody, RoomView, Update};
 
 use crate::arguments::{Daemon, MapJob, MapVerb};
 use crate::control;
 use crate::socket::Connection;
 use known::KnownHome;
 use picture::picture;
-
-/// The daemon answers at once; this covers a machine under load.
-const PATIENCE: Duration = Duration::from_secs(10);
-/// Number of our only numbered request.
-const REQUEST_ID: u32 = 1;
 
 pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
     match job.verb {
@@ -139,22 +133,13 @@ fn doors_of(home: &HomeView, room: u16) -> String {
 
 fn list(daemon: &Daemon) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&daemon.socket)?;
-    connection.send(&Request {
-        id: Some(REQUEST_ID),
-        body: RequestBody::Maps,
+    let request = (RequestBody::Maps, control::ANSWER);
+    let maps = control::answer(&mut connection, request, |update, _| match update {
+        Update::Maps { maps } => Some(maps),
+        _ => None,
     })?;
-    let deadline = Instant::now() + PATIENCE;
-    while let Some(message) = connection.receive_until(deadline)? {
-        match message.update {
-            Some(Update::Maps { maps }) => {
-                write!(stdout(), "{}", table(&maps, now_s()))?;
-                return Ok(ExitCode::SUCCESS);
-            }
-            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
-            _ => {}
-        }
-    }
-    bail!("vthal did not answer within {} s", PATIENCE.as_secs())
+    write!(stdout(), "{}", table(&maps, now_s()))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn now_s() -> u64 {

@@ -8,10 +8,9 @@ pub(crate) use zones::zones;
 
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use anyhow::bail;
-use rvac_api::{JobEstimate, JobOrder, JobPart, Request, RequestBody, Update};
+use rvac_api::{JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update};
 
 use crate::arguments::{EstimateOptions, OrderOptions, Place};
 use crate::control;
@@ -20,8 +19,6 @@ use crate::socket::Connection;
 
 /// A plan of a large home takes a small board some seconds.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Number of our only numbered request.
-const REQUEST_ID: u32 = 1;
 
 pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&order.daemon.socket)?;
@@ -32,26 +29,17 @@ pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
 pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&options.order.daemon.socket)?;
     let order = to_order(&options.order, &mut connection)?;
-    connection.send(&Request {
-        id: Some(REQUEST_ID),
-        body: RequestBody::Estimate(order),
+    let request = (RequestBody::Estimate(order), PATIENCE);
+    let (estimate, text) = control::answer(&mut connection, request, |update, text| match update {
+        Update::JobEstimate(estimate) => Some((estimate, text)),
+        _ => None,
     })?;
-    let deadline = Instant::now() + PATIENCE;
-    while let Some(message) = connection.receive_until(deadline)? {
-        match message.update {
-            Some(Update::JobEstimate(_)) if options.json => {
-                writeln!(stdout(), "{}", message.text)?;
-                return Ok(ExitCode::SUCCESS);
-            }
-            Some(Update::JobEstimate(estimate)) => {
-                write!(stdout(), "{}", in_words(&estimate))?;
-                return Ok(ExitCode::SUCCESS);
-            }
-            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
-            _ => {}
-        }
+    if options.json {
+        writeln!(stdout(), "{text}")?;
+    } else {
+        write!(stdout(), "{}", in_words(&estimate))?;
     }
-    bail!("vthal did not answer within {} s", PATIENCE.as_secs())
+    Ok(ExitCode::SUCCESS)
 }
 
 fn in_words(estimate: &JobEstimate) -> String {
@@ -80,14 +68,19 @@ fn to_order(options: &OrderOptions, connection: &mut Connection) -> anyhow::Resu
             parts.push(JobPart::Room(rooms::find(&home, name)?));
         }
     }
-    let corners = |places: &[Place]| places.iter().map(|place| [place.x_m, place.y_m]).collect();
-    for zone in options.zone.chunks_exact(2) {
-        parts.push(JobPart::Zone(zones::outline(corners(zone))));
-    }
+    parts.extend(rectangles(&options.zone).map(JobPart::Zone));
     Ok(JobOrder {
         parts,
         passes: options.passes,
+        avoid: rectangles(&options.avoid).map(NoGoShape::Zone).collect(),
     })
+}
+
+/// Corners of the rectangles between pairs of places.
+fn rectangles(places: &[Place]) -> impl Iterator<Item = Vec<[f64; 2]>> + '_ {
+    places
+        .chunks_exact(2)
+        .map(|pair| zones::outline(pair.iter().map(|place| [place.x_m, place.y_m]).collect()))
 }
 
 #[cfg(test)]

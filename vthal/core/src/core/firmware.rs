@@ -131,8 +131,7 @@ impl Core {
 
     fn take_info(&mut self, info: Info) {
         if let Some(mind) = &mut self.mind {
-            mind.observer
-                .take_charge(info.battery.map(|battery| battery.charge.as_f64() as f32));
+            mind.observer.take_battery(info.battery.as_ref());
         }
         self.facts.info = Some(info);
     }

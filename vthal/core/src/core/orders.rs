@@ -1,5 +1,6 @@
 //! What clients order for parts of the home, and what they say of the home.
 
+use brain::order::FAR_M;
 use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Reason, RoomName, Zone};
 use rvac_api::{Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RoomNaming, Update};
 
@@ -175,11 +176,19 @@ fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
     };
     let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
-    CleaningOrder::new(parts?, order.passes).map_err(|reason| {
+    let whole = CleaningOrder::new(parts?, order.passes).map_err(|reason| {
         let text = format!(
             "{} parts and {} passes were ordered: a job has up to 32 parts and 1 to 3 passes.",
             order.parts.len(),
             order.passes
+        );
+        Refusal::because(reason, text)
+    })?;
+    let avoid: Result<Vec<NoGo>, Refusal> = order.avoid.iter().map(to_no_go).collect();
+    whole.avoiding(avoid?).map_err(|reason| {
+        let text = format!(
+            "{} places are to be avoided: a job keeps out of up to 16.",
+            order.avoid.len()
         );
         Refusal::because(reason, text)
     })
@@ -190,9 +199,11 @@ fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {
     Zone::new(points.collect()).map_err(|reason| {
         let far = corners
             .iter()
-            .find(|[x, y]| !(x.abs() < 500.0 && y.abs() < 500.0));
+            .find(|[x, y]| !(x.abs() < FAR_M && y.abs() < FAR_M));
         let text = match far {
-            Some([x, y]) => format!("{what} has a corner at x {x} m, y {y} m: they must lie within 500 m."),
+            Some([x, y]) => {
+                format!("{what} has a corner at x {x} m, y {y} m: they must lie within {FAR_M} m.")
+            }
             None => format!(
                 "{what} is a zone with {} corners: it must have 3 to 64.",
                 corners.len()
@@ -216,7 +227,7 @@ fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
             NoGo::wall(from, to).map_err(|reason| {
                 let text = format!(
                     "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
-                     places within 500 m."
+                     places within {FAR_M} m."
                 );
                 Refusal::because(reason, text)
             })

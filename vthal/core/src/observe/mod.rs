@@ -1,11 +1,12 @@
 //! From the firmware's reports to what the brain perceives.
 
+mod charge;
 mod odometer;
 
 pub use odometer::{Odometer, RawTotals, Travel};
 
 use brain::observation::{BeaconRange, Cliffs, Contacts, Observation};
-use rvac_protocol::message::{Inhibit, Inhibits, State};
+use rvac_protocol::message::{Battery, Inhibit, Inhibits, State};
 
 use crate::device::{Description, Part};
 
@@ -122,9 +123,10 @@ impl Observer {
         name_inhibits(&mut view.inhibits, state.inhibits);
     }
 
-    /// Takes the battery's charge, 0..1.
-    pub fn take_charge(&mut self, charge: Option<f32>) {
-        self.observation.battery_charge = charge;
+    /// Takes what is known of the battery.
+    pub fn take_battery(&mut self, battery: Option<&Battery>) {
+        self.observation.battery_charge = battery.map(|battery| battery.charge.as_f64() as f32);
+        self.observation.charge_flow = battery.and_then(charge::flow);
     }
 
     /// The microcontroller was reset: its totals begin anew. Those of the board's own gyro go on.

@@ -3,6 +3,7 @@
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
 mod answer;
+mod flow;
 mod order;
 mod sensors;
 mod state;
@@ -17,6 +18,7 @@ use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
 
+use flow::FlowName;
 use sensors::SensorSettings;
 
 /// Version of these forms. Raised when an old recording cannot be replayed any more.
@@ -149,6 +151,8 @@ pub struct Seen {
     dock_beams: Vec<u8>,
     docked: bool,
     battery: Option<f32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    charge_flow: Option<FlowName>,
     inhibits: Vec<String>,
     link_up: bool,
     speed_share: f64,
@@ -171,6 +175,7 @@ impl From<&Observation> for Seen {
             dock_beams: seen.dock_beams.clone(),
             docked: seen.docked,
             battery: seen.battery_charge,
+            charge_flow: seen.charge_flow.map(FlowName::from),
             inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
@@ -205,6 +210,7 @@ impl Seen {
             dock_beams: self.dock_beams.clone(),
             docked: self.docked,
             battery_charge: self.battery,
+            charge_flow: self.charge_flow.map(FlowName::to_brain),
             inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
             link_up: self.link_up,
             speed_share: self.speed_share,
@@ -359,7 +365,7 @@ impl GivenCommand {
 
 #[cfg(test)]
 mod tests {
-    use brain::observation::BeaconRange;
+    use brain::observation::{BeaconRange, ChargeFlow};
     use brain::{CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, Zone};
 
     use super::{Given, GivenCommand, Seen};
@@ -374,6 +380,7 @@ mod tests {
             proximity: vec![1.0 / 255.0, 0.7],
             inhibits: vec!["wheel-drop", "unknown-inhibit"],
             battery_charge: Some(0.3),
+            charge_flow: Some(ChargeFlow::Missing),
             beacon_ranges: vec![BeaconRange {
                 beacon: 3,
                 range_m: 4.1,
@@ -401,6 +408,7 @@ mod tests {
             manual,
             Command::CleanParts {
                 order: CleaningOrder::new(vec![HomePart::Room(3), HomePart::Zone(zone.clone())], 2)
+                    .and_then(|order| order.avoiding(vec![NoGo::zone(&zone)?]))
                     .expect("a good order"),
             },
             Command::AddNoGo {

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct GivenOrder {
     parts: Vec<GivenPart>,
     passes: u8,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    avoid: Vec<GivenNoGo>,
 }
 
 /// [`HomePart`]
@@ -28,6 +30,7 @@ impl From<&CleaningOrder> for GivenOrder {
         Self {
             parts: order.parts().iter().map(part).collect(),
             passes: order.passes(),
+            avoid: order.avoid().iter().map(GivenNoGo::from).collect(),
         }
     }
 }
@@ -42,7 +45,11 @@ impl GivenOrder {
             })
         };
         let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();
-        CleaningOrder::new(parts?, self.passes).ok()
+        let avoid: Option<Vec<NoGo>> = self.avoid.iter().map(GivenNoGo::to_brain).collect();
+        CleaningOrder::new(parts?, self.passes)
+            .ok()?
+            .avoiding(avoid?)
+            .ok()
     }
 }
 

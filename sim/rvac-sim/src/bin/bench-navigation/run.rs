@@ -98,6 +98,9 @@ impl Run {
     ) -> Self {
         let started = Instant::now();
         let mut household = household((scene, first_day), mode, seed);
+        if let Some(host) = household.host_mut() {
+            host.measure_cost();
+        }
         start_cleaning(&mut household, mode.strategy());
         let duration_ms = (scene.home().t0_s() * longest * 1000.0) as u64 + HOMING_MS;
         while household.robot().now_ms() < duration_ms && !mode.end().is_reached(&household) {
@@ -121,7 +124,7 @@ impl Run {
             violations: report.monitor_violations,
             sim_seconds: report.sim_seconds,
             wall_seconds: started.elapsed().as_secs_f64(),
-            host_cost: household.host().map(Host::cost).unwrap_or_default(),
+            host_cost: household.host().and_then(Host::cost).unwrap_or_default(),
             figures: report.figures.map_or_else(Figures::default, |figures| *figures),
         }
     }
