@@ -5,6 +5,7 @@ mod echo;
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};
+use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -227,7 +228,17 @@ fn a_client_plays_with_the_robot() {
     read_until(&mut terminal, r#""e":"lift""#);
     client.say(r#"{"c":"put-down"}"#);
     client.say(r#"{"c":"press","button":1}"#);
+    assert_eq!(client.next_of("done")["e"], "done");
     read_until(&mut terminal, r#""e":"button""#);
+}
+
+#[test]
+fn who_has_asked_all_still_gets_the_answer() {
+    let server = Server::start("asked", &["--speed", "20"]);
+    let mut client = server.client();
+    client.say(r#"{"c":"turn","turns":0.5}"#);
+    client.0.get_ref().shutdown(Shutdown::Write).unwrap();
+    client.next_of("done");
 }
 
 #[test]

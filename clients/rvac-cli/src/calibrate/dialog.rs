@@ -48,14 +48,16 @@ impl Dialog {
         }
     }
 
-    /// Asks for a whole number.
+    /// Asks for a whole number of at most nine digits, so that what is reckoned from it cannot overflow.
     pub(crate) fn number(robot: &mut Robot, question: &str) -> anyhow::Result<i64> {
         loop {
             Self::say(question)?;
             let line = Self::line(robot)?;
-            match line.parse() {
-                Ok(number) => return Ok(number),
-                Err(_) => Self::say(&format!("{line:?} is no whole number."))?,
+            match parse_number(&line) {
+                Some(number) => return Ok(number),
+                None => Self::say(&format!(
+                    "{line:?} is no whole number of at most nine digits. Type it again, without unit or point."
+                ))?,
             }
         }
     }
@@ -70,7 +72,36 @@ impl Dialog {
     }
 }
 
+fn parse_number(line: &str) -> Option<i64> {
+    const BELOW: i64 = 1_000_000_000;
+    line.trim()
+        .parse()
+        .ok()
+        .filter(|number| (1 - BELOW..BELOW).contains(number))
+}
+
 /// The person wants to end; no fault.
 #[derive(Debug, thiserror::Error)]
 #[error("ended; what was kept is in the file")]
 pub(crate) struct Quit;
+
+#[cfg(test)]
+mod tests {
+    use super::parse_number;
+
+    #[test]
+    fn a_number_has_at_most_nine_digits() {
+        assert_eq!(parse_number(" 16876 "), Some(16_876));
+        assert_eq!(parse_number("-999999999"), Some(-999_999_999));
+        for line in [
+            "1000000000",
+            "16876373999983414",
+            "99999999999999999999",
+            "16.9",
+            "",
+            "16876 mV",
+        ] {
+            assert_eq!(parse_number(line), None, "{line}");
+        }
+    }
+}

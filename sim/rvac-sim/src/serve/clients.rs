@@ -27,6 +27,8 @@ struct Client {
     inbound: Vec<u8>,
     outbound: Vec<u8>,
     backlog_max: usize,
+    /// It will ask nothing more, but may still listen: `printf ... | socat` ends its side as soon as all is said.
+    has_asked_all: bool,
     gone: bool,
 }
 
@@ -59,6 +61,7 @@ impl Clients {
                     inbound: Vec::new(),
                     outbound: self.greeting.clone(),
                     backlog_max: self.greeting.len() + BACKLOG_MAX,
+                    has_asked_all: false,
                     gone: false,
                 });
             }
@@ -68,7 +71,10 @@ impl Clients {
 
     /// Where to listen for requests.
     pub(crate) fn sources(&self) -> impl Iterator<Item = &UnixStream> {
-        self.clients.iter().map(|client| &client.stream)
+        self.clients
+            .iter()
+            .filter(|client| !client.has_asked_all)
+            .map(|client| &client.stream)
     }
 
     /// What clients ask now.
@@ -127,7 +133,8 @@ impl Client {
     fn read(&mut self) {
         let mut buffer = [0; REQUEST_MAX];
         match self.stream.read(&mut buffer) {
-            Ok(0) => self.gone = true,
+            // Who does not listen any more is found out at the next word to all.
+            Ok(0) => self.has_asked_all = true,
             Ok(count) => self.inbound.extend_from_slice(&buffer[..count]),
             Err(error) if would_wait(&error) => {}
             Err(_) => self.gone = true,

@@ -276,11 +276,14 @@ impl Server {
             | SimulatorRequest::Press { .. }
             | SimulatorRequest::Hold { .. }
             | SimulatorRequest::Paper { .. }
-            | SimulatorRequest::Place { .. } => self.touch(request),
+            | SimulatorRequest::Place { .. } => {
+                self.touch(request);
+                self.clients.answer(client, &Answer::Done);
+            }
         }
     }
 
-    /// What is done in a moment and not answered.
+    /// What is done in a moment.
     fn touch(&mut self, request: SimulatorRequest) {
         let now_ms = self.robot.now_ms();
         let sensors = self

@@ -89,7 +89,7 @@ pub(crate) enum Answer {
         /// Out of the pack, ampere.
         drawn_a: f64,
     },
-    /// To `push`, `turn` and `roll`, when the whole way was made.
+    /// To what a hand does: to `push`, `turn` and `roll` when the whole way was made, to all else at once.
     Done,
     /// To what could not be understood or done.
     Failed(Failure),
