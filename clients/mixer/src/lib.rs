@@ -4,7 +4,7 @@
 //! weight, delay, slow) and adds it to an *output*, multiplies the output by it, or replaces it. An output is one thing that
 //! the robot can be told: a speed, a turn, suction, Start. A *switch* is a condition on inputs that lines may depend on. A
 //! *profile* is all of these, as a person saved them. *Rest* is what an input gives when nobody touches it. *Failsafe* is
-//! what an output gives when an input was lost.
+//! what an output gives when an input was lost. A *pilot* is a mixer at work whose orders leave as requests.
 //!
 //! Nothing here reads a clock or a device: [`Mixer::step`] is given the time and the [`Readings`] of the moment. The same code
 //! runs in the browser, in `rvac drive` and, to check what is saved, in the daemon.
@@ -20,6 +20,7 @@ mod line;
 mod mixer;
 mod name;
 mod output;
+mod pilot;
 mod profile;
 mod readings;
 mod shape;
@@ -34,6 +35,7 @@ pub use line::{Line, Mix};
 pub use mixer::{GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer};
 pub use name::{Name, NameError};
 pub use output::{Output, OutputKind, OutputName};
+pub use pilot::{Pilot, STEP_EVERY_US, Steered, TopSpeeds};
 pub use profile::{Calibration, Profile, VERSION};
 pub use readings::{PadReading, Readings, first_moved};
 pub use shape::{curved, with_expo};

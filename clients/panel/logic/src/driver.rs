@@ -1,139 +1,148 @@
-//! Driving by hand: from held keys and the touch pad to drive requests under a lease.
+//! Driving by hand: from what hands do to drive requests under a lease, by the mix that a person has chosen.
 //!
-//! Each request carries a lease of 250 ms and is renewed ten times a second while something is held. Whatever happens to the page
-//! - hidden, closed, asleep, without network - no further request is sent and the robot stops when the lease ends.
+//! Whatever happens to the page - hidden, closed, asleep, without network - no further request is sent and the robot stops when
+//! the lease ends. A page that can still speak lets go at once.
 
-use rvac_api::{RequestBody, RobotDescription};
+use mixer::{
+    Cleaning, Device, KeyCode, Mixer, PadReading, Pilot, Profile, ProfileError, Readings, Source, Steered,
+    TopSpeeds, standard_profile,
+};
+use rvac_api::{CleaningPower, RequestBody, RobotDescription};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The lease of each request in ms: two renewals may be lost.
-const LEASE_MS: u16 = 250;
-
-/// Deflection of the pad below which it counts as its middle.
-const DEAD_ZONE: f64 = 0.08;
-
-/// Keys drive at this share of the top speed, because a key is either up or down.
-const KEY_SHARE: f64 = 0.7;
-
-/// Backwards the robot sees nothing: it goes slower.
-const REVERSE_SHARE: f64 = 0.5;
-
-/// What the person wants, each -1..=1.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Intent {
-    /// Forward positive.
-    pub forward: f64,
-    /// Counter-clockwise positive.
-    pub turn: f64,
+/// What the robot can do; before it said so, what every robot can.
+#[must_use]
+pub fn top_speeds(robot: Option<&RobotDescription>) -> TopSpeeds {
+    robot.map_or(
+        TopSpeeds {
+            forward_m_per_s: 0.15,
+            turn_rad_per_s: 0.8,
+        },
+        |robot| TopSpeeds {
+            forward_m_per_s: robot.speed_max_m_per_s,
+            turn_rad_per_s: robot.turn_max_rad_per_s,
+        },
+    )
 }
 
-impl Intent {
-    /// From a pad whose knob is `right` and `down` of its middle, in units of the pad's radius.
-    #[must_use]
-    pub fn of_pad(right: f64, down: f64) -> Self {
-        let length = right.hypot(down);
-        if !length.is_finite() || length < DEAD_ZONE {
-            return Self::default();
-        }
-        let limited = length.min(1.0);
-        let live = (limited - DEAD_ZONE) / (1.0 - DEAD_ZONE);
-        Self {
-            forward: -down / length * live,
-            turn: -right / length * live,
-        }
+/// Where the knob of a round pad is for a hand that is `right` and `down` of its middle, in units of its radius: right and
+/// down, within the disc.
+#[must_use]
+pub fn knob_place(right: f64, down: f64) -> [f64; 2] {
+    let length = right.hypot(down);
+    if !length.is_finite() {
+        return [0.0, 0.0];
     }
+    let limit = length.max(1.0);
+    [right / limit, down / limit]
 }
 
-/// A key that drives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
-    /// Forward.
-    Forward,
-    /// Backward.
-    Back,
-    /// Turn left.
-    Left,
-    /// Turn right.
-    Right,
-}
-
-impl Key {
-    /// The key by its place on the keyboard, as browsers name it in `KeyboardEvent.code`.
-    #[must_use]
-    pub fn from_code(code: &str) -> Option<Self> {
-        match code {
-            "KeyW" | "ArrowUp" => Some(Self::Forward),
-            "KeyS" | "ArrowDown" => Some(Self::Back),
-            "KeyA" | "ArrowLeft" => Some(Self::Left),
-            "KeyD" | "ArrowRight" => Some(Self::Right),
+/// Keys that the profile names, so that all others are left to the page.
+#[must_use]
+pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
+    let lines = profile.outputs.iter().flat_map(|output| &output.lines);
+    let switches = profile.switches.iter().filter_map(|switch| switch.on.input());
+    let sources = lines.map(|line| &line.input).chain(switches);
+    sources
+        .filter_map(|source| match source {
+            Source::Key(code) => Some(code.clone()),
             _ => None,
-        }
-    }
+        })
+        .collect()
 }
 
-/// The highest speeds that the pad asks for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DriveLimits {
-    /// Forward in m/s.
-    pub speed_m_per_s: f64,
-    /// Turning in rad/s.
-    pub turn_rad_per_s: f64,
-}
-
-impl DriveLimits {
-    /// What the robot can do; before it said so, what every robot can.
-    #[must_use]
-    pub fn of(robot: Option<&RobotDescription>) -> Self {
-        robot.map_or(
-            Self {
-                speed_m_per_s: 0.15,
-                turn_rad_per_s: 0.8,
-            },
-            |robot| Self {
-                speed_m_per_s: robot.speed_max_m_per_s,
-                turn_rad_per_s: robot.turn_max_rad_per_s,
-            },
-        )
-    }
-}
-
-/// What is held now, and whether the robot was told to drive.
-#[derive(Clone, Debug, Default)]
+/// What is held, the mix that it goes through, and the seat.
+#[derive(Debug)]
 pub struct Driver {
-    pad: Option<Intent>,
-    keys: [bool; 4],
-    driving: bool,
-    refused: bool,
+    pilot: Pilot,
+    keys: BTreeSet<KeyCode>,
+    readings: Readings,
     cleaners: bool,
 }
 
 impl Driver {
-    /// The pad is held with this intent.
-    pub fn hold_pad(&mut self, intent: Intent) {
-        self.pad = Some(intent);
+    /// Drives by the standard mix, with a keyboard and the stick on the screen.
+    ///
+    /// # Errors
+    /// Never, as a test shows: the standard mix has no mistakes.
+    pub fn new() -> Result<Self, ProfileError> {
+        let profile = standard_profile();
+        Ok(Self {
+            keys: keys_of(&profile),
+            pilot: Pilot::new(Mixer::new(profile)?),
+            readings: at_rest(),
+            cleaners: false,
+        })
     }
 
-    /// The pad is free.
-    pub fn free_pad(&mut self) {
-        self.pad = None;
-        self.forget_refusal_at_rest();
+    /// Drives by another mix from now on; whatever is held is let go by it.
+    ///
+    /// # Errors
+    /// What is wrong with the mix; then the one before goes on.
+    pub fn take_mix(&mut self, profile: Profile) -> Result<(), ProfileError> {
+        let keys = keys_of(&profile);
+        self.pilot.take(Mixer::new(profile)?);
+        self.keys = keys;
+        Ok(())
+    }
+
+    /// The mix that drives.
+    #[must_use]
+    pub const fn profile(&self) -> &Profile {
+        self.pilot.profile()
+    }
+
+    /// What the inputs read.
+    #[must_use]
+    pub const fn readings(&self) -> &Readings {
+        &self.readings
+    }
+
+    /// The knob of the pad on the screen is here, as from [`knob_place`].
+    pub fn place_knob(&mut self, [right, down]: [f64; 2]) {
+        self.readings.touch = Some([right, -down]);
+    }
+
+    /// The key of this code, if the mix has a use for it.
+    #[must_use]
+    pub fn key(&self, code: &str) -> Option<KeyCode> {
+        KeyCode::new(code).filter(|code| self.keys.contains(code))
     }
 
     /// A key went down.
-    pub fn press(&mut self, key: Key) {
-        self.keys[key as usize] = true;
+    pub fn press(&mut self, code: KeyCode) {
+        self.readings.set(&Source::Key(code), 1.0);
     }
 
     /// A key went up.
-    pub fn lift(&mut self, key: Key) {
-        self.keys[key as usize] = false;
-        self.forget_refusal_at_rest();
+    pub fn lift(&mut self, code: KeyCode) {
+        self.readings.set(&Source::Key(code), 0.0);
     }
 
-    /// Everything is let go: the page lost the focus, was hidden, or lost its connection.
-    pub fn drop_all(&mut self) {
-        self.pad = None;
-        self.keys = [false; 4];
-        self.refused = false;
+    /// The gamepads that there are now, by their numbers.
+    pub fn set_pads(&mut self, pads: BTreeMap<u8, PadReading>) {
+        self.readings.pads = pads;
+    }
+
+    /// The device in the hand is tilted so, forward and left.
+    pub fn set_tilt(&mut self, tilt: [f64; 2]) {
+        self.readings.tilt = Some(tilt);
+    }
+
+    /// The tilt is not followed any more.
+    pub fn forget_tilt(&mut self) {
+        self.readings.remove(Device::Tilt);
+    }
+
+    /// Hands are off keys and pad; whatever else is held is so still.
+    pub fn let_go(&mut self) {
+        let tilt = self.readings.tilt;
+        let pads = std::mem::take(&mut self.readings.pads);
+        self.readings = Readings {
+            pads,
+            tilt,
+            ..at_rest()
+        };
     }
 
     /// Brushes and suction run while driving, from now on.
@@ -141,184 +150,195 @@ impl Driver {
         self.cleaners = true;
     }
 
-    /// Brushes and suction stay off while driving, from now on.
+    /// Brushes and suction do what the mix says while driving, from now on.
     pub fn drive_only(&mut self) {
         self.cleaners = false;
     }
 
     /// The robot refused to be driven: nothing more is asked until everything was let go once.
     pub fn on_refused(&mut self) {
-        self.refused = true;
-        self.driving = false;
+        self.pilot.refuse();
     }
 
-    /// Whether something is held.
-    #[must_use]
-    pub fn is_held(&self) -> bool {
-        self.pad.is_some() || self.keys.contains(&true)
-    }
-
-    /// What to send now: a drive request while something is held, one release when nothing is any more. To be asked ten times a
-    /// second and at each change.
-    pub fn request(&mut self, limits: DriveLimits) -> Option<RequestBody> {
-        if !self.is_held() {
-            return std::mem::take(&mut self.driving).then_some(RequestBody::Release);
-        }
-        if self.refused {
-            return None;
-        }
-        // A hold begins in the middle: the daemon wants to see that nobody holds on through a stop.
-        if !std::mem::replace(&mut self.driving, true) {
-            return Some(self.drive(0.0, 0.0));
-        }
-        let intent = self.pad.unwrap_or_else(|| self.intent_of_keys());
-        let share = if intent.forward < 0.0 { REVERSE_SHARE } else { 1.0 };
-        Some(self.drive(
-            intent.forward * share * limits.speed_m_per_s,
-            intent.turn * limits.turn_rad_per_s,
-        ))
-    }
-
-    const fn drive(&self, v: f64, w: f64) -> RequestBody {
-        RequestBody::Drive {
-            v,
-            w,
-            ttl: LEASE_MS,
-            clean: self.cleaners,
-            power: None,
+    /// Looks at the inputs.
+    pub fn step(&mut self, now_us: u64, top: TopSpeeds) -> Steered {
+        let steered = self.pilot.step(now_us, &self.readings, top);
+        Steered {
+            seat: steered.seat.map(|body| self.with_cleaners(body)),
+            ..steered
         }
     }
 
-    fn intent_of_keys(&self) -> Intent {
-        let axis = |plus: Key, minus: Key| {
-            let value = |key: Key| f64::from(u8::from(self.keys[key as usize]));
-            (value(plus) - value(minus)) * KEY_SHARE
-        };
-        Intent {
-            forward: axis(Key::Forward, Key::Back),
-            turn: axis(Key::Left, Key::Right),
-        }
+    /// Every input is lost at this moment: the page is away, or the robot.
+    pub fn lose(&mut self, now_us: u64) -> Steered {
+        self.let_go();
+        let nothing = Readings::default();
+        // Nothing is driven, so no speed is asked for.
+        self.pilot.step(now_us, &nothing, top_speeds(None))
     }
 
-    fn forget_refusal_at_rest(&mut self) {
-        if !self.is_held() {
-            self.refused = false;
+    fn with_cleaners(&self, body: RequestBody) -> RequestBody {
+        match body {
+            RequestBody::Drive { v, w, ttl, clean, .. } if self.cleaners => RequestBody::Drive {
+                v,
+                w,
+                ttl,
+                clean,
+                power: Some(FULL),
+            },
+            other => other,
         }
+    }
+}
+
+const FULL: CleaningPower = CleaningPower {
+    suction: Cleaning::FULL.suction,
+    main_brush: Cleaning::FULL.main_brush,
+    side_brushes: Cleaning::FULL.side_brushes,
+};
+
+/// The page's own inputs with nobody at them.
+fn at_rest() -> Readings {
+    Readings {
+        keys: Some(BTreeSet::new()),
+        touch: Some([0.0, 0.0]),
+        ..Readings::default()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{DriveLimits, Driver, Intent, Key};
+    use super::{Driver, FULL, knob_place, top_speeds};
+    use mixer::{MixState, PadReading, Profile, STEP_EVERY_US, Steered, standard_profile};
     use rvac_api::RequestBody;
 
-    const LIMITS: DriveLimits = DriveLimits {
-        speed_m_per_s: 0.3,
-        turn_rad_per_s: 1.0,
-    };
+    struct Page {
+        driver: Driver,
+        now_us: u64,
+    }
 
-    /// The speeds of the second request of a hold, or of any later one.
-    #[track_caller]
-    fn speeds(driver: &mut Driver) -> (f64, f64) {
-        if !driver.driving {
-            driver.request(LIMITS);
+    impl Page {
+        fn new() -> Self {
+            let driver = Driver::new().expect("the standard mix has no mistakes");
+            let mut page = Self { driver, now_us: 0 };
+            assert_eq!(page.step().mixed.state, MixState::Failsafe);
+            assert_eq!(page.step().mixed.state, MixState::Live);
+            page
         }
-        match driver.request(LIMITS) {
-            Some(RequestBody::Drive {
-                v,
-                w,
-                ttl: 250,
-                clean: false,
-                power: None,
-            }) => (v, w),
-            other => panic!("{other:?}"),
+
+        fn step(&mut self) -> Steered {
+            self.now_us += STEP_EVERY_US;
+            self.driver.step(self.now_us, top_speeds(None))
+        }
+
+        fn press(&mut self, code: &str) {
+            let key = self.driver.key(code).expect("a key of the mix");
+            self.driver.press(key);
+        }
+
+        /// Speeds of the second request of a hold.
+        #[track_caller]
+        fn speeds(&mut self) -> (f64, f64) {
+            self.step();
+            match self.step().seat {
+                Some(RequestBody::Drive { v, w, .. }) => (v, w),
+                other => panic!("{other:?}"),
+            }
         }
     }
 
-    #[test]
-    fn keys_drive_and_release_is_said_once() {
-        let mut driver = Driver::default();
-        assert_eq!(driver.request(LIMITS), None);
-        driver.press(Key::Forward);
-        driver.press(Key::Left);
-        let (v, w) = speeds(&mut driver);
-        assert!((v - 0.21).abs() < 1e-9 && (w - 0.7).abs() < 1e-9);
-        driver.lift(Key::Forward);
-        assert_eq!(speeds(&mut driver).0, 0.0);
-        driver.lift(Key::Left);
-        assert_eq!(driver.request(LIMITS), Some(RequestBody::Release));
-        assert_eq!(driver.request(LIMITS), None);
-    }
-
-    #[test]
-    fn every_hold_begins_in_the_middle() {
-        let mut driver = Driver::default();
-        for _ in 0..2 {
-            driver.press(Key::Forward);
-            let first = driver.request(LIMITS);
-            assert_eq!(
-                first,
-                Some(RequestBody::Drive {
-                    v: 0.0,
-                    w: 0.0,
-                    ttl: 250,
-                    clean: false,
-                    power: None
-                })
-            );
-            assert!(speeds(&mut driver).0 > 0.0);
-            driver.lift(Key::Forward);
-            assert_eq!(driver.request(LIMITS), Some(RequestBody::Release));
+    fn pad(across: f64) -> PadReading {
+        PadReading {
+            axes: vec![across, 0.0, 0.0, 0.0],
+            buttons: vec![0.0; 17],
         }
     }
 
     #[test]
-    fn opposite_keys_stand_still_under_the_lease() {
-        let mut driver = Driver::default();
-        driver.press(Key::Forward);
-        driver.press(Key::Back);
-        assert_eq!(speeds(&mut driver), (0.0, 0.0));
+    fn keys_drive_and_others_are_left_to_the_page() {
+        let mut page = Page::new();
+        page.press("KeyW");
+        page.press("KeyA");
+        let (v, w) = page.speeds();
+        assert!((v - 0.7 * 0.15).abs() < 1e-9 && (w - 0.7 * 0.8).abs() < 1e-9);
+        for code in ["Tab", "Enter", "KeyQ", ""] {
+            assert_eq!(page.driver.key(code), None, "{code}");
+        }
+        page.driver.let_go();
+        assert_eq!(page.step().seat, Some(RequestBody::Release));
+        assert_eq!(page.step().seat, None);
     }
 
     #[test]
-    fn backwards_is_slower() {
-        let mut driver = Driver::default();
-        driver.hold_pad(Intent::of_pad(0.0, 1.0));
-        assert!((speeds(&mut driver).0 + 0.15).abs() < 1e-9);
-    }
-
-    #[test]
-    fn the_pad_is_a_disc_with_a_dead_middle() {
-        assert_eq!(Intent::of_pad(0.05, 0.05), Intent::default());
-        assert_eq!(Intent::of_pad(f64::NAN, 0.0), Intent::default());
+    fn the_knob_drives_within_its_disc() {
         for (right, down) in [(1.0, 1.0), (-9.0, 4.0), (0.0, -1.0)] {
-            let intent = Intent::of_pad(right, down);
-            assert!(intent.forward.hypot(intent.turn) <= 1.0 + 1e-9);
-            assert!(intent.forward * down <= 0.0 && intent.turn * right <= 0.0);
+            let [x, y] = knob_place(right, down);
+            assert!(x.hypot(y) <= 1.0 + 1e-9 && x * right >= 0.0 && y * down >= 0.0);
         }
-        assert!((Intent::of_pad(0.0, -1.0).forward - 1.0).abs() < 1e-9);
+        assert_eq!(knob_place(f64::NAN, 0.0), [0.0, 0.0]);
+        let mut page = Page::new();
+        page.driver.place_knob(knob_place(0.0, 3.0));
+        let (v, _) = page.speeds();
+        assert!((v + 0.075).abs() < 1e-9, "backwards it sees nothing: {v}");
     }
 
     #[test]
-    fn dropping_everything_releases() {
-        let mut driver = Driver::default();
-        driver.hold_pad(Intent::of_pad(0.0, -1.0));
-        driver.press(Key::Left);
-        speeds(&mut driver);
-        driver.drop_all();
-        assert_eq!(driver.request(LIMITS), Some(RequestBody::Release));
+    fn a_page_that_is_away_lets_go_and_everything_must_come_to_rest() {
+        let mut page = Page::new();
+        page.press("KeyW");
+        page.speeds();
+        page.now_us += STEP_EVERY_US;
+        let lost = page.driver.lose(page.now_us);
+        assert_eq!(lost.seat, Some(RequestBody::Release));
+        page.driver.set_pads([(0, pad(1.0))].into());
+        for _ in 0..3 {
+            assert_eq!(page.step().seat, None, "the stick was held while nobody looked");
+        }
+        page.driver.set_pads([(0, pad(0.0))].into());
+        page.step();
+        page.driver.set_pads([(0, pad(1.0))].into());
+        assert!(page.speeds().1 < 0.0, "right is clockwise");
     }
 
     #[test]
-    fn a_refused_driver_is_silent_until_let_go() {
-        let mut driver = Driver::default();
-        driver.press(Key::Forward);
-        speeds(&mut driver);
-        driver.on_refused();
-        assert_eq!(driver.request(LIMITS), None);
-        driver.lift(Key::Forward);
-        assert_eq!(driver.request(LIMITS), None);
-        driver.press(Key::Forward);
-        speeds(&mut driver);
+    fn a_lost_pad_releases_in_the_same_step() {
+        let mut page = Page::new();
+        page.driver.set_pads([(0, pad(0.0))].into());
+        page.step();
+        page.step();
+        page.driver.set_pads([(0, pad(-1.0))].into());
+        page.speeds();
+        page.driver.set_pads([].into());
+        assert_eq!(page.step().seat, Some(RequestBody::Release));
+    }
+
+    #[test]
+    fn cleaners_run_when_they_are_told_to() {
+        let mut page = Page::new();
+        page.driver.clean_while_driving();
+        page.press("KeyW");
+        let Some(RequestBody::Drive { power, .. }) = page.step().seat else {
+            panic!("it drives");
+        };
+        assert_eq!(power, Some(FULL));
+    }
+
+    #[test]
+    fn another_mix_brings_its_own_keys() {
+        let mut page = Page::new();
+        let text = r#"{"version":1,"name":"q","outputs":[{"output":"turn","low":-1,"high":1,
+            "lines":[{"name":"q","input":"key-KeyQ"}]}]}"#;
+        page.driver
+            .take_mix(Profile::parse(text).expect("a mix"))
+            .expect("a mix");
+        page.step();
+        page.step();
+        assert_eq!(page.driver.key("KeyW"), None);
+        page.press("KeyQ");
+        assert!((page.speeds().1 - 0.8).abs() < 1e-9);
+        let mut broken = standard_profile();
+        broken.outputs[0].low = -2.0;
+        assert!(page.driver.take_mix(broken).is_err());
+        assert_eq!(page.driver.profile().name.as_str(), "q", "the one before goes on");
     }
 }

@@ -1,7 +1,7 @@
 //! What the panel knows and decides, without browser and framework, so that it is tested on the host.
 //!
 //! Words used here. The *camera* says which part of the map is seen. The *playout* turns poses that arrive now and then into
-//! motion that flows. The *driver* turns held keys and the touch pad into drive requests under a lease. An *offer* says
+//! motion that flows. The *driver* turns what hands do into drive requests under a lease, by a control mix. An *offer* says
 //! whether a button can be used and why not. The *catalogue* holds every sentence that explains a code.
 #![forbid(unsafe_code)]
 
@@ -13,6 +13,7 @@ mod driver;
 mod figures;
 mod frame_meter;
 mod home;
+mod latency;
 mod log_book;
 mod offers;
 mod plan;
@@ -21,15 +22,17 @@ mod room_choice;
 mod sketch;
 mod swept_grid;
 mod thoughts;
+mod tilt;
 
 pub use camera::{Bounds, Camera, View};
 pub use catalogue::{Explanation, explain, state_title};
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
-pub use driver::{DriveLimits, Driver, Intent, Key};
+pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
+pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use offers::{Offer, Offers, PauseKind};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
@@ -38,3 +41,4 @@ pub use room_choice::{PASSES_MAX, RoomChoice, job_estimate_text, room_at};
 pub use sketch::{NoGoRow, Sketch, Tool, no_go_rows};
 pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};
+pub use tilt::Tilt;

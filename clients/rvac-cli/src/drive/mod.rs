@@ -61,7 +61,7 @@ pub(crate) fn run(options: &DriveOptions) -> anyhow::Result<ExitCode> {
             );
         }
     }
-    let mut session = Session::new(connection.sender()?, profile, robot)?;
+    let mut session = Session::new(connection.sender()?, profile, &robot)?;
     session::hear(connection, events);
     let outcome = session.run(&inbox);
     drop(terminal);

@@ -6,18 +6,14 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
-use mixer::{Axes, Cleaning, Helm, MixState, Mixed, Mixer, Order, Press, Profile, Readings};
-use rvac_api::{CleaningPower, Request, RequestBody, RobotDescription, Update};
+use mixer::{MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, TopSpeeds};
+use rvac_api::{Request, RequestBody, RobotDescription, Update};
 
 use super::Event;
 use crate::socket::Connection;
 
 /// The mixer looks at the inputs so often.
-const TICK: Duration = Duration::from_millis(20);
-/// What does not change is said again so often: two renewals of the lease may be lost.
-const RENEW: Duration = Duration::from_millis(80);
-/// The lease of each request.
-const LEASE_MS: u16 = 250;
+const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 /// Number of all other requests.
@@ -26,14 +22,19 @@ const PRESS_ID: u32 = 2;
 /// A person who drives.
 pub(super) struct Session {
     connection: Connection,
-    robot: RobotDescription,
-    mixer: Mixer,
-    helm: Helm,
+    top: TopSpeeds,
+    pilot: Pilot,
     readings: Readings,
     start: Instant,
-    sent: Option<(Instant, Order)>,
     /// What was told to the person last.
     told: Option<MixState>,
+}
+
+fn top(robot: &RobotDescription) -> TopSpeeds {
+    TopSpeeds {
+        forward_m_per_s: robot.speed_max_m_per_s,
+        turn_rad_per_s: robot.turn_max_rad_per_s,
+    }
 }
 
 /// Hears the daemon on a thread of its own.
@@ -56,23 +57,21 @@ impl Session {
     pub(super) fn new(
         connection: Connection,
         profile: Profile,
-        robot: RobotDescription,
+        robot: &RobotDescription,
     ) -> anyhow::Result<Self> {
         Ok(Self {
             connection,
-            robot,
-            mixer: Mixer::new(profile)?,
-            helm: Helm::default(),
+            top: top(robot),
+            pilot: Pilot::new(Mixer::new(profile)?),
             readings: Readings::default(),
             start: Instant::now(),
-            sent: None,
             told: None,
         })
     }
 
     /// Drives until the inputs end or the daemon goes.
     pub(super) fn run(&mut self, inbox: &Receiver<Event>) -> anyhow::Result<ExitCode> {
-        remark(&format!("drives by the mix {}", self.mixer.profile().name))?;
+        remark(&format!("drives by the mix {}", self.pilot.profile().name))?;
         let mut tick = Instant::now();
         loop {
             let left = tick.saturating_duration_since(Instant::now());
@@ -119,13 +118,13 @@ impl Session {
         match update {
             Update::Failed(failure) => {
                 if failure.id == Some(DRIVE_ID) {
-                    self.helm.refuse();
+                    self.pilot.refuse();
                 }
                 remark(&format!("refused ({}): {}", failure.reason, failure.text))?;
             }
             Update::Hello {
                 robot: Some(robot), ..
-            } => self.robot = robot,
+            } => self.top = top(&robot),
             _ => {}
         }
         Ok(())
@@ -133,55 +132,16 @@ impl Session {
 
     fn step(&mut self) -> anyhow::Result<()> {
         let now_us = u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX);
-        let mixed = self.mixer.step(now_us, &self.readings);
-        self.tell(&mixed)?;
-        let wish = mixed.wish();
-        for press in &wish.presses {
-            self.press(*press)?;
+        let steered = self.pilot.step(now_us, &self.readings, self.top);
+        self.tell(&steered.mixed)?;
+        for body in steered.presses {
+            self.send(PRESS_ID, body)?;
         }
-        let order = self.helm.order(&wish);
-        let is_due = self
-            .sent
-            .is_none_or(|(when, last)| last != order || when.elapsed() >= RENEW);
-        let body = match order {
-            Order::Nothing => None,
-            Order::Release => Some(RequestBody::Release),
-            Order::Drive { axes, cleaning } => is_due.then(|| self.drive(axes, cleaning)),
-        };
-        let Some(body) = body else { return Ok(()) };
-        self.sent = Some((Instant::now(), order));
-        self.connection.send(&Request {
-            id: Some(DRIVE_ID),
-            body,
-        })
+        steered.seat.map_or(Ok(()), |body| self.send(DRIVE_ID, body))
     }
 
-    fn drive(&self, axes: Axes, cleaning: Cleaning) -> RequestBody {
-        let power = CleaningPower {
-            suction: cleaning.suction,
-            main_brush: cleaning.main_brush,
-            side_brushes: cleaning.side_brushes,
-        };
-        RequestBody::Drive {
-            v: axes.forward * self.robot.speed_max_m_per_s,
-            w: axes.turn * self.robot.turn_max_rad_per_s,
-            ttl: LEASE_MS,
-            clean: false,
-            power: Some(power),
-        }
-    }
-
-    fn press(&mut self, press: Press) -> anyhow::Result<()> {
-        let body = match press {
-            Press::Start => RequestBody::Start { strategy: None },
-            Press::Stop => RequestBody::Stop,
-            Press::Spot => RequestBody::Spot,
-            Press::Dock => RequestBody::Dock,
-        };
-        self.connection.send(&Request {
-            id: Some(PRESS_ID),
-            body,
-        })
+    fn send(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
+        self.connection.send(&Request { id: Some(id), body })
     }
 
     /// Tells the person when the inputs begin or cease to count.

@@ -1,0 +1,119 @@
+//! How long it takes from a stick to the wheels, as a person sees it.
+//!
+//! It begins with the browser's time of the input that moved a robot at rest, and ends when the first pose arrives that shows
+//! it moving. So the way there, the robot's own start, and the way back of the news are in it, and up to 50 ms until the next
+//! pose.
+
+use rvac_api::Pose;
+use std::collections::VecDeque;
+
+/// A robot that sent no other pose for so long stands.
+const STANDS_MS: f64 = 400.0;
+/// A robot that has not moved by now will not move because of that input.
+const PATIENCE_MS: f64 = 2_000.0;
+/// Measurements that are kept.
+const KEPT: usize = 9;
+/// Poses closer than this are the same.
+const STILL_M: f64 = 0.001;
+const STILL_RAD: f64 = 0.002;
+
+/// Measures at each start from rest.
+#[derive(Clone, Debug, Default)]
+pub struct LatencyMeter {
+    /// The pose of the robot, and since when it is there.
+    stood: Option<(f64, Pose)>,
+    since_ms: Option<f64>,
+    spans_ms: VecDeque<f64>,
+}
+
+impl LatencyMeter {
+    /// An input at `input_ms` asks a robot to move; it counts if that stands.
+    pub fn moved(&mut self, input_ms: f64) {
+        let stands = self
+            .stood
+            .is_some_and(|(since_ms, _)| input_ms - since_ms >= STANDS_MS);
+        self.since_ms = stands.then_some(input_ms);
+    }
+
+    /// Nothing is asked any more.
+    pub fn released(&mut self) {
+        self.since_ms = None;
+    }
+
+    /// A pose arrived at `now_ms`.
+    pub fn on_pose(&mut self, now_ms: f64, pose: Pose) {
+        if self.stood.is_some_and(|(_, stood)| same(stood, pose)) {
+            return;
+        }
+        self.stood = Some((now_ms, pose));
+        let span_ms = self.since_ms.take().map(|since_ms| now_ms - since_ms);
+        if let Some(span_ms) = span_ms.filter(|span_ms| (0.0..PATIENCE_MS).contains(span_ms)) {
+            self.spans_ms.push_back(span_ms);
+            if self.spans_ms.len() > KEPT {
+                self.spans_ms.pop_front();
+            }
+        }
+    }
+
+    /// The last measurement, the median, and how many there are.
+    #[must_use]
+    pub fn text(&self) -> Option<String> {
+        let last = self.spans_ms.back()?;
+        let mut sorted: Vec<f64> = self.spans_ms.iter().copied().collect();
+        sorted.sort_by(f64::total_cmp);
+        let median = sorted.get(sorted.len() / 2)?;
+        Some(format!(
+            "{last:.0} ms, median of {}: {median:.0} ms",
+            sorted.len()
+        ))
+    }
+}
+
+fn same(one: Pose, other: Pose) -> bool {
+    (one.x - other.x).hypot(one.y - other.y) < STILL_M && (one.heading - other.heading).abs() < STILL_RAD
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LatencyMeter;
+    use rvac_api::Pose;
+
+    fn at(x: f64) -> Pose {
+        Pose { x, ..Pose::default() }
+    }
+
+    #[test]
+    fn measures_from_the_input_to_the_first_pose_that_moved() {
+        let mut meter = LatencyMeter::default();
+        meter.on_pose(0.0, at(0.0));
+        meter.moved(1000.0);
+        meter.on_pose(1050.0, at(0.0005));
+        assert_eq!(meter.text(), None, "that is noise");
+        meter.on_pose(1180.0, at(0.01));
+        meter.on_pose(1230.0, at(0.03));
+        assert_eq!(meter.text().as_deref(), Some("180 ms, median of 1: 180 ms"));
+        for (start, span) in [(3000.0, 100.0), (5000.0, 140.0)] {
+            meter.moved(start);
+            meter.on_pose(start + span, at(start));
+        }
+        assert_eq!(meter.text().as_deref(), Some("140 ms, median of 3: 140 ms"));
+    }
+
+    #[test]
+    fn counts_only_starts_from_rest_that_come_of_the_input() {
+        let mut meter = LatencyMeter::default();
+        meter.moved(0.0);
+        meter.on_pose(100.0, at(1.0));
+        assert_eq!(meter.text(), None, "where it stood is unknown");
+        meter.moved(200.0);
+        meter.on_pose(250.0, at(2.0));
+        assert_eq!(meter.text(), None, "it moved already");
+        meter.moved(1000.0);
+        meter.on_pose(4000.0, at(3.0));
+        assert_eq!(meter.text(), None, "that was something else");
+        meter.moved(6000.0);
+        meter.released();
+        meter.on_pose(6100.0, at(4.0));
+        assert_eq!(meter.text(), None, "it was let go before");
+    }
+}
