@@ -3,7 +3,8 @@
 use crate::line::{Line, Mix};
 use crate::switch::SwitchMemory;
 use crate::{
-    Device, Name, OutputKind, OutputName, Profile, ProfileError, Readings, Source, curved, with_expo,
+    Device, Name, OutputKind, OutputName, Profile, ProfileError, Readings, Source, curved, standard_profile,
+    with_expo,
 };
 
 /// A longer pause between two steps is a loss: the page slept, or the lid was closed.
@@ -95,6 +96,16 @@ impl Mixer {
     /// What is wrong with the profile.
     pub fn new(profile: Profile) -> Result<Self, ProfileError> {
         profile.check()?;
+        Ok(Self::of(profile))
+    }
+
+    /// A mixer by the standard profile.
+    #[must_use]
+    pub fn standard() -> Self {
+        Self::of(standard_profile())
+    }
+
+    fn of(profile: Profile) -> Self {
         let lines = profile
             .outputs
             .iter()
@@ -114,7 +125,7 @@ impl Mixer {
             state: MixState::Failsafe,
         };
         mixer.forget();
-        Ok(mixer)
+        mixer
     }
 
     /// The profile.

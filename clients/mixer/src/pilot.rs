@@ -118,7 +118,7 @@ mod tests {
     use rvac_api::RequestBody;
 
     use super::{Pilot, RENEW_US, STEP_EVERY_US, TopSpeeds};
-    use crate::{KeyCode, Mixer, Readings, Source, standard_profile};
+    use crate::{KeyCode, Mixer, Readings, Source};
 
     const TOP: TopSpeeds = TopSpeeds {
         forward_m_per_s: 0.3,
@@ -137,9 +137,8 @@ mod tests {
                 keys: Some([].into()),
                 ..Readings::default()
             };
-            let mixer = Mixer::new(standard_profile()).expect("a profile");
             let mut hands = Self {
-                pilot: Pilot::new(mixer),
+                pilot: Pilot::new(Mixer::standard()),
                 readings,
                 now_us: 0,
             };
@@ -199,9 +198,7 @@ mod tests {
         let mut hands = Hands::new();
         hands.key("KeyW", 1.0);
         hands.step();
-        hands
-            .pilot
-            .take(Mixer::new(standard_profile()).expect("a profile"));
+        hands.pilot.take(Mixer::standard());
         assert_eq!(hands.step().1, Some(RequestBody::Release));
         assert_eq!(hands.step().1, None, "the key is not at rest yet");
     }

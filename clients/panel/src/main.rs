@@ -4,7 +4,7 @@
 mod actions;
 mod app;
 mod device_view;
-mod drive_pad;
+mod drive;
 mod header;
 mod home_view;
 mod icons;

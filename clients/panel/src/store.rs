@@ -1,7 +1,8 @@
 //! What the page knows, as signals that the views follow.
 
 use leptos::prelude::*;
-use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows};
+use mixer::Steered;
+use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows, top_speeds};
 use rvac_api::{
     DeviceTable, Estimate, Failure, KeptMap, Request, RequestBody, RobotDescription, SimulatedTruth, Status,
     Topic,
@@ -9,6 +10,7 @@ use rvac_api::{
 
 use rvac_api::Update as Message;
 
+use crate::drive::Seat;
 use crate::link::Link;
 use crate::map::{MapHandle, Orders};
 
@@ -47,8 +49,8 @@ pub(crate) struct Store {
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
-    /// What is held to drive.
-    pub(crate) driver: StoredValue<Driver>,
+    /// Who drives, and by which mix.
+    pub(crate) seat: Seat,
     /// The map.
     pub(crate) map: StoredValue<MapHandle, LocalStorage>,
     /// The connection to the server.
@@ -71,7 +73,7 @@ impl Store {
             orders: Orders::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
-            driver: StoredValue::new(Driver::default()),
+            seat: Seat::new(),
             map: StoredValue::new_local(MapHandle::default()),
             link: StoredValue::new_local(Link::default()),
         }
@@ -106,24 +108,24 @@ impl Store {
         self.send(Some(id), body);
     }
 
-    /// Sends what the driver wants now. To be called ten times a second and at each change.
+    /// Looks at all inputs and sends what they ask. To be called fifty times a second.
     pub(crate) fn drive(self) {
-        let limits = self
-            .robot
-            .with_untracked(|robot| panel_logic::DriveLimits::of(robot.as_ref()));
-        let request = self
-            .driver
-            .try_update_value(|driver| driver.request(limits))
-            .flatten();
-        if let Some(body) = request {
-            self.send(Some(DRIVE_ID), body);
-        }
+        let top = self.robot.with_untracked(|robot| top_speeds(robot.as_ref()));
+        self.send_steered(self.seat.step(top));
     }
 
-    /// Lets go of everything and says so at once.
+    /// All inputs are lost: whatever is held is let go, and says so at once.
     pub(crate) fn let_go(self) {
-        self.driver.update_value(Driver::drop_all);
-        self.drive();
+        self.send_steered(self.seat.lose());
+    }
+
+    fn send_steered(self, steered: Steered) {
+        for press in steered.presses {
+            self.ask(press);
+        }
+        if let Some(body) = steered.seat {
+            self.send(Some(DRIVE_ID), body);
+        }
     }
 
     /// The connection stands: introduces the page.
@@ -149,11 +151,13 @@ impl Store {
             Topic::Log,
         ];
         self.send(None, RequestBody::Watch { topics });
+        self.send(None, RequestBody::Mixes);
     }
 
     /// The connection is lost.
     pub(crate) fn on_close(self) {
-        self.driver.update_value(Driver::drop_all);
+        // Nothing can be said any more: the lease ends by itself.
+        self.seat.lose();
         let status = Status {
             state: "disconnected".to_owned(),
             reason: "no-server".to_owned(),
@@ -185,7 +189,10 @@ impl Store {
                 self.map.with_value(|map| map.set_plan(&plan));
                 self.home.set(Some(plan.name));
             }
-            Message::Pose(pose) => self.map.with_value(|map| map.on_pose(pose)),
+            Message::Pose(pose) => {
+                self.seat.on_pose(pose);
+                self.map.with_value(|map| map.on_pose(pose));
+            }
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
             Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
             Message::Home(home) => {
@@ -204,11 +211,13 @@ impl Store {
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { maps } => self.maps.set(maps),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
-            Message::Done { .. } | Message::Mixes { .. } | Message::Packet { .. } => {}
+            Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
+            Message::Done { .. } | Message::Packet { .. } => {}
         }
     }
 
     fn on_status(self, status: Status) {
+        self.seat.on_status(&status);
         if status.state == "disconnected" {
             self.device.set(None);
         }
@@ -220,7 +229,7 @@ impl Store {
             return;
         }
         if failure.id == Some(DRIVE_ID) {
-            self.driver.update_value(Driver::on_refused);
+            self.seat.driver.update_value(Driver::on_refused);
         }
         self.refusal.set(Some(failure));
     }

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 
 use crate::device_view::DeviceView;
-use crate::drive_pad::DrivePad;
+use crate::drive::DriveSheet;
 use crate::home_view::HomeSheet;
 use crate::log_view::LogView;
 use crate::store::Store;
@@ -57,7 +57,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 {(0..TABS.len()).map(tab).collect_view()}
             </div>
             <div role="tabpanel" id="sheet-drive" aria-labelledby="tab-drive" hidden=move || open.get() != 0>
-                <DrivePad store />
+                <DriveSheet store />
             </div>
             <div role="tabpanel" id="sheet-home" aria-labelledby="tab-home" hidden=move || open.get() != 1>
                 <Show when=move || open.get() == 1><HomeSheet store /></Show>

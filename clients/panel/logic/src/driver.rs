@@ -5,7 +5,7 @@
 
 use mixer::{
     Cleaning, Device, KeyCode, Mixer, PadReading, Pilot, Profile, ProfileError, Readings, Source, Steered,
-    TopSpeeds, standard_profile,
+    TopSpeeds,
 };
 use rvac_api::{CleaningPower, RequestBody, RobotDescription};
 use std::collections::{BTreeMap, BTreeSet};
@@ -60,21 +60,20 @@ pub struct Driver {
     cleaners: bool,
 }
 
-impl Driver {
+impl Default for Driver {
     /// Drives by the standard mix, with a keyboard and the stick on the screen.
-    ///
-    /// # Errors
-    /// Never, as a test shows: the standard mix has no mistakes.
-    pub fn new() -> Result<Self, ProfileError> {
-        let profile = standard_profile();
-        Ok(Self {
-            keys: keys_of(&profile),
-            pilot: Pilot::new(Mixer::new(profile)?),
+    fn default() -> Self {
+        let pilot = Pilot::new(Mixer::standard());
+        Self {
+            keys: keys_of(pilot.profile()),
+            pilot,
             readings: at_rest(),
             cleaners: false,
-        })
+        }
     }
+}
 
+impl Driver {
     /// Drives by another mix from now on; whatever is held is let go by it.
     ///
     /// # Errors
@@ -219,8 +218,10 @@ mod tests {
 
     impl Page {
         fn new() -> Self {
-            let driver = Driver::new().expect("the standard mix has no mistakes");
-            let mut page = Self { driver, now_us: 0 };
+            let mut page = Self {
+                driver: Driver::default(),
+                now_us: 0,
+            };
             assert_eq!(page.step().mixed.state, MixState::Failsafe);
             assert_eq!(page.step().mixed.state, MixState::Live);
             page

@@ -4,6 +4,7 @@
 //! it moving. So the way there, the robot's own start, and the way back of the news are in it, and up to 50 ms until the next
 //! pose.
 
+use mixer::{MixState, Mixed};
 use rvac_api::Pose;
 use std::collections::VecDeque;
 
@@ -22,22 +23,23 @@ const STILL_RAD: f64 = 0.002;
 pub struct LatencyMeter {
     /// The pose of the robot, and since when it is there.
     stood: Option<(f64, Pose)>,
+    held: bool,
     since_ms: Option<f64>,
     spans_ms: VecDeque<f64>,
 }
 
 impl LatencyMeter {
-    /// An input at `input_ms` asks a robot to move; it counts if that stands.
-    pub fn moved(&mut self, input_ms: f64) {
+    /// What the mix made of the inputs, of which the newest is of `input_ms`. It counts if the robot stands.
+    pub fn on_mixed(&mut self, mixed: &Mixed, input_ms: f64) {
+        let held = mixed.held && mixed.state == MixState::Live;
+        if held == self.held {
+            return;
+        }
+        self.held = held;
         let stands = self
             .stood
             .is_some_and(|(since_ms, _)| input_ms - since_ms >= STANDS_MS);
-        self.since_ms = stands.then_some(input_ms);
-    }
-
-    /// Nothing is asked any more.
-    pub fn released(&mut self) {
-        self.since_ms = None;
+        self.since_ms = (held && stands).then_some(input_ms);
     }
 
     /// A pose arrived at `now_ms`.
@@ -76,7 +78,24 @@ fn same(one: Pose, other: Pose) -> bool {
 #[cfg(test)]
 mod tests {
     use super::LatencyMeter;
+    use mixer::{MixState, Mixed};
     use rvac_api::Pose;
+
+    fn mixed(held: bool) -> Mixed {
+        Mixed {
+            state: MixState::Live,
+            held,
+            outputs: Vec::new(),
+            switches: Vec::new(),
+            fired: Vec::new(),
+        }
+    }
+
+    /// A new hold begins.
+    fn hold(meter: &mut LatencyMeter, input_ms: f64) {
+        meter.on_mixed(&mixed(false), input_ms);
+        meter.on_mixed(&mixed(true), input_ms);
+    }
 
     fn at(x: f64) -> Pose {
         Pose { x, ..Pose::default() }
@@ -86,14 +105,14 @@ mod tests {
     fn measures_from_the_input_to_the_first_pose_that_moved() {
         let mut meter = LatencyMeter::default();
         meter.on_pose(0.0, at(0.0));
-        meter.moved(1000.0);
+        hold(&mut meter, 1000.0);
         meter.on_pose(1050.0, at(0.0005));
         assert_eq!(meter.text(), None, "that is noise");
         meter.on_pose(1180.0, at(0.01));
         meter.on_pose(1230.0, at(0.03));
         assert_eq!(meter.text().as_deref(), Some("180 ms, median of 1: 180 ms"));
         for (start, span) in [(3000.0, 100.0), (5000.0, 140.0)] {
-            meter.moved(start);
+            hold(&mut meter, start);
             meter.on_pose(start + span, at(start));
         }
         assert_eq!(meter.text().as_deref(), Some("140 ms, median of 3: 140 ms"));
@@ -102,17 +121,17 @@ mod tests {
     #[test]
     fn counts_only_starts_from_rest_that_come_of_the_input() {
         let mut meter = LatencyMeter::default();
-        meter.moved(0.0);
+        hold(&mut meter, 0.0);
         meter.on_pose(100.0, at(1.0));
         assert_eq!(meter.text(), None, "where it stood is unknown");
-        meter.moved(200.0);
+        hold(&mut meter, 200.0);
         meter.on_pose(250.0, at(2.0));
         assert_eq!(meter.text(), None, "it moved already");
-        meter.moved(1000.0);
+        hold(&mut meter, 1000.0);
         meter.on_pose(4000.0, at(3.0));
         assert_eq!(meter.text(), None, "that was something else");
-        meter.moved(6000.0);
-        meter.released();
+        hold(&mut meter, 6000.0);
+        meter.on_mixed(&mixed(false), 6050.0);
         meter.on_pose(6100.0, at(4.0));
         assert_eq!(meter.text(), None, "it was let go before");
     }

@@ -1,0 +1,86 @@
+//! Gamepads of the browser. A browser shows one only after a button of it was pressed.
+
+use std::collections::BTreeMap;
+
+use js_sys::{Array, Function, Object, Reflect};
+use leptos::prelude::*;
+use mixer::PadReading;
+use wasm_bindgen::{JsCast, JsValue};
+use web_sys::{Gamepad, GamepadButton};
+
+/// As many pads as a profile can name.
+const PADS: u32 = 4;
+/// How long a bump is felt.
+const RUMBLE_MS: f64 = 250.0;
+
+/// What all pads read.
+#[derive(Debug, Default)]
+pub(super) struct Pads {
+    /// By their numbers.
+    pub(super) readings: BTreeMap<u8, PadReading>,
+    /// For people.
+    pub(super) names: Vec<String>,
+    /// The browser's time of the newest reading.
+    pub(super) time_ms: Option<f64>,
+}
+
+/// Reads all pads; none where the browser gives none to this page.
+pub(super) fn read() -> Pads {
+    let mut pads = Pads::default();
+    for pad in connected() {
+        let Ok(number) = u8::try_from(pad.index()) else {
+            continue;
+        };
+        let reading = PadReading {
+            axes: pad.axes().iter().filter_map(|axis| axis.as_f64()).collect(),
+            buttons: pad.buttons().iter().map(pressed).collect(),
+        };
+        pads.readings.insert(number, reading);
+        pads.names.push(format!("pad-{number} is {}", pad.id()));
+        let time_ms = pad.timestamp();
+        if time_ms > pads.time_ms.unwrap_or(0.0) {
+            pads.time_ms = Some(time_ms);
+        }
+    }
+    pads
+}
+
+/// Shakes all pads that can.
+pub(super) fn rumble() {
+    for pad in connected() {
+        shake(&pad).ok(); // A pad that cannot is as good as before.
+    }
+}
+
+fn shake(pad: &Gamepad) -> Result<(), JsValue> {
+    let actuator = Reflect::get(pad, &"vibrationActuator".into())?;
+    let play: Function = Reflect::get(&actuator, &"playEffect".into())?.dyn_into()?;
+    let effect = Object::new();
+    for (name, value) in [
+        ("duration", RUMBLE_MS),
+        ("strongMagnitude", 1.0),
+        ("weakMagnitude", 0.6),
+    ] {
+        Reflect::set(&effect, &name.into(), &value.into())?;
+    }
+    play.call2(&actuator, &"dual-rumble".into(), &effect)?;
+    Ok(())
+}
+
+fn connected() -> impl Iterator<Item = Gamepad> {
+    let all = window()
+        .navigator()
+        .get_gamepads()
+        .unwrap_or_else(|_| Array::new());
+    let pads: Vec<Gamepad> = all
+        .iter()
+        .filter(JsValue::is_object)
+        .map(JsCast::unchecked_into::<Gamepad>)
+        .filter(|pad| pad.connected() && pad.index() < PADS)
+        .collect();
+    pads.into_iter()
+}
+
+fn pressed(button: JsValue) -> f64 {
+    button.unchecked_into::<GamepadButton>().value()
+}

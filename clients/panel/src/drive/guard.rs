@@ -1,0 +1,42 @@
+//! Looks at the inputs fifty times a second, and lets go when the page can no longer be looked at.
+
+use std::time::Duration;
+
+use leptos::ev;
+use leptos::prelude::*;
+use mixer::STEP_EVERY_US;
+
+use crate::store::Store;
+
+/// Steps until the view is gone.
+pub(super) fn watch(store: Store) {
+    let step = move || {
+        if is_away() {
+            store.let_go();
+        } else {
+            store.drive();
+        }
+    };
+    let steps = set_interval_with_handle(step, Duration::from_micros(STEP_EVERY_US));
+    let hidden = window_event_listener(ev::visibilitychange, move |_| {
+        if document().hidden() {
+            store.let_go();
+        }
+    });
+    let blurred = window_event_listener(ev::blur, move |_| store.let_go());
+    let left = window_event_listener_untyped("pagehide", move |_| store.let_go());
+    on_cleanup(move || {
+        if let Ok(steps) = steps {
+            steps.clear();
+        }
+        hidden.remove();
+        blurred.remove();
+        left.remove();
+        store.let_go();
+    });
+}
+
+/// Nobody can look at the page, or somebody looks at another one.
+fn is_away() -> bool {
+    document().hidden() || !document().has_focus().unwrap_or(true)
+}

@@ -1,0 +1,108 @@
+//! Driving by hand: the pad, the keys, gamepads and tilt, by a control mix.
+
+mod choice;
+mod gamepads;
+mod guard;
+mod pad;
+mod seat;
+mod tilt;
+
+use leptos::prelude::*;
+use panel_logic::{Driver, Offer};
+
+use crate::store::Store;
+use choice::MixChoice;
+use pad::Pad;
+use tilt::TiltButton;
+
+pub(crate) use seat::Seat;
+
+#[component]
+pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
+    guard::watch(store);
+    let seat = store.seat;
+    let offer = Memo::new(move |_| store.offers().drive);
+    let why = move || match offer.get() {
+        Offer::NotNow(why) => why,
+        Offer::Ready | Offer::Absent => {
+            "Hold the knob, move a gamepad's stick, or focus the pad and hold W\u{a0}A\u{a0}S\u{a0}D or arrow keys. \
+             Letting go stops."
+        }
+    };
+    view! {
+        <div class="drive">
+            <Pad seat ready=Signal::derive(move || offer.get() == Offer::Ready) />
+            <p class="hint" id="drive-hint">{why}</p>
+            <Cleaners store />
+            <MixChoice seat />
+            <Hands seat />
+        </div>
+    }
+}
+
+/// Whether brushes and suction run, for a robot that has any.
+#[component]
+fn Cleaners(store: Store) -> impl IntoView {
+    let cleans = move || {
+        store.robot.with(|robot| {
+            robot.as_ref().is_some_and(|robot| {
+                robot
+                    .parts
+                    .iter()
+                    .any(|part| part == "brush-main" || part == "vacuum")
+            })
+        })
+    };
+    let choose = move |event| {
+        let set = if event_target_checked(&event) {
+            Driver::clean_while_driving
+        } else {
+            Driver::drive_only
+        };
+        store.seat.driver.update_value(set);
+    };
+    view! {
+        <Show when=cleans>
+            <label class="check">
+                <input type="checkbox" id="clean-while-driving" on:change=choose />
+                "Clean while driving"
+            </label>
+        </Show>
+    }
+}
+
+/// What is seen of gamepads, whether the inputs count, and how fast the robot follows.
+#[component]
+fn Hands(seat: Seat) -> impl IntoView {
+    let pads = move || {
+        let names = seat.pads.get();
+        if names.is_empty() {
+            "No gamepad is seen: press one of its buttons.".to_owned()
+        } else {
+            names.join(", ")
+        }
+    };
+    let state = move || {
+        if seat.is_live.get() {
+            ""
+        } else {
+            "Waits until every stick and key is at rest."
+        }
+    };
+    view! {
+        <div class="hands">
+            <p class="hint" id="gamepads">{pads}</p>
+            <p class="hint" id="drive-state" role="status">{state}</p>
+            <TiltButton seat />
+            <Show when=move || seat.latency.get().is_some()>
+                <p class="hint" id="latency" title=LATENCY_WORDS>
+                    {move || seat.latency.get().map(|text| format!("From stick to wheels: {text}"))}
+                    <span class="visually-hidden">{LATENCY_WORDS}</span>
+                </p>
+            </Show>
+        </div>
+    }
+}
+
+const LATENCY_WORDS: &str = "From the browser's time of the input that starts a standing robot to the first pose that shows \
+                             it moving: the way there, its start, and the way back, with up to 50 ms until the next pose.";

@@ -1,0 +1,171 @@
+//! Who drives: what hands do now, the mix that they go through, and the mixes that there are.
+
+use leptos::prelude::*;
+use mixer::{MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
+use panel_logic::{Driver, LatencyMeter, top_speeds};
+use rvac_api::{Pose, Status};
+
+use super::{choice, gamepads};
+
+/// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
+const FRESH_MS: f64 = 100.0;
+/// Name of the inhibit of a pressed bumper.
+const BUMPER: &str = "bumper";
+
+/// All of it, as handles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seat {
+    /// What is held, and the mix.
+    pub(crate) driver: StoredValue<Driver>,
+    /// Where the knob is: right and down.
+    pub(crate) knob: RwSignal<[f64; 2]>,
+    /// Mixes that the robot keeps.
+    pub(crate) kept: RwSignal<Vec<Profile>>,
+    /// The one that a person chose; none for the standard one.
+    pub(crate) chosen: RwSignal<Option<Name>>,
+    /// Gamepads that are seen, for people.
+    pub(crate) pads: RwSignal<Vec<String>>,
+    /// Whether the inputs count.
+    pub(crate) is_live: RwSignal<bool>,
+    /// How fast the robot follows, for people.
+    pub(crate) latency: RwSignal<Option<String>>,
+    meter: StoredValue<LatencyMeter>,
+    /// When the newest input came.
+    input_ms: StoredValue<f64>,
+    /// The bumper is pressed.
+    bumped: StoredValue<bool>,
+}
+
+impl Seat {
+    pub(crate) fn new() -> Self {
+        Self {
+            driver: StoredValue::new(Driver::default()),
+            knob: RwSignal::new([0.0, 0.0]),
+            kept: RwSignal::new(Vec::new()),
+            chosen: RwSignal::new(choice::remembered()),
+            pads: RwSignal::new(Vec::new()),
+            is_live: RwSignal::new(true),
+            latency: RwSignal::new(None),
+            meter: StoredValue::new(LatencyMeter::default()),
+            input_ms: StoredValue::new(0.0),
+            bumped: StoredValue::new(false),
+        }
+    }
+
+    /// Notes the browser's time of an input.
+    pub(crate) fn note_input(self, time_ms: f64) {
+        self.input_ms.set_value(time_ms);
+    }
+
+    /// Puts the knob here: right and down, within its disc.
+    pub(crate) fn put_knob(self, place: [f64; 2]) {
+        self.knob.set(place);
+        self.driver.update_value(|driver| driver.place_knob(place));
+    }
+
+    /// Hands are off the pad and off the keys.
+    pub(crate) fn hands_off(self) {
+        self.knob.set([0.0, 0.0]);
+        self.driver.update_value(Driver::let_go);
+    }
+
+    /// Looks at all inputs.
+    pub(crate) fn step(self, top: TopSpeeds) -> Steered {
+        let now = now_ms();
+        let pads = gamepads::read();
+        if self.pads.with_untracked(|names| *names != pads.names) {
+            self.pads.set(pads.names);
+        }
+        let stepped = self.driver.try_update_value(|driver| {
+            if driver.readings().pads != pads.readings {
+                self.note_input(pads.time_ms.unwrap_or(now));
+            }
+            driver.set_pads(pads.readings);
+            driver.step(micros(now), top)
+        });
+        let steered = stepped.unwrap_or_else(|| Driver::default().step(0, top_speeds(None)));
+        let input_ms = self.input_ms.get_value();
+        let began_ms = if now - input_ms < FRESH_MS { input_ms } else { now };
+        self.meter
+            .update_value(|meter| meter.on_mixed(&steered.mixed, began_ms));
+        let is_live = steered.mixed.state == MixState::Live;
+        if self.is_live.get_untracked() != is_live {
+            self.is_live.set(is_live);
+        }
+        steered
+    }
+
+    /// Everything is let go, and must come to rest before it counts again.
+    pub(crate) fn lose(self) -> Steered {
+        self.knob.set([0.0, 0.0]);
+        let lost = self
+            .driver
+            .try_update_value(|driver| driver.lose(micros(now_ms())));
+        lost.unwrap_or_else(|| Driver::default().lose(0))
+    }
+
+    /// Takes the mix of this name, or the standard one.
+    pub(crate) fn choose(self, name: Option<Name>) {
+        choice::remember(name.as_ref());
+        self.chosen.set(name);
+        self.apply();
+    }
+
+    /// The robot told which mixes it keeps.
+    pub(crate) fn on_mixes(self, texts: &[String]) {
+        let profiles = texts.iter().filter_map(|text| {
+            Profile::parse(text)
+                .inspect_err(|error| leptos::logging::warn!("a mix could not be read: {error}"))
+                .ok()
+        });
+        self.kept.set(profiles.collect());
+        self.apply();
+    }
+
+    /// The robot is somewhere.
+    pub(crate) fn on_pose(self, pose: Pose) {
+        self.meter.update_value(|meter| meter.on_pose(now_ms(), pose));
+        let text = self.meter.with_value(LatencyMeter::text);
+        if self.latency.with_untracked(|shown| *shown != text) {
+            self.latency.set(text);
+        }
+    }
+
+    /// What the robot does; a hand that holds a gamepad feels the bumper.
+    pub(crate) fn on_status(self, status: &Status) {
+        let bumped = status.inhibits.iter().any(|inhibit| inhibit == BUMPER);
+        let before = self
+            .bumped
+            .try_update_value(|shown| std::mem::replace(shown, bumped));
+        if bumped && before == Some(false) {
+            gamepads::rumble();
+        }
+    }
+
+    /// The mix that shall drive, as the robot keeps it now.
+    fn apply(self) {
+        let chosen = self.chosen.get_untracked();
+        let found = self.kept.with_untracked(|kept| {
+            kept.iter()
+                .find(|profile| Some(&profile.name) == chosen.as_ref())
+                .cloned()
+        });
+        let profile = found.unwrap_or_else(standard_profile);
+        self.driver.update_value(|driver| {
+            if *driver.profile() != profile
+                && let Err(error) = driver.take_mix(profile)
+            {
+                leptos::logging::warn!("a mix cannot drive: {error}");
+            }
+        });
+    }
+}
+
+/// Milliseconds since the page was opened.
+fn now_ms() -> f64 {
+    window().performance().map_or(0.0, |clock| clock.now())
+}
+
+fn micros(time_ms: f64) -> u64 {
+    (time_ms * 1000.0) as u64
+}
