@@ -8,8 +8,8 @@ use mixer::{MixState, Mixed};
 use rvac_api::Pose;
 use std::collections::VecDeque;
 
-/// A robot that sent no other pose for so long stands.
-const STANDS_MS: f64 = 400.0;
+/// A robot that sent no other pose for so long stands: five were due.
+const STANDS_MS: f64 = 250.0;
 /// A robot that has not moved by now will not move because of that input.
 const PATIENCE_MS: f64 = 2_000.0;
 /// Measurements that are kept.

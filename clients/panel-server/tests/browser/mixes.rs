@@ -1,0 +1,134 @@
+//! Control mixes in the page, with a gamepad that a script moves.
+
+use std::time::{Duration, Instant};
+
+use crate::Visit;
+use crate::browser::{Browser, Screen};
+use crate::robot::Witness;
+
+/// A pad that the page sees as it sees one of metal; it counts how often it shakes.
+const PAD: &str = "
+    window.rumbles = 0;
+    window.pad = {
+        index: 0, id: 'Scripted pad', connected: true, mapping: 'standard', timestamp: 0, axes: [0, 0, 0, 0],
+        buttons: Array.from({ length: 17 }, () => ({ value: 0, pressed: false, touched: false })),
+        vibrationActuator: { playEffect: () => { window.rumbles += 1; return Promise.resolve('complete'); } },
+    };
+    window.plugged = true;
+    navigator.getGamepads = () => [window.plugged ? window.pad : null, null, null, null];
+    window.stick = (axis, value) => { window.pad.axes[axis] = value; window.pad.timestamp = performance.now(); };
+    window.button = (number, value) => { window.pad.buttons[number] = { value }; };
+    return ''";
+
+const ACROSS: u8 = 0;
+const ALONG: u8 = 1;
+const EAST: u8 = 1;
+const START: u8 = 9;
+
+async fn plug_in(browser: &Browser) {
+    browser.text(PAD).await;
+    browser
+        .until("return document.getElementById('gamepads').textContent.includes('Scripted pad')")
+        .await;
+    is_ready(browser).await;
+}
+
+async fn is_ready(browser: &Browser) {
+    browser
+        .until("return document.getElementById('drive-state').textContent === ''")
+        .await;
+}
+
+async fn stick(browser: &Browser, axis: u8, value: f64) {
+    browser.text(&format!("stick({axis}, {value}); return ''")).await;
+}
+
+/// Presses and lets go, with time for the page to see both.
+async fn press(browser: &Browser, button: u8) {
+    let script = format!("button({button}, 1); setTimeout(() => button({button}, 0), 300); return ''");
+    browser.text(&script).await;
+}
+
+/// On a machine that is too busy the lease ends between two words of the page: then the stick is let go and held again.
+async fn turn_by_pad(browser: &Browser, witness: &Witness) {
+    for _ in 0..5 {
+        stick(browser, ACROSS, -1.0).await;
+        if witness.moves_within(Duration::from_secs(4)) {
+            return;
+        }
+        stick(browser, ACROSS, 0.0).await;
+        is_ready(browser).await;
+    }
+    panic!("the robot does not turn");
+}
+
+/// Starts from rest until the page has measured how fast the robot follows; the stick is held at the end.
+async fn measured_latency(browser: &Browser, witness: &Witness) -> String {
+    for _ in 0..5 {
+        stick(browser, ACROSS, 0.0).await;
+        witness.stands_within(Duration::from_secs(3));
+        is_ready(browser).await;
+        turn_by_pad(browser, witness).await;
+        let latency = browser
+            .text("return document.getElementById('latency')?.firstChild.textContent ?? ''")
+            .await;
+        if !latency.is_empty() {
+            return latency;
+        }
+    }
+    panic!("the page does not measure how fast the robot follows");
+}
+
+#[tokio::test]
+async fn a_gamepad_starts_stops_and_drives_and_a_lost_one_stops_the_wheels() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    plug_in(browser).await;
+    press(browser, START).await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 40")
+        .await;
+    press(browser, EAST).await;
+    browser.until_state(&["idle"]).await;
+
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    println!("{}", measured_latency(browser, &witness).await);
+    browser.shot("desktop-gamepad").await;
+
+    browser.text("window.plugged = false; return ''").await;
+    let lost = Instant::now();
+    let stood = witness
+        .stands_within(Duration::from_secs(3))
+        .expect("the robot drives on without its pad");
+    let after = stood.saturating_duration_since(lost);
+    println!("the wheels stood {} ms after the pad was lost", after.as_millis());
+    assert!(after < Duration::from_millis(1000), "{after:?}");
+
+    browser.text("window.plugged = true; return ''").await;
+    assert!(
+        !witness.moves_within(Duration::from_secs(1)),
+        "a stick that was held while the pad came back drives"
+    );
+    stick(browser, ACROSS, 0.0).await;
+    is_ready(browser).await;
+    feel_a_wall(browser).await;
+}
+
+/// Drives ahead, with a short rest now and then, until the pad shakes.
+async fn feel_a_wall(browser: &Browser) {
+    let ahead = format!(
+        "stick({ALONG}, -1);
+         window.rests = setInterval(() => {{
+             stick({ALONG}, 0);
+             setTimeout(() => stick({ALONG}, -1), 400);
+         }}, 6000);
+         return ''"
+    );
+    browser.text(&ahead).await;
+    browser.until("return window.rumbles > 0").await;
+    let rest = format!("clearInterval(window.rests); stick({ALONG}, 0); return ''");
+    browser.text(&rest).await;
+}
