@@ -1,4 +1,4 @@
-//! The thread that writes checkpoints, maps and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
+//! The thread that writes checkpoints, maps, schedules and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,12 +8,13 @@ use std::thread::JoinHandle;
 use brain::StoredMap;
 use rvac_api::KeptMap;
 use tokio::sync::mpsc::Sender;
-use vthal_core::{Checkpoint, ClientId, MapEdit, MapOrder, MixOrder, MixTask};
+use vthal_core::{Checkpoint, ClientId, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder};
 
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::map_folder::MapFolder;
 use crate::mix_folder::{MixError, MixFolder};
+use crate::schedule_file;
 
 /// Where to write.
 pub(crate) struct KeptPaths {
@@ -23,6 +24,8 @@ pub(crate) struct KeptPaths {
     pub(crate) maps: MapFolder,
     /// The control mixes.
     pub(crate) mixes: MixFolder,
+    /// The schedules.
+    pub(crate) schedules: PathBuf,
 }
 
 /// Something to be kept, or asked of what is kept.
@@ -32,6 +35,7 @@ enum Kept {
     Edit(Box<MapEdit>),
     Order(MapOrder),
     MixOrder(MixOrder),
+    Schedules(Box<ScheduleOrder>),
 }
 
 /// What came of an order for the kept control mixes.
@@ -129,6 +133,12 @@ impl CheckpointHandle {
         self.try_send(Kept::MixOrder(order))
     }
 
+    /// Hands schedules over; `false` when the disk is too slow to take them now.
+    #[must_use]
+    pub(crate) fn keep_schedules(&self, order: ScheduleOrder) -> bool {
+        self.try_send(Kept::Schedules(Box::new(order)))
+    }
+
     fn try_send(&self, kept: Kept) -> bool {
         self.queue
             .as_ref()
@@ -166,6 +176,11 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                     events
                         .blocking_send(Event::Mixes(obey_mix(order, &paths.mixes)))
                         .ok();
+                }
+                Kept::Schedules(order) => {
+                    let result = schedule_file::save(&paths.schedules, &order.book);
+                    let result = result.map_err(|error| unkept_schedules(&error));
+                    events.blocking_send(Event::Schedules(order.number, result)).ok();
                 }
             }
         }
@@ -210,6 +225,12 @@ fn unkept(error: &io::Error) -> String {
     format!(
         "The robot knows it now, but the map cannot be written: {error}. Check the disk and the state folder; after a \
          restart it would be forgotten."
+    )
+}
+
+fn unkept_schedules(error: &io::Error) -> String {
+    format!(
+        "The schedules cannot be written: {error}. Check the disk and the state folder; they are as they were before."
     )
 }
 

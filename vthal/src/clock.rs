@@ -1,6 +1,6 @@
 //! The daemon's only clock.
 
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use tokio::time::Instant;
 
@@ -10,6 +10,8 @@ use tokio::time::Instant;
 pub struct Clock {
     origin: Instant,
     speed: f64,
+    /// What the clock on the wall showed at the start, seconds since 1970.
+    origin_utc_s: i64,
 }
 
 impl Clock {
@@ -19,6 +21,7 @@ impl Clock {
         Self {
             origin: Instant::now(),
             speed,
+            origin_utc_s: wall_s(),
         }
     }
 
@@ -29,10 +32,26 @@ impl Clock {
         (self.origin.elapsed().as_secs_f64() * self.speed * 1e6) as u64
     }
 
+    /// The clock on the wall, seconds since 1970 (UTC). One that runs faster than real time was right at the start.
+    #[must_use]
+    pub fn utc_s(&self) -> i64 {
+        if self.speed == 1.0 {
+            wall_s()
+        } else {
+            self.origin_utc_s + (self.now_us() / 1_000_000).cast_signed()
+        }
+    }
+
     /// The real moment at which this clock shows `time_us`, at most an hour ahead.
     #[must_use]
     pub fn moment(&self, time_us: u64) -> Instant {
         let ahead_s = time_us.saturating_sub(self.now_us()) as f64 / 1e6 / self.speed;
         Instant::now() + Duration::from_secs_f64(ahead_s.min(3600.0))
     }
+}
+
+/// A clock that shows a time before 1970 is not set.
+fn wall_s() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs().cast_signed())
 }

@@ -10,7 +10,9 @@ use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, MapEdit, MapOrder, MixOrder, Outputs, Recipients};
+use vthal_core::{
+    ClientId, Core, Delivery, Input, MapEdit, MapOrder, MixOrder, Outputs, Recipients, ScheduleOrder,
+};
 
 use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
 use crate::client::{self, Client, Flushed, Incoming};
@@ -26,8 +28,8 @@ use crate::socket;
 const STOP_WAIT: Duration = Duration::from_millis(500);
 /// Events handled before clients get their mail and the clock is looked at again.
 const BATCH_MAX: usize = 64;
-/// Longest wait when nothing is due.
-const IDLE: Duration = Duration::from_secs(60);
+/// Pause between two looks at the clock on the wall.
+const WALL_US: u64 = 1_000_000;
 
 /// Ends of the daemon's parts that the loop holds.
 #[derive(Debug)]
@@ -58,6 +60,8 @@ pub(crate) struct Daemon {
     clients: BTreeMap<ClientId, Client>,
     clients_seen: u64,
     congested: bool,
+    /// When the clock on the wall is looked at again.
+    wall_due_us: u64,
     /// When the daemon gives up waiting for the wheels; `None` while nobody told it to end.
     ends_at: Option<Instant>,
 }
@@ -74,6 +78,7 @@ impl Daemon {
             clients: BTreeMap::new(),
             clients_seen: 0,
             congested: false,
+            wall_due_us: 0,
             ends_at: None,
         }
     }
@@ -81,6 +86,7 @@ impl Daemon {
     /// Runs until a signal ends it: the wheels stand (or have had their time to), and everything is on disk.
     pub(crate) async fn run(mut self) {
         while !self.is_over() {
+            self.look_at_wall();
             let event = self.next_event().await;
             self.take(event);
             for _ in 1..BATCH_MAX {
@@ -95,16 +101,23 @@ impl Daemon {
     }
 
     async fn next_event(&mut self) -> Event {
-        let due = self
-            .core
-            .next_wake_us()
-            .map_or_else(|| Instant::now() + IDLE, |due| self.clock.moment(due));
+        let due_us = self.core.next_wake_us().unwrap_or(u64::MAX).min(self.wall_due_us);
+        let due = self.clock.moment(due_us);
         let due = self.ends_at.map_or(due, |end| due.min(end));
         tokio::select! {
             // The core's own deadlines include the dead man: they come before the next event.
             biased;
             () = sleep_until(due) => Event::Wake,
             Some(event) = self.wiring.events.recv() => event,
+        }
+    }
+
+    fn look_at_wall(&mut self) {
+        let now_us = self.clock.now_us();
+        if now_us >= self.wall_due_us {
+            self.wall_due_us = now_us + WALL_US;
+            let utc_s = self.clock.utc_s();
+            self.handle(Input::WallClock { utc_s });
         }
     }
 
@@ -131,6 +144,7 @@ impl Daemon {
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
             Event::Mixes(answer) => self.take_mix_answer(answer),
+            Event::Schedules(number, result) => self.handle(Input::SchedulesKept { number, result }),
             Event::Terminate(signal) => self.terminate(signal),
         }
     }
@@ -201,6 +215,17 @@ impl Daemon {
         let (client, id) = (order.client, order.id);
         if !self.wiring.checkpoints.order_mix(order) {
             self.tell_busy(client, id);
+        }
+    }
+
+    fn keep_schedules(&mut self, order: ScheduleOrder) {
+        let number = order.number;
+        if !self.wiring.checkpoints.keep_schedules(order) {
+            let text = "The disk is too slow to take schedules now; they are as they were before.".to_owned();
+            self.handle(Input::SchedulesKept {
+                number,
+                result: Err(text),
+            });
         }
     }
 
@@ -323,7 +348,11 @@ impl Daemon {
         for order in std::mem::take(&mut self.outputs.mix_orders) {
             self.order_mix(order);
         }
+        let schedules = self.outputs.schedules.take();
         self.outputs.clear();
+        if let Some(order) = schedules {
+            self.keep_schedules(order);
+        }
     }
 
     fn flush_clients(&mut self) {

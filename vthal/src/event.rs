@@ -26,6 +26,8 @@ pub(crate) enum Event {
     Maps(MapAnswer),
     /// What came of an order for the kept control mixes.
     Mixes(MixAnswer),
+    /// Schedules are on the disk, or a sentence says why they are not.
+    Schedules(u64, Result<(), String>),
     /// The core asked to be called now.
     Wake,
     /// The daemon is told to end, by the named signal.

@@ -23,9 +23,11 @@ mod outbox;
 pub mod recording;
 mod robot_file;
 mod rotation;
+mod schedule_file;
 mod serial;
 mod service;
 mod socket;
+mod system_zone;
 
 pub use clock::Clock;
 pub use service::{ServeError, serve};

@@ -1,6 +1,7 @@
 //! Puts the daemon together and runs it.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use brain::{SensorLayout, StoredMap};
@@ -20,8 +21,10 @@ use crate::map_folder::MapFolder;
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
+use crate::schedule_file::{self, FoundSchedules};
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
+use crate::system_zone::system_zone;
 use crate::{checkpoint_thread, imu, logging};
 
 /// Events that may wait for the loop; whoever brings more waits too.
@@ -29,10 +32,14 @@ const EVENTS_MAX: usize = 64;
 /// Batches of bytes that may wait for the serial line.
 const TO_ROBOT_MAX: usize = 64;
 
+/// Name of the file of the checkpoint in the state folder.
+const CHECKPOINT: &str = "checkpoint";
 /// Name of the folder of maps in the state folder.
 const MAPS: &str = "maps";
 /// Name of the folder of control mixes in the state folder.
 const MIXES: &str = "mixes";
+/// Name of the file of schedules in the state folder.
+const SCHEDULES: &str = "schedules.json";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -72,42 +79,13 @@ pub fn serve(config: &Config, speed: f64) -> Result<(), ServeError> {
 async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let listener = socket::listen(&config.socket)?;
     logging::start(&config.state.join("log"), &config.log).map_err(ServeError::Log)?;
-    let checkpoint = config.state.join("checkpoint");
-    let resume = BootTime::now()
-        .ok()
-        .and_then(|now| checkpoint_file::load(&checkpoint, &now));
-    let sensors = match &config.description {
-        Some(path) => robot_file::load(path)?,
-        None => SensorLayout::default(),
-    };
-    let maps = MapFolder::new(config.state.join(MAPS));
-    let home = newest_home(&maps);
-    let mixes = MixFolder::new(config.state.join(MIXES));
-    let core_config = CoreConfig {
-        home,
-        sensors,
-        seed: config.seed.unwrap_or_else(seed_from_clock),
-        strategy: config.strategy,
-        expert: if config.expert {
-            ExpertAccess::Allowed
-        } else {
-            ExpertAccess::Denied
-        },
-        recording: if config.recording.enabled {
-            Recording::On
-        } else {
-            Recording::Off
-        },
-        checkpoints: Checkpoints::On,
-        task_budget_s: config.task_budget_min * 60,
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        resume,
-    };
     let kept = KeptPaths {
-        checkpoint,
-        maps,
-        mixes,
+        checkpoint: config.state.join(CHECKPOINT),
+        maps: MapFolder::new(config.state.join(MAPS)),
+        mixes: MixFolder::new(config.state.join(MIXES)),
+        schedules: config.state.join(SCHEDULES),
     };
+    let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
     let wiring = Wiring {
@@ -142,6 +120,39 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }
 
+/// Settings of the core, with what is kept in the state folder.
+fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
+    let found = found_schedules(&kept.schedules);
+    let sensors = match &config.description {
+        Some(path) => robot_file::load(path)?,
+        None => SensorLayout::default(),
+    };
+    let now = BootTime::now().ok();
+    Ok(CoreConfig {
+        schedules: found.book,
+        schedules_distrusted: found.distrusted,
+        zone: system_zone(),
+        home: newest_home(&kept.maps),
+        sensors,
+        seed: config.seed.unwrap_or_else(seed_from_clock),
+        strategy: config.strategy,
+        expert: if config.expert {
+            ExpertAccess::Allowed
+        } else {
+            ExpertAccess::Denied
+        },
+        recording: if config.recording.enabled {
+            Recording::On
+        } else {
+            Recording::Off
+        },
+        checkpoints: Checkpoints::On,
+        task_budget_s: config.task_budget_min * 60,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        resume: now.and_then(|now| checkpoint_file::load(&kept.checkpoint, &now)),
+    })
+}
+
 /// The newest map that is whole; what is wrong with newer ones goes to the log.
 fn newest_home(maps: &MapFolder) -> Option<StoredMap> {
     let (home, complaints) = maps.newest();
@@ -149,6 +160,15 @@ fn newest_home(maps: &MapFolder) -> Option<StoredMap> {
         tracing::error!(part = "vthal", "{complaint}");
     }
     home
+}
+
+/// The schedules that are kept; what is wrong with them goes to the log.
+fn found_schedules(path: &Path) -> FoundSchedules {
+    let found = schedule_file::load(path);
+    for complaint in &found.complaints {
+        tracing::error!(part = "vthal", "{complaint}");
+    }
+    found
 }
 
 /// Tells whoever started the daemon that its socket is open.

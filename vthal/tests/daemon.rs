@@ -9,7 +9,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
-use rvac_api::{LogEntry, Request, RequestBody, Update};
+use rvac_api::{LogEntry, Request, RequestBody, Schedules, Update};
 use rvac_protocol::message::{self, BinaryKinds};
 
 #[path = "../bench/peer/mod.rs"]
@@ -520,6 +520,108 @@ fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     let newest = StoredMap::decode(&fs::read(maps.join("000002.map")).expect("reads")).expect("is whole");
     assert_eq!(newest.annotations().no_go().count(), 1);
     assert_eq!(newest.dock().map(|dock| dock.x_m), Some(0.0));
+}
+
+fn kept_schedules(desk: &mut Desk) -> Schedules {
+    for topics in ["[]", r#"["schedules","log","status"]"#] {
+        let request = format!(r#"{{"c":"watch","topics":{topics}}}"#);
+        desk.client.send(&request).expect("sends");
+    }
+    let is_told = |update: &Update| matches!(update, Update::Schedules(_));
+    match desk.client.wait_for(soon(), is_told).expect("reads") {
+        Some(Update::Schedules(schedules)) => schedules,
+        other => panic!("no schedules: {other:?}"),
+    }
+}
+
+#[test]
+fn schedules_are_on_the_disk_when_they_are_acknowledged() {
+    let mut desk = Desk::idle();
+    assert!(kept_schedules(&mut desk).entries.is_empty());
+    let add = r#"{"c":"add-schedule","name":"Köök","job":{"start":{}},"when":{"weekly":{"days":["mo"],"at":"07:30"}},"id":9}"#;
+    for (request, reason) in [
+        (
+            r#"{"c":"set-zone","zone":"Mars/Base","id":9}"#,
+            Some("no-such-zone"),
+        ),
+        (r#"{"c":"set-zone","zone":"Europe/Tallinn","id":9}"#, None),
+        (add, None),
+        (&add.replace("07:30", "7:30"), Some("schedule-wrong")),
+        (
+            &add.replace("{}", r#"{"strategy":"fly"}"#),
+            Some("unknown-strategy"),
+        ),
+        (r#"{"c":"skip-next","number":1,"skip":true,"id":9}"#, None),
+        (
+            r#"{"c":"remove-schedule","number":2,"id":9}"#,
+            Some("no-such-schedule"),
+        ),
+    ] {
+        desk.client.send(request).expect("sends");
+        assert_eq!(refused(&mut desk).as_deref(), reason, "{request}");
+    }
+    let before = kept_schedules(&mut desk);
+    assert_eq!((before.entries.len(), before.next.len()), (1, 10));
+    // No warning and no time to write: what is there is what the next daemon finds.
+    let Desk {
+        robot,
+        daemon,
+        client,
+        scratch,
+    } = desk;
+    drop((daemon, client));
+    let mut desk = Desk {
+        daemon: start(&scratch),
+        client: follow(&scratch),
+        robot,
+        scratch,
+    };
+    let after = kept_schedules(&mut desk);
+    assert_eq!(
+        (&after.zone, after.zone_is_set),
+        (&"Europe/Tallinn".to_owned(), true)
+    );
+    assert_eq!(
+        (after.entries[0].skip_next, &after.entries[0].entry),
+        (true, &before.entries[0].entry)
+    );
+    assert_eq!(after.next, before.next);
+}
+
+#[test]
+fn a_schedule_starts_the_robot_when_its_minute_comes() {
+    let scratch = Scratch::new().expect("creates");
+    let robot = robot(&scratch, 1);
+    // Twenty times as fast: the next minute is at most three seconds away.
+    let daemon = Daemon::start(vthal(), &scratch, &["--seed", "1", "--speed", "20"]).expect("gets ready");
+    let client = follow(&scratch);
+    let mut desk = Desk {
+        robot,
+        daemon,
+        client,
+        scratch,
+    };
+    wait_for_state(&mut desk.robot, &mut desk.client, "idle");
+    let clock = kept_schedules(&mut desk)
+        .clock
+        .expect("the test machine knows the time");
+    for shift in 1..=3 {
+        let at = minutes_later(&clock, shift).expect("is a clock");
+        let when = format!(r#"{{"weekly":{{"days":["mo","tu","we","th","fr","sa","su"],"at":"{at}"}}}}"#);
+        let add = format!(r#"{{"c":"add-schedule","name":"Soon","job":{{"start":{{}}}},"when":{when}}}"#);
+        desk.client.send(&add).expect("sends");
+    }
+    wait_until(&mut desk.robot, &mut desk.client, |update| {
+        has_text(update, ": fired")
+    });
+}
+
+/// The time of day of `2026-11-23T07:30` and so many minutes.
+fn minutes_later(clock: &str, shift: u32) -> Option<String> {
+    let (_, at) = clock.split_once('T')?;
+    let (hour, minute) = at.split_once(':')?;
+    let minutes = 60 * hour.parse::<u32>().ok()? + minute.parse::<u32>().ok()? + shift;
+    Some(format!("{:02}:{:02}", minutes / 60 % 24, minutes % 60))
 }
 
 #[test]

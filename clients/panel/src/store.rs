@@ -212,7 +212,7 @@ impl Store {
             Message::Maps { maps } => self.maps.set(maps),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
-            Message::Done { .. } | Message::Packet { .. } => {}
+            Message::Schedules(_) | Message::Done { .. } | Message::Packet { .. } => {}
         }
     }
 

@@ -11,12 +11,17 @@ extern crate alloc;
 mod home;
 mod order;
 mod request;
+mod schedule;
 mod thought;
 mod update;
 
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomNaming};
 pub use request::{CleaningPower, Request, RequestBody, Topic};
+pub use schedule::{
+    InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
+    ScheduledJob, Schedules, Weekday,
+};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{JobOrder, NoGoShape, RoomNaming};
+use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, ScheduleEntry};
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,6 +41,8 @@ pub enum Topic {
     Log,
     /// [`crate::Update::Packet`]: each packet of the wire, both directions.
     Packets,
+    /// [`crate::Update::Schedules`] at once, then when it changes.
+    Schedules,
 }
 
 /// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
@@ -144,6 +146,52 @@ pub enum RequestBody {
     RemoveMix {
         /// Its name.
         name: String,
+    },
+    /// Keeps a new schedule. Answered, as all changes of schedules, when it is on the disk.
+    AddSchedule(ScheduleEntry),
+    /// Replaces a schedule.
+    ChangeSchedule {
+        /// Its number.
+        number: u32,
+        /// What it shall be.
+        #[serde(flatten)]
+        entry: ScheduleEntry,
+    },
+    /// Removes a schedule.
+    RemoveSchedule {
+        /// Its number.
+        number: u32,
+    },
+    /// Lets a schedule start by itself, or no longer.
+    EnableSchedule {
+        /// Its number.
+        number: u32,
+        /// Which.
+        enabled: bool,
+    },
+    /// Leaves out the next run of a schedule, or no longer.
+    SkipNext {
+        /// Its number.
+        number: u32,
+        /// Which.
+        skip: bool,
+    },
+    /// Starts what a schedule starts, now, as if this client had asked for the job itself.
+    RunSchedule {
+        /// Its number.
+        number: u32,
+    },
+    /// Sets the quiet hours.
+    SetQuiet {
+        /// Which; absent = none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        quiet: Option<QuietHours>,
+    },
+    /// Sets the time zone of the schedules.
+    SetZone {
+        /// Its name in the IANA database, for example `Europe/Tallinn`; absent = the system's.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        zone: Option<String>,
     },
     /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
     Raw {

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{Decision, Estimate, HomeView, JobEstimate, KeptMap, PlannedWay};
+use crate::{Decision, Estimate, HomeView, JobEstimate, KeptMap, PlannedWay, Schedules};
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +59,8 @@ pub enum Update {
         /// By their names, each as one line of JSON, see the crate `mixer`.
         mixes: Vec<String>,
     },
+    /// All schedules.
+    Schedules(Schedules),
     /// What a job will take.
     JobEstimate(JobEstimate),
     /// A line of the log.

@@ -7,9 +7,11 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
-    JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlannedWay, Pose, Request, RequestBody, RobotDescription, RoomHere, RoomNaming,
-    RoomView, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
+    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    NoGoShape, NoGoView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
+    RoomHere, RoomNaming, RoomView, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
+    ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
+    Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -45,10 +47,11 @@ fn requests() {
         Topic::Decisions,
         Topic::Log,
         Topic::Packets,
+        Topic::Schedules,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -543,5 +546,126 @@ fn the_simulator() {
     check(
         &Update::SimulatedTruth(truth),
         r#"{"e":"simulated-truth","pose":{"x":-1.0,"y":-2.0,"heading":0.0,"t":0.0},"covered":0.5,"violations":0,"sim_s":9.5}"#,
+    );
+}
+
+fn weekday_entry() -> ScheduleEntry {
+    ScheduleEntry {
+        name: "Köök".to_owned(),
+        enabled: true,
+        job: ScheduledJob::Clean(JobOrder {
+            parts: vec![JobPart::Room(4)],
+            passes: 2,
+            avoid: vec![],
+        }),
+        when: ScheduleTime::Weekly {
+            days: vec![Weekday::Mo, Weekday::Su],
+            at: "07:30".to_owned(),
+        },
+        late_min: 15,
+        in_quiet: InQuiet::Wait,
+    }
+}
+
+#[test]
+fn requests_of_schedules() {
+    request(
+        RequestBody::AddSchedule(weekday_entry()),
+        r#"{"c":"add-schedule","name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait"}"#,
+    );
+    let once = ScheduleEntry {
+        name: "All".to_owned(),
+        job: ScheduledJob::Start { strategy: None },
+        when: ScheduleTime::Once {
+            date: "2026-11-23".to_owned(),
+            at: "09:00".to_owned(),
+        },
+        late_min: 0,
+        in_quiet: InQuiet::Refuse,
+        ..weekday_entry()
+    };
+    request(
+        RequestBody::ChangeSchedule {
+            number: 3,
+            entry: once.clone(),
+        },
+        r#"{"c":"change-schedule","number":3,"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse"}"#,
+    );
+    let short = r#"{"c":"add-schedule","name":"All","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}}"#;
+    let read: Request = serde_json::from_str(short).unwrap();
+    assert_eq!(read.body, RequestBody::AddSchedule(once));
+    request(
+        RequestBody::RemoveSchedule { number: 3 },
+        r#"{"c":"remove-schedule","number":3}"#,
+    );
+    request(
+        RequestBody::EnableSchedule {
+            number: 3,
+            enabled: false,
+        },
+        r#"{"c":"enable-schedule","number":3,"enabled":false}"#,
+    );
+    request(
+        RequestBody::SkipNext {
+            number: 3,
+            skip: true,
+        },
+        r#"{"c":"skip-next","number":3,"skip":true}"#,
+    );
+    request(
+        RequestBody::RunSchedule { number: 3 },
+        r#"{"c":"run-schedule","number":3}"#,
+    );
+    let quiet = Some(QuietHours {
+        from: "22:00".to_owned(),
+        to: "07:00".to_owned(),
+    });
+    request(
+        RequestBody::SetQuiet { quiet },
+        r#"{"c":"set-quiet","quiet":{"from":"22:00","to":"07:00"}}"#,
+    );
+    request(RequestBody::SetQuiet { quiet: None }, r#"{"c":"set-quiet"}"#);
+    request(
+        RequestBody::SetZone {
+            zone: Some("Europe/Tallinn".to_owned()),
+        },
+        r#"{"c":"set-zone","zone":"Europe/Tallinn"}"#,
+    );
+    request(RequestBody::SetZone { zone: None }, r#"{"c":"set-zone"}"#);
+}
+
+#[test]
+fn all_schedules() {
+    let run = PlannedRun {
+        entry: 3,
+        at: "2026-11-23T07:30:00+02:00".to_owned(),
+        kept_by: Some("skipped".to_owned()),
+        held_by: None,
+    };
+    let schedules = Schedules {
+        zone: "Europe/Tallinn".to_owned(),
+        zone_is_set: true,
+        clock: Some("2026-11-22T16:30".to_owned()),
+        quiet: None,
+        entries: vec![ScheduleView {
+            number: 3,
+            entry: weekday_entry(),
+            skip_next: true,
+            next: vec![run.clone()],
+            refused_now: Some("wheel-drop".to_owned()),
+        }],
+        next: vec![run],
+        decisions: vec![ScheduleDecision {
+            entry: 3,
+            name: "Köök".to_owned(),
+            date: "2026-11-22".to_owned(),
+            at: "2026-11-22T07:30:00+02:00".to_owned(),
+            outcome: "refused".to_owned(),
+            reason: Some("job-runs".to_owned()),
+        }],
+    };
+    check(
+        &Update::Schedules(schedules),
+        r#"{"e":"schedules","zone":"Europe/Tallinn","zone_is_set":true,"clock":"2026-11-22T16:30","entries":[{"number":3,"name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait","skip_next":true,"next":[{"entry":3,"at":"2026-11-23T07:30:00+02:00","kept_by":"skipped"}],"refused_now":"wheel-drop"}],"next":[{"entry":3,"at":"2026-11-23T07:30:00+02:00","kept_by":"skipped"}],"decisions":[{"entry":3,"name":"Köök","date":"2026-11-22","at":"2026-11-22T07:30:00+02:00","outcome":"refused","reason":"job-runs"}]}"#,
     );
 }

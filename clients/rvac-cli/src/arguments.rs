@@ -1,12 +1,16 @@
 //! What can be said on the command line.
 
 mod orders;
+mod schedules;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
-pub(crate) use orders::{EstimateOptions, OrderOptions, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb};
+pub(crate) use orders::{
+    EstimateOptions, OrderOptions, OrderParts, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb,
+};
+pub(crate) use schedules::{ScheduleJob, ScheduleOptions, ScheduleVerb, day_name};
 
 /// LibreRVAC from the command line.
 #[derive(Debug, Parser)]
@@ -36,6 +40,8 @@ pub(crate) enum Subcommand {
     Rooms(RoomsJob),
     /// No-go zones and virtual walls.
     Zone(ZoneJob),
+    /// What starts by itself, and when; without a verb: list it.
+    Schedule(ScheduleJob),
     /// What the robot decided lately, and why.
     Why(WhyOptions),
     /// Run a recording through the brain again.

@@ -15,6 +15,7 @@ mod packet;
 mod probe;
 mod replay;
 mod robot;
+mod schedules;
 mod show;
 mod socket;
 mod status;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         Subcommand::Estimate(options) => orders::estimate(&options),
         Subcommand::Rooms(job) => orders::rooms(&job),
         Subcommand::Zone(job) => orders::zones(&job),
+        Subcommand::Schedule(job) => schedules::run(&job),
         Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),

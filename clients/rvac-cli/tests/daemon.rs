@@ -10,9 +10,10 @@ use std::process::Output;
 use std::thread::JoinHandle;
 
 use rvac_api::{
-    Decision, DeviceTable, Estimate, Failure, HomeView, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading,
-    LogEntry, LogLevel, NoGoShape, Pose, Request, RequestBody, RoomNaming, RoomView, SEPARATOR, Status,
-    Update,
+    Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, Request, RequestBody, RoomNaming, RoomView,
+    SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update,
+    Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -328,6 +329,107 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         let last = asked.last().expect("asks");
         assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
+    }
+}
+
+/// A daemon in that home with one schedule.
+fn punctual(request: &Request) -> Vec<Update> {
+    let told = Update::Schedules(Schedules {
+        zone: "UTC".to_owned(),
+        entries: vec![ScheduleView {
+            number: 3,
+            entry: hall_at("07:30"),
+            skip_next: false,
+            next: vec![],
+            refused_now: None,
+        }],
+        ..Schedules::default()
+    });
+    match &request.body {
+        RequestBody::Watch { topics } if topics.contains(&Topic::Schedules) => vec![told],
+        _ => at_home(request),
+    }
+}
+
+fn hall_at(at: &str) -> ScheduleEntry {
+    ScheduleEntry {
+        name: "Hall".to_owned(),
+        enabled: true,
+        job: ScheduledJob::Clean(JobOrder {
+            parts: vec![JobPart::Room(1)],
+            passes: 2,
+            ..JobOrder::default()
+        }),
+        when: ScheduleTime::Weekly {
+            days: vec![Weekday::Sa, Weekday::Su],
+            at: at.to_owned(),
+        },
+        late_min: 0,
+        in_quiet: InQuiet::Refuse,
+    }
+}
+
+#[test]
+fn schedules_are_asked_for_under_their_names() {
+    let add = [
+        "schedule", "add", "Hall", "--days", "weekend", "--at", "07:30", "--room", "hall", "--passes", "2",
+    ];
+    let quiet = QuietHours {
+        from: "22:00".to_owned(),
+        to: "07:00".to_owned(),
+    };
+    let cases: [(&[&str], RequestBody); 7] = [
+        (&add, RequestBody::AddSchedule(hall_at("07:30"))),
+        (
+            &["schedule", "change", "3", "--at", "08:00"],
+            RequestBody::ChangeSchedule {
+                number: 3,
+                entry: hall_at("08:00"),
+            },
+        ),
+        (
+            &["schedule", "remove", "3"],
+            RequestBody::RemoveSchedule { number: 3 },
+        ),
+        (
+            &["schedule", "skip-next", "3", "--undo"],
+            RequestBody::SkipNext {
+                number: 3,
+                skip: false,
+            },
+        ),
+        (
+            &["schedule", "run-now", "3"],
+            RequestBody::RunSchedule { number: 3 },
+        ),
+        (
+            &["schedule", "quiet", "22:00", "07:00"],
+            RequestBody::SetQuiet { quiet: Some(quiet) },
+        ),
+        (
+            &["schedule", "zone", "system"],
+            RequestBody::SetZone { zone: None },
+        ),
+    ];
+    for (place, (arguments, body)) in cases.into_iter().enumerate() {
+        let (output, asked) = Daemon::start(&format!("schedule-{place}"), punctual).rvac(arguments, "");
+        assert!(output.status.success(), "{arguments:?}: {output:?}");
+        let wanted = Request { id: Some(1), body };
+        assert!(asked.contains(&wanted), "{arguments:?}: {asked:?}");
+    }
+    let wrong: [(&[&str], &str); 3] = [
+        (&["schedule", "add", "Hall", "--at", "07:30"], "when? give --at"),
+        (
+            &["schedule", "change", "4", "--at", "07:30"],
+            "there is no schedule 4",
+        ),
+        (&["schedule", "quiet", "22:00"], "have a beginning and an end"),
+    ];
+    for (place, (arguments, sentence)) in wrong.into_iter().enumerate() {
+        let (output, asked) = Daemon::start(&format!("no-schedule-{place}"), punctual).rvac(arguments, "");
+        assert_eq!(output.status.code(), Some(1));
+        assert!(text(&output.stderr).contains(sentence), "{output:?}");
+        assert!(asked.iter().all(|request| request.id.is_none()), "{asked:?}");
     }
 }
 

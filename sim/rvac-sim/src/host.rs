@@ -5,10 +5,12 @@ use brain::mapping::StoredMap;
 use brain::observation::BeaconRange;
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Pose as TruePose};
-use rvac_api::{LogEntry, Pose, Request, RequestBody, Status};
+use rvac_api::{LogEntry, Pose, Request, RequestBody, Schedules, Status};
+use vthal_core::schedule::{Book, StoredBook};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
 use crate::HostCost;
+use crate::host_wall::HostWall;
 
 /// A core and the shell's duties towards it.
 #[derive(Debug)]
@@ -23,6 +25,11 @@ pub struct Host {
     /// What its core takes of a processor, if somebody wants to know.
     cost: Option<HostCost>,
     born_us: u64,
+    /// Its clock on the wall, if it has one.
+    wall: Option<HostWall>,
+    schedules: Option<StoredBook>,
+    /// Its disk takes what it is given, and never says so.
+    disk_is_mute: bool,
 }
 
 const CLIENT: ClientId = ClientId(1);
@@ -39,6 +46,9 @@ impl Host {
             log: None,
             cost: None,
             born_us: now_us,
+            wall: None,
+            schedules: None,
+            disk_is_mute: false,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
         host.handle(now_us, Input::LinkOpened);
@@ -72,6 +82,29 @@ impl Host {
         );
     }
 
+    /// Gives it a clock on the wall, or sets it.
+    pub fn set_wall(&mut self, now_us: u64, utc_s: i64) {
+        self.wall = Some(HostWall::showing(now_us, utc_s));
+    }
+
+    /// From now on its disk takes what it is given, and never says so.
+    pub fn mute_disk(&mut self) {
+        self.disk_is_mute = true;
+    }
+
+    /// All schedules, as clients are told.
+    #[must_use]
+    pub fn schedules(&self) -> Schedules {
+        self.core.schedules()
+    }
+
+    /// The schedules that a daemon after this one finds on its disk.
+    #[must_use]
+    pub fn kept_schedules(&self) -> Book {
+        let kept = self.schedules.clone().map(Book::try_from);
+        kept.and_then(Result::ok).unwrap_or_default()
+    }
+
     /// Hands over what came from the robot and lets time pass.
     pub fn step(&mut self, now_us: u64, from_robot: &[u8]) {
         if !from_robot.is_empty() {
@@ -83,6 +116,9 @@ impl Host {
             .is_some_and(|wake| wake <= now_us - self.born_us)
         {
             self.handle(now_us, Input::Wake);
+        }
+        if let Some(utc_s) = self.wall.as_mut().and_then(|wall| wall.look(now_us)) {
+            self.handle(now_us, Input::WallClock { utc_s });
         }
     }
 
@@ -113,7 +149,15 @@ impl Host {
         if let Some(log) = &mut self.log {
             log.append(&mut self.outputs.log);
         }
+        let schedules = self.outputs.schedules.take();
         self.outputs.clear();
+        if let Some(order) = schedules {
+            self.schedules = Some(order.book);
+            if !self.disk_is_mute {
+                let (number, result) = (order.number, Ok(()));
+                self.handle(now_us, Input::SchedulesKept { number, result });
+            }
+        }
     }
 
     /// From now on it is measured what its core takes of a processor, which costs some of that itself.

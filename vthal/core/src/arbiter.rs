@@ -47,6 +47,8 @@ pub(crate) enum Source {
     Button,
     /// A person at a client.
     Person(ClientId),
+    /// A schedule: everybody else comes first.
+    Schedule,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,10 +107,16 @@ impl Arbiter {
     /// [`Denied::DriverBusy`] while somebody else drives; buttons on the robot come before that.
     pub(crate) fn admit(&mut self, now_us: u64, source: Source) -> Result<(), Denied> {
         self.expire(now_us);
+        self.admit_now(source)
+    }
+
+    /// As [`Self::admit`], while no lease has ended unseen.
+    pub(crate) fn admit_now(&self, source: Source) -> Result<(), Denied> {
         match (self.seat, source) {
             (Some(seat), Source::Person(client)) if seat.client != client => {
                 Err(Denied::DriverBusy(seat.client))
             }
+            (Some(seat), Source::Schedule) => Err(Denied::DriverBusy(seat.client)),
             _ => Ok(()),
         }
     }
@@ -172,6 +180,11 @@ mod tests {
         );
         assert_eq!(arbiter.admit(1, Source::Person(ANNA)), Ok(()));
         assert_eq!(arbiter.admit(1, Source::Button), Ok(()));
+        assert_eq!(
+            arbiter.admit(1, Source::Schedule),
+            Err(Denied::DriverBusy(ANNA)),
+            "a schedule never takes the robot from anybody"
+        );
         assert!(!arbiter.release(BERT) && arbiter.release(ANNA));
         assert_eq!(arbiter.drive(2, BERT, FORWARD), Ok(400_002));
     }

@@ -18,6 +18,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Estimate => 128,
         Topic::Way => 256,
         Topic::Decisions => 512,
+        Topic::Schedules => 1024,
     }
 }
 

@@ -4,6 +4,7 @@ use brain::command::StrategyName;
 use brain::{SensorLayout, StoredMap};
 
 use crate::Checkpoint;
+use crate::schedule::{Book, Zone};
 
 /// Settings of the core, fixed for its life.
 #[derive(Clone, Debug)]
@@ -28,6 +29,12 @@ pub struct CoreConfig {
     pub home: Option<StoredMap>,
     /// Where an interrupted run goes on.
     pub resume: Option<Checkpoint>,
+    /// The schedules as they were kept.
+    pub schedules: Book,
+    /// Whether the newest decisions of theirs may be lost: then nothing that was due before the start is made up for.
+    pub schedules_distrusted: bool,
+    /// The time zone of the system.
+    pub zone: Zone,
 }
 
 impl Default for CoreConfig {
@@ -43,6 +50,9 @@ impl Default for CoreConfig {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             home: None,
             resume: None,
+            schedules: Book::default(),
+            schedules_distrusted: false,
+            zone: Zone::utc(),
         }
     }
 }

@@ -8,9 +8,10 @@ mod manual;
 mod orders;
 mod refusal;
 mod requests;
+mod schedules;
 mod thinking;
 
-use rvac_api::{Pose, RoomHere, Status, Topic, Update};
+use rvac_api::{Pose, RoomHere, Schedules, Status, Topic, Update};
 
 use crate::arbiter::Arbiter;
 use crate::clients::Clients;
@@ -19,6 +20,7 @@ use crate::diary::Diary;
 use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
 use crate::outputs::{Delivery, Recipients};
+use crate::scheduler::Scheduler;
 use crate::tap::Tap;
 use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
 use feed::Feed;
@@ -49,13 +51,20 @@ pub struct Core {
     ended: bool,
     /// Whoever changed the map since the brain's last step: client and number of the request.
     edits: Vec<(ClientId, Option<u32>)>,
+    scheduler: Scheduler,
+    schedules_told: Option<Schedules>,
+    schedules_told_us: u64,
 }
 
 impl Core {
     /// A core that has no robot yet.
     #[must_use]
-    pub fn new(config: CoreConfig) -> Self {
+    pub fn new(mut config: CoreConfig) -> Self {
+        let (book, zone) = (core::mem::take(&mut config.schedules), config.zone.clone());
         Self {
+            scheduler: Scheduler::new(book, zone, config.schedules_distrusted),
+            schedules_told: None,
+            schedules_told_us: 0,
             config,
             clients: Clients::default(),
             arbiter: Arbiter::default(),
@@ -96,6 +105,8 @@ impl Core {
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::MapRestored { number, home } => self.map_restored(now_us, (number, home), outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
+            Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
+            Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
         }

@@ -44,6 +44,18 @@ pub enum Input<'a> {
         /// The map.
         home: StoredMap,
     },
+    /// The clock on the wall, seconds since 1970 (UTC), at least once a second. It may have been set, either way.
+    WallClock {
+        /// What it shows.
+        utc_s: i64,
+    },
+    /// The schedules of [`crate::Outputs::schedules`] are on the disk, or are not.
+    SchedulesKept {
+        /// Number of the order.
+        number: u64,
+        /// Or a sentence that says why they are not.
+        result: Result<(), String>,
+    },
     /// A client is gone; a driver's seat it held is empty and the wheels stop.
     ClientGone(ClientId),
     /// The time that [`crate::Core::next_wake_us`] named has come. Too early or too often does no harm.

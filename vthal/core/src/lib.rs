@@ -7,7 +7,7 @@
 //!
 //! The parts, in the way of a telemetry report: [`device`] (the device model, its dead man and the wire session),
 //! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
-//! beside it the `arbiter` (who may command), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
+//! beside it the `arbiter` (who may command), [`schedule`] (what starts by itself), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
 //! (what survives a crash).
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -26,6 +26,8 @@ mod mind;
 mod newest;
 pub mod observe;
 mod outputs;
+pub mod schedule;
+mod scheduler;
 mod tap;
 mod to_api;
 
@@ -35,5 +37,5 @@ pub use core::Core;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
     Delivery, Direction, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
-    RunStart,
+    RunStart, ScheduleOrder,
 };

@@ -5,6 +5,7 @@ use rvac_api::{LogEntry, Pose, Status, Topic, Update};
 
 use crate::Checkpoint;
 use crate::ClientId;
+use crate::schedule::StoredBook;
 
 /// Collected results of [`crate::Core::handle`]. The shell empties it after each call; keeping the value keeps its buffers.
 #[derive(Debug, Default)]
@@ -27,6 +28,18 @@ pub struct Outputs {
     pub map_edits: Vec<MapEdit>,
     /// What clients ask of the kept control mixes, in order.
     pub mix_orders: Vec<MixOrder>,
+    /// Schedules for the disk.
+    pub schedules: Option<ScheduleOrder>,
+}
+
+/// Schedules that the shell keeps in place of the ones before, and says so with [`crate::Input::SchedulesKept`]. Until then no
+/// further ones come.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScheduleOrder {
+    /// Number of the order.
+    pub number: u64,
+    /// What is kept.
+    pub book: StoredBook,
 }
 
 /// Something that the shell does with the kept control mixes; it answers the client itself.
@@ -95,6 +108,7 @@ impl Outputs {
         self.map_orders.clear();
         self.mix_orders.clear();
         self.map_edits.clear();
+        self.schedules = None;
     }
 }
 

@@ -8,6 +8,15 @@ use super::Daemon;
 
 #[derive(Debug, Args)]
 pub(crate) struct OrderOptions {
+    #[command(flatten)]
+    pub(crate) parts: OrderParts,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+/// What of the home a job cleans.
+#[derive(Debug, Args)]
+pub(crate) struct OrderParts {
     /// A room by its name or number, as `rvac rooms` tells them; may be given several times, rooms are cleaned in this order.
     #[arg(long, value_name = "ROOM")]
     pub(crate) room: Vec<String>,
@@ -21,8 +30,6 @@ pub(crate) struct OrderOptions {
     /// How often each room and zone is cleaned before the next, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) passes: u8,
-    #[command(flatten)]
-    pub(crate) daemon: Daemon,
 }
 
 #[derive(Debug, Args)]

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use rvac_api::{JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update};
 
-use crate::arguments::{EstimateOptions, OrderOptions, Place};
+use crate::arguments::{EstimateOptions, OrderOptions, OrderParts, Place};
 use crate::control;
 use crate::home::known;
 use crate::socket::Connection;
@@ -22,13 +22,13 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&order.daemon.socket)?;
-    let body = RequestBody::Clean(to_order(order, &mut connection)?);
+    let body = RequestBody::Clean(to_order(&order.parts, &mut connection)?);
     control::ask(&mut connection, body)
 }
 
 pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&options.order.daemon.socket)?;
-    let order = to_order(&options.order, &mut connection)?;
+    let order = to_order(&options.order.parts, &mut connection)?;
     let request = (RequestBody::Estimate(order), PATIENCE);
     let (estimate, text) = control::answer(&mut connection, request, |update, text| match update {
         Update::JobEstimate(estimate) => Some((estimate, text)),
@@ -60,7 +60,7 @@ fn in_words(estimate: &JobEstimate) -> String {
 }
 
 /// Rooms first, then zones, each in the order in which they were given.
-fn to_order(options: &OrderOptions, connection: &mut Connection) -> anyhow::Result<JobOrder> {
+pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> anyhow::Result<JobOrder> {
     let mut parts = Vec::new();
     if !options.room.is_empty() {
         let home = known::ask(connection)?.home;

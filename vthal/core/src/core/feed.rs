@@ -277,6 +277,7 @@ impl Core {
                     .deliveries
                     .extend(entries.map(|entry| one(Update::Decision(entry))));
             }
+            Topic::Schedules => outputs.deliveries.push(one(Update::Schedules(self.schedules()))),
             Topic::Packets => {}
         }
     }
@@ -409,7 +410,7 @@ fn is_same_situation(old: &Status, new: &Status) -> bool {
 }
 
 /// Whether a job runs or waits.
-fn works(mind: &Mind) -> bool {
+pub(super) fn works(mind: &Mind) -> bool {
     let status = mind.brain().status();
     let active = matches!(
         status.state,

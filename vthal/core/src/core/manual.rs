@@ -1,9 +1,19 @@
-//! How hard brushes and suction run while a person drives.
+//! What a drive request asks of the wheels, and how hard brushes and suction run meanwhile.
 
 use rvac_api::CleaningPower;
 use rvac_units::Throttle;
 
+use crate::arbiter::Stick;
 use crate::device::CleanerPower;
+
+/// Where the stick is, in m/s forward and rad/s, for so many milliseconds.
+pub(super) fn stick((speed_m_per_s, turn_rad_per_s): (f64, f64), lease_ms: u16) -> Stick {
+    Stick {
+        speed_m_per_s,
+        turn_rad_per_s,
+        lease_us: u64::from(lease_ms) * 1000,
+    }
+}
 
 /// What a drive request asks of brushes and suction.
 ///

@@ -22,13 +22,19 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<(), Refusal> {
         self.require_robot()?;
-        let order = to_order(order)?;
-        let mind = self.known_home()?;
-        let command = Command::CleanParts { order: order.clone() };
-        if let Err(reason) = mind.brain().admit(&command) {
-            return Err(Refusal::of_order(reason, &order, mind.brain()));
-        }
+        let command = self.clean_command(order)?;
         Ok(self.job(now_us, (client, command), outputs)?)
+    }
+
+    /// What the brain is told to clean parts of the home; refused as the brain would refuse it.
+    pub(super) fn clean_command(&self, order: &JobOrder) -> Result<Command, Refusal> {
+        let order = to_order(order)?;
+        let brain = self.known_home()?.brain();
+        let command = Command::CleanParts { order: order.clone() };
+        match brain.admit(&command) {
+            Ok(()) => Ok(command),
+            Err(reason) => Err(Refusal::of_order(reason, &order, brain)),
+        }
     }
 
     /// A plan of the whole order takes long enough to be felt by wheels that turn, so none is made while they may.
@@ -170,7 +176,7 @@ fn not_kept(id: Option<u32>) -> Update {
     })
 }
 
-fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
+pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
     let part = |(place, part): (usize, &JobPart)| match part {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),

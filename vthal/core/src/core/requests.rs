@@ -40,6 +40,13 @@ impl Core {
                 | RequestBody::RemoveNoGo { .. }
                 | RequestBody::NameRoom(_)
                 | RequestBody::Estimate(_)
+                | RequestBody::AddSchedule(_)
+                | RequestBody::ChangeSchedule { .. }
+                | RequestBody::RemoveSchedule { .. }
+                | RequestBody::EnableSchedule { .. }
+                | RequestBody::SkipNext { .. }
+                | RequestBody::SetQuiet { .. }
+                | RequestBody::SetZone { .. }
         );
         let result = self.obey(now_us, (client, request), outputs);
         let update = match (result, id) {
@@ -98,12 +105,7 @@ impl Core {
                 clean,
                 power,
             } => {
-                let stick = Stick {
-                    speed_m_per_s: v,
-                    turn_rad_per_s: w,
-                    lease_us: u64::from(ttl) * 1000,
-                };
-                let power = manual::power(clean, power)?;
+                let (stick, power) = (manual::stick((v, w), ttl), manual::power(clean, power)?);
                 Ok(self.drive(now_us, (client, stick, power), outputs)?)
             }
             RequestBody::Release => {
@@ -120,15 +122,19 @@ impl Core {
             RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
             RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
             RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
-            RequestBody::RestoreMap { number } => {
-                self.admit_restored_map()?;
-                outputs.map_orders.push(MapOrder::Restore { client, id, number });
-                Ok(())
-            }
+            RequestBody::RestoreMap { number } => Ok(self.restore_map((client, id), number, outputs)?),
+            RequestBody::RunSchedule { number } => self.run_schedule(now_us, (client, number), outputs),
+            body @ (RequestBody::AddSchedule(_)
+            | RequestBody::ChangeSchedule { .. }
+            | RequestBody::RemoveSchedule { .. }
+            | RequestBody::EnableSchedule { .. }
+            | RequestBody::SkipNext { .. }
+            | RequestBody::SetQuiet { .. }
+            | RequestBody::SetZone { .. }) => self.change_schedules(now_us, ((client, id), body), outputs),
         }
     }
 
-    fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {
+    pub(super) fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {
         match name {
             None => Ok(self.usual_strategy()),
             Some(name) => StrategyName::from_name(name).ok_or("unknown-strategy"),
@@ -162,7 +168,7 @@ impl Core {
         Ok(())
     }
 
-    fn admitted(&self, command: &Command) -> Result<(), Refused> {
+    pub(super) fn admitted(&self, command: &Command) -> Result<(), Refused> {
         let mind = self.mind.as_ref().ok_or("no-robot")?;
         mind.brain().admit(command).map_err(brain::Reason::name)
     }
@@ -292,6 +298,17 @@ impl Core {
         }
     }
 
+    fn restore_map(
+        &self,
+        (client, id): (ClientId, Option<u32>),
+        number: u64,
+        outputs: &mut Outputs,
+    ) -> Result<(), Refused> {
+        self.admit_restored_map()?;
+        outputs.map_orders.push(MapOrder::Restore { client, id, number });
+        Ok(())
+    }
+
     pub(super) fn map_restored(
         &mut self,
         now_us: u64,
@@ -340,7 +357,7 @@ fn order_mix(
     Ok(())
 }
 
-fn denied(denied: Denied) -> Refused {
+pub(super) fn denied(denied: Denied) -> Refused {
     match denied {
         Denied::DriverBusy(_) => "driver-busy",
         Denied::ReturnToCentre => "centre-first",

@@ -1,0 +1,132 @@
+//! Time zones by their names in the IANA database, as built into the program.
+
+use jiff::civil::{Date, DateTime, Time};
+use jiff::tz::{AmbiguousOffset, Offset, TimeZone, TimeZoneDatabase};
+use jiff::{SignedDuration, Timestamp};
+
+/// A time zone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zone {
+    name: String,
+    rules: TimeZone,
+}
+
+impl Zone {
+    /// The zone with this name, for example `Europe/Tallinn`, in any case.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let rules = TimeZoneDatabase::bundled().get(name).ok()?;
+        let name = rules.iana_name()?.to_owned();
+        Some(Self { name, rules })
+    }
+
+    /// The zone of those who have none.
+    #[must_use]
+    pub fn utc() -> Self {
+        Self {
+            name: "UTC".to_owned(),
+            rules: TimeZone::UTC,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What clocks show at an instant; `None` beyond the years that a calendar knows.
+    #[must_use]
+    pub fn local(&self, utc_s: i64) -> Option<DateTime> {
+        let instant = Timestamp::from_second(utc_s).ok()?;
+        Some(self.rules.to_datetime(instant))
+    }
+
+    /// An instant as people read it: `2026-11-23T07:30:00+02:00`.
+    #[must_use]
+    pub fn spell(&self, utc_s: i64) -> String {
+        let Ok(instant) = Timestamp::from_second(utc_s) else {
+            return String::new();
+        };
+        let offset = self.rules.to_offset(instant);
+        instant.display_with_offset(offset).to_string()
+    }
+
+    /// The first instant of `date` at which clocks show `at` or later; `None` if the zone left that date out.
+    ///
+    /// Clocks that are set forward over `at` give the instant of the change, clocks that show it twice the first one.
+    #[must_use]
+    pub fn first_instant(&self, date: Date, at: Time) -> Option<i64> {
+        let local = date.to_datetime(at);
+        let instant = |offset: Offset| offset.to_timestamp(local).ok();
+        let found = match self.rules.to_ambiguous_timestamp(local).offset() {
+            AmbiguousOffset::Unambiguous { offset } => instant(offset)?,
+            AmbiguousOffset::Fold { before, .. } => instant(before)?,
+            AmbiguousOffset::Gap { before, .. } => self.end_of_gap(date, instant(before)?)?,
+        };
+        Some(found.as_second())
+    }
+
+    /// The change of clocks that left `inside` out, unless it left all of `date` out. `inside` is read with the offset before
+    /// the change, so it lies at or after it.
+    fn end_of_gap(&self, date: Date, inside: Timestamp) -> Option<Timestamp> {
+        let second = SignedDuration::from_secs(1);
+        let end = self
+            .rules
+            .preceding(inside.checked_add(second).ok()?)
+            .next()?
+            .timestamp();
+        let before = self.rules.to_datetime(end.checked_sub(second).ok()?);
+        let exists = before.date() == date || self.rules.to_datetime(end).date() == date;
+        exists.then_some(end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::civil::{date, time};
+
+    use super::Zone;
+
+    #[track_caller]
+    fn first(zone: &str, (year, month, day): (i16, i8, i8), (hour, minute): (i8, i8)) -> Option<String> {
+        let zone = Zone::named(zone).expect("a zone");
+        let instant = zone.first_instant(date(year, month, day), time(hour, minute, 0, 0))?;
+        Some(zone.spell(instant))
+    }
+
+    #[test]
+    fn a_time_that_is_left_out_means_the_instant_of_the_change() {
+        let tallinn = |time| first("Europe/Tallinn", (2027, 3, 28), time).expect("exists");
+        assert_eq!(tallinn((2, 59)), "2027-03-28T02:59:00+02:00");
+        for left_out in [(3, 0), (3, 30), (3, 59), (4, 0)] {
+            assert_eq!(tallinn(left_out), "2027-03-28T04:00:00+03:00");
+        }
+        // The clocks of Pyongyang went from 23:30 to the next day.
+        let end = first("Asia/Pyongyang", (2018, 5, 4), (23, 45));
+        assert_eq!(end.as_deref(), Some("2018-05-05T00:00:00+09:00"));
+    }
+
+    #[test]
+    fn a_time_that_comes_twice_means_the_first() {
+        let found = first("Europe/Tallinn", (2026, 10, 25), (3, 30));
+        assert_eq!(found.as_deref(), Some("2026-10-25T03:30:00+03:00"));
+    }
+
+    #[test]
+    fn a_date_that_is_left_out_has_no_instant() {
+        assert_eq!(first("Pacific/Apia", (2011, 12, 30), (8, 0)), None);
+        assert!(first("Pacific/Apia", (2011, 12, 31), (8, 0)).is_some());
+    }
+
+    #[test]
+    fn names_are_those_of_the_database() {
+        assert_eq!(
+            Zone::named("europe/tallinn").expect("known").name(),
+            "Europe/Tallinn"
+        );
+        for wrong in ["", "Tallinn", "Europe/Nowhere", "../etc/passwd"] {
+            assert_eq!(Zone::named(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The schedules on disk: `schedules.json` in the state folder. What cannot be read is put aside, never overwritten.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use vthal_core::schedule::{Book, StoredBook};
+
+use crate::kept_file;
+
+/// What a daemon finds at its start.
+#[derive(Debug, Default)]
+pub(crate) struct FoundSchedules {
+    /// The schedules.
+    pub(crate) book: Book,
+    /// The newest file was damaged, so runs may have been decided of which this book knows nothing.
+    pub(crate) distrusted: bool,
+    /// What is wrong, for the log.
+    pub(crate) complaints: Vec<String>,
+}
+
+/// Reads the newest file that is whole.
+pub(crate) fn load(path: &Path) -> FoundSchedules {
+    let mut found = FoundSchedules::default();
+    for version in kept_file::versions(path)
+        .iter()
+        .filter(|version| version.exists())
+    {
+        match read(version) {
+            Ok(book) => {
+                found.book = book;
+                return found;
+            }
+            Err(error) => {
+                let aside = put_aside(version);
+                found.complaints.push(format!(
+                    "the schedules in {} cannot be read: {error}; {aside}",
+                    version.display()
+                ));
+                found.distrusted = true;
+            }
+        }
+    }
+    if found.distrusted {
+        let empty = "there are no schedules now: nothing starts by itself until somebody makes new ones";
+        found.complaints.push(empty.to_owned());
+    }
+    found
+}
+
+/// Keeps the schedules in place of those before.
+///
+/// # Errors
+/// What the file system says.
+pub(crate) fn save(path: &Path, book: &StoredBook) -> io::Result<()> {
+    let text = serde_json::to_string_pretty(book).map_err(io::Error::other)?;
+    kept_file::replace(path, text.as_bytes())
+}
+
+fn read(path: &Path) -> Result<Book, String> {
+    let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let stored: StoredBook = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    Book::try_from(stored).map_err(|error| error.to_string())
+}
+
+/// Renames a damaged file to a name that nothing has; says how that went.
+fn put_aside(path: &Path) -> String {
+    let name = |number: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".damaged-{number}"));
+        PathBuf::from(name)
+    };
+    let Some(free) = (1..1_000).map(name).find(|name| !name.exists()) else {
+        return "it stays where it is, for there are too many damaged ones".to_owned();
+    };
+    match fs::rename(path, &free) {
+        Ok(()) => format!("it is kept as {}", free.display()),
+        Err(error) => format!("it cannot be put aside: {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::PathBuf;
+
+    use rvac_api::{InQuiet, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
+    use vthal_core::schedule::{Book, Edit, Plan, StoredBook, Zone};
+
+    use super::{load, save};
+
+    struct Scratch(PathBuf);
+
+    impl Scratch {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("vthal-schedules-{name}-{}", std::process::id()));
+            fs::remove_dir_all(&path).ok();
+            fs::create_dir_all(&path).expect("creates");
+            Self(path)
+        }
+
+        fn file(&self) -> PathBuf {
+            self.0.join("schedules.json")
+        }
+    }
+
+    impl Drop for Scratch {
+        fn drop(&mut self) {
+            fs::remove_dir_all(&self.0).ok();
+        }
+    }
+
+    fn book(entries: usize) -> Book {
+        let mut book = Book::default();
+        for number in 0..entries {
+            let plan = Plan::from_api(ScheduleEntry {
+                name: format!("Köök {number}"),
+                enabled: true,
+                job: ScheduledJob::Start { strategy: None },
+                when: ScheduleTime::Weekly {
+                    days: vec![Weekday::Mo],
+                    at: "07:30".to_owned(),
+                },
+                late_min: 5,
+                in_quiet: InQuiet::Wait,
+            });
+            let edit = Edit::Add(plan.expect("a plan"));
+            book.edit(edit, (&Zone::utc(), 1_800_000_000)).expect("adds");
+        }
+        book
+    }
+
+    #[test]
+    fn what_was_kept_is_found() {
+        let scratch = Scratch::new("kept");
+        let nothing = load(&scratch.file());
+        assert!(nothing.complaints.is_empty() && !nothing.distrusted);
+        for entries in [1, 3] {
+            save(&scratch.file(), &StoredBook::from(&book(entries))).expect("saves");
+        }
+        assert_eq!(load(&scratch.file()).book, book(3));
+        // Power failed between the two names.
+        fs::remove_file(scratch.file()).expect("removes");
+        let found = load(&scratch.file());
+        assert_eq!(found.book, book(1));
+        assert!(!found.distrusted);
+    }
+
+    #[test]
+    fn what_is_damaged_is_put_aside_and_its_predecessor_not_trusted_with_runs() {
+        let scratch = Scratch::new("damaged");
+        for _ in 0..2 {
+            save(&scratch.file(), &StoredBook::from(&book(2))).expect("saves");
+        }
+        fs::write(scratch.file(), "{\"version\":1,").expect("writes");
+        let found = load(&scratch.file());
+        assert_eq!(found.book, book(2));
+        assert!(found.distrusted && found.complaints.len() == 1, "{found:?}");
+        let aside = scratch.0.join("schedules.json.damaged-1");
+        assert_eq!(fs::read_to_string(aside).expect("is there"), "{\"version\":1,");
+        let mut newer = serde_json::to_value(StoredBook::from(&book(1))).expect("is JSON");
+        newer["version"] = 2.into();
+        fs::write(scratch.file(), newer.to_string()).expect("writes");
+        assert!(load(&scratch.file()).complaints[0].contains("version 2"));
+        assert!(scratch.0.join("schedules.json.damaged-2").exists());
+    }
+}
