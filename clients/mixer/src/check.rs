@@ -181,13 +181,16 @@ pub(crate) fn check(profile: &Profile) -> Result<(), ProfileError> {
     calibrations(&profile.inputs)?;
     let switches = switches(profile)?;
     let mut seen = BTreeSet::new();
-    for output in &profile.outputs {
+    for (number, output) in profile.outputs.iter().enumerate() {
         if !seen.insert(output.output) {
             return Err(ProfileError::Twice {
-                place: format!("output {}", output.output),
+                place: output.place(),
             });
         }
-        check_output(output, &switches)?;
+        check_output(output)?;
+        for (line_number, line) in output.lines.iter().enumerate() {
+            check_line(&profile.line_place(number, line_number), line, &switches)?;
+        }
     }
     Ok(())
 }
@@ -196,7 +199,7 @@ fn calibrations(all: &[Calibration]) -> Result<(), ProfileError> {
     at_most("inputs", all.len(), CALIBRATIONS_MAX)?;
     let mut seen = BTreeSet::new();
     for calibration in all {
-        let place = format!("input {}", calibration.input);
+        let place = calibration.place();
         if !seen.insert(&calibration.input) {
             return Err(ProfileError::Twice { place });
         }
@@ -218,7 +221,7 @@ fn switches(profile: &Profile) -> Result<BTreeSet<&Name>, ProfileError> {
     at_most("switches", profile.switches.len(), SWITCHES_MAX)?;
     let mut known = BTreeSet::new();
     for switch in &profile.switches {
-        let place = format!("switch {}", switch.name);
+        let place = switch.place();
         let joined = switch.on.switches();
         at_most(&place, joined.len(), JOINED_MAX)?;
         if joined.is_empty() && matches!(switch.on, Condition::All(_) | Condition::Any(_)) {
@@ -244,8 +247,8 @@ fn switches(profile: &Profile) -> Result<BTreeSet<&Name>, ProfileError> {
     Ok(known)
 }
 
-fn check_output(output: &Output, switches: &BTreeSet<&Name>) -> Result<(), ProfileError> {
-    let place = format!("output {}", output.output);
+fn check_output(output: &Output) -> Result<(), ProfileError> {
+    let place = output.place();
     let kind = output.output.kind();
     let least = if kind == OutputKind::Motion { -1.0 } else { 0.0 };
     for (name, value) in [
@@ -263,15 +266,7 @@ fn check_output(output: &Output, switches: &BTreeSet<&Name>) -> Result<(), Profi
             found: output.failsafe,
         });
     }
-    at_most(&place, output.lines.len(), LINES_MAX)?;
-    for (number, line) in output.lines.iter().enumerate() {
-        check_line(
-            &format!("{place}, line {} ({})", number + 1, line.name),
-            line,
-            switches,
-        )?;
-    }
-    Ok(())
+    at_most(&place, output.lines.len(), LINES_MAX)
 }
 
 fn check_line(place: &str, line: &Line, switches: &BTreeSet<&Name>) -> Result<(), ProfileError> {

@@ -21,6 +21,7 @@ mod mixer;
 mod name;
 mod output;
 mod pilot;
+mod place;
 mod profile;
 mod readings;
 mod shape;

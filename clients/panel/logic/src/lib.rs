@@ -15,6 +15,7 @@ mod frame_meter;
 mod home;
 mod latency;
 mod log_book;
+mod mixes;
 mod offers;
 mod plan;
 mod playout;
@@ -34,6 +35,9 @@ pub use frame_meter::FrameMeter;
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
+pub use mixes::{
+    CalibrationRun, Field, FieldKind, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart,
+};
 pub use offers::{Offer, Offers, PauseKind};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;

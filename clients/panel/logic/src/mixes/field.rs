@@ -1,0 +1,261 @@
+//! One field of the form: what it is called, how it is entered, where it stands in the profile.
+
+use mixer::Profile;
+
+use super::parts::{CONDITIONS, InputPart, LinePart, OutputPart, SwitchPart, name};
+
+/// A field; outputs, lines, switches and inputs are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Field {
+    /// Name of the mix.
+    MixName,
+    /// Of an output.
+    Output(usize, OutputPart),
+    /// Of a line of an output.
+    Line(usize, usize, LinePart),
+    /// Of a switch.
+    Switch(usize, SwitchPart),
+    /// Of a calibration.
+    Input(usize, InputPart),
+}
+
+/// What a message can be about as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// An output.
+    Output(usize),
+    /// A line of an output.
+    Line(usize, usize),
+    /// A switch.
+    Switch(usize),
+    /// A calibration.
+    Input(usize),
+}
+
+/// How a field is entered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FieldKind {
+    /// Any text.
+    Text,
+    /// A number.
+    Number,
+    /// An input, which can be learnt.
+    Source,
+    /// Yes or no.
+    Check,
+    /// One of these: the value, and what people read.
+    Choice(Vec<(String, String)>),
+}
+
+impl Field {
+    /// What people read.
+    #[must_use]
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => "Name",
+            Self::Line(_, _, LinePart::Input)
+            | Self::Switch(_, SwitchPart::Input)
+            | Self::Input(_, InputPart::Input) => "Input",
+            Self::Line(_, _, LinePart::Invert) => "Inverted",
+            Self::Line(_, _, LinePart::Weight) => "Weight",
+            Self::Line(_, _, LinePart::Offset) => "Offset",
+            Self::Line(_, _, LinePart::Expo) => "Expo",
+            Self::Line(_, _, LinePart::Curve) => "Curve points",
+            Self::Line(_, _, LinePart::Mix) => "Joins by",
+            Self::Line(_, _, LinePart::When) => "Only while on",
+            Self::Line(_, _, LinePart::DelayMs) => "Delay, ms",
+            Self::Line(_, _, LinePart::SlowUp) => "Slow up, per s",
+            Self::Line(_, _, LinePart::SlowDown) => "Slow down, per s",
+            Self::Output(_, OutputPart::Low) | Self::Input(_, InputPart::Low) => "Low",
+            Self::Output(_, OutputPart::Centre) | Self::Input(_, InputPart::Centre) => "Centre",
+            Self::Output(_, OutputPart::High) | Self::Input(_, InputPart::High) => "High",
+            Self::Output(_, OutputPart::Failsafe) => "Failsafe",
+            Self::Output(_, OutputPart::Reverse) => "Reversed",
+            Self::Switch(_, SwitchPart::Kind) => "On when",
+            Self::Switch(_, SwitchPart::Level) => "Level",
+            Self::Switch(_, SwitchPart::Others) => "Switches",
+            Self::Switch(_, SwitchPart::HoldMs) => "How long, ms",
+            Self::Input(_, InputPart::DeadBand) => "Dead band",
+        }
+    }
+
+    /// Name for the page, of letters, digits and `-`.
+    #[must_use]
+    pub fn id(self) -> String {
+        let part = |part: &dyn std::fmt::Debug| format!("{part:?}").to_lowercase();
+        match self {
+            Self::MixName => "mix-name".to_owned(),
+            Self::Output(output, which) => format!("output-{output}-{}", part(&which)),
+            Self::Line(output, line, which) => format!("line-{output}-{line}-{}", part(&which)),
+            Self::Switch(switch, which) => format!("switch-{switch}-{}", part(&which)),
+            Self::Input(input, which) => format!("input-{input}-{}", part(&which)),
+        }
+    }
+
+    /// How it is entered.
+    #[must_use]
+    pub fn kind(self, profile: &Profile) -> FieldKind {
+        let choice = |value: &str, words: &str| (value.to_owned(), words.to_owned());
+        match self {
+            Self::Line(_, _, LinePart::Input)
+            | Self::Switch(_, SwitchPart::Input)
+            | Self::Input(_, InputPart::Input) => FieldKind::Source,
+            Self::Line(_, _, LinePart::Invert) | Self::Output(_, OutputPart::Reverse) => FieldKind::Check,
+            Self::Line(_, _, LinePart::Mix) => FieldKind::Choice(vec![
+                choice("add", "adding"),
+                choice("multiply", "multiplying"),
+                choice("replace", "replacing"),
+            ]),
+            Self::Line(_, _, LinePart::When) => {
+                let names = profile.switches.iter().map(|switch| switch.name.to_string());
+                let names = names.map(|name| (name.clone(), format!("switch {name}")));
+                FieldKind::Choice([choice("", "always")].into_iter().chain(names).collect())
+            }
+            Self::Switch(place, SwitchPart::Kind) => {
+                let needs_others = |kind: &str| !matches!(kind, "above" | "below");
+                let offered = CONDITIONS
+                    .iter()
+                    .filter(|(kind, _)| place > 0 || !needs_others(kind));
+                FieldKind::Choice(offered.map(|(value, words)| choice(value, words)).collect())
+            }
+            Self::MixName
+            | Self::Line(_, _, LinePart::Name | LinePart::Curve)
+            | Self::Switch(_, SwitchPart::Name | SwitchPart::Others) => FieldKind::Text,
+            _ => FieldKind::Number,
+        }
+    }
+
+    /// Where it stands in the words of the mixer's messages; empty when none names it alone.
+    #[must_use]
+    pub fn place(self, profile: &Profile) -> String {
+        let (group, word) = match self {
+            Self::Output(output, part) => (Group::Output(output), output_word(part)),
+            Self::Line(output, line, part) => (Group::Line(output, line), line_word(part)),
+            Self::Switch(switch, part) => (Group::Switch(switch), switch_word(part)),
+            Self::Input(input, part) => (Group::Input(input), input_word(part)),
+            Self::MixName => return String::new(),
+        };
+        word.map(|word| format!("{}, {word}", group.place(profile)))
+            .unwrap_or_default()
+    }
+
+    /// What it holds, as text.
+    #[must_use]
+    pub fn text(self, profile: &Profile) -> String {
+        match self {
+            Self::MixName => Some(profile.name.to_string()),
+            Self::Output(output, part) => profile.outputs.get(output).map(|output| part.text(output)),
+            Self::Line(output, line, part) => profile
+                .outputs
+                .get(output)
+                .and_then(|output| output.lines.get(line))
+                .map(|line| part.text(line)),
+            Self::Switch(switch, part) => profile.switches.get(switch).map(|switch| part.text(switch)),
+            Self::Input(input, part) => profile.inputs.get(input).map(|input| part.text(input)),
+        }
+        .unwrap_or_default()
+    }
+
+    /// Puts a text into it.
+    ///
+    /// # Errors
+    /// What is wrong with the text; then nothing is changed. A number out of its range is taken, and the mixer's check tells.
+    pub fn set(self, profile: &mut Profile, text: &str) -> Result<(), String> {
+        match self {
+            Self::MixName => profile.name = name(text)?,
+            Self::Output(output, part) => {
+                if let Some(output) = profile.outputs.get_mut(output) {
+                    part.set(output, text);
+                }
+            }
+            Self::Line(output, line, part) => {
+                let output = profile.outputs.get_mut(output);
+                if let Some(line) = output.and_then(|output| output.lines.get_mut(line)) {
+                    part.set(line, text)?;
+                }
+            }
+            Self::Switch(switch, part) => set_switch(profile, switch, (part, text))?,
+            Self::Input(input, part) => {
+                if let Some(input) = profile.inputs.get_mut(input) {
+                    part.set(input, text)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A switch whose kind becomes one that looks at another looks at the one before it.
+fn set_switch(profile: &mut Profile, place: usize, (part, text): (SwitchPart, &str)) -> Result<(), String> {
+    let place = place.min(profile.switches.len());
+    let (earlier, rest) = profile.switches.split_at_mut(place);
+    let Some(switch) = rest.first_mut() else {
+        return Ok(());
+    };
+    let looks_at_none = switch.on.switches().is_empty();
+    if part == SwitchPart::Kind
+        && looks_at_none
+        && let Some(before) = earlier.last()
+    {
+        switch.on = match text {
+            "above" | "below" => switch.on.clone(),
+            _ => mixer::Condition::All(vec![before.name.clone()]),
+        };
+    }
+    part.set(switch, text)
+}
+
+impl Group {
+    /// Where it stands in the words of the mixer's messages.
+    #[must_use]
+    pub fn place(self, profile: &Profile) -> String {
+        match self {
+            Self::Output(output) => profile.outputs.get(output).map(mixer::Output::place),
+            Self::Line(output, line) => Some(profile.line_place(output, line)),
+            Self::Switch(switch) => profile.switches.get(switch).map(mixer::Switch::place),
+            Self::Input(input) => profile.inputs.get(input).map(mixer::Calibration::place),
+        }
+        .unwrap_or_default()
+    }
+}
+
+const fn output_word(part: OutputPart) -> Option<&'static str> {
+    match part {
+        OutputPart::Low => Some("low"),
+        OutputPart::Centre => Some("centre"),
+        OutputPart::High => Some("high"),
+        OutputPart::Failsafe => Some("failsafe"),
+        OutputPart::Reverse => None,
+    }
+}
+
+const fn line_word(part: LinePart) -> Option<&'static str> {
+    match part {
+        LinePart::Weight => Some("weight"),
+        LinePart::Offset => Some("offset"),
+        LinePart::Expo => Some("expo"),
+        LinePart::Curve => Some("curve"),
+        LinePart::DelayMs => Some("delay-ms"),
+        LinePart::SlowUp => Some("slow-up-per-s"),
+        LinePart::SlowDown => Some("slow-down-per-s"),
+        LinePart::Name | LinePart::Input | LinePart::Invert | LinePart::Mix | LinePart::When => None,
+    }
+}
+
+const fn switch_word(part: SwitchPart) -> Option<&'static str> {
+    match part {
+        SwitchPart::Level => Some("level"),
+        SwitchPart::HoldMs => Some("hold-ms"),
+        SwitchPart::Name | SwitchPart::Kind | SwitchPart::Input | SwitchPart::Others => None,
+    }
+}
+
+const fn input_word(part: InputPart) -> Option<&'static str> {
+    match part {
+        InputPart::Low => Some("low"),
+        InputPart::Centre => Some("centre"),
+        InputPart::High => Some("high"),
+        InputPart::DeadBand => Some("dead-band"),
+        InputPart::Input => None,
+    }
+}

@@ -1,0 +1,105 @@
+//! Learning which input a person means, and how far an axis goes.
+
+use mixer::{Calibration, Readings, Source, first_moved};
+
+use super::Field;
+
+/// An axis that went less far was not moved to its ends.
+const REACH_MIN: f64 = 0.2;
+/// Share around the rest that counts as rest, for an axis that was calibrated here.
+const DEAD_BAND: f64 = 0.1;
+
+/// A field waits for the next input that is moved.
+#[derive(Clone, Debug)]
+pub struct Learning {
+    /// The field.
+    pub field: Field,
+    before: Readings,
+}
+
+impl Learning {
+    /// Waits from now on.
+    #[must_use]
+    pub fn begin(field: Field, now: &Readings) -> Self {
+        Self {
+            field,
+            before: now.clone(),
+        }
+    }
+
+    /// The input that was moved since. A pad that appears meanwhile is looked at from then on.
+    pub fn look(&mut self, now: &Readings) -> Option<Source> {
+        let known = |pads: &Readings| pads.pads.keys().copied().collect::<Vec<u8>>();
+        if known(now) != known(&self.before) || now.tilt.is_some() != self.before.tilt.is_some() {
+            self.before = now.clone();
+        }
+        first_moved(&self.before, now)
+    }
+}
+
+/// An axis is moved to both of its ends.
+#[derive(Clone, Debug)]
+pub struct CalibrationRun {
+    /// Which calibration of the profile.
+    pub place: usize,
+    input: Source,
+    centre: f64,
+    low: f64,
+    high: f64,
+}
+
+impl CalibrationRun {
+    /// Begins with the input at rest; none when its device is not there.
+    #[must_use]
+    pub fn begin(place: usize, input: &Source, now: &Readings) -> Option<Self> {
+        let centre = now.value(input)?;
+        Some(Self {
+            place,
+            input: input.clone(),
+            centre,
+            low: centre,
+            high: centre,
+        })
+    }
+
+    /// Follows the input.
+    pub fn look(&mut self, now: &Readings) {
+        if let Some(value) = now.value(&self.input) {
+            self.low = self.low.min(value);
+            self.high = self.high.max(value);
+        }
+    }
+
+    /// What was seen so far.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!(
+            "Move it to both ends: {:.2} to {:.2}, at rest {:.2}.",
+            self.low, self.high, self.centre
+        )
+    }
+
+    /// The calibration of what was seen.
+    ///
+    /// # Errors
+    /// A sentence when it was not moved.
+    pub fn finish(&self) -> Result<Calibration, String> {
+        if self.high - self.low < REACH_MIN {
+            return Err(format!(
+                "{} was not moved: begin again, and move it to both ends",
+                self.input
+            ));
+        }
+        Ok(Calibration {
+            low: rounded(self.low),
+            centre: rounded(self.centre),
+            high: rounded(self.high),
+            ..Calibration::new(self.input.clone(), DEAD_BAND)
+        })
+    }
+}
+
+/// To a thousandth: nobody reads more, and no stick repeats better.
+fn rounded(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}

@@ -1,0 +1,358 @@
+//! The parts of lines, outputs, switches and calibrations that a person can set: from and to text.
+
+use mixer::{Calibration, Condition, Line, Mix, Name, Output, Switch};
+
+/// A setting of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum LinePart {
+    /// Its name.
+    Name,
+    /// The input.
+    Input,
+    /// Turned round.
+    Invert,
+    /// Factor.
+    Weight,
+    /// Added.
+    Offset,
+    /// Bend.
+    Expo,
+    /// Points.
+    Curve,
+    /// How it joins.
+    Mix,
+    /// Its switch.
+    When,
+    /// Delay.
+    DelayMs,
+    /// Rise a second.
+    SlowUp,
+    /// Fall a second.
+    SlowDown,
+}
+
+/// A setting of an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum OutputPart {
+    /// Lower limit.
+    Low,
+    /// Value at rest.
+    Centre,
+    /// Upper limit.
+    High,
+    /// Value after a loss.
+    Failsafe,
+    /// Turned round.
+    Reverse,
+}
+
+/// A setting of a switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SwitchPart {
+    /// Its name.
+    Name,
+    /// Which condition.
+    Kind,
+    /// The input.
+    Input,
+    /// Its level.
+    Level,
+    /// The switches that it looks at.
+    Others,
+    /// How long it stays on.
+    HoldMs,
+}
+
+/// A setting of a calibration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum InputPart {
+    /// Which input.
+    Input,
+    /// Reading at the lower end.
+    Low,
+    /// Reading at rest.
+    Centre,
+    /// Reading at the upper end.
+    High,
+    /// Share that counts as rest.
+    DeadBand,
+}
+
+impl LinePart {
+    /// All, as they stand in the form.
+    pub const ALL: [Self; 12] = [
+        Self::Name,
+        Self::Input,
+        Self::Invert,
+        Self::Weight,
+        Self::Offset,
+        Self::Expo,
+        Self::Curve,
+        Self::Mix,
+        Self::When,
+        Self::DelayMs,
+        Self::SlowUp,
+        Self::SlowDown,
+    ];
+
+    pub(super) fn text(self, line: &Line) -> String {
+        match self {
+            Self::Name => line.name.to_string(),
+            Self::Input => line.input.to_string(),
+            Self::Invert => line.invert.to_string(),
+            Self::Weight => line.weight.to_string(),
+            Self::Offset => line.offset.to_string(),
+            Self::Expo => line.expo.to_string(),
+            Self::Curve => points_text(&line.curve),
+            Self::Mix => mix_text(line.mix).to_owned(),
+            Self::When => line.when.as_ref().map(Name::to_string).unwrap_or_default(),
+            Self::DelayMs => line.delay_ms.to_string(),
+            Self::SlowUp => line.slow_up_per_s.to_string(),
+            Self::SlowDown => line.slow_down_per_s.to_string(),
+        }
+    }
+
+    pub(super) fn set(self, line: &mut Line, text: &str) -> Result<(), String> {
+        match self {
+            Self::Name => line.name = name(text)?,
+            Self::Input => line.input = text.parse().map_err(sentence)?,
+            Self::Invert => line.invert = text == "true",
+            Self::Weight => line.weight = number(text),
+            Self::Offset => line.offset = number(text),
+            Self::Expo => line.expo = number(text),
+            Self::Curve => line.curve = points(text)?,
+            Self::Mix => line.mix = mix(text),
+            Self::When => {
+                line.when = if text.is_empty() { None } else { Some(name(text)?) };
+            }
+            Self::DelayMs => line.delay_ms = milliseconds(text)?,
+            Self::SlowUp => line.slow_up_per_s = number(text),
+            Self::SlowDown => line.slow_down_per_s = number(text),
+        }
+        Ok(())
+    }
+}
+
+impl OutputPart {
+    /// All, as they stand in the form.
+    pub const ALL: [Self; 5] = [Self::Low, Self::Centre, Self::High, Self::Failsafe, Self::Reverse];
+
+    pub(super) fn text(self, output: &Output) -> String {
+        match self {
+            Self::Low => output.low.to_string(),
+            Self::Centre => output.centre.to_string(),
+            Self::High => output.high.to_string(),
+            Self::Failsafe => output.failsafe.to_string(),
+            Self::Reverse => output.reverse.to_string(),
+        }
+    }
+
+    pub(super) fn set(self, output: &mut Output, text: &str) {
+        match self {
+            Self::Low => output.low = number(text),
+            Self::Centre => output.centre = number(text),
+            Self::High => output.high = number(text),
+            Self::Failsafe => output.failsafe = number(text),
+            Self::Reverse => output.reverse = text == "true",
+        }
+    }
+}
+
+impl InputPart {
+    /// All, as they stand in the form.
+    pub const ALL: [Self; 5] = [Self::Input, Self::Low, Self::Centre, Self::High, Self::DeadBand];
+
+    pub(super) fn text(self, calibration: &Calibration) -> String {
+        match self {
+            Self::Input => calibration.input.to_string(),
+            Self::Low => calibration.low.to_string(),
+            Self::Centre => calibration.centre.to_string(),
+            Self::High => calibration.high.to_string(),
+            Self::DeadBand => calibration.dead_band.to_string(),
+        }
+    }
+
+    pub(super) fn set(self, calibration: &mut Calibration, text: &str) -> Result<(), String> {
+        match self {
+            Self::Input => calibration.input = text.parse().map_err(sentence)?,
+            Self::Low => calibration.low = number(text),
+            Self::Centre => calibration.centre = number(text),
+            Self::High => calibration.high = number(text),
+            Self::DeadBand => calibration.dead_band = number(text),
+        }
+        Ok(())
+    }
+}
+
+/// Conditions by their words in profiles, with what people read.
+pub(super) const CONDITIONS: [(&str, &str); 8] = [
+    ("above", "input above the level"),
+    ("below", "input below the level"),
+    ("all", "all of these are on"),
+    ("any", "any of these is on"),
+    ("not", "this is off"),
+    ("toggle", "changes over when this goes on"),
+    ("sticky", "from the first to the second"),
+    ("edge", "a while after this went on"),
+];
+
+impl SwitchPart {
+    /// Those that a switch has.
+    #[must_use]
+    pub fn of(condition: &Condition) -> &'static [Self] {
+        match condition {
+            Condition::Above { .. } | Condition::Below { .. } => {
+                &[Self::Name, Self::Kind, Self::Input, Self::Level]
+            }
+            Condition::Edge { .. } => &[Self::Name, Self::Kind, Self::Others, Self::HoldMs],
+            _ => &[Self::Name, Self::Kind, Self::Others],
+        }
+    }
+
+    pub(super) fn text(self, switch: &Switch) -> String {
+        match (self, &switch.on) {
+            (Self::Name, _) => switch.name.to_string(),
+            (Self::Kind, on) => kind(on).to_owned(),
+            (Self::Input, on) => on.input().map(ToString::to_string).unwrap_or_default(),
+            (Self::Level, Condition::Above { level, .. } | Condition::Below { level, .. }) => {
+                level.to_string()
+            }
+            (Self::Others, on) => names_text(&on.switches()),
+            (Self::HoldMs, Condition::Edge { hold_ms, .. }) => hold_ms.to_string(),
+            (Self::Level | Self::HoldMs, _) => String::new(),
+        }
+    }
+
+    pub(super) fn set(self, switch: &mut Switch, text: &str) -> Result<(), String> {
+        match (self, &mut switch.on) {
+            (Self::Name, _) => switch.name = name(text)?,
+            (Self::Kind, on) => *on = of_kind(text, on),
+            (Self::Input, Condition::Above { input, .. } | Condition::Below { input, .. }) => {
+                *input = text.parse().map_err(sentence)?;
+            }
+            (Self::Level, Condition::Above { level, .. } | Condition::Below { level, .. }) => {
+                *level = number(text);
+            }
+            (Self::Others, on) => join(on, text)?,
+            (Self::HoldMs, Condition::Edge { hold_ms, .. }) => *hold_ms = milliseconds(text)?,
+            (Self::Input | Self::Level | Self::HoldMs, _) => {}
+        }
+        Ok(())
+    }
+}
+
+const fn kind(condition: &Condition) -> &'static str {
+    match condition {
+        Condition::Above { .. } => "above",
+        Condition::Below { .. } => "below",
+        Condition::All(_) => "all",
+        Condition::Any(_) => "any",
+        Condition::Not(_) => "not",
+        Condition::Toggle(_) => "toggle",
+        Condition::Sticky { .. } => "sticky",
+        Condition::Edge { .. } => "edge",
+    }
+}
+
+/// The condition of this kind that keeps what it can of the one before.
+fn of_kind(kind: &str, before: &Condition) -> Condition {
+    let input = before.input().cloned().unwrap_or(mixer::Source::Always);
+    let names: Vec<Name> = before.switches().into_iter().cloned().collect();
+    let (first, second) = (names.first().cloned(), names.get(1).cloned());
+    match (kind, first) {
+        ("below", _) => Condition::Below { input, level: -0.5 },
+        ("all", _) => Condition::All(names),
+        ("any", _) => Condition::Any(names),
+        ("not", Some(first)) => Condition::Not(first),
+        ("toggle", Some(first)) => Condition::Toggle(first),
+        ("sticky", Some(first)) => Condition::Sticky {
+            reset: second.unwrap_or_else(|| first.clone()),
+            set: first,
+        },
+        ("edge", Some(of)) => Condition::Edge { of, hold_ms: 500 },
+        _ => Condition::Above { input, level: 0.5 },
+    }
+}
+
+/// Puts the switches of this text into a condition.
+fn join(condition: &mut Condition, text: &str) -> Result<(), String> {
+    let texts = text.split(',').map(str::trim).filter(|text| !text.is_empty());
+    let names = texts.map(name).collect::<Result<Vec<Name>, String>>()?;
+    let count = |wanted: &str| format!("`{text}`: name {wanted}, with a comma between two");
+    match (condition, names.as_slice()) {
+        (Condition::All(all) | Condition::Any(all), _) => *all = names,
+        (Condition::Not(one) | Condition::Toggle(one) | Condition::Edge { of: one, .. }, [only]) => {
+            *one = only.clone();
+        }
+        (Condition::Sticky { set, reset }, [first, second]) => {
+            *set = first.clone();
+            *reset = second.clone();
+        }
+        (Condition::Sticky { .. }, _) => return Err(count("two switches, the one for on first")),
+        (Condition::Above { .. } | Condition::Below { .. }, _) => {}
+        _ => return Err(count("one switch")),
+    }
+    Ok(())
+}
+
+fn names_text(names: &[&Name]) -> String {
+    let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+    names.join(", ")
+}
+
+pub(super) fn name(text: &str) -> Result<Name, String> {
+    Name::new(text.trim()).map_err(sentence)
+}
+
+fn sentence(error: impl ToString) -> String {
+    error.to_string()
+}
+
+/// What is no number becomes one that the mixer refuses, with its own sentence.
+fn number(text: &str) -> f64 {
+    text.trim()
+        .replace(',', ".")
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite())
+        .unwrap_or(f64::NAN)
+}
+
+fn milliseconds(text: &str) -> Result<u16, String> {
+    let whole = text.trim().parse();
+    whole.map_err(|_| format!("`{text}` is no time: write whole milliseconds from 0 to 5000"))
+}
+
+const fn mix_text(mix: Mix) -> &'static str {
+    match mix {
+        Mix::Add => "add",
+        Mix::Multiply => "multiply",
+        Mix::Replace => "replace",
+    }
+}
+
+fn mix(text: &str) -> Mix {
+    match text {
+        "multiply" => Mix::Multiply,
+        "replace" => Mix::Replace,
+        _ => Mix::Add,
+    }
+}
+
+fn points_text(points: &[[f64; 2]]) -> String {
+    let points: Vec<String> = points.iter().map(|[at, value]| format!("{at} {value}")).collect();
+    points.join(", ")
+}
+
+/// Points as `-1 -1, 0 0.2, 1 1`.
+fn points(text: &str) -> Result<Vec<[f64; 2]>, String> {
+    let pairs = text.split(',').map(str::trim).filter(|pair| !pair.is_empty());
+    pairs
+        .map(|pair| {
+            let numbers: Vec<f64> = pair.split_whitespace().map(number).collect();
+            <[f64; 2]>::try_from(numbers).map_err(|_| {
+                format!("`{pair}` is no point: write two numbers, and a comma before the next, like -1 -1, 0 0.2, 1 1")
+            })
+        })
+        .collect()
+}
