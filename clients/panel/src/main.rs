@@ -11,6 +11,7 @@ mod icons;
 mod link;
 mod log_view;
 mod map;
+mod mixes;
 mod rooms_view;
 mod status_view;
 mod store;

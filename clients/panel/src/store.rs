@@ -13,9 +13,13 @@ use rvac_api::Update as Message;
 use crate::drive::Seat;
 use crate::link::Link;
 use crate::map::{MapHandle, Orders};
+use crate::mixes::Bench;
 
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
+
+/// Number of the request that keeps a mix.
+const MIX_ID: u32 = 3;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -51,6 +55,8 @@ pub(crate) struct Store {
     pub(crate) refusal: RwSignal<Option<Failure>>,
     /// Who drives, and by which mix.
     pub(crate) seat: Seat,
+    /// The mix that is edited.
+    pub(crate) bench: Bench,
     /// The map.
     pub(crate) map: StoredValue<MapHandle, LocalStorage>,
     /// The connection to the server.
@@ -74,6 +80,7 @@ impl Store {
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
             seat: Seat::new(),
+            bench: Bench::new(),
             map: StoredValue::new_local(MapHandle::default()),
             link: StoredValue::new_local(Link::default()),
         }
@@ -117,6 +124,32 @@ impl Store {
     /// All inputs are lost: whatever is held is let go, and says so at once.
     pub(crate) fn let_go(self) {
         self.send_steered(self.seat.lose());
+    }
+
+    /// Looks at all inputs for the mix that is edited.
+    pub(crate) fn edit_step(self) {
+        let (steered, now_us) = self.seat.step_aside();
+        self.send_steered(steered);
+        self.seat
+            .driver
+            .with_value(|driver| self.bench.step(now_us, driver.readings()));
+    }
+
+    /// Asks the robot to keep the mix that is edited.
+    pub(crate) fn save_mix(self) {
+        if let Some(profile) = self.bench.profile_to_save() {
+            self.refusal.set(None);
+            self.send(Some(MIX_ID), RequestBody::SaveMix { profile });
+        }
+    }
+
+    fn on_done(self, id: u32) {
+        if id == MIX_ID
+            && let Some(name) = self.bench.on_kept()
+        {
+            self.seat.choose(Some(name));
+            self.send(None, RequestBody::Mixes);
+        }
     }
 
     fn send_steered(self, steered: Steered) {
@@ -212,7 +245,8 @@ impl Store {
             Message::Maps { maps } => self.maps.set(maps),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
-            Message::Schedules(_) | Message::Done { .. } | Message::Packet { .. } => {}
+            Message::Done { id } => self.on_done(id),
+            Message::Schedules(_) | Message::Packet { .. } => {}
         }
     }
 

@@ -85,6 +85,11 @@ impl Driver {
         Ok(())
     }
 
+    /// Takes the keys of a mix that is edited, so that its bars follow them.
+    pub fn take_keys_of(&mut self, profile: &Profile) {
+        self.keys = keys_of(profile);
+    }
+
     /// The mix that drives.
     #[must_use]
     pub const fn profile(&self) -> &Profile {
@@ -171,6 +176,11 @@ impl Driver {
     /// Every input is lost at this moment: the page is away, or the robot.
     pub fn lose(&mut self, now_us: u64) -> Steered {
         self.let_go();
+        self.stand_by(now_us)
+    }
+
+    /// Nothing drives at this moment, whatever hands do.
+    pub fn stand_by(&mut self, now_us: u64) -> Steered {
         let nothing = Readings::default();
         // Nothing is driven, so no speed is asked for.
         self.pilot.step(now_us, &nothing, top_speeds(None))

@@ -13,6 +13,8 @@ pub(super) fn watch(store: Store) {
     let step = move || {
         if is_away() {
             store.let_go();
+        } else if store.bench.is_open() {
+            store.edit_step();
         } else {
             store.drive();
         }

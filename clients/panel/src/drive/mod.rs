@@ -10,6 +10,7 @@ mod tilt;
 use leptos::prelude::*;
 use panel_logic::{Driver, Offer};
 
+use crate::mixes::MixEditor;
 use crate::store::Store;
 use choice::MixChoice;
 use pad::Pad;
@@ -23,6 +24,7 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
     let seat = store.seat;
     let offer = Memo::new(move |_| store.offers().drive);
     let why = move || match offer.get() {
+        _ if store.bench.is_open_now() => "While mixes are edited nothing drives: move what you like.",
         Offer::NotNow(why) => why,
         Offer::Ready | Offer::Absent => {
             "Hold the knob, move a gamepad's stick, or focus the pad and hold W\u{a0}A\u{a0}S\u{a0}D or arrow keys. \
@@ -35,8 +37,18 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
             <p class="hint" id="drive-hint">{why}</p>
             <Cleaners store />
             <MixChoice seat />
+            <button
+                type="button"
+                class="small"
+                id="edit-mixes"
+                aria-expanded=move || if store.bench.is_open_now() { "true" } else { "false" }
+                on:click=move |_| store.bench.toggle(seat)
+            >
+                {move || if store.bench.is_open_now() { "Close the editor" } else { "Edit mixes" }}
+            </button>
             <Hands seat />
         </div>
+        <Show when=move || store.bench.is_open_now()><MixEditor store /></Show>
     }
 }
 

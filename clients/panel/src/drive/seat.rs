@@ -69,20 +69,12 @@ impl Seat {
         self.driver.update_value(Driver::let_go);
     }
 
-    /// Looks at all inputs.
+    /// Looks at all inputs, and drives by them.
     pub(crate) fn step(self, top: TopSpeeds) -> Steered {
-        let now = now_ms();
-        let pads = gamepads::read();
-        if self.pads.with_untracked(|names| *names != pads.names) {
-            self.pads.set(pads.names);
-        }
-        let stepped = self.driver.try_update_value(|driver| {
-            if driver.readings().pads != pads.readings {
-                self.note_input(pads.time_ms.unwrap_or(now));
-            }
-            driver.set_pads(pads.readings);
-            driver.step(micros(now), top)
-        });
+        let now = self.look();
+        let stepped = self
+            .driver
+            .try_update_value(|driver| driver.step(micros(now), top));
         let steered = stepped.unwrap_or_else(|| Driver::default().step(0, top_speeds(None)));
         let input_ms = self.input_ms.get_value();
         let began_ms = if now - input_ms < FRESH_MS { input_ms } else { now };
@@ -93,6 +85,29 @@ impl Seat {
             self.is_live.set(is_live);
         }
         steered
+    }
+
+    /// Looks at all inputs for a mix that is edited: nothing drives by them.
+    pub(crate) fn step_aside(self) -> (Steered, u64) {
+        let now_us = micros(self.look());
+        let stepped = self.driver.try_update_value(|driver| driver.stand_by(now_us));
+        (stepped.unwrap_or_else(|| Driver::default().stand_by(0)), now_us)
+    }
+
+    /// Reads the gamepads; the time of it.
+    fn look(self) -> f64 {
+        let now = now_ms();
+        let pads = gamepads::read();
+        if self.pads.with_untracked(|names| *names != pads.names) {
+            self.pads.set(pads.names);
+        }
+        self.driver.update_value(|driver| {
+            if driver.readings().pads != pads.readings {
+                self.note_input(pads.time_ms.unwrap_or(now));
+            }
+            driver.set_pads(pads.readings);
+        });
+        now
     }
 
     /// Everything is let go, and must come to rest before it counts again.
@@ -143,15 +158,21 @@ impl Seat {
     }
 
     /// The mix that shall drive, as the robot keeps it now.
-    fn apply(self) {
+    pub(crate) fn shall_drive(self) -> Profile {
         let chosen = self.chosen.get_untracked();
         let found = self.kept.with_untracked(|kept| {
             kept.iter()
                 .find(|profile| Some(&profile.name) == chosen.as_ref())
                 .cloned()
         });
-        let profile = found.unwrap_or_else(standard_profile);
+        found.unwrap_or_else(standard_profile)
+    }
+
+    /// Drives by the mix that shall drive.
+    pub(crate) fn apply(self) {
+        let profile = self.shall_drive();
         self.driver.update_value(|driver| {
+            driver.take_keys_of(&profile);
             if *driver.profile() != profile
                 && let Err(error) = driver.take_mix(profile)
             {

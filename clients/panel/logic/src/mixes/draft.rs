@@ -106,6 +106,11 @@ impl MixDraft {
         self.is_kept = true;
     }
 
+    /// The robot keeps it no more.
+    pub fn on_removed(&mut self) {
+        self.is_kept = false;
+    }
+
     /// A person wrote this into a field.
     pub fn set(&mut self, field: Field, text: &str) {
         match field.set(&mut self.profile, text) {

@@ -1,0 +1,91 @@
+//! Calibrated inputs of the mix.
+
+use leptos::prelude::*;
+use panel_logic::{CalibrationRun, Field, Group, InputPart};
+
+use super::bars::Bar;
+use super::field_view::FieldView;
+use super::{Bench, group_problem};
+
+#[component]
+pub(super) fn Inputs(bench: Bench) -> impl IntoView {
+    let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().inputs.len()));
+    let add = move |_| bench.rearrange(panel_logic::MixDraft::add_input);
+    view! {
+        <ol class="inputs">
+            <For each=move || 0..count.get() key=|input| *input let:input>
+                <InputView bench input />
+            </For>
+        </ol>
+        <button type="button" class="small" id="add-input" on:click=add>"Add an input"</button>
+    }
+}
+
+#[component]
+fn InputView(bench: Bench, input: usize) -> impl IntoView {
+    let open = RwSignal::new(false);
+    let group = Group::Input(input);
+    let source = Memo::new(move |_| {
+        bench.of_draft(|draft| {
+            draft
+                .profile()
+                .inputs
+                .get(input)
+                .map(|calibration| calibration.input.clone())
+        })
+    });
+    let name = move || source.get().map(|source| source.to_string());
+    let value = Signal::derive(move || {
+        let source = source.get()?;
+        bench.readings.with(|readings| readings.value(&source))
+    });
+    view! {
+        <li>
+            <button
+                type="button"
+                class="unfold"
+                aria-expanded=move || if open.get() { "true" } else { "false" }
+                on:click=move |_| open.update(|open| *open = !*open)
+            >
+                <span class="name">{name}</span>
+            </button>
+            {group_problem(bench, group)}
+            <Show when=move || open.get()>
+                <Bar label="Reading" value />
+                <CalibrateButton bench input />
+                <div class="mix-fields">
+                    {InputPart::ALL
+                        .map(|part| view! { <FieldView bench field=Field::Input(input, part) /> })
+                        .collect_view()}
+                </div>
+                <button type="button" class="small" on:click=move |_| bench.remove(group)>
+                    "Read this input as it is"
+                </button>
+            </Show>
+        </li>
+    }
+}
+
+#[component]
+fn CalibrateButton(bench: Bench, input: usize) -> impl IntoView {
+    let own = move || {
+        bench.run.with(|run| {
+            run.as_ref()
+                .filter(|run| run.place == input)
+                .map(CalibrationRun::text)
+        })
+    };
+    view! {
+        <div class="mix-tools">
+            <button
+                type="button"
+                class="small"
+                id=format!("calibrate-{input}")
+                on:click=move |_| bench.toggle_calibration(input)
+            >
+                {move || if own().is_some() { "Take these ends" } else { "Let go of it, then calibrate" }}
+            </button>
+        </div>
+        <p class="hint" role="status">{own}</p>
+    }
+}

@@ -1,0 +1,85 @@
+//! Lines of an output.
+
+use leptos::prelude::*;
+use panel_logic::{Field, Group, LinePart};
+
+use super::bars::Bar;
+use super::field_view::FieldView;
+use super::{Bench, group_problem};
+
+#[component]
+pub(super) fn Lines(bench: Bench, output: usize) -> impl IntoView {
+    let count = Memo::new(move |_| {
+        bench.of_draft(|draft| {
+            let outputs = &draft.profile().outputs;
+            outputs.get(output).map_or(0, |output| output.lines.len())
+        })
+    });
+    let add = move |_| bench.rearrange(|draft| draft.add_line(output).unwrap_or_default());
+    view! {
+        <ol class="lines">
+            <For each=move || 0..count.get() key=|line| *line let:line>
+                <LineView bench output line />
+            </For>
+        </ol>
+        <button type="button" class="small" id=format!("add-line-{output}") on:click=add>"Add a line"</button>
+    }
+}
+
+#[component]
+fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
+    let open = RwSignal::new(false);
+    let text = move |part| {
+        Memo::new(move |_| bench.of_draft(|draft| Field::Line(output, line, part).text(draft.profile())))
+    };
+    let (name, input) = (text(LinePart::Name), text(LinePart::Input));
+    let group = Group::Line(output, line);
+    let total = Signal::derive(move || bench.stages(output, line).map(|stages| stages.total));
+    view! {
+        <li>
+            <button
+                type="button"
+                class="unfold"
+                id=format!("line-{output}-{line}")
+                aria-expanded=move || if open.get() { "true" } else { "false" }
+                on:click=move |_| open.update(|open| *open = !*open)
+            >
+                <span class="name">{name}</span>
+                <span class="words">{input}</span>
+            </button>
+            {group_problem(bench, group)}
+            <Show when=move || open.get()>
+                <Stages bench output line />
+                <Bar label="With those above" value=total />
+                <div class="mix-fields">
+                    {LinePart::ALL
+                        .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })
+                        .collect_view()}
+                </div>
+                <div class="mix-tools">
+                    <button
+                        type="button"
+                        class="small"
+                        aria-disabled=if line == 0 { "true" } else { "false" }
+                        on:click=move |_| bench.rearrange(|draft| draft.move_up(group))
+                    >
+                        "Move up"
+                    </button>
+                    <button type="button" class="small" on:click=move |_| bench.remove(group)>"Remove this line"</button>
+                </div>
+            </Show>
+        </li>
+    }
+}
+
+/// What the line makes of its input, one stage after the other.
+#[component]
+fn Stages(bench: Bench, output: usize, line: usize) -> impl IntoView {
+    let stages = move || bench.stages(output, line);
+    view! {
+        <Bar label="Input" value=Signal::derive(move || stages().and_then(|stages| stages.input)) />
+        <Bar label="Shaped" value=Signal::derive(move || stages().map(|stages| stages.shaped)) />
+        <Bar label="Weighted" value=Signal::derive(move || stages().map(|stages| stages.weighted)) />
+        <Bar label="After slow" value=Signal::derive(move || stages().map(|stages| stages.slowed)) />
+    }
+}

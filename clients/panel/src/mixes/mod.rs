@@ -1,0 +1,81 @@
+//! The editor of control mixes: outputs with their lines, switches, calibrations, each with bars that follow the inputs.
+
+mod bars;
+mod bench;
+mod field_view;
+mod inputs_view;
+mod lines_view;
+mod outputs_view;
+mod switches_view;
+mod tools;
+
+use leptos::ev;
+use leptos::prelude::*;
+use mixer::MixState;
+use panel_logic::{Field, Group};
+
+use crate::store::Store;
+use field_view::FieldView;
+use inputs_view::Inputs;
+use outputs_view::Outputs;
+use switches_view::Switches;
+use tools::{SaveBar, Tools};
+
+pub(crate) use bench::Bench;
+
+#[component]
+pub(crate) fn MixEditor(store: Store) -> impl IntoView {
+    let bench = store.bench;
+    listen_to_keys(bench);
+    let state = move || match bench.live.with(|live| live.as_ref().map(|mixed| mixed.state)) {
+        Some(MixState::Live) => "",
+        Some(MixState::Failsafe) => {
+            "The mix waits until every input is at rest: outputs give their failsafe."
+        }
+        None => "The bars stand until what is wrong is corrected.",
+    };
+    view! {
+        <section class="mixes" id="mixes" aria-label="Editor of control mixes">
+            <Tools store />
+            <FieldView bench field=Field::MixName />
+            <p class="hint" role="status" id="mix-state">{state}</p>
+            <h3>"Outputs"</h3>
+            <Outputs bench />
+            <h3>"Switches"</h3>
+            <Switches bench />
+            <h3>"Calibrated inputs"</h3>
+            <Inputs bench />
+            <SaveBar store />
+        </section>
+    }
+}
+
+/// While a field waits for an input every key but Tab and Escape is one.
+fn listen_to_keys(bench: Bench) {
+    let down = window_event_listener(ev::keydown, move |event| match event.code().as_str() {
+        "Tab" => {}
+        "Escape" => bench.learning.set(None),
+        code => {
+            if bench.press_key(code) {
+                event.prevent_default();
+            }
+        }
+    });
+    let up = window_event_listener(ev::keyup, move |event| {
+        bench.lift_key(&event.code());
+    });
+    on_cleanup(move || {
+        down.remove();
+        up.remove();
+    });
+}
+
+/// What is wrong with a group as a whole.
+fn group_problem(bench: Bench, group: Group) -> impl IntoView {
+    let problem = Memo::new(move |_| bench.of_draft(|draft| draft.problem_with(group)));
+    view! {
+        <Show when=move || problem.with(Option::is_some)>
+            <p class="problem" role="alert">{move || problem.get()}</p>
+        </Show>
+    }
+}

@@ -1,0 +1,65 @@
+//! Switches of the mix.
+
+use leptos::prelude::*;
+use panel_logic::{Field, Group, SwitchPart};
+
+use super::field_view::FieldView;
+use super::{Bench, group_problem};
+
+#[component]
+pub(super) fn Switches(bench: Bench) -> impl IntoView {
+    let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().switches.len()));
+    let add = move |_| bench.rearrange(|draft| draft.add_switch().unwrap_or_default());
+    view! {
+        <ol class="switches">
+            <For each=move || 0..count.get() key=|switch| *switch let:switch>
+                <SwitchView bench switch />
+            </For>
+        </ol>
+        <button type="button" class="small" id="add-switch" on:click=add>"Add a switch"</button>
+    }
+}
+
+#[component]
+fn SwitchView(bench: Bench, switch: usize) -> impl IntoView {
+    let group = Group::Switch(switch);
+    let is_on = Memo::new(move |_| {
+        let live = |mixed: &mixer::Mixed| mixed.switches.get(switch).copied();
+        bench
+            .live
+            .with(|live_now| live_now.as_ref().and_then(live))
+            .unwrap_or(false)
+    });
+    let parts = Memo::new(move |_| {
+        bench.of_draft(|draft| {
+            let found = draft.profile().switches.get(switch);
+            found
+                .map(|switch| SwitchPart::of(&switch.on).to_vec())
+                .unwrap_or_default()
+        })
+    });
+    view! {
+        <li>
+            <p class="switch-state" class:on=move || is_on.get()>
+                {move || if is_on.get() { "On now" } else { "Off now" }}
+            </p>
+            {group_problem(bench, group)}
+            <div class="mix-fields">
+                <For each=move || parts.get() key=|part| *part let:part>
+                    <FieldView bench field=Field::Switch(switch, part) />
+                </For>
+            </div>
+            <div class="mix-tools">
+                <button
+                    type="button"
+                    class="small"
+                    aria-disabled=if switch == 0 { "true" } else { "false" }
+                    on:click=move |_| bench.rearrange(|draft| draft.move_up(group))
+                >
+                    "Move up"
+                </button>
+                <button type="button" class="small" on:click=move |_| bench.remove(group)>"Remove this switch"</button>
+            </div>
+        </li>
+    }
+}

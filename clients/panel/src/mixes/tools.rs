@@ -1,0 +1,203 @@
+//! What is done with whole mixes: choose, new, copy, delete, import, export, save, revert.
+
+use leptos::prelude::*;
+use mixer::{PROFILE_BYTES_MAX, Profile, ProfileError, standard_profile};
+use panel_logic::MixDraft;
+use rvac_api::RequestBody;
+use wasm_bindgen::JsCast;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{File, HtmlInputElement};
+
+use super::Bench;
+use crate::store::Store;
+
+#[component]
+pub(super) fn Tools(store: Store) -> impl IntoView {
+    let (bench, kept) = (store.bench, store.seat.kept);
+    let is_changed = Memo::new(move |_| bench.of_draft(MixDraft::is_changed));
+    let choose = move |event| {
+        let wanted = event_target_value(&event);
+        let found = kept.with_untracked(|kept| kept.iter().find(|mix| mix.name.as_str() == wanted).cloned());
+        match found {
+            Some(profile) => bench.load(MixDraft::of_kept(profile)),
+            None => load_copy(store, &standard_profile()),
+        }
+    };
+    let option = move |profile: Profile| {
+        let name = profile.name.to_string();
+        let own = name.clone();
+        let is_edited =
+            move || bench.of_draft(|draft| !draft.is_unsaved() && draft.profile().name.as_str() == own);
+        view! { <option value=name.clone() selected=is_edited>{name.clone()}</option> }
+    };
+    let copy = move |_| {
+        if let Some(profile) = bench
+            .draft
+            .with_untracked(|draft| draft.as_ref().map(|draft| draft.profile().clone()))
+        {
+            load_copy(store, &profile);
+        }
+    };
+    let new = move |_| {
+        if let Ok(draft) = MixDraft::empty(&kept.get_untracked()) {
+            bench.load(draft);
+        }
+    };
+    view! {
+        <label class="field">
+            "Mix to edit"
+            <select id="mix-to-edit" disabled=move || is_changed.get() on:change=choose>
+                <option value="">"A copy of the standard one"</option>
+                {move || kept.get().into_iter().map(option).collect_view()}
+            </select>
+        </label>
+        <Show when=move || is_changed.get()>
+            <p class="hint">"Save or revert before another mix is taken."</p>
+        </Show>
+        <div class="mix-tools">
+            <button type="button" class="small" id="mix-new" disabled=move || is_changed.get() on:click=new>"New"</button>
+            <button type="button" class="small" id="mix-copy" disabled=move || is_changed.get() on:click=copy>"Copy"</button>
+            <DeleteButton store />
+            <ImportButton bench is_changed />
+            <ExportLink bench />
+        </div>
+        <Show when=move || bench.remark.with(Option::is_some)>
+            <p class="remark" id="mix-remark" role="status">{move || bench.remark.get()}</p>
+        </Show>
+    }
+}
+
+fn load_copy(store: Store, profile: &Profile) {
+    if let Ok(draft) = MixDraft::copy_of(profile, &store.seat.kept.get_untracked()) {
+        store.bench.load(draft);
+    }
+}
+
+/// Removes the mix from the robot; what is on the screen stays, so that it can be saved again.
+#[component]
+fn DeleteButton(store: Store) -> impl IntoView {
+    let bench = store.bench;
+    let name = Memo::new(move |_| bench.of_draft(|draft| draft.profile().name.to_string()));
+    let is_kept = Memo::new(move |_| {
+        let name = name.get();
+        store
+            .seat
+            .kept
+            .with(|kept| kept.iter().any(|mix| mix.name.as_str() == name))
+    });
+    let remove = move |_| {
+        let name = name.get_untracked();
+        bench.remark.set(Some(format!(
+            "{name} is removed from the robot; Save keeps it again."
+        )));
+        store.ask(RequestBody::RemoveMix { name });
+        store.ask_quietly(RequestBody::Mixes);
+        bench.change(MixDraft::on_removed);
+    };
+    view! {
+        <Show when=move || is_kept.get()>
+            <button type="button" class="small" id="mix-delete" on:click=remove>"Delete"</button>
+        </Show>
+    }
+}
+
+#[component]
+fn ImportButton(bench: Bench, is_changed: Memo<bool>) -> impl IntoView {
+    let field = NodeRef::<leptos::html::Input>::new();
+    let open = move |_| {
+        if let Some(field) = field.get_untracked() {
+            field.click();
+        }
+    };
+    let read = move |event: leptos::ev::Event| {
+        let field = event
+            .target()
+            .and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
+        let Some(field) = field else { return };
+        let file = field.files().and_then(|files| files.get(0));
+        if let Some(file) = file {
+            leptos::task::spawn_local(async move { import(bench, &file).await });
+        }
+        // The same file can be chosen again after it was corrected.
+        field.set_value("");
+    };
+    view! {
+        <button type="button" class="small" id="mix-import" disabled=move || is_changed.get() on:click=open>"Import"</button>
+        <input
+            node_ref=field
+            type="file"
+            id="mix-file"
+            accept="application/json,.json"
+            class="visually-hidden"
+            tabindex="-1"
+            aria-label="File of a control mix"
+            on:change=read
+        />
+    }
+}
+
+async fn import(bench: Bench, file: &File) {
+    let outcome = match read_text(file).await {
+        Ok(text) => MixDraft::import(&text).map_err(|error| error.to_string()),
+        Err(sentence) => Err(sentence),
+    };
+    match outcome {
+        Ok(draft) => bench.load(draft),
+        Err(sentence) => bench.remark.set(Some(format!("{}: {sentence}.", file.name()))),
+    }
+}
+
+async fn read_text(file: &File) -> Result<String, String> {
+    // What is far too large is not even read.
+    let bytes = file.size() as usize;
+    if bytes > 8 * PROFILE_BYTES_MAX {
+        return Err(ProfileError::TooLarge { bytes }.to_string());
+    }
+    let text = JsFuture::from(file.text()).await;
+    let text = text.ok().and_then(|text| text.as_string());
+    text.ok_or_else(|| "the browser cannot read the file: choose it again".to_owned())
+}
+
+#[component]
+fn ExportLink(bench: Bench) -> impl IntoView {
+    let name = move || bench.of_draft(|draft| format!("{}.json", draft.profile().name));
+    let address = move || {
+        let text = bench.of_draft(|draft| draft.profile().to_pretty_json());
+        let text: String = js_sys::encode_uri_component(&text).into();
+        format!("data:application/json;charset=utf-8,{text}")
+    };
+    view! { <a class="small link" id="mix-export" download=name href=address>"Export"</a> }
+}
+
+#[component]
+pub(super) fn SaveBar(store: Store) -> impl IntoView {
+    let bench = store.bench;
+    let problem = Memo::new(move |_| bench.of_draft(MixDraft::problem));
+    let can_save = Memo::new(move |_| problem.with(Option::is_none) && bench.of_draft(MixDraft::is_unsaved));
+    let is_changed = Memo::new(move |_| bench.of_draft(MixDraft::is_changed));
+    view! {
+        <div class="save-bar">
+            <p class="problem" id="mix-problem" role="status">{move || problem.get()}</p>
+            <div class="mix-tools">
+                <button
+                    type="button"
+                    class="small strong"
+                    id="mix-save"
+                    disabled=move || !can_save.get()
+                    on:click=move |_| store.save_mix()
+                >
+                    "Save to the robot"
+                </button>
+                <button
+                    type="button"
+                    class="small"
+                    id="mix-revert"
+                    disabled=move || !is_changed.get()
+                    on:click=move |_| bench.rearrange(MixDraft::revert)
+                >
+                    "Revert"
+                </button>
+            </div>
+        </div>
+    }
+}
