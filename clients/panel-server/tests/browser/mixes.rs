@@ -24,6 +24,7 @@ const ACROSS: u8 = 0;
 const ALONG: u8 = 1;
 const EAST: u8 = 1;
 const START: u8 = 9;
+const RIGHT_ALONG: u8 = 3;
 
 async fn plug_in(browser: &Browser) {
     browser.text(PAD).await;
@@ -132,3 +133,142 @@ async fn feel_a_wall(browser: &Browser) {
     let rest = format!("clearInterval(window.rests); stick({ALONG}, 0); return ''");
     browser.text(&rest).await;
 }
+
+/// Writes into a field as a person does.
+async fn write(browser: &Browser, id: &str, text: &str) {
+    let script = format!(
+        "const field = document.getElementById('{id}'); field.focus(); field.value = '{text}';
+         field.dispatchEvent(new Event('input', {{ bubbles: true }})); return ''"
+    );
+    browser.text(&script).await;
+}
+
+async fn holds(browser: &Browser, id: &str, text: &str) {
+    browser
+        .until(&format!(
+            "return document.getElementById('{id}')?.value === '{text}'"
+        ))
+        .await;
+}
+
+/// Opens the editor, and in it the first line of the output that turns.
+async fn open_line(browser: &Browser) {
+    browser.click("#edit-mixes").await;
+    browser
+        .until("return document.querySelector('[data-output=turn] .unfold') !== null")
+        .await;
+    browser.click("[data-output=turn] .unfold").await;
+    browser.click("#line-1-0").await;
+    browser
+        .until("return document.getElementById('line-1-0-weight') !== null")
+        .await;
+}
+
+async fn says(browser: &Browser, id: &str, words: &str) {
+    browser
+        .until(&format!(
+            "return document.getElementById('{id}')?.textContent.includes('{words}')"
+        ))
+        .await;
+}
+
+#[tokio::test]
+async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    plug_in(browser).await;
+    open_line(browser).await;
+    holds(browser, "mix-name", "My mix").await;
+
+    browser.click("#line-1-0-input-set").await;
+    stick(browser, RIGHT_ALONG, 1.0).await;
+    holds(browser, "line-1-0-input", "pad-0-axis-3").await;
+    stick(browser, RIGHT_ALONG, 0.0).await;
+
+    write(browser, "line-1-0-weight", "3").await;
+    says(browser, "line-1-0-weight-problem", "write a number from -2 to 2").await;
+    browser
+        .until("return document.getElementById('mix-save').disabled")
+        .await;
+    browser.shot("desktop-mix-wrong").await;
+    write(browser, "line-1-0-weight", "0.5").await;
+    browser
+        .until("return document.getElementById('mix-state').textContent === ''")
+        .await;
+    stick(browser, RIGHT_ALONG, 1.0).await;
+    // The line is inverted, so that right is clockwise.
+    browser
+        .until("return document.querySelector('[data-output=turn] [role=meter]').ariaValueNow === '-50'")
+        .await;
+    assert!(
+        !witness.moves_within(Duration::from_secs(1)),
+        "the robot follows a mix that is edited"
+    );
+    browser.shot("desktop-mixes").await;
+    stick(browser, RIGHT_ALONG, 0.0).await;
+
+    browser.click("#mix-save").await;
+    says(browser, "mix-remark", "is kept by the robot").await;
+    write(browser, "line-1-0-weight", "1").await;
+    browser.click("#mix-revert").await;
+    holds(browser, "line-1-0-weight", "0.5").await;
+
+    browser.reload().await;
+    browser.until_state(&["idle", "docked"]).await;
+    holds(browser, "mix", "My mix").await;
+    open_line(browser).await;
+    holds(browser, "line-1-0-input", "pad-0-axis-3").await;
+    holds(browser, "line-1-0-weight", "0.5").await;
+
+    import(
+        browser,
+        r#"{"version":1,"name":"a","outputs":[{"output":"fly"}]}"#,
+    )
+    .await;
+    says(browser, "mix-remark", "broken.json: line 1, column").await;
+    browser.click("#mix-delete").await;
+    browser
+        .until("return [...document.querySelectorAll('#mix option')].length === 1")
+        .await;
+}
+
+/// Chooses a file with this text.
+async fn import(browser: &Browser, text: &str) {
+    let script = format!(
+        "const files = new DataTransfer(); files.items.add(new File(['{text}'], 'broken.json'));
+         const field = document.getElementById('mix-file'); field.files = files.files;
+         field.dispatchEvent(new Event('change', {{ bubbles: true }})); return ''"
+    );
+    browser.text(&script).await;
+}
+
+#[tokio::test]
+async fn a_phone_in_the_dark_edits_mixes_without_sideways_scrolling() {
+    let Some(visit) = Visit::begin(Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#theme").await;
+    open_line(browser).await;
+    browser.shot("phone-mixes-dark").await;
+    let wide = browser
+        .text("return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)")
+        .await;
+    assert_eq!(
+        wide, "0",
+        "the page is wider than the phone while mixes are edited"
+    );
+    let small = browser.text(crate::SMALL_TARGETS).await;
+    assert_eq!(small, "", "controls that a thumb misses");
+    let nameless = browser.text(NAMELESS).await;
+    assert_eq!(nameless, "", "fields that a screen reader cannot name");
+}
+
+/// Fields and bars without a label.
+const NAMELESS: &str = "
+    const named = (element) => element.ariaLabel || element.labels?.length > 0;
+    return [...document.querySelectorAll('#mixes :is(input, select, [role=meter])')]
+        .filter((element) => !named(element)).map((element) => element.id || element.className).join(', ')";

@@ -11,7 +11,7 @@ pub(super) fn Bar(label: &'static str, value: Signal<Option<f64>>) -> impl IntoV
     let text = move || {
         shown
             .get()
-            .map_or_else(|| "absent".to_owned(), |percent| format!("{percent:.0} %"))
+            .map_or_else(|| "none".to_owned(), |percent| format!("{percent:.0} %"))
     };
     view! {
         <div

@@ -50,7 +50,7 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Stages bench output line />
-                <Bar label="With those above" value=total />
+                <Bar label="So far" value=total />
                 <div class="mix-fields">
                     {LinePart::ALL
                         .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })

@@ -20,7 +20,7 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
             bench.rearrange(|draft| draft.add_output(name));
         }
     };
-    let option = |name: OutputName| view! { <option value=name.name()>{name.name()}</option> };
+    let option = |name: OutputName| view! { <option value=name.name()>{words(name.name())}</option> };
     view! {
         <ol class="outputs">
             <For each=move || 0..count.get() key=|output| *output let:output>
@@ -37,6 +37,11 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
             </label>
         </Show>
     }
+}
+
+/// The name of an output as people write it.
+fn words(name: &'static str) -> String {
+    name.replace('-', " ")
 }
 
 #[component]
@@ -58,7 +63,7 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
                 aria-expanded=move || if open.get() { "true" } else { "false" }
                 on:click=move |_| open.update(|open| *open = !*open)
             >
-                <span class="name">{move || name.get()}</span>
+                <span class="name">{move || name.get().map(words)}</span>
             </button>
             <Bar label="Output" value />
             {group_problem(bench, group)}

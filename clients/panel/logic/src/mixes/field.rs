@@ -2,7 +2,8 @@
 
 use mixer::Profile;
 
-use super::parts::{CONDITIONS, InputPart, LinePart, OutputPart, SwitchPart, name};
+use super::parts::{InputPart, LinePart, OutputPart, name};
+use super::switch_part::{CONDITIONS, SwitchPart};
 
 /// A field; outputs, lines, switches and inputs are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

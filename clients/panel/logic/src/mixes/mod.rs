@@ -4,8 +4,12 @@ mod draft;
 mod field;
 mod learning;
 mod parts;
+mod switch_part;
+#[cfg(test)]
+mod tests;
 
 pub use draft::MixDraft;
 pub use field::{Field, FieldKind, Group};
 pub use learning::{CalibrationRun, Learning};
-pub use parts::{InputPart, LinePart, OutputPart, SwitchPart};
+pub use parts::{InputPart, LinePart, OutputPart};
+pub use switch_part::SwitchPart;

@@ -1,0 +1,185 @@
+//! The form as a person uses it.
+
+use super::{CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart};
+use mixer::{PadReading, Readings, Source, standard_profile};
+
+fn draft() -> MixDraft {
+    MixDraft::of_kept(standard_profile())
+}
+
+fn fields(draft: &MixDraft) -> Vec<Field> {
+    let profile = draft.profile();
+    let mut all = vec![Field::MixName];
+    for (number, output) in profile.outputs.iter().enumerate() {
+        all.extend(OutputPart::ALL.map(|part| Field::Output(number, part)));
+        for line in 0..output.lines.len() {
+            all.extend(LinePart::ALL.map(|part| Field::Line(number, line, part)));
+        }
+    }
+    for (number, switch) in profile.switches.iter().enumerate() {
+        all.extend(
+            SwitchPart::of(&switch.on)
+                .iter()
+                .map(|part| Field::Switch(number, *part)),
+        );
+    }
+    for number in 0..profile.inputs.len() {
+        all.extend(InputPart::ALL.map(|part| Field::Input(number, part)));
+    }
+    all
+}
+
+#[test]
+fn every_field_gives_back_what_it_shows() {
+    let mut draft = draft();
+    for field in fields(&draft) {
+        draft.set(field, &field.text(draft.profile()));
+    }
+    assert!(!draft.is_changed(), "{:?}", draft.problem());
+    assert!(!draft.is_unsaved());
+}
+
+#[test]
+fn what_is_wrong_is_told_beside_its_field_and_reverted() {
+    for (field, text, words) in [
+        (Field::MixName, "a/b", "is no name"),
+        (Field::Line(0, 1, LinePart::Weight), "3", "from -2 to 2"),
+        (Field::Line(0, 1, LinePart::Weight), "much", "from -2 to 2"),
+        (Field::Line(0, 1, LinePart::Input), "stick", "is no input"),
+        (
+            Field::Line(0, 1, LinePart::Curve),
+            "0 0, 1 1",
+            "rise from -1 to 1",
+        ),
+        (Field::Line(0, 1, LinePart::Curve), "0", "is no point"),
+        (Field::Line(0, 1, LinePart::DelayMs), "-1", "whole milliseconds"),
+        (Field::Line(0, 1, LinePart::DelayMs), "9000", "from 0 to 5000"),
+        (Field::Line(0, 1, LinePart::SlowUp), "0.1", "0 for at once"),
+        (Field::Output(0, OutputPart::Failsafe), "0.5", "must be 0"),
+        (Field::Output(0, OutputPart::High), "7", "from -1 to 1"),
+        (Field::Switch(0, SwitchPart::Level), "2", "from -1 to 1"),
+        (Field::Input(0, InputPart::DeadBand), "1", "from 0 to 0.9"),
+    ] {
+        let mut draft = draft();
+        draft.set(field, text);
+        let told = draft.problem_of(field).expect("it is wrong");
+        assert!(told.contains(words), "{field:?} = {text}: {told}");
+        assert_eq!(draft.problem(), Some(told));
+        let beside = fields(&draft);
+        let told = beside.iter().filter(|other| draft.problem_of(**other).is_some());
+        assert_eq!(told.count(), 1, "{field:?}: only there");
+        draft.revert();
+        assert_eq!(draft.problem(), None);
+        assert!(!draft.is_unsaved());
+    }
+}
+
+#[test]
+fn what_is_wrong_as_a_whole_is_told_at_its_group() {
+    let mut draft = draft();
+    draft.set(Field::Output(2, OutputPart::Low), "1");
+    assert!(
+        draft
+            .problem_with(Group::Output(2))
+            .is_some_and(|told| told.contains("must rise"))
+    );
+    draft.revert();
+    draft.remove(Group::Switch(0));
+    let line = draft.profile().outputs[0].lines.len() - 1;
+    assert!(
+        draft
+            .problem_with(Group::Line(0, line))
+            .is_some_and(|told| told.contains("slow"))
+    );
+}
+
+#[test]
+fn switches_change_their_kind() {
+    let mut draft = draft();
+    draft.add_switch().expect("a name");
+    for kind in ["all", "any", "not", "toggle", "sticky", "edge", "below", "above"] {
+        draft.set(Field::Switch(1, SwitchPart::Kind), kind);
+        assert_eq!(Field::Switch(1, SwitchPart::Kind).text(draft.profile()), kind);
+        assert_eq!(draft.problem(), None, "{kind}");
+    }
+    draft.set(Field::Switch(1, SwitchPart::Kind), "sticky");
+    draft.set(Field::Switch(1, SwitchPart::Others), "slow");
+    assert!(draft.problem().is_some_and(|told| told.contains("two switches")));
+}
+
+#[test]
+fn lines_are_added_moved_and_removed() {
+    let mut draft = draft();
+    let count = draft.profile().outputs[0].lines.len();
+    draft.add_line(0).expect("a name");
+    draft.move_up(Group::Line(0, count));
+    assert_eq!(
+        draft.profile().outputs[0].lines[count - 1].name.as_str(),
+        "New line"
+    );
+    draft.remove(Group::Line(0, count - 1));
+    assert!(!draft.is_changed());
+    draft.remove(Group::Output(0));
+    draft.add_output(draft.free_outputs()[0]);
+    assert_eq!(draft.problem(), None);
+    assert_eq!(
+        draft.free_outputs().len(),
+        2,
+        "one wheel each is not in the standard mix"
+    );
+}
+
+fn readings(axis: f64) -> Readings {
+    let pad = PadReading {
+        axes: vec![axis],
+        buttons: vec![0.0],
+    };
+    Readings {
+        pads: [(0, pad)].into(),
+        keys: Some([].into()),
+        ..Readings::default()
+    }
+}
+
+#[test]
+fn the_next_input_that_moves_is_learnt() {
+    let field = Field::Line(0, 0, LinePart::Input);
+    let mut learning = Learning::begin(field, &Readings::default());
+    assert_eq!(learning.look(&readings(0.9)), None, "it has just appeared");
+    assert_eq!(
+        learning.look(&readings(0.0)),
+        Some(Source::PadAxis { pad: 0, axis: 0 })
+    );
+}
+
+#[test]
+fn an_axis_is_calibrated_by_its_ends() {
+    let mut draft = draft();
+    let axis = draft.profile().inputs[0].input.clone();
+    assert!(CalibrationRun::begin(0, &axis, &Readings::default()).is_none());
+    let mut run = CalibrationRun::begin(0, &axis, &readings(0.05)).expect("it is there");
+    assert!(
+        draft
+            .calibrate(&run)
+            .is_err_and(|told| told.contains("was not moved"))
+    );
+    for value in [-0.9, 0.8, 0.1] {
+        run.look(&readings(value));
+    }
+    draft.calibrate(&run).expect("it was moved");
+    let found = &draft.profile().inputs[0];
+    assert_eq!([found.low, found.centre, found.high], [-0.9, 0.05, 0.8]);
+    assert_eq!(draft.problem(), None);
+}
+
+#[test]
+fn new_and_copied_mixes_have_free_names() {
+    let first = MixDraft::copy_of(&standard_profile(), &[]).expect("a name");
+    assert_eq!(first.profile().name.as_str(), "My mix");
+    assert!(first.is_unsaved() && !first.is_changed());
+    let second = MixDraft::copy_of(first.profile(), &[first.profile().clone()]).expect("a name");
+    assert_eq!(second.profile().name.as_str(), "My mix 2");
+    assert_eq!(MixDraft::empty(&[]).expect("a name").problem(), None);
+    let error = MixDraft::import("{").expect_err("broken");
+    assert!(error.to_string().contains("line 1"), "{error}");
+}
