@@ -311,5 +311,6 @@ impl Brain {
         };
         let at = estimate.pose.transform(in_base);
         self.map.mark(Mark { at, kind }, seen);
+        self.map.begin_refresh();
     }
 }

@@ -14,6 +14,7 @@ pub mod coverage;
 mod docking;
 pub mod energy;
 pub mod geometry;
+mod gradual;
 pub mod localization;
 mod manoeuvre;
 pub mod mapping;

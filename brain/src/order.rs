@@ -2,7 +2,7 @@
 
 use crate::behavior::Reason;
 use crate::geometry::Point2;
-use crate::mapping::{Cell, CellKnowledge, Map};
+use crate::mapping::{Cell, CellKnowledge, Map, Rooms};
 use crate::no_go::NoGo;
 
 /// Most parts of an order.
@@ -99,9 +99,9 @@ pub enum HomePart {
 
 impl HomePart {
     /// Whether a cell belongs to it.
-    pub(crate) fn contains(&self, cell: Cell, map: &Map) -> bool {
+    pub(crate) fn contains(&self, cell: Cell, rooms: &Rooms) -> bool {
         match self {
-            Self::Room(id) => map.rooms().labels().get(cell) == Some(id),
+            Self::Room(id) => rooms.labels().get(cell) == Some(id),
             Self::Zone(zone) => zone.contains(cell.middle()),
         }
     }
@@ -178,7 +178,7 @@ impl CleaningOrder {
         let has_floor = |part: &HomePart| {
             (0..knowledge.values().len())
                 .filter(|index| knowledge.values().get(*index) == Some(&CellKnowledge::Free))
-                .any(|index| part.contains(knowledge.cell(index), map))
+                .any(|index| part.contains(knowledge.cell(index), map.rooms()))
         };
         for part in &self.parts {
             match part {

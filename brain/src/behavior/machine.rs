@@ -9,6 +9,7 @@ use crate::command::Command;
 use crate::config::BrainConfig;
 use crate::energy::EnergyWatch;
 use crate::geometry::Point2;
+use crate::gradual::Gradual;
 use crate::manoeuvre::BACK_AT_CLIFF_M_PER_S;
 use crate::task::{Mind, Situation};
 
@@ -74,6 +75,8 @@ pub(crate) struct Behavior {
     pub(super) energy: EnergyWatch,
     /// When the way home was looked at last.
     pub(super) way_home_us: Option<u64>,
+    /// Its length is just being looked for.
+    pub(super) way_home: Option<Gradual<Option<f64>>>,
     pub(super) facts: Facts,
     pub(super) cliff_sensor_since_us: Option<u64>,
     pub(super) starved_since_us: Option<u64>,
@@ -108,6 +111,7 @@ impl Behavior {
             put_off: None,
             energy: EnergyWatch::default(),
             way_home_us: None,
+            way_home: None,
             facts: Facts::default(),
             cliff_sensor_since_us: None,
             starved_since_us: None,

@@ -103,6 +103,8 @@ reasons! {
     LongLap => "long-lap",
     /// Floor that was not swept yet.
     UnsweptFloor => "unswept-floor",
+    /// It makes a plan, and has nothing to do until that is made.
+    Planning => "planning",
     /// Too far from the planned way.
     OffTheWay => "off-the-way",
     /// No map of the home to plan on.

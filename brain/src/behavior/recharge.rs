@@ -3,6 +3,8 @@
 //! A cleaning job that ends for the pack's sake is *put off*: a job that looks for the dock takes its place, and on the dock
 //! it comes back and waits until the pack is charged. A lost dock leaves it with a person.
 
+use core::task::Poll;
+
 use super::job::Job;
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
@@ -49,19 +51,31 @@ impl Behavior {
         let Some(charge) = charge.filter(|charge| *charge < LOOK_BELOW) else {
             return false;
         };
-        let now_us = self.facts.now_us;
-        if self
-            .way_home_us
-            .is_some_and(|looked_us| now_us < looked_us + LOOK_US)
-        {
-            return false;
-        }
-        self.way_home_us = Some(now_us);
-        let Some(way_m) = docking::way_home_m(situation) else {
+        let Some(way_m) = self.look_for_home(situation) else {
             return false;
         };
         let cruise_m_per_s = self.config.speeds.cruise_m_per_s;
         f64::from(charge) < self.energy.model().charge_to_return(way_m, cruise_m_per_s)
+    }
+
+    /// Looks now and then how long the way home is, some steps long; gives it when it is found.
+    fn look_for_home(&mut self, situation: &Situation<'_>) -> Option<f64> {
+        if let Some(looking) = &mut self.way_home {
+            let Poll::Ready(way_m) = looking.go_on() else {
+                return None;
+            };
+            self.way_home = None;
+            return way_m;
+        }
+        let now_us = self.facts.now_us;
+        let is_due = self
+            .way_home_us
+            .is_none_or(|looked_us| now_us >= looked_us + LOOK_US);
+        if is_due {
+            self.way_home_us = Some(now_us);
+            self.way_home = docking::way_home_m(situation);
+        }
+        None
     }
 
     /// The running job becomes a search for the dock and keeps its figures. One that ends for the pack's sake is put off.

@@ -1,11 +1,12 @@
 //! What a job will take, before it begins.
 
-use super::plan::{CoveragePlan, PlanSettings, plan_area};
+use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
 use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M, reachable};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
 use crate::energy::{EnergyModel, time_to_return_s};
 use crate::geometry::Pose2;
+use crate::gradual::{Pace, at_once};
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::order::{CleaningOrder, HomePart};
 
@@ -48,7 +49,8 @@ pub(crate) fn estimate(
         turn_rad_per_s: config.speeds.turn_max_rad_per_s,
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
-    let ground = reachable(&knowledge, config.body.radius_m + KEEP_OFF_M, &[]);
+    let radius_m = config.body.radius_m + KEEP_OFF_M;
+    let ground = at_once(reachable(&knowledge, (radius_m, &[]), &mut Pace::at_once()));
     let mut sum = Sum::at(start);
     if order.parts().is_empty() {
         sum.add(part_of((None, order), (map, &ground), sum.pose, &settings));
@@ -125,8 +127,12 @@ fn part_of(
     start: Pose2,
     settings: &PlanSettings,
 ) -> PartEstimate {
-    let wanted = |cell: Cell| part.is_none_or(|part| part.contains(cell, map));
-    let plan = plan_area(ground, (wanted, |_| false), start, settings);
+    let wanted = |cell: Cell| part.is_none_or(|part| part.contains(cell, map.rooms()));
+    let from = Departure {
+        start,
+        settings: *settings,
+    };
+    let plan = at_once(plan_area(ground, (wanted, |_| false), from, &mut Pace::at_once()));
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = order.passes();
     let (kept, kept_low) = kept((map, &wanted), settings, passes);

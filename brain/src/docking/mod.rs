@@ -19,6 +19,7 @@ mod travel;
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Pose2, normalize_rad};
+use crate::gradual::Gradual;
 use crate::task::{Mind, Plan, Situation, Task};
 use approach::{Approach, ApproachStep};
 pub(crate) use memory::BeamMemory;
@@ -230,10 +231,10 @@ impl Docking {
     }
 }
 
-/// Length of the way to the dock by the map in metres; `None` when it is not known.
-pub(crate) fn way_home_m(situation: &Situation<'_>) -> Option<f64> {
+/// Looks for the length of the way to the dock by the map in metres; `None` when it is not known where the dock is.
+pub(crate) fn way_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
     let dock = known_dock(situation).ok()?;
-    travel::way_m(dock, situation)
+    Some(travel::way_m(dock, situation))
 }
 
 /// Pose of a robot on the dock, for one that knows its own place too.

@@ -3,12 +3,16 @@
 //! What stands in the way is remembered for some minutes and gone round; when no way is left the memory is cleared, because
 //! people and chairs move, and the way is tried again. All of it is bounded by counts.
 
+use core::task::Poll;
+
 use crate::action::Motion;
 use crate::behavior::Reason;
-use crate::coverage::plan::{Goal, plan_way};
+use crate::coverage::plan::{Goal, Piece, plan_way};
 use crate::coverage::systematic::{Obstructions, caution, encounter, reachable};
 use crate::geometry::{Point2, Pose2};
+use crate::gradual::{Gradual, Pace};
 use crate::manoeuvre::{Evasion, FollowStep, Follower};
+use crate::mapping::{CellKnowledge, Raster};
 use crate::task::{Mind, Situation};
 
 /// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
@@ -47,6 +51,7 @@ pub(super) struct Travel {
     /// Why it leads there.
     reason: Reason,
     follower: Option<Follower>,
+    planning: Option<Planning>,
     evasion: Option<Evasion>,
     obstructions: Obstructions,
     plans: u32,
@@ -85,6 +90,7 @@ impl Travel {
             keep_off_m,
             reason,
             follower: None,
+            planning: None,
             evasion: None,
             obstructions: Obstructions::default(),
             plans: 0,
@@ -102,6 +108,7 @@ impl Travel {
     /// The robot was moved by somebody else.
     pub(super) fn interrupted(&mut self) {
         self.follower = None;
+        self.planning = None;
         self.evasion = None;
     }
 
@@ -127,13 +134,14 @@ impl Travel {
                 }
             }
         }
-        self.plan(situation, mind)
+        self.plan_on(situation, mind)
     }
 
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
         mind.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
         self.follower = None;
+        self.planning = None;
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(CLIFF_BACK_M, 0.0)
         } else {
@@ -142,29 +150,22 @@ impl Travel {
         TravelStep::Going(Motion::Halt)
     }
 
-    fn plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        let here = situation.pose.position();
-        let is_vain = self
-            .planned_from
-            .is_some_and(|from| from.distance_m(here) < VAIN_M);
-        self.vain = if is_vain { self.vain + 1 } else { 0 };
-        self.planned_from = Some(here);
-        self.plans += 1;
-        if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
-            return TravelStep::Blocked;
+    /// Begins a plan, or goes on with the one that is being made, while the robot stands.
+    fn plan_on(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+        let Some(planning) = &mut self.planning else {
+            return self.begin_plan(situation, mind);
+        };
+        let Poll::Ready(found) = planning.rest.go_on() else {
+            return TravelStep::Going(Motion::Halt);
+        };
+        let is_blocked = planning.is_blocked;
+        self.planning = None;
+        if let Some(pieces) = found {
+            mind.decide("dock-way", self.reason, length_m(&pieces));
+            self.follower = Some(Follower::new(pieces));
+            return TravelStep::Going(Motion::Halt);
         }
-        let blocked = self.obstructions.points(situation.observation.time_us);
-        for keep_off_m in self.keep_off_m {
-            let radius_m = situation.config.body.radius_m + keep_off_m;
-            let ground = reachable(situation.map.knowledge(), radius_m, &blocked);
-            if let Some(pieces) = plan_way(&ground, situation.pose, &self.goals) {
-                let way_m = pieces.iter().map(|piece| piece.length_m).sum();
-                mind.decide("dock-way", self.reason, way_m);
-                self.follower = Some(Follower::new(pieces));
-                return TravelStep::Going(Motion::Halt);
-            }
-        }
-        if blocked.is_empty() || self.forgotten >= FORGET_MAX {
+        if !is_blocked || self.forgotten >= FORGET_MAX {
             return TravelStep::Blocked;
         }
         mind.decide(
@@ -176,14 +177,81 @@ impl Travel {
         self.obstructions.clear();
         TravelStep::Going(Motion::Halt)
     }
+
+    fn begin_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+        let here = situation.pose.position();
+        let is_vain = self
+            .planned_from
+            .is_some_and(|from| from.distance_m(here) < VAIN_M);
+        self.vain = if is_vain { self.vain + 1 } else { 0 };
+        self.planned_from = Some(here);
+        self.plans += 1;
+        if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
+            return TravelStep::Blocked;
+        }
+        mind.decide("wait", Reason::Planning, 0.0);
+        let blocked = self.obstructions.points(situation.observation.time_us);
+        let is_blocked = !blocked.is_empty();
+        let basis = Basis::of(situation, self.goals.clone(), blocked);
+        self.planning = Some(Planning {
+            rest: Gradual::new(basis.first_way(self.keep_off_m)),
+            is_blocked,
+        });
+        TravelStep::Going(Motion::Halt)
+    }
 }
 
-/// Length of the way to the place in front of `dock`, metres; `None` when the map knows none.
-pub(super) fn way_m(dock: Pose2, situation: &Situation<'_>) -> Option<f64> {
-    let radius_m = situation.config.body.radius_m + KEEP_OFF_M[1];
-    let ground = reachable(situation.map.knowledge(), radius_m, &[]);
-    let pieces = plan_way(&ground, situation.pose, &goals(dock))?;
-    Some(pieces.iter().map(|piece| piece.length_m).sum())
+/// A way that is being looked for.
+#[derive(Debug)]
+struct Planning {
+    rest: Gradual<Option<Vec<Piece>>>,
+    /// Something that the map does not know stands in the way.
+    is_blocked: bool,
+}
+
+/// All that a way depends on.
+#[derive(Debug)]
+struct Basis {
+    knowledge: Raster<CellKnowledge>,
+    body_m: f64,
+    blocked: Vec<Point2>,
+    start: Pose2,
+    goals: Vec<Goal>,
+}
+
+impl Basis {
+    fn of(situation: &Situation<'_>, goals: Vec<Goal>, blocked: Vec<Point2>) -> Self {
+        Self {
+            knowledge: situation.map.knowledge().clone(),
+            body_m: situation.config.body.radius_m,
+            blocked,
+            start: situation.pose,
+            goals,
+        }
+    }
+
+    /// The way with the first of these gaps with which there is one.
+    async fn first_way(self, keep_off_m: &'static [f64]) -> Option<Vec<Piece>> {
+        let pace = &mut Pace::in_steps();
+        for gap_m in keep_off_m {
+            let around = (self.body_m + gap_m, self.blocked.as_slice());
+            let ground = reachable(&self.knowledge, around, pace).await;
+            if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), pace).await {
+                return Some(pieces);
+            }
+        }
+        None
+    }
+}
+
+/// Looks for the length of the way to the place in front of `dock`, metres; `None` when the map knows none.
+pub(super) fn way_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
+    let basis = Basis::of(situation, goals(dock), Vec::new());
+    Gradual::new(async move { Some(length_m(&basis.first_way(&KEEP_OFF_M[1..2]).await?)) })
+}
+
+fn length_m(pieces: &[Piece]) -> f64 {
+    pieces.iter().map(|piece| piece.length_m).sum()
 }
 
 /// Places in front of the dock, those on the line at a good distance first.

@@ -6,12 +6,16 @@
 use super::layers::CellBox;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::geometry::Point2;
+use crate::gradual::{Pace, at_once};
 
 /// Cells up to which distances are exact.
 pub(super) const FAR_CELLS: i32 = 32;
 /// Distance in metres that stands for itself and everything farther.
 pub const FAR_M: f64 = FAR_CELLS as f64 * CELL_M;
 const FAR_MM: i16 = (FAR_M * 1000.0) as i16;
+/// Work of a cell: along its column, and along its row.
+const COLUMN_WORK: usize = 3;
+const ENVELOPE_WORK: usize = 8;
 /// Half a cell in millimetres: from the centre of a cell to its border.
 const HALF_MM: f64 = 500.0 * CELL_M;
 
@@ -127,8 +131,9 @@ impl DistanceField {
                 .get(cell)
                 .is_some_and(|kind| *kind == CellKnowledge::Occupied)
         };
-        let outward = squared_cells(source, is_occupied);
-        let inward = squared_cells(source, |cell| !is_occupied(cell));
+        let pace = &mut Pace::at_once();
+        let outward = at_once(squared_cells(source, is_occupied, pace));
+        let inward = at_once(squared_cells(source, |cell| !is_occupied(cell), pace));
         let (width, _) = source.size();
         for y in target.low.y..=target.high.y {
             for x in target.low.x..=target.high.x {
@@ -208,9 +213,13 @@ pub(super) fn grown<T: Clone>(raster: &Raster<T>, window: CellBox, empty: T) -> 
 
 /// Squared distance in cells from each cell's centre to the centre of the nearest source cell within the box; at least
 /// [`FAR_CELLS`] squared where there is none so near.
-pub(super) fn squared_cells(window: CellBox, is_source: impl Fn(Cell) -> bool) -> Vec<f32> {
+pub(super) async fn squared_cells(
+    window: CellBox,
+    is_source: impl Fn(Cell) -> bool,
+    pace: &mut Pace,
+) -> Vec<f32> {
     let (width, height) = window.size();
-    let mut cells = column_distances(window, is_source);
+    let mut cells = column_distances(window, is_source, pace).await;
     let mut row = vec![0.0_f32; width];
     let mut envelope = Envelope::with_capacity(width);
     debug_assert_eq!(cells.len(), width * height, "one value for each cell");
@@ -219,12 +228,13 @@ pub(super) fn squared_cells(window: CellBox, is_source: impl Fn(Cell) -> bool) -
             *squared = value * value;
         }
         envelope.transform(&row, values);
+        pace.spend(ENVELOPE_WORK * width).await;
     }
     cells
 }
 
 /// Distance in cells to the nearest source of the same column, cut off one beyond [`FAR_CELLS`].
-fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool) -> Vec<f32> {
+async fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool, pace: &mut Pace) -> Vec<f32> {
     const NONE: f32 = FAR_CELLS as f32 + 1.0;
     let (width, height) = window.size();
     let mut cells = Vec::with_capacity(width * height);
@@ -238,12 +248,16 @@ fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool) -> Vec<f3
             };
             cells.push(value);
         }
+        pace.spend(COLUMN_WORK * width).await;
     }
-    for index in (0..cells.len().saturating_sub(width)).rev() {
-        let above = cells[index + width] + 1.0;
-        if above < cells[index] {
-            cells[index] = above;
+    for row in (0..height.saturating_sub(1)).rev() {
+        for index in row * width..(row + 1) * width {
+            let above = cells[index + width] + 1.0;
+            if above < cells[index] {
+                cells[index] = above;
+            }
         }
+        pace.spend(width).await;
     }
     cells
 }

@@ -1,5 +1,7 @@
 //! The part of the map that outlives a job: what stands where.
 
+use core::task::Poll;
+
 use super::annotations::Annotations;
 use super::derived::Derived;
 use super::distance::DistanceField;
@@ -11,6 +13,7 @@ use super::walls::{WallSegment, walls};
 use super::{CELL_M, Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
+use crate::gradual::{Gradual, Pace};
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
 
@@ -26,7 +29,7 @@ const SLIP_WAY_M: f64 = 0.1;
 const POCKET_M: f64 = 0.1;
 
 /// What is known of the home.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct HomeMap {
     pub(super) pencil: Pencil,
     layers: Layers,
@@ -36,8 +39,11 @@ pub(super) struct HomeMap {
     pub(super) sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
+    /// Tiles that are not brought up to date yet, of those that were to be.
+    stale_tiles: usize,
     rooms: Rooms,
     surveyed_us: u64,
+    surveying: Option<Gradual<Rooms>>,
     slip: SlipMeter,
     dock: Option<Pose2>,
     revision: u32,
@@ -59,8 +65,10 @@ impl HomeMap {
             sightings: Vec::new(),
             last: None,
             refreshed_us: 0,
+            stale_tiles: 0,
             rooms: Rooms::default(),
             surveyed_us: 0,
+            surveying: None,
             slip: SlipMeter::default(),
             dock: None,
             revision: 0,
@@ -94,11 +102,11 @@ impl HomeMap {
         self.pencil.draw(&sighting, &mut self.layers);
         if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
             self.refreshed_us = observation.time_us;
-            self.refresh();
+            self.begin_refresh();
         }
         if observation.time_us >= self.surveyed_us.saturating_add(SURVEY_US) {
             self.surveyed_us = observation.time_us;
-            self.survey();
+            self.begin_survey();
         }
     }
 
@@ -147,6 +155,26 @@ impl HomeMap {
         self.rooms = self
             .rooms
             .renewed(beneath.as_ref().unwrap_or(&self.derived.knowledge));
+        self.surveying = None;
+    }
+
+    /// Begins to look for rooms in what is known now. That goes on with [`Self::survey_on`].
+    fn begin_survey(&mut self) {
+        let beneath = self.knowledge_beneath();
+        let knowledge = beneath.unwrap_or_else(|| self.derived.knowledge.clone());
+        let before = self.rooms.clone();
+        self.surveying = Some(Gradual::new(async move {
+            before.renewed_in_steps(&knowledge, &mut Pace::in_steps()).await
+        }));
+    }
+
+    fn survey_on(&mut self) {
+        if let Some(surveying) = &mut self.surveying
+            && let Poll::Ready(rooms) = surveying.go_on()
+        {
+            self.rooms = rooms;
+            self.surveying = None;
+        }
     }
 
     /// Cells that tiles cover.
@@ -191,7 +219,25 @@ impl HomeMap {
         }
     }
 
+    /// Begins to bring up to date what changed up to now, tile by tile.
+    fn begin_refresh(&mut self) {
+        self.paint_what_came();
+        self.stale_tiles = self.layers.dirty_tiles();
+    }
+
+    fn refresh_on(&mut self) {
+        if self.stale_tiles == 0 {
+            return;
+        }
+        self.derived.refresh_tile(&mut self.layers);
+        self.stale_tiles -= 1;
+        if self.stale_tiles == 0 {
+            self.revision = self.revision.wrapping_add(1);
+        }
+    }
+
     fn refresh(&mut self) {
+        self.stale_tiles = 0;
         self.paint_what_came();
         if self.layers.is_dirty() {
             self.derived.refresh(&mut self.layers);
@@ -204,6 +250,7 @@ impl HomeMap {
         self.layers = layers;
         self.paint_no_go();
         self.derived = derived;
+        self.stale_tiles = 0;
         self.derived.refresh(&mut self.layers);
         self.revision = self.revision.wrapping_add(1);
         self.redrawn = self.redrawn.wrapping_add(1);
@@ -274,6 +321,8 @@ impl Map {
             self.settle();
         }
         self.home.insert(estimate, observation, advance);
+        self.home.refresh_on();
+        self.home.survey_on();
         self.redraw_on();
     }
 
@@ -295,6 +344,16 @@ impl Map {
     #[must_use]
     pub fn distance_field(&self) -> &DistanceField {
         &self.home.derived.distance
+    }
+
+    /// Begins to bring up to date what is derived, over the next steps: something was met, and plans must not miss it.
+    pub(crate) fn begin_refresh(&mut self) {
+        self.home.begin_refresh();
+    }
+
+    /// Whether nothing is just being brought up to date.
+    pub(crate) fn is_fresh(&self) -> bool {
+        self.home.stale_tiles == 0
     }
 
     /// Brings everything derived up to date now: for a planner that must not miss the last contact.

@@ -30,7 +30,6 @@ pub use annotations::Annotations;
 pub use distance::{DistanceField, FAR_M};
 pub use layers::CellKnowledge;
 pub use raster::Raster;
-pub(crate) use reach::neighbours;
 pub use reach::reachable;
 pub use redraw::Keyframe;
 pub use rooms::{Door, Room, Rooms};
@@ -48,7 +47,7 @@ pub(crate) use traces::SeenAt;
 use traces::{Marks, Path};
 
 /// The map of the home and of one job in it.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Map {
     generation: u32,
     swept: SweptLayer,

@@ -22,6 +22,30 @@ impl<T: Clone> Raster<T> {
     }
 }
 
+impl<T: Copy> Raster<T> {
+    /// Takes over the values of another window where both have cells.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let low = i64::from(other.origin.x) - i64::from(self.origin.x);
+        let (first, end) = (low.max(0), (low + other.width as i64).min(self.width as i64));
+        for (row, values) in other.values.chunks_exact(other.width.max(1)).enumerate() {
+            let y = other
+                .origin
+                .y
+                .saturating_add(i32::try_from(row).unwrap_or(i32::MAX));
+            let start = self.index(Cell { x: self.origin.x, y });
+            if let Some(start) = start
+                && first < end
+            {
+                let target = start + first as usize..start + end as usize;
+                let source = (first - low) as usize..(end - low) as usize;
+                if let (Some(target), Some(source)) = (self.values.get_mut(target), values.get(source)) {
+                    target.copy_from_slice(source);
+                }
+            }
+        }
+    }
+}
+
 impl<T> Raster<T> {
     /// The lower left cell.
     #[must_use]
@@ -96,6 +120,20 @@ impl<T> Raster<T> {
 mod tests {
     use super::Raster;
     use crate::mapping::Cell;
+
+    #[test]
+    fn a_window_takes_over_what_it_shares_with_another_one() {
+        let mut source = Raster::filled(Cell { x: 0, y: 0 }, 3, 3, 1_u8);
+        *source.get_mut(Cell { x: 1, y: 2 }).unwrap() = 7;
+        for (x, y) in [(-1, -1), (1, 1), (0, 2), (-5, 1), (2, -2), (9, 9)] {
+            let mut target = Raster::filled(Cell { x, y }, 4, 4, 0_u8);
+            target.copy_from(&source);
+            for index in 0..target.values().len() {
+                let expected = source.get(target.cell(index)).copied().unwrap_or(0);
+                assert_eq!(target.values()[index], expected, "{x} {y} {index}");
+            }
+        }
+    }
 
     #[test]
     fn cells_inside_are_found_and_those_outside_are_not() {

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use super::distance::{squared_cells, window};
 use super::{CELL_M, Cell, CellKnowledge, Map, Raster};
 use crate::geometry::Point2;
+use crate::gradual::{Pace, at_once};
 
 /// The start is looked for in this many cells around a point that the body itself cannot be on.
 const START_CELLS: i32 = 12;
@@ -26,7 +27,7 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
         return reached;
     };
     let is_free = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Free);
-    let squared = squared_cells(all, |cell| !is_free(cell));
+    let squared = at_once(squared_cells(all, |cell| !is_free(cell), &mut Pace::at_once()));
     let clearance = clearance_m / CELL_M;
     let least = (clearance * clearance) as f32;
     let fits = |cell: Cell| {
@@ -50,7 +51,7 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
 }
 
 /// The cells beside, below and above.
-pub(crate) fn neighbours(cell: Cell) -> [Cell; 4] {
+pub(super) fn neighbours(cell: Cell) -> [Cell; 4] {
     [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(x, y)| Cell {
         x: cell.x.saturating_add(x),
         y: cell.y.saturating_add(y),

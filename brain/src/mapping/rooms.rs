@@ -11,6 +11,7 @@ use super::distance::{squared_cells, window};
 use super::reach::neighbours;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::geometry::Point2;
+use crate::gradual::{Pace, at_once};
 
 /// Half of the widest passage that still divides two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;
@@ -24,6 +25,13 @@ const ROOM_M2: f64 = 1.0;
 const FURNITURE_M2: f64 = 1.2;
 /// Cells of one door lie within this many cells of each other.
 const DOOR_GAP_CELLS: i32 = 8;
+
+/// Cells that are looked at between two looks at the pace, and the work of one: visited, named, flooded, looked at for a door.
+const CELLS: usize = 128;
+const VISIT_WORK: usize = 8;
+const NAME_WORK: usize = 6;
+const FLOOD_WORK: usize = 25;
+const DOOR_WORK: usize = 10;
 
 /// A room.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,18 +118,24 @@ impl Rooms {
     /// The rooms of what is known now; those that were there before keep their identities.
     #[must_use]
     pub fn renewed(&self, knowledge: &Raster<CellKnowledge>) -> Self {
+        at_once(self.renewed_in_steps(knowledge, &mut Pace::at_once()))
+    }
+
+    /// As [`Self::renewed`], step by step.
+    pub(super) async fn renewed_in_steps(&self, knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Self {
         let Some(all) = window(knowledge) else {
             return self.clone();
         };
-        let space = space(knowledge);
-        let squared = squared_cells(all, |cell| space.get(cell) != Some(&true));
+        let space = space(knowledge, pace).await;
+        let is_border = |cell| space.get(cell) != Some(&true);
+        let squared = squared_cells(all, is_border, pace).await;
         let mut pools = Pools::new(&squared);
-        pools.fill(&space);
-        let labels = pools.labels(&space);
-        let (names, next) = self.names(&labels);
-        let labels = renamed(&labels, &names);
-        let rooms = measured(&labels, &squared);
-        let doors = doors(&labels, &squared);
+        pools.fill(&space, pace).await;
+        let labels = pools.labels(&space, pace).await;
+        let (names, next) = self.names(&labels, pace).await;
+        let labels = renamed(&labels, &names, pace).await;
+        let rooms = measured(&labels, &squared, pace).await;
+        let doors = doors(&labels, &squared, pace).await;
         Self {
             labels,
             rooms,
@@ -131,14 +145,15 @@ impl Rooms {
     }
 
     /// An identity for each new label, by the cells shared with rooms of old; and the next free one.
-    fn names(&self, labels: &Raster<u16>) -> (BTreeMap<u16, u16>, u16) {
+    async fn names(&self, labels: &Raster<u16>, pace: &mut Pace) -> (BTreeMap<u16, u16>, u16) {
         let mut shared: BTreeMap<(u16, u16), u32> = BTreeMap::new();
-        for (index, label) in labels
-            .values()
-            .iter()
-            .enumerate()
-            .filter(|(_, label)| **label > 0)
-        {
+        for (index, label) in labels.values().iter().enumerate() {
+            if index % CELLS == 0 {
+                pace.spend(NAME_WORK * CELLS).await;
+            }
+            if *label == 0 {
+                continue;
+            }
             let old = self.labels.get(labels.cell(index)).copied().unwrap_or(0);
             *shared.entry((*label, old)).or_default() += 1;
         }
@@ -163,7 +178,7 @@ impl Rooms {
 }
 
 /// Free cells, and furniture that stands in them.
-fn space(knowledge: &Raster<CellKnowledge>) -> Raster<bool> {
+async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<bool> {
     let mut space = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
         *place = *kind == CellKnowledge::Free;
@@ -171,8 +186,11 @@ fn space(knowledge: &Raster<CellKnowledge>) -> Raster<bool> {
     let furniture_max = (FURNITURE_M2 / (CELL_M * CELL_M)) as usize;
     let mut seen = space.clone();
     for index in 0..seen.values().len() {
+        if index % CELLS == 0 {
+            pace.spend(CELLS).await;
+        }
         if seen.values().get(index) == Some(&false) {
-            let island = island(&mut seen, index);
+            let island = island(&mut seen, index, pace).await;
             if island.len() <= furniture_max && !touches_border(&space, &island) {
                 for cell in island {
                     if let Some(place) = space.get_mut(cell) {
@@ -186,7 +204,7 @@ fn space(knowledge: &Raster<CellKnowledge>) -> Raster<bool> {
 }
 
 /// The connected cells that were not seen yet; they are seen afterwards.
-fn island(seen: &mut Raster<bool>, index: usize) -> Vec<Cell> {
+async fn island(seen: &mut Raster<bool>, index: usize, pace: &mut Pace) -> Vec<Cell> {
     let mut cells = vec![seen.cell(index)];
     if let Some(place) = seen.values_mut().get_mut(index) {
         *place = true;
@@ -194,6 +212,9 @@ fn island(seen: &mut Raster<bool>, index: usize) -> Vec<Cell> {
     let mut next = 0;
     while let Some(cell) = cells.get(next).copied() {
         next += 1;
+        if next % CELLS == 0 {
+            pace.spend(VISIT_WORK * CELLS).await;
+        }
         for neighbour in neighbours(cell) {
             if let Some(place) = seen.get_mut(neighbour)
                 && !*place
@@ -231,10 +252,13 @@ impl<'relief> Pools<'relief> {
         }
     }
 
-    fn fill(&mut self, space: &Raster<bool>) {
+    async fn fill(&mut self, space: &Raster<bool>, pace: &mut Pace) {
         // Squared distances are whole numbers, and not many: each has a list of its own.
         let mut levels: Vec<Vec<u32>> = Vec::new();
         for (index, squared) in self.squared.iter().enumerate() {
+            if index % CELLS == 0 {
+                pace.spend(VISIT_WORK * CELLS).await;
+            }
             if space.values().get(index) == Some(&true) {
                 let level = *squared as usize;
                 if levels.len() <= level {
@@ -245,8 +269,11 @@ impl<'relief> Pools<'relief> {
                 }
             }
         }
-        for index in levels.iter().rev().flatten() {
-            self.flood(*index, space);
+        for some in levels.iter().rev().flat_map(|level| level.chunks(CELLS)) {
+            for index in some {
+                self.flood(*index, space);
+            }
+            pace.spend(FLOOD_WORK * some.len()).await;
         }
     }
 
@@ -325,10 +352,13 @@ impl<'relief> Pools<'relief> {
     }
 
     /// A label for each cell of a pool that is large enough for a room; 0 for the others.
-    fn labels(&mut self, space: &Raster<bool>) -> Raster<u16> {
+    async fn labels(&mut self, space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
         let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
         let mut known: BTreeMap<u32, u16> = BTreeMap::new();
         for index in 0..self.parent.len() {
+            if index % CELLS == 0 {
+                pace.spend(NAME_WORK * CELLS).await;
+            }
             if self.parent.get(index).is_none_or(|parent| *parent == u32::MAX) {
                 continue;
             }
@@ -347,22 +377,26 @@ impl<'relief> Pools<'relief> {
     }
 }
 
-fn renamed(labels: &Raster<u16>, names: &BTreeMap<u16, u16>) -> Raster<u16> {
+async fn renamed(labels: &Raster<u16>, names: &BTreeMap<u16, u16>, pace: &mut Pace) -> Raster<u16> {
     let mut renamed = labels.clone();
-    for label in renamed.values_mut() {
-        *label = names.get(label).copied().unwrap_or(0);
+    for some in renamed.values_mut().chunks_mut(CELLS) {
+        for label in some.iter_mut().filter(|label| **label > 0) {
+            *label = names.get(label).copied().unwrap_or(0);
+        }
+        pace.spend(NAME_WORK * some.len()).await;
     }
     renamed
 }
 
-fn measured(labels: &Raster<u16>, squared: &[f32]) -> Vec<Room> {
+async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Room> {
     let mut found: BTreeMap<u16, (u32, usize, f32)> = BTreeMap::new();
-    for (index, label) in labels
-        .values()
-        .iter()
-        .enumerate()
-        .filter(|(_, label)| **label > 0)
-    {
+    for (index, label) in labels.values().iter().enumerate() {
+        if index % CELLS == 0 {
+            pace.spend(NAME_WORK * CELLS).await;
+        }
+        if *label == 0 {
+            continue;
+        }
         let depth = squared.get(index).copied().unwrap_or(0.0);
         let room = found.entry(*label).or_insert((0, index, depth));
         room.0 += 1;
@@ -389,14 +423,15 @@ pub(super) fn centre(cell: Cell) -> Point2 {
 }
 
 /// Where cells of two rooms lie beside each other.
-fn doors(labels: &Raster<u16>, squared: &[f32]) -> Vec<Door> {
+async fn doors(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Door> {
     let mut borders: BTreeMap<[u16; 2], Vec<(Cell, f32)>> = BTreeMap::new();
-    for (index, label) in labels
-        .values()
-        .iter()
-        .enumerate()
-        .filter(|(_, label)| **label > 0)
-    {
+    for (index, label) in labels.values().iter().enumerate() {
+        if index % CELLS == 0 {
+            pace.spend(DOOR_WORK * CELLS).await;
+        }
+        if *label == 0 {
+            continue;
+        }
         let cell = labels.cell(index);
         for neighbour in neighbours(cell).iter().take(2) {
             let other = labels.get(*neighbour).copied().unwrap_or(0);

@@ -1,6 +1,10 @@
 //! The open floor as bits, so that a window across a lane is one word.
 
 use super::ground::{Axis, Ground};
+use crate::gradual::Pace;
+
+/// Work of looking at a cell.
+const LOOK_WORK: usize = 1;
 
 /// One bit for each cell; each line of cells across an axis is a row of words.
 #[derive(Clone, Debug)]
@@ -11,7 +15,7 @@ pub(super) struct BitGrid {
 
 impl BitGrid {
     /// The open floor, with the cells across lanes of this axis side by side.
-    pub(super) fn of_open(ground: &Ground, axis: Axis) -> Self {
+    pub(super) async fn of_open(ground: &Ground, axis: Axis, pace: &mut Pace) -> Self {
         let (lines, across) = match axis {
             Axis::X => (ground.width, ground.height),
             Axis::Y => (ground.height, ground.width),
@@ -21,12 +25,15 @@ impl BitGrid {
             words_per_line,
             words: vec![0; lines * words_per_line],
         };
-        for index in (0..ground.open.len()).filter(|index| ground.open[*index]) {
-            let (column, row) = ground.place(index);
-            match axis {
-                Axis::X => bits.words[column * words_per_line + row / 64] |= 1 << (row % 64),
-                Axis::Y => bits.words[row * words_per_line + column / 64] |= 1 << (column % 64),
+        for row in 0..ground.height {
+            let open = &ground.open[row * ground.width..(row + 1) * ground.width];
+            for column in (0..ground.width).filter(|column| open[*column]) {
+                match axis {
+                    Axis::X => bits.words[column * words_per_line + row / 64] |= 1 << (row % 64),
+                    Axis::Y => bits.words[row * words_per_line + column / 64] |= 1 << (column % 64),
+                }
             }
+            pace.spend(LOOK_WORK * ground.width).await;
         }
         bits
     }

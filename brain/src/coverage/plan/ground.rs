@@ -1,10 +1,18 @@
 //! The ground: where the body's middle can be, and what of the floor is still open.
 
 use crate::geometry::Point2;
+use crate::gradual::Pace;
 use crate::mapping::{CELL_M, Cell, Raster};
 
 /// A robot can set out to free cells this far from where it stands.
 const SET_OUT_M: f64 = 0.4;
+/// Work of asking whether a cell is done, of a row of a disc, of measuring the way to a cell, and of looking around one.
+const CLOSE_WORK: usize = 1;
+const FILL_WORK: usize = 6;
+const MEASURE_WORK: usize = 6;
+const VISIT_WORK: usize = 4;
+/// Cells that are visited between two looks at the pace.
+const VISITS: usize = 64;
 
 /// Axis of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +51,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn new(reachable: &Raster<bool>, reach: usize) -> Self {
+    pub(super) async fn new(reachable: &Raster<bool>, reach: usize, pace: &mut Pace) -> Self {
         let margin = reach + 2;
         let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
         let mut ground = Self {
@@ -66,7 +74,8 @@ impl Ground {
                 target.copy_from_slice(values);
             }
         }
-        ground.open_floor();
+        pace.spend(width * height / 4).await;
+        ground.open_floor(pace).await;
         ground
     }
 
@@ -79,16 +88,22 @@ impl Ground {
     }
 
     /// Closes open floor that need not be swept.
-    pub(super) fn close(&mut self, is_done: impl Fn(Cell) -> bool) {
-        for index in 0..self.open.len() {
-            self.open[index] = self.open[index] && !is_done(self.cell(index));
+    pub(super) async fn close(&mut self, is_done: impl Fn(Cell) -> bool, pace: &mut Pace) {
+        for row in 0..self.height {
+            for index in row * self.width..(row + 1) * self.width {
+                self.open[index] = self.open[index] && !is_done(self.cell(index));
+            }
+            pace.spend(CLOSE_WORK * self.width).await;
         }
     }
 
     /// Opens all floor within reach of free cells.
-    fn open_floor(&mut self) {
+    async fn open_floor(&mut self, pace: &mut Pace) {
         let disc = self.disc();
         for index in 0..self.free.len() {
+            if index.is_multiple_of(self.width) {
+                pace.spend(self.width).await;
+            }
             if !self.free[index] {
                 continue;
             }
@@ -105,6 +120,7 @@ impl Ground {
                 let centre = self.shifted(index, *row);
                 self.open[centre - half..=centre + half].fill(true);
             }
+            pace.spend(FILL_WORK * disc.len()).await;
         }
     }
 
@@ -158,15 +174,18 @@ impl Ground {
 
     /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
     /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
-    pub(super) fn origin_near(&self, point: Point2) -> Option<usize> {
+    pub(super) async fn origin_near(&self, point: Point2, pace: &mut Pace) -> Option<usize> {
         let mut seen = vec![false; self.free.len()];
         let mut nearest: Option<(f64, usize)> = None;
         let mut largest: Option<(usize, f64, usize)> = None;
         for seed in 0..self.free.len() {
+            if seed.is_multiple_of(self.width) {
+                pace.spend(self.width).await;
+            }
             if seen[seed] || !self.free[seed] {
                 continue;
             }
-            let (size, distance_m, cell) = self.component(seed, &mut seen, point);
+            let (size, distance_m, cell) = self.component(seed, &mut seen, (point, &mut *pace)).await;
             if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
                 nearest = Some((distance_m, cell));
             }
@@ -178,12 +197,20 @@ impl Ground {
     }
 
     /// Size of a piece of connected ground, and its cell nearest to a point with the distance.
-    fn component(&self, seed: usize, seen: &mut [bool], point: Point2) -> (usize, f64, usize) {
+    async fn component(
+        &self,
+        seed: usize,
+        seen: &mut [bool],
+        (point, pace): (Point2, &mut Pace),
+    ) -> (usize, f64, usize) {
         let mut stack = vec![seed];
         seen[seed] = true;
         let (mut size, mut best) = (0, (f64::INFINITY, seed));
         while let Some(index) = stack.pop() {
             size += 1;
+            if size % VISITS == 0 {
+                pace.spend(MEASURE_WORK * VISITS).await;
+            }
             let distance_m = self.point(index).distance_m(point);
             if distance_m < best.0 {
                 best = (distance_m, index);
@@ -199,11 +226,26 @@ impl Ground {
     }
 
     /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
-    pub(super) fn keep_connected(&mut self, from: usize) {
+    pub(super) async fn keep_connected(&mut self, from: usize, pace: &mut Pace) {
         let mut reached = vec![false; self.free.len()];
         let mut stack = vec![from];
         reached[from] = true;
-        while let Some(index) = stack.pop() {
+        while !stack.is_empty() {
+            self.reach_some(&mut stack, &mut reached);
+            pace.spend(VISIT_WORK * VISITS).await;
+        }
+        if reached != self.free {
+            self.free = reached;
+            self.open.fill(false);
+            self.open_floor(pace).await;
+        }
+        self.measure_clearance(pace).await;
+    }
+
+    /// Goes to the neighbours of some of the cells on the stack.
+    fn reach_some(&self, stack: &mut Vec<usize>, reached: &mut [bool]) {
+        for _ in 0..VISITS {
+            let Some(index) = stack.pop() else { return };
             for neighbour in self.neighbours(index) {
                 if self.free[neighbour] && !reached[neighbour] {
                     reached[neighbour] = true;
@@ -211,16 +253,10 @@ impl Ground {
                 }
             }
         }
-        if reached != self.free {
-            self.free = reached;
-            self.open.fill(false);
-            self.open_floor();
-        }
-        self.measure_clearance();
     }
 
     /// Two sweeps over the cells: from above and the left, then from below and the right.
-    fn measure_clearance(&mut self) {
+    async fn measure_clearance(&mut self, pace: &mut Pace) {
         let width = self.width;
         self.clearance = self
             .free
@@ -229,6 +265,9 @@ impl Ground {
             .collect();
         let clearance = &mut self.clearance;
         for index in width + 1..clearance.len().saturating_sub(width + 1) {
+            if index.is_multiple_of(width) {
+                pace.spend(VISIT_WORK * width).await;
+            }
             if clearance[index] > 0 {
                 let before = [index - 1, index - width - 1, index - width, index - width + 1];
                 let least = before.map(|neighbour| clearance[neighbour]).into_iter().min();
@@ -236,6 +275,9 @@ impl Ground {
             }
         }
         for index in (width + 1..clearance.len().saturating_sub(width + 1)).rev() {
+            if index.is_multiple_of(width) {
+                pace.spend(VISIT_WORK * width).await;
+            }
             if clearance[index] > 0 {
                 let after = [index + 1, index + width + 1, index + width, index + width - 1];
                 let least = after.map(|neighbour| clearance[neighbour]).into_iter().min();

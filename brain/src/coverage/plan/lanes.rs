@@ -11,6 +11,7 @@ use super::PlanSettings;
 use super::bits::BitGrid;
 use super::ground::{Axis, Ground};
 use super::stretches::{Stretch, Stretches};
+use crate::gradual::Pace;
 use crate::mapping::CELL_M;
 
 /// Cells that one edge less of border is worth.
@@ -20,6 +21,10 @@ const ROUND_SHARES: [f64; 2] = [0.35, 0.07];
 /// What it costs to enter and leave a lane, in radians of turning: added to a lane's time. Besides the turns themselves it
 /// stands for the braking and for the way between lanes.
 const ENTER_RAD: f64 = 6.0;
+/// Work of weighing a place, of looking at it for the best lane, and of closing the floor around it.
+const WEIGH_WORK: usize = 3;
+const LOOK_WORK: usize = 2;
+const CLOSE_WORK: usize = 80;
 
 /// A straight piece of the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,16 +61,16 @@ struct Candidate {
 }
 
 impl<'ground> Picker<'ground> {
-    pub(super) fn new(ground: &'ground mut Ground, settings: &PlanSettings) -> Self {
+    pub(super) async fn new(ground: &'ground mut Ground, settings: &PlanSettings, pace: &mut Pace) -> Self {
         let cells = ground.free.len();
         let mut picker = Self {
             bits: [
-                BitGrid::of_open(ground, Axis::X),
-                BitGrid::of_open(ground, Axis::Y),
+                BitGrid::of_open(ground, Axis::X, pace).await,
+                BitGrid::of_open(ground, Axis::Y, pace).await,
             ],
             window: Window::new(ground.reach),
             gains: [vec![0; cells], vec![0; cells]],
-            stretches: Stretches::of(ground),
+            stretches: Stretches::of(ground, pace).await,
             queue: BinaryHeap::new(),
             cell_s: CELL_M / settings.cruise_m_per_s,
             enter_s: ENTER_RAD / settings.turn_rad_per_s,
@@ -75,33 +80,39 @@ impl<'ground> Picker<'ground> {
         for number in 0..picker.stretches.all.len() {
             let stretch = picker.stretches.all[number];
             picker.weigh(stretch.axis, stretch.line, (stretch.first, stretch.last));
+            pace.spend(WEIGH_WORK * stretch.places()).await;
         }
         picker
     }
 
     /// The lanes of each round.
-    pub(super) fn rounds(&mut self) -> Vec<Vec<Lane>> {
-        ROUND_SHARES.iter().map(|share| self.round(*share)).collect()
+    pub(super) async fn rounds(&mut self, pace: &mut Pace) -> Vec<Vec<Lane>> {
+        let mut rounds = Vec::with_capacity(ROUND_SHARES.len());
+        for share in ROUND_SHARES {
+            rounds.push(self.round(share, pace).await);
+        }
+        rounds
     }
 
-    fn round(&mut self, share: f64) -> Vec<Lane> {
+    async fn round(&mut self, share: f64, pace: &mut Pace) -> Vec<Lane> {
         let full = (2 * self.ground.reach + 1) as f64 / self.cell_s;
         let least = share * full;
         self.queue.clear();
         for number in 0..self.stretches.all.len() {
             self.offer(number, least);
+            pace.spend(LOOK_WORK * self.stretches.all[number].places()).await;
         }
         let mut lanes = Vec::new();
-        while let Some(candidate) = self.next(least) {
+        while let Some(candidate) = self.next(least, pace).await {
             let stretch = self.stretches.all[candidate.stretch];
-            lanes.push(self.take(&stretch, candidate.span));
-            self.refresh(&stretch, candidate.span, least);
+            lanes.push(self.take(&stretch, candidate.span, pace).await);
+            self.refresh(&stretch, candidate.span, (least, &mut *pace)).await;
         }
         lanes
     }
 
     /// The best candidate whose figures are of now.
-    fn next(&mut self, least: f64) -> Option<Candidate> {
+    async fn next(&mut self, least: f64, pace: &mut Pace) -> Option<Candidate> {
         while let Some(old) = self.queue.pop() {
             let stretch = &mut self.stretches.all[old.stretch];
             if old.version != stretch.version {
@@ -111,6 +122,7 @@ impl<'ground> Picker<'ground> {
                 return Some(old);
             }
             stretch.is_changed = false;
+            pace.spend(LOOK_WORK * stretch.places()).await;
             let Some(now) = self.best_of(old.stretch, least) else {
                 continue;
             };
@@ -123,7 +135,7 @@ impl<'ground> Picker<'ground> {
     }
 
     /// Closes the floor that a lane sweeps.
-    fn take(&mut self, stretch: &Stretch, (first, last): (usize, usize)) -> Lane {
+    async fn take(&mut self, stretch: &Stretch, (first, last): (usize, usize), pace: &mut Pace) -> Lane {
         let index = |along: usize| match stretch.axis {
             Axis::X => stretch.line * self.ground.width + along,
             Axis::Y => along * self.ground.width + stretch.line,
@@ -131,6 +143,7 @@ impl<'ground> Picker<'ground> {
         let (from, to, step) = (index(first), index(last), index(1) - index(0));
         for index in (from..=to).step_by(step) {
             self.close_disc(index);
+            pace.spend(CLOSE_WORK).await;
         }
         Lane { from, to }
     }
@@ -152,33 +165,52 @@ impl<'ground> Picker<'ground> {
 
     /// Weighs all places anew whose surroundings a lane has changed. Offers the stretches again that gained by it, which lie
     /// beside it and beyond its ends; those that lost are found out when their turn comes.
-    fn refresh(&mut self, taken: &Stretch, (first, last): (usize, usize), least: f64) {
+    async fn refresh(
+        &mut self,
+        taken: &Stretch,
+        (first, last): (usize, usize),
+        (least, pace): (f64, &mut Pace),
+    ) {
         let reach = self.ground.reach;
         let around = 2 * reach + 2;
         let (low, high) = (first.saturating_sub(around), last + around);
         for line in taken.line.saturating_sub(around)..=taken.line + around {
-            self.renew((taken.axis, line), (low, high), Some(least));
+            let work = self.renew((taken.axis, line), (low, high), Some(least));
+            pace.spend(work).await;
         }
         let span = (taken.line.saturating_sub(around), taken.line + around);
         for line in low..=high {
             let is_beyond = line < first || line > last;
-            self.renew((taken.axis.other(), line), span, is_beyond.then_some(least));
+            let work = self.renew((taken.axis.other(), line), span, is_beyond.then_some(least));
+            pace.spend(work).await;
         }
     }
 
-    /// Weighs a part of a line anew and offers its stretches again, or notes that they changed.
-    fn renew(&mut self, (axis, line): (Axis, usize), (low, high): (usize, usize), offer: Option<f64>) {
+    /// Weighs a part of a line anew and offers its stretches again, or notes that they changed. Gives how much work it was.
+    fn renew(
+        &mut self,
+        (axis, line): (Axis, usize),
+        (low, high): (usize, usize),
+        offer: Option<f64>,
+    ) -> usize {
+        let mut work = 0;
         for number in self.stretches.on(axis, line) {
             let stretch = self.stretches.all[number];
             if stretch.last < low || stretch.first > high {
                 continue;
             }
-            self.weigh(axis, line, (stretch.first.max(low), stretch.last.min(high)));
+            let span = (stretch.first.max(low), stretch.last.min(high));
+            self.weigh(axis, line, span);
+            work += WEIGH_WORK * (span.1 + 1 - span.0);
             match offer {
-                Some(least) => self.offer(number, least),
+                Some(least) => {
+                    self.offer(number, least);
+                    work += LOOK_WORK * stretch.places();
+                }
                 None => self.stretches.all[number].is_changed = true,
             }
         }
+        work
     }
 
     /// Finds what the places of a line gain.

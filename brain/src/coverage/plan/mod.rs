@@ -11,6 +11,7 @@ mod bits;
 mod ground;
 mod heading;
 mod lanes;
+mod queue;
 mod route;
 mod smooth;
 mod stretches;
@@ -18,6 +19,7 @@ mod tour;
 mod way;
 
 use crate::geometry::{Point2, Pose2};
+use crate::gradual::{Pace, at_once};
 use crate::mapping::{CELL_M, Cell, Raster};
 use ground::Ground;
 use lanes::Picker;
@@ -85,36 +87,51 @@ pub fn plan_coverage(
     start: Pose2,
     settings: &PlanSettings,
 ) -> CoveragePlan {
-    plan_area(reachable, (|_| true, swept), start, settings)
+    let from = Departure {
+        start,
+        settings: *settings,
+    };
+    at_once(plan_area(
+        reachable,
+        (|_| true, swept),
+        from,
+        &mut Pace::at_once(),
+    ))
+}
+
+/// Where a plan begins, and what it depends on besides the ground.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Departure {
+    pub(crate) start: Pose2,
+    pub(crate) settings: PlanSettings,
 }
 
 /// As [`plan_coverage`], but only `wanted` floor is swept and counted; the way may lead over all that is reachable.
-#[must_use]
-pub fn plan_area(
+pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
     (wanted, swept): (impl Fn(Cell) -> bool, impl Fn(Cell) -> bool),
-    start: Pose2,
-    settings: &PlanSettings,
+    Departure { start, settings }: Departure,
+    pace: &mut Pace,
 ) -> CoveragePlan {
-    let reach = reach_cells(settings);
-    let mut ground = Ground::new(reachable, reach);
-    let Some(origin) = ground.origin_near(start.position()) else {
+    let settings = &settings;
+    let mut ground = Ground::new(reachable, reach_cells(settings), pace).await;
+    let Some(origin) = ground.origin_near(start.position(), pace).await else {
         return CoveragePlan::default();
     };
-    ground.keep_connected(origin);
-    ground.close(|cell| !wanted(cell));
+    ground.keep_connected(origin, pace).await;
+    ground.close(|cell| !wanted(cell), pace).await;
     let floor = ground.open_count();
-    ground.close(swept);
+    ground.close(swept, pace).await;
     let open = ground.open_count();
-    let mut picker = Picker::new(&mut ground, settings);
-    let rounds = picker.rounds();
-    let router = Router::new(&ground);
+    let mut picker = Picker::new(&mut ground, settings, pace).await;
+    let rounds = picker.rounds(pace).await;
+    let router = Router::new(&ground, pace).await;
     let mut tour = Tour::new(&router, settings, start, origin);
     for lanes in &rounds {
-        tour.extend(lanes);
+        tour.extend(lanes, pace).await;
     }
-    let corners = tour.corners();
-    let pieces = smooth::pieces(&corners, start.heading_rad, &ground);
+    let corners = tour.corners(pace).await;
+    let pieces = smooth::pieces(&corners, start.heading_rad, (&ground, pace)).await;
     CoveragePlan {
         time_s: pieces.iter().map(|piece| piece.time_s(settings)).sum(),
         corners,

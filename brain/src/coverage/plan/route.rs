@@ -1,9 +1,10 @@
 //! Ways between places over free ground: a coarse graph finds them, lines of sight straighten them.
 
-use core::cmp::Reverse;
-use std::collections::{BinaryHeap, VecDeque};
+use std::collections::VecDeque;
 
 use super::ground::Ground;
+use super::queue::Queue;
+use crate::gradual::Pace;
 use crate::mapping::CELL_M;
 
 /// Cells along the edge of a block of the coarse graph.
@@ -11,6 +12,14 @@ const BLOCK: usize = 4;
 /// Cost of a step to a neighbour, and to a diagonal one.
 const STEP: u32 = 10;
 const DIAGONAL: u32 = 14;
+/// The longest step.
+pub(super) const LONGEST: u32 = DIAGONAL;
+/// Work of looking at a cell, of finding out where one gets from a block, and of leaving one.
+const LOOK_WORK: usize = 2;
+const DOORS_WORK: usize = 100;
+const LEAVE_WORK: usize = 22;
+/// Blocks that are left between two looks at the pace.
+const LEAVES: usize = 32;
 /// No block.
 const NONE: u32 = u32::MAX;
 
@@ -22,6 +31,8 @@ pub(super) struct Router<'ground> {
     anchors: Vec<u32>,
     /// Bit n: the body gets from the block to the nth of those around it.
     doors: Vec<u8>,
+    /// Bit n: it gets there straight from one anchor to the other.
+    sights: Vec<u8>,
 }
 
 /// Costs and parents of the blocks around a place.
@@ -32,17 +43,24 @@ pub(super) struct Spread {
 }
 
 impl<'ground> Router<'ground> {
-    pub(super) fn new(ground: &'ground Ground) -> Self {
+    pub(super) async fn new(ground: &'ground Ground, pace: &mut Pace) -> Self {
         let columns = ground.width / BLOCK + 1;
         let mut router = Self {
             ground,
             columns,
             anchors: vec![NONE; columns * (ground.height / BLOCK + 1)],
             doors: Vec::new(),
+            sights: Vec::new(),
         };
         // The free cell nearest to the middle of its block stands for it.
         let mut best = vec![u32::MAX; router.anchors.len()];
-        for index in (0..ground.free.len()).filter(|index| ground.free[*index]) {
+        for index in 0..ground.free.len() {
+            if index.is_multiple_of(ground.width) {
+                pace.spend(LOOK_WORK * ground.width).await;
+            }
+            if !ground.free[index] {
+                continue;
+            }
             let (column, row) = ground.place(index);
             let (x, y) = (2 * (column % BLOCK) as i32, 2 * (row % BLOCK) as i32);
             let middle = BLOCK as i32 - 1;
@@ -53,24 +71,38 @@ impl<'ground> Router<'ground> {
                 router.anchors[block] = index as u32;
             }
         }
-        router.doors = (0..router.anchors.len())
-            .map(|block| router.doors_of(block))
-            .collect();
+        router.doors = Vec::with_capacity(router.anchors.len());
+        router.sights = Vec::with_capacity(router.anchors.len());
+        for block in 0..router.anchors.len() {
+            let (doors, sights) = router.doors_of(block);
+            router.doors.push(doors);
+            router.sights.push(sights);
+            let is_ground = router.anchors[block] != NONE;
+            pace.spend(if is_ground { DOORS_WORK } else { LOOK_WORK }).await;
+        }
         router
     }
 
-    fn doors_of(&self, block: usize) -> u8 {
+    /// Where the body gets from a block, and where straight.
+    fn doors_of(&self, block: usize) -> (u8, u8) {
         if self.anchors[block] == NONE {
-            return 0;
+            return (0, 0);
         }
-        let mut doors = 0;
+        let (mut doors, mut sights) = (0, 0);
         for (number, (next, step)) in self.around(block).into_iter().enumerate() {
             let is_ground = self.anchors.get(next).is_some_and(|anchor| *anchor != NONE);
-            if is_ground && self.joined(block, next, step) {
+            if !is_ground {
+                continue;
+            }
+            let (from, to) = (self.anchors[block] as usize, self.anchors[next] as usize);
+            if self.ground.sees(from, to) {
+                doors |= 1 << number;
+                sights |= 1 << number;
+            } else if step == STEP && self.touch(block, next) {
                 doors |= 1 << number;
             }
         }
-        doors
+        (doors, sights)
     }
 
     pub(super) fn ground(&self) -> &Ground {
@@ -92,27 +124,43 @@ impl<'ground> Router<'ground> {
     }
 
     /// Spreads from a cell until `enough` says so; it is asked with each block that is reached, nearest first.
-    pub(super) fn explore(&self, from: usize, spread: &mut Spread, mut enough: impl FnMut(usize) -> bool) {
+    pub(super) async fn explore(
+        &self,
+        from: usize,
+        (spread, pace): (&mut Spread, &mut Pace),
+        mut enough: impl FnMut(usize) -> bool,
+    ) {
         spread.reset();
         let start = self.block(from);
         spread.set(start, 0, NONE);
-        let mut queue = BinaryHeap::from([Reverse((0, start))]);
-        while let Some(Reverse((cost, block))) = queue.pop() {
+        let mut queue = Queue::of(start);
+        let mut left = 0;
+        while let Some((cost, block)) = queue.pop() {
             if cost > spread.costs[block] {
                 continue;
             }
             if enough(block) {
                 return;
             }
-            for (number, (next, step)) in self.around(block).into_iter().enumerate() {
-                if self.doors[block] & 1 << number == 0 {
-                    continue;
-                }
-                let through = cost + step;
-                if through < spread.costs[next] {
-                    spread.set(next, through, block as u32);
-                    queue.push(Reverse((through, next)));
-                }
+            left += 1;
+            if left % LEAVES == 0 {
+                pace.spend(LEAVE_WORK * LEAVES).await;
+            }
+            self.leave(block, cost, (spread, &mut queue));
+        }
+    }
+
+    /// Goes to all blocks that the body gets to from one.
+    fn leave(&self, block: usize, cost: u32, (spread, queue): (&mut Spread, &mut Queue)) {
+        let doors = self.doors[block];
+        for (number, (next, step)) in self.around(block).into_iter().enumerate() {
+            if doors & 1 << number == 0 {
+                continue;
+            }
+            let through = cost + step;
+            if through < spread.costs[next] {
+                spread.set(next, through, block as u32);
+                queue.push(through, next);
             }
         }
     }
@@ -129,12 +177,6 @@ impl<'ground> Router<'ground> {
             (down.wrapping_sub(1), DIAGONAL),
             (down.wrapping_add(1), DIAGONAL),
         ]
-    }
-
-    /// Whether the body gets from one block to the next.
-    fn joined(&self, block: usize, next: usize, step: u32) -> bool {
-        let (from, to) = (self.anchors[block] as usize, self.anchors[next] as usize);
-        self.ground.sees(from, to) || (step == STEP && self.touch(block, next))
     }
 
     /// Whether free cells of two blocks lie side by side.
@@ -155,29 +197,48 @@ impl<'ground> Router<'ground> {
 
     /// The straightened way from the place that was explored from to `to`; both ends included.
     pub(super) fn way(&self, spread: &Spread, from: usize, to: usize) -> Vec<usize> {
-        let mut chain = vec![to];
-        let mut block = self.block(to);
-        while spread.parents[block] != NONE {
-            chain.push(self.anchors[block] as usize);
-            block = spread.parents[block] as usize;
+        let mut blocks = vec![self.block(to)];
+        while let Some(block) = blocks.last()
+            && spread.parents[*block] != NONE
+        {
+            blocks.push(spread.parents[*block] as usize);
         }
-        chain.push(from);
-        chain.reverse();
-        self.straightened(&self.joined_up(&chain))
+        blocks.reverse();
+        self.straightened(&self.joined_up(&blocks, (from, to)))
     }
 
-    /// The chain with cells put in between two that do not see each other, though their blocks touch.
-    fn joined_up(&self, chain: &[usize]) -> Vec<usize> {
-        let mut whole = Vec::with_capacity(chain.len());
-        for (position, cell) in chain.iter().enumerate() {
-            if let Some(before) = position.checked_sub(1).and_then(|before| chain.get(before))
-                && !self.ground.sees(*before, *cell)
-            {
-                whole.extend(self.cells_between(*before, *cell));
-            }
-            whole.push(*cell);
+    /// The anchors of the blocks after the first one, between two cells in the first and the last one, and cells put in
+    /// between two that do not see each other though their blocks touch.
+    fn joined_up(&self, blocks: &[usize], (from, to): (usize, usize)) -> Vec<usize> {
+        let mut whole = Vec::with_capacity(blocks.len() + 1);
+        whole.push(from);
+        for (position, pair) in blocks.windows(2).enumerate() {
+            let anchor = self.anchors[pair[1]] as usize;
+            let is_seen = if position == 0 {
+                self.ground.sees(from, anchor)
+            } else {
+                self.is_seen(pair[0], pair[1])
+            };
+            self.join(&mut whole, anchor, is_seen);
         }
+        let is_seen = whole.last().is_some_and(|last| self.ground.sees(*last, to));
+        self.join(&mut whole, to, is_seen);
         whole
+    }
+
+    /// Lengthens a chain by a cell, and by those between if its end does not see it.
+    fn join(&self, chain: &mut Vec<usize>, cell: usize, is_seen: bool) {
+        if let Some(last) = chain.last().filter(|_| !is_seen) {
+            chain.extend(self.cells_between(*last, cell));
+        }
+        chain.push(cell);
+    }
+
+    /// Whether the anchor of a block sees that of the next one.
+    fn is_seen(&self, block: usize, next: usize) -> bool {
+        let around = self.around(block);
+        let number = around.iter().position(|(beside, _)| *beside == next);
+        number.is_some_and(|number| self.sights[block] & 1 << number != 0)
     }
 
     /// Neighbouring free cells from one cell to another in the blocks around them, without the two; empty if there are none.

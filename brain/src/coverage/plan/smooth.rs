@@ -5,6 +5,7 @@ use super::PlanSettings;
 use super::ground::Ground;
 use super::heading::heading_rad;
 use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::gradual::Pace;
 
 /// Longest part of a straight that an arc takes at a corner.
 const CUT_MAX_M: f64 = 0.15;
@@ -14,6 +15,8 @@ const CUT_MIN_M: f64 = 0.02;
 const SHARP_RAD: f64 = 2.5;
 /// Turns below this are left to steering.
 const SLIGHT_RAD: f64 = 0.01;
+/// Work of a corner.
+const CORNER_WORK: usize = 300;
 
 /// A part of a way: an arc, with no turn a straight line, with no length a turn on the spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +44,11 @@ impl Piece {
 }
 
 /// The way along `corners`, from the heading that the robot has at the first one.
-pub(super) fn pieces(corners: &[Point2], heading_now_rad: f64, ground: &Ground) -> Vec<Piece> {
+pub(super) async fn pieces(
+    corners: &[Point2],
+    heading_now_rad: f64,
+    (ground, pace): (&Ground, &mut Pace),
+) -> Vec<Piece> {
     let mut maker = Maker {
         pieces: Vec::with_capacity(2 * corners.len()),
         pose: Pose2 {
@@ -68,6 +75,7 @@ pub(super) fn pieces(corners: &[Point2], heading_now_rad: f64, ground: &Ground) 
             let radius_m = cut_m / libm::tan(0.5 * turn_rad.abs());
             maker.add(radius_m * turn_rad.abs(), turn_rad);
         }
+        pace.spend(CORNER_WORK).await;
     }
     maker.pieces
 }

@@ -1,6 +1,10 @@
 //! Stretches: where a lane can lie at all.
 
 use super::ground::{Axis, Ground};
+use crate::gradual::Pace;
+
+/// Work of looking at a cell.
+const LOOK_WORK: usize = 1;
 
 /// Free cells one after the other on a line: all lanes lie on one.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +22,13 @@ pub(super) struct Stretch {
     pub(super) is_changed: bool,
 }
 
+impl Stretch {
+    /// Cells of it.
+    pub(super) const fn places(&self) -> usize {
+        self.last + 1 - self.first
+    }
+}
+
 /// All stretches, those of a line side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Stretches {
@@ -27,7 +38,7 @@ pub(super) struct Stretches {
 }
 
 impl Stretches {
-    pub(super) fn of(ground: &Ground) -> Self {
+    pub(super) async fn of(ground: &Ground, pace: &mut Pace) -> Self {
         let mut stretches = Self {
             all: Vec::new(),
             starts: [Vec::new(), Vec::new()],
@@ -36,6 +47,7 @@ impl Stretches {
             for line in 0..ground.length(axis.other()) {
                 stretches.starts[axis as usize].push(stretches.all.len());
                 stretches.add_line(ground, axis, line);
+                pace.spend(LOOK_WORK * ground.length(axis)).await;
             }
             stretches.starts[axis as usize].push(stretches.all.len());
         }

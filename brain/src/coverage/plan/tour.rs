@@ -9,6 +9,7 @@ use super::heading::{heading_rad, turn_rad};
 use super::lanes::Lane;
 use super::route::{Router, Spread};
 use crate::geometry::{Point2, Pose2};
+use crate::gradual::Pace;
 
 /// Nearest ends to which the way is really looked for; ways to others are guessed.
 const NEAR_ENDS: usize = 20;
@@ -20,6 +21,10 @@ const GUESS_RAD: f64 = 4.0;
 const PASSES_MAX: usize = 30;
 /// Lanes moved together.
 const MOVED_MAX: usize = 3;
+/// Work of a guess, of the search for a way beyond that for its end, and of comparing two orders of lanes.
+const GUESS_WORK: usize = 5;
+const WAY_WORK: usize = 3_000;
+const COMPARE_WORK: usize = 3;
 
 /// A lane and the end at which it is entered (0 = `from`, 1 = `to`).
 type End = usize;
@@ -61,16 +66,16 @@ impl<'plan> Tour<'plan> {
     }
 
     /// Drives these lanes after those that are in the tour already.
-    pub(super) fn extend(&mut self, lanes: &[Lane]) {
+    pub(super) async fn extend(&mut self, lanes: &[Lane], pace: &mut Pace) {
         if lanes.is_empty() {
             return;
         }
         let base = self.lanes.len();
         let (from, direction) = self.last_place();
         self.lanes.extend_from_slice(lanes);
-        let costs = self.costs(base, from, direction);
-        let mut order = nearest_first(&costs);
-        improve(&mut order, &costs);
+        let costs = self.costs(base, (from, direction), pace).await;
+        let mut order = nearest_first(&costs, pace).await;
+        improve(&mut order, &costs, pace).await;
         self.visits.extend(order.into_iter().map(|end| end + 2 * base));
     }
 
@@ -105,7 +110,7 @@ impl<'plan> Tour<'plan> {
         lane.from == lane.to
     }
 
-    fn costs(&self, base: usize, from: usize, direction_rad: f64) -> Costs {
+    async fn costs(&self, base: usize, (from, direction_rad): (usize, f64), pace: &mut Pace) -> Costs {
         let ends = 2 * (self.lanes.len() - base);
         let mut costs = Costs {
             ends,
@@ -119,6 +124,7 @@ impl<'plan> Tour<'plan> {
                 costs.seconds[a * ends + b] = self.guess_s(points[a], points[b]);
             }
             costs.first[a] = self.guess_s(self.point(from), points[a]);
+            pace.spend(GUESS_WORK * ends).await;
         }
         let mut at_block: Vec<(usize, usize)> = cells
             .iter()
@@ -130,7 +136,7 @@ impl<'plan> Tour<'plan> {
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
             let out = (!self.is_point(2 * base + a)).then(|| self.out_rad(2 * base + a));
-            for b in self.near(cells[a], &mut spread, &at_block) {
+            for b in self.near(cells[a], &at_block, (&mut spread, &mut *pace)).await {
                 // The way back is as long; it was looked for already if the other end found this one.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
@@ -141,11 +147,13 @@ impl<'plan> Tour<'plan> {
                 let seconds = self.way_s(&way, out, back);
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
+                pace.spend(WAY_WORK).await;
             }
         }
-        for b in self.near(from, &mut spread, &at_block) {
+        for b in self.near(from, &at_block, (&mut spread, &mut *pace)).await {
             let way = self.router.way(&spread, from, cells[b]);
             costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(2 * base + b)));
+            pace.spend(WAY_WORK).await;
         }
         costs
     }
@@ -156,9 +164,14 @@ impl<'plan> Tour<'plan> {
     }
 
     /// The ends nearest to a cell; `spread` then knows the ways.
-    fn near(&self, from: usize, spread: &mut Spread, at_block: &[(usize, usize)]) -> Vec<usize> {
+    async fn near(
+        &self,
+        from: usize,
+        at_block: &[(usize, usize)],
+        (spread, pace): (&mut Spread, &mut Pace),
+    ) -> Vec<usize> {
         let mut found = Vec::with_capacity(NEAR_ENDS + 8);
-        self.router.explore(from, spread, |block| {
+        let enough = |block| {
             let start = at_block.partition_point(|(other, _)| *other < block);
             found.extend(
                 at_block[start..]
@@ -167,7 +180,8 @@ impl<'plan> Tour<'plan> {
                     .map(|(_, end)| *end),
             );
             found.len() >= NEAR_ENDS
-        });
+        };
+        self.router.explore(from, (spread, pace), enough).await;
         found
     }
 
@@ -190,7 +204,7 @@ impl<'plan> Tour<'plan> {
     }
 
     /// The corners of the whole way.
-    pub(super) fn corners(&self) -> Vec<Point2> {
+    pub(super) async fn corners(&self, pace: &mut Pace) -> Vec<Point2> {
         let mut spread = self.router.spread();
         let mut corners = vec![self.point(self.start_cell)];
         let mut at = self.start_cell;
@@ -203,12 +217,14 @@ impl<'plan> Tour<'plan> {
         for end in &self.visits {
             let (enter, leave) = (self.cell(*end), self.cell(end ^ 1));
             let goal = self.router.block(enter);
-            self.router.explore(at, &mut spread, |block| block == goal);
+            let is_there = |block| block == goal;
+            self.router.explore(at, (&mut spread, &mut *pace), is_there).await;
             for cell in self.router.way(&spread, at, enter) {
                 push(cell);
             }
             push(leave);
             at = leave;
+            pace.spend(WAY_WORK).await;
         }
         corners
     }
@@ -226,7 +242,7 @@ impl Costs {
     }
 }
 
-fn nearest_first(costs: &Costs) -> Vec<End> {
+async fn nearest_first(costs: &Costs, pace: &mut Pace) -> Vec<End> {
     let mut left: Vec<bool> = vec![true; costs.ends / 2];
     let mut order = Vec::with_capacity(left.len());
     let mut leave = None;
@@ -242,14 +258,15 @@ fn nearest_first(costs: &Costs) -> Vec<End> {
         left[enter / 2] = false;
         order.push(enter);
         leave = Some(enter ^ 1);
+        pace.spend(COMPARE_WORK * costs.ends).await;
     }
     order
 }
 
-fn improve(order: &mut Vec<End>, costs: &Costs) {
+async fn improve(order: &mut Vec<End>, costs: &Costs, pace: &mut Pace) {
     for _ in 0..PASSES_MAX {
-        let turned = turn_parts(order, costs);
-        let moved = move_parts(order, costs);
+        let turned = turn_parts(order, costs, pace).await;
+        let moved = move_parts(order, costs, pace).await;
         if !turned && !moved {
             return;
         }
@@ -265,7 +282,7 @@ fn leave_before(order: &[End], position: usize) -> Option<End> {
 }
 
 /// Turns parts of the tour round where that saves time (2-opt).
-fn turn_parts(order: &mut [End], costs: &Costs) -> bool {
+async fn turn_parts(order: &mut [End], costs: &Costs, pace: &mut Pace) -> bool {
     let mut any = false;
     for first in 0..order.len() {
         for last in first..order.len() {
@@ -282,18 +299,20 @@ fn turn_parts(order: &mut [End], costs: &Costs) -> bool {
                 any = true;
             }
         }
+        pace.spend(COMPARE_WORK * (order.len() - first)).await;
     }
     any
 }
 
 /// Moves few lanes elsewhere, either way round, where that saves time (Or-opt).
-fn move_parts(order: &mut Vec<End>, costs: &Costs) -> bool {
+async fn move_parts(order: &mut Vec<End>, costs: &Costs, pace: &mut Pace) -> bool {
     let mut any = false;
     for count in 1..=MOVED_MAX {
         let mut first = 0;
         while first + count <= order.len() {
             any |= move_part(order, first, count, costs);
             first += 1;
+            pace.spend(COMPARE_WORK * order.len()).await;
         }
     }
     any

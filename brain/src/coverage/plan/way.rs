@@ -4,6 +4,7 @@ use super::ground::Ground;
 use super::route::Router;
 use super::smooth::{self, Piece};
 use crate::geometry::{Point2, Pose2};
+use crate::gradual::Pace;
 use crate::mapping::Raster;
 
 /// A place that may be gone to, and what it is worth to go to another one.
@@ -17,13 +18,17 @@ pub(crate) struct Goal {
 
 /// The way over `reachable` to the goal that is best to reach: the shortest, with what the goals are worth. `None` when none
 /// of them can be reached.
-pub(crate) fn plan_way(reachable: &Raster<bool>, start: Pose2, goals: &[Goal]) -> Option<Vec<Piece>> {
-    let mut ground = Ground::new(reachable, 1);
-    let origin = ground.origin_near(start.position())?;
-    ground.keep_connected(origin);
-    let router = Router::new(&ground);
+pub(crate) async fn plan_way(
+    reachable: &Raster<bool>,
+    (start, goals): (Pose2, &[Goal]),
+    pace: &mut Pace,
+) -> Option<Vec<Piece>> {
+    let mut ground = Ground::new(reachable, 1, pace).await;
+    let origin = ground.origin_near(start.position(), pace).await?;
+    ground.keep_connected(origin, pace).await;
+    let router = Router::new(&ground, pace).await;
     let mut spread = router.spread();
-    router.explore(origin, &mut spread, |_| false);
+    router.explore(origin, (&mut spread, pace), |_| false).await;
     let cell = goals
         .iter()
         .filter_map(|goal| {
@@ -38,13 +43,14 @@ pub(crate) fn plan_way(reachable: &Raster<bool>, start: Pose2, goals: &[Goal]) -
         .into_iter()
         .map(|cell| ground.point(cell))
         .collect();
-    Some(smooth::pieces(&corners, start.heading_rad, &ground))
+    Some(smooth::pieces(&corners, start.heading_rad, (&ground, pace)).await)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Goal, plan_way};
+    use super::{Goal, Piece};
     use crate::geometry::{Point2, Pose2};
+    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, Raster};
 
     /// Two rooms of 2 m, side by side, with a door in the middle of the wall between them.
@@ -71,10 +77,12 @@ mod tests {
         }
     }
 
+    fn way(goals: &[Goal]) -> Option<Vec<Piece>> {
+        at_once(super::plan_way(&rooms(), (start(), goals), &mut Pace::at_once()))
+    }
+
     fn end(goals: &[Goal]) -> Option<Point2> {
-        plan_way(&rooms(), start(), goals)?
-            .last()
-            .map(|piece| piece.at(1.0).position())
+        way(goals)?.last().map(|piece| piece.at(1.0).position())
     }
 
     #[test]
@@ -84,7 +92,7 @@ mod tests {
             there.distance_m(Point2 { x_m: 3.5, y_m: 0.3 }) < 0.05,
             "{there:?}"
         );
-        let length_m: f64 = plan_way(&rooms(), start(), &[goal(3.5, 0.3, 0.0)])
+        let length_m: f64 = way(&[goal(3.5, 0.3, 0.0)])
             .unwrap()
             .iter()
             .map(|piece| piece.length_m)

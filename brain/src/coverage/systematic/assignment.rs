@@ -1,6 +1,6 @@
 //! Which part of an order is being cleaned, and how often it was.
 
-use crate::mapping::{Cell, Map};
+use crate::mapping::{Cell, Map, Rooms};
 use crate::order::{CleaningOrder, HomePart};
 
 /// An order, and how far it is.
@@ -33,9 +33,11 @@ impl Assignment {
         self.order.parts().is_empty()
     }
 
-    /// Whether a cell shall be swept now.
-    pub(super) fn wants(&self, cell: Cell, map: &Map) -> bool {
-        self.part().is_none_or(|part| part.contains(cell, map))
+    /// What shall be swept now.
+    pub(super) fn wanted(&self, map: &Map) -> Wanted {
+        Wanted {
+            part: self.part().map(|part| (part.clone(), map.rooms().clone())),
+        }
     }
 
     /// The present part is done once more.
@@ -50,6 +52,21 @@ impl Assignment {
         self.passes_done = 0;
         self.part += 1;
         Next::Part
+    }
+}
+
+/// The floor that shall be swept, as it was known at one time.
+#[derive(Debug)]
+pub(super) struct Wanted {
+    part: Option<(HomePart, Rooms)>,
+}
+
+impl Wanted {
+    /// Whether a cell belongs to it.
+    pub(super) fn contains(&self, cell: Cell) -> bool {
+        self.part
+            .as_ref()
+            .is_none_or(|(part, rooms)| part.contains(cell, rooms))
     }
 }
 

@@ -3,16 +3,36 @@
 //! Terms. *Enclosed*: unknown floor with known cells all round it, which the lap along the walls leaves in the middle of
 //! each room. *Frontier*: where known floor ends and nothing is known beyond. Both are taken for floor until something is met.
 
-use std::collections::VecDeque;
+use crate::gradual::Pace;
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster, neighbours};
+/// Work of copying a cell, of finding out whether something unknown lies beside it, and of freeing or visiting one.
+const COPIES_A_WORK: usize = 8;
+const LOOK_WORK: usize = 1;
+const VISIT_WORK: usize = 3;
+/// Cells that are visited between two looks at the pace.
+const VISITS: usize = 256;
 
-/// Knowledge in which all enclosed floor is free, and unknown floor up to `beyond_m` from what is known to be free.
-pub(super) fn hopeful(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
-    let beyond = libm::ceil(beyond_m / CELL_M).clamp(0.0, 400.0) as u16;
-    let mut hopeful = padded(knowledge, usize::from(beyond) + 1);
-    advance_frontier(&mut hopeful, beyond);
-    fill_enclosed(&mut hopeful);
+/// Cells around what is known that are hoped for beyond it.
+pub(super) fn margin_cells(beyond_m: f64) -> usize {
+    usize::from(beyond_cells(beyond_m)) + 1
+}
+
+fn beyond_cells(beyond_m: f64) -> u16 {
+    libm::ceil(beyond_m / CELL_M).clamp(0.0, 400.0) as u16
+}
+
+/// Knowledge in which all enclosed floor is free, and unknown floor up to `beyond_m` from what is known to be free. It has
+/// [`margin_cells`] more on each side.
+pub(super) async fn hopeful(
+    knowledge: &Raster<CellKnowledge>,
+    beyond_m: f64,
+    pace: &mut Pace,
+) -> Raster<CellKnowledge> {
+    let mut hopeful = padded(knowledge, margin_cells(beyond_m));
+    pace.spend(hopeful.values().len() / COPIES_A_WORK).await;
+    advance_frontier(&mut hopeful, beyond_cells(beyond_m), pace).await;
+    fill_enclosed(&mut hopeful, pace).await;
     hopeful
 }
 
@@ -25,74 +45,96 @@ fn padded(knowledge: &Raster<CellKnowledge>, cells: usize) -> Raster<CellKnowled
     };
     let (width, height) = (knowledge.width() + 2 * cells, knowledge.height() + 2 * cells);
     let mut padded = Raster::filled(origin, width, height, CellKnowledge::Unknown);
-    for (row, values) in knowledge
-        .values()
-        .chunks_exact(knowledge.width().max(1))
-        .enumerate()
-    {
-        let start = (row + cells) * width + cells;
-        if let Some(target) = padded.values_mut().get_mut(start..start + values.len()) {
-            target.copy_from_slice(values);
-        }
-    }
+    padded.copy_from(knowledge);
     padded
 }
 
 /// Frees unknown cells up to so many steps from free ones.
-fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16) {
-    let free = hopeful
-        .values()
-        .iter()
-        .enumerate()
-        .filter(|(_, kind)| **kind == CellKnowledge::Free);
-    let mut waiting: VecDeque<(Cell, u16)> = free.map(|(index, _)| (hopeful.cell(index), 0)).collect();
-    while let Some((cell, steps)) = waiting.pop_front() {
-        if steps == beyond {
-            continue;
-        }
-        for next in neighbours(cell) {
-            if let Some(kind) = hopeful.get_mut(next)
-                && *kind == CellKnowledge::Unknown
-            {
-                *kind = CellKnowledge::Free;
-                waiting.push_back((next, steps + 1));
+async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, pace: &mut Pace) {
+    let width = hopeful.width();
+    let cells = hopeful.values_mut();
+    // Free cells whose neighbours are all known lead nowhere.
+    let mut frontier = Vec::new();
+    for row in 0..cells.len() / width.max(1) {
+        let free = (row * width..(row + 1) * width).filter(|index| cells[*index] == CellKnowledge::Free);
+        frontier.extend(free.filter(|index| is_beside_unknown(cells, *index, width)));
+        pace.spend(LOOK_WORK * width).await;
+    }
+    for _ in 0..beyond {
+        let mut next = Vec::with_capacity(frontier.len());
+        for some in frontier.chunks(VISITS) {
+            for index in some {
+                for beside in beside(*index, width) {
+                    if let Some(kind) = cells.get_mut(beside)
+                        && *kind == CellKnowledge::Unknown
+                    {
+                        *kind = CellKnowledge::Free;
+                        next.push(beside);
+                    }
+                }
             }
+            pace.spend(VISIT_WORK * some.len()).await;
         }
+        frontier = next;
     }
 }
 
+fn is_beside_unknown(cells: &[CellKnowledge], index: usize, width: usize) -> bool {
+    beside(index, width)
+        .into_iter()
+        .any(|beside| cells.get(beside) == Some(&CellKnowledge::Unknown))
+}
+
+/// Indices of the cells beside one; the margin keeps them in the same row where it matters.
+fn beside(index: usize, width: usize) -> [usize; 4] {
+    [
+        index + 1,
+        index + width,
+        index.wrapping_sub(1),
+        index.wrapping_sub(width),
+    ]
+}
+
 /// Frees unknown cells that do not hang together with the border of the window.
-fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>) {
-    let (width, height) = (hopeful.width(), hopeful.height());
-    if width == 0 || height == 0 {
-        return;
-    }
-    let mut is_outside = vec![false; hopeful.values().len()];
+async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, pace: &mut Pace) {
+    let width = hopeful.width();
+    let cells = hopeful.values_mut();
+    let mut is_outside = vec![false; cells.len()];
     // The padding hangs together, so one of its corners stands for all of the border.
-    let mut waiting = vec![hopeful.cell(0)];
-    while let Some(cell) = waiting.pop() {
-        let Some(index) = hopeful.index(cell) else {
-            continue;
-        };
-        let is_unknown = hopeful.values().get(index) == Some(&CellKnowledge::Unknown);
-        if let Some(seen) = is_outside.get_mut(index)
-            && is_unknown
-            && !core::mem::replace(seen, true)
-        {
-            waiting.extend(neighbours(cell));
+    let mut waiting = vec![0];
+    while !waiting.is_empty() {
+        for _ in 0..VISITS {
+            let Some(index) = waiting.pop() else { break };
+            for beside in beside(index, width) {
+                if let Some(seen) = is_outside.get_mut(beside)
+                    && !*seen
+                    && cells.get(beside) == Some(&CellKnowledge::Unknown)
+                {
+                    *seen = true;
+                    waiting.push(beside);
+                }
+            }
         }
+        pace.spend(VISIT_WORK * VISITS).await;
     }
-    for (kind, is_outside) in hopeful.values_mut().iter_mut().zip(is_outside) {
-        if *kind == CellKnowledge::Unknown && !is_outside {
-            *kind = CellKnowledge::Free;
+    for (some, outside) in cells.chunks_mut(VISITS).zip(is_outside.chunks(VISITS)) {
+        for (kind, is_outside) in some.iter_mut().zip(outside) {
+            if *kind == CellKnowledge::Unknown && !is_outside {
+                *kind = CellKnowledge::Free;
+            }
         }
+        pace.spend(some.len()).await;
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::hopeful;
+    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Raster};
+
+    fn hopeful(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
+        at_once(super::hopeful(knowledge, beyond_m, &mut Pace::at_once()))
+    }
 
     /// A ring of free cells with walls outside of it, and a gap in the wall.
     fn ring() -> Raster<CellKnowledge> {

@@ -4,7 +4,7 @@
 //! lies within as if it were floor, until something is met there.
 //!
 //! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
-//! lost, and when the plan is at its end. Where plan after plan brings nothing it bounces out of the place. It is done when
+//! lost, and when the plan is at its end. Plans are made step by step, while the robot backs off or stands. Where plan after plan brings nothing it bounces out of the place. It is done when
 //! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
@@ -14,25 +14,27 @@ mod edges;
 mod frontier;
 mod obstructions;
 mod passed;
+mod planning;
 mod reachable;
 mod shyness;
 
 use super::astray::Astray;
 use super::perimeter::{LapStep, Perimeter};
-use super::plan::{CoveragePlan, PlanSettings, plan_area, reach_cells};
+use super::plan::{CoveragePlan, Departure, PlanSettings, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Pose2};
 use crate::manoeuvre::{Evasion, FollowStep, Follower};
-use crate::mapping::{CELL_M, CellKnowledge, Raster};
+use crate::mapping::{CELL_M, CellKnowledge};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
 pub(crate) use caution::caution;
 use edges::Edges;
-use frontier::hopeful;
+use frontier::margin_cells;
 pub(crate) use obstructions::Obstructions;
-use passed::Passed;
+use passed::{Passed, Window};
+use planning::{Basis, Planning};
 pub(crate) use reachable::reachable;
 use shyness::Shyness;
 
@@ -88,6 +90,9 @@ enum Outline {
 pub(crate) struct Systematic {
     assignment: Assignment,
     outline: Option<Outline>,
+    planning: Option<Planning>,
+    /// It stands until the plan is made.
+    waits: bool,
     follower: Option<Follower>,
     evasion: Option<Evasion>,
     passed: Option<Passed>,
@@ -117,6 +122,7 @@ impl Task for Systematic {
         if let Some(passed) = &mut self.passed {
             passed.follow(situation.pose.position());
         }
+        self.plan_on(situation);
         if let Some(plan) = self.lap(situation, mind) {
             return plan;
         }
@@ -149,6 +155,7 @@ impl Task for Systematic {
         }
         self.evasion = None;
         self.follower = None;
+        self.planning = None;
         if let Some(astray) = &mut self.astray {
             astray.interrupted();
         }
@@ -219,6 +226,7 @@ impl Systematic {
             self.generation = generation;
             self.passed = None;
             self.obstructions.clear();
+            self.planning = self.planning.take().map(Planning::afresh);
         }
     }
 
@@ -228,12 +236,17 @@ impl Systematic {
         self.obstructions.add(reason, situation);
         self.shyness.touched(reason);
         self.follower = None;
-        self.evasion = Some(if situation.at_cliff {
+        if situation.at_cliff {
             self.edges.note(situation.observation.time_us);
-            Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason))
+            self.evasion = Some(Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason)));
+            // Beside an edge a plan begins where the robot really stands.
+            self.planning = None;
         } else {
-            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain_plans), 0.0)
-        });
+            let back_m = CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain_plans);
+            self.evasion = Some(Evasion::from_contact(back_m, 0.0));
+            // The plan is made meanwhile, for where the robot will stand.
+            self.planning = Some(Planning::Due(situation.pose.after_arc(-back_m, 0.0)));
+        }
         Plan::Go(Motion::Halt)
     }
 
@@ -248,40 +261,91 @@ impl Systematic {
     }
 
     fn drive(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        // A way that ended is followed by a new plan in the same step; a plan that is at its end at once is vain.
-        for _ in 0..=VAIN_PLANS_MAX {
-            let Some(follower) = &mut self.follower else {
-                if let Some(end) = self.make_plan(situation, mind) {
-                    return end;
-                }
-                continue;
-            };
-            let mut caution = caution(situation, follower);
-            caution.offset_m += self.shyness.offset_m(situation.advance);
-            let step = follower.step(situation, caution);
-            if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
-                passed.give_up(beside);
-            }
-            match step {
-                FollowStep::Going(motion) => return Plan::Go(motion),
-                FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
-                FollowStep::Arrived => {}
-            }
-            self.follower = None;
+        if self.follower.is_none()
+            && let Some(instead) = self.take_plan(situation, mind)
+        {
+            return instead;
         }
-        self.go_astray(situation, mind)
+        let Some(follower) = &mut self.follower else {
+            return Plan::Go(Motion::Halt);
+        };
+        let mut caution = caution(situation, follower);
+        caution.offset_m += self.shyness.offset_m(situation.advance);
+        let step = follower.step(situation, caution);
+        if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
+            passed.give_up(beside);
+        }
+        match step {
+            FollowStep::Going(motion) => return Plan::Go(motion),
+            FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
+            FollowStep::Arrived => {}
+        }
+        self.follower = None;
+        self.planning = Some(Planning::Due(situation.pose));
+        Plan::Go(Motion::Halt)
     }
 
-    /// Makes a plan for what is left; gives what to do instead if there is none to follow.
-    fn make_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
-        let blocked = self.obstructions.points(situation.observation.time_us);
-        let radius_m = situation.config.body.radius_m + KEEP_OFF_M;
-        let knowledge = match self.outline {
-            Some(Outline::Growing { beyond_m }) => &hopeful(situation.map.knowledge(), beyond_m),
-            _ => situation.map.knowledge(),
+    /// Goes on with the plan that is being made, if one is.
+    fn plan_on(&mut self, situation: &Situation<'_>) {
+        self.planning = match self.planning.take() {
+            Some(Planning::Due(start)) => Some(self.begin_plan(start, situation)),
+            Some(planning) => Some(planning.go_on()),
+            None => None,
         };
-        let ground = reachable(knowledge, radius_m, &blocked);
-        let plan = self.plan_over(&ground, situation);
+    }
+
+    /// Begins a plan for what is left, for a robot that sets out from `start`, once it is recalled what was passed and the map
+    /// shows what was met.
+    fn begin_plan(&mut self, start: Pose2, situation: &Situation<'_>) -> Planning {
+        let settings = settings(situation);
+        let knowledge = situation.map.knowledge();
+        let beyond_m = match self.outline {
+            Some(Outline::Growing { beyond_m }) => Some(beyond_m),
+            _ => None,
+        };
+        let window = Window::around(knowledge, beyond_m.map_or(0, margin_cells));
+        let passed = self
+            .passed
+            .get_or_insert_with(|| Passed::new(situation.map, &window, reach_cells(&settings)));
+        if !passed.recall(situation.map) || !situation.map.is_fresh() {
+            return Planning::Due(start);
+        }
+        passed.cover(&window);
+        Planning::begin(Basis {
+            knowledge: knowledge.clone(),
+            beyond_m,
+            radius_m: situation.config.body.radius_m + KEEP_OFF_M,
+            blocked: self.obstructions.points(situation.observation.time_us),
+            wanted: self.assignment.wanted(situation.map),
+            passed: passed.cells().clone(),
+            departure: Departure { start, settings },
+        })
+    }
+
+    /// Takes up the plan that was made for what is left; gives what to do instead if there is none to follow.
+    fn take_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+        let here = situation.pose;
+        match self.planning.take() {
+            Some(Planning::Made { plan, draft }) if draft.begins_at(here.position()) => {
+                self.waits = false;
+                return self.judge(plan, draft.is_blocked, (situation, mind));
+            }
+            Some(Planning::Made { .. }) | None => self.planning = Some(Planning::Due(here)),
+            unfinished => self.planning = unfinished,
+        }
+        if !core::mem::replace(&mut self.waits, true) {
+            mind.decide("wait", Reason::Planning, 0.0);
+        }
+        Some(Plan::Go(Motion::Halt))
+    }
+
+    /// Follows a plan if it is worth it; gives what to do instead if it is not.
+    fn judge(
+        &mut self,
+        plan: CoveragePlan,
+        is_blocked: bool,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Option<Plan> {
         mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
@@ -304,7 +368,7 @@ impl Systematic {
             }));
         }
         if plan.lanes == 0 {
-            return Some(self.end(&plan, !blocked.is_empty(), (situation, mind)));
+            return Some(self.end(&plan, is_blocked, (situation, mind)));
         }
         if self.vain_plans > VAIN_PLANS_MAX {
             return Some(self.go_astray(situation, mind));
@@ -365,17 +429,6 @@ impl Systematic {
         self.obstructions.clear();
         self.astray = Some(Astray::from(situation.pose.position()));
         Plan::Go(Motion::Halt)
-    }
-
-    fn plan_over(&mut self, ground: &Raster<bool>, situation: &Situation<'_>) -> CoveragePlan {
-        let settings = settings(situation);
-        let passed = self
-            .passed
-            .get_or_insert_with(|| Passed::along(situation.map, ground, reach_cells(&settings)));
-        passed.cover(ground);
-        let wanted = |cell| self.assignment.wants(cell, situation.map);
-        let swept = |cell| passed.contains(cell);
-        plan_area(ground, (wanted, swept), situation.pose, &settings)
     }
 }
 

@@ -9,6 +9,8 @@ use crate::mapping::{CELL_M, Cell, Map, Raster};
 
 /// Way after which the disc is painted again.
 const STEP_M: f64 = 0.5 * CELL_M;
+/// Places of the way that are recalled in one step.
+const RECALLED_A_STEP: usize = 1_000;
 
 /// Passed cells.
 #[derive(Debug)]
@@ -16,33 +18,40 @@ pub(super) struct Passed {
     cells: Raster<bool>,
     disc: Disc,
     last: Option<Point2>,
+    /// Places of the job's way that were recalled, of those that are to be.
+    recalled: usize,
+    to_recall: usize,
 }
 
 impl Passed {
-    /// Nothing passed, in the window of `like`. `reach` cells to either side of the middle count.
-    fn new(like: &Raster<bool>, reach: usize) -> Self {
+    /// What the way of this job passes from now on. `reach` cells to either side of the middle count. What it has passed so
+    /// far is still to be recalled: the map remembers it, and a job that goes on after a restart has no other memory.
+    pub(super) fn new(map: &Map, window: &Window, reach: usize) -> Self {
         Self {
-            cells: Raster::filled(like.origin(), like.width(), like.height(), false),
+            cells: Raster::filled(window.origin, window.width, window.height, false),
             disc: Disc::of_radius(reach as f64 + 0.6),
             last: None,
+            recalled: 0,
+            to_recall: map.snapshot().path.len(),
         }
     }
 
-    /// What the way of this job has passed so far, where it cleaned: the map remembers it, and a job that goes on after a
-    /// restart has no other memory.
-    pub(super) fn along(map: &Map, like: &Raster<bool>, reach: usize) -> Self {
-        let mut passed = Self::new(like, reach);
-        for point in map.snapshot().path {
+    /// Recalls some more of what the way of this job had passed where it cleaned. `true` when all of it is there.
+    pub(super) fn recall(&mut self, map: &Map) -> bool {
+        let path = map.snapshot().path;
+        let end = self.to_recall.min(path.len());
+        let some = (self.recalled + RECALLED_A_STEP).min(end);
+        for point in path.get(self.recalled..some).unwrap_or_default() {
             let at = Point2 {
                 x_m: 0.001 * f64::from(point.x_mm),
                 y_m: 0.001 * f64::from(point.y_mm),
             };
             if map.is_swept(at) {
-                passed.follow(at);
+                self.paint(at);
             }
         }
-        passed.last = None;
-        passed
+        self.recalled = some;
+        some == end
     }
 
     /// Nothing was passed.
@@ -51,20 +60,18 @@ impl Passed {
     }
 
     /// Takes over another window; what lies outside of it is forgotten.
-    pub(super) fn cover(&mut self, like: &Raster<bool>) {
-        if (like.origin(), like.width(), like.height())
-            == (self.cells.origin(), self.cells.width(), self.cells.height())
-        {
+    pub(super) fn cover(&mut self, window: &Window) {
+        if *window == Window::of(&self.cells) {
             return;
         }
-        let mut cells = Raster::filled(like.origin(), like.width(), like.height(), false);
-        for index in 0..cells.values().len() {
-            let passed = self.contains(cells.cell(index));
-            if let Some(cell) = cells.values_mut().get_mut(index) {
-                *cell = passed;
-            }
-        }
+        let mut cells = Raster::filled(window.origin, window.width, window.height, false);
+        cells.copy_from(&self.cells);
         self.cells = cells;
+    }
+
+    /// The cells as they are now.
+    pub(super) fn cells(&self) -> &Raster<bool> {
+        &self.cells
     }
 
     pub(super) fn follow(&mut self, place: Point2) {
@@ -87,8 +94,36 @@ impl Passed {
         let row = i64::from(cell.y) - i64::from(self.cells.origin().y);
         self.disc.fill(&mut self.cells, (column, row), true);
     }
+}
 
-    pub(super) fn contains(&self, cell: Cell) -> bool {
-        self.cells.get(cell).copied().unwrap_or(false)
+/// A rectangle of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Window {
+    origin: Cell,
+    width: usize,
+    height: usize,
+}
+
+impl Window {
+    /// That of a raster.
+    fn of<T>(raster: &Raster<T>) -> Self {
+        Self {
+            origin: raster.origin(),
+            width: raster.width(),
+            height: raster.height(),
+        }
+    }
+
+    /// That of a raster with `margin` cells more on each side.
+    pub(super) fn around<T>(raster: &Raster<T>, margin: usize) -> Self {
+        let shift = i32::try_from(margin).unwrap_or(0);
+        Self {
+            origin: Cell {
+                x: raster.origin().x.saturating_sub(shift),
+                y: raster.origin().y.saturating_sub(shift),
+            },
+            width: raster.width() + 2 * margin,
+            height: raster.height() + 2 * margin,
+        }
     }
 }

@@ -1,14 +1,19 @@
 //! What the middle of the body can reach of a home that is known.
 
 use crate::geometry::Point2;
+use crate::gradual::Pace;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
+
+/// Work of looking at a cell, and of a row of a disc.
+const LOOK_WORK: usize = 3;
+const FILL_WORK: usize = 6;
 
 /// Cells that the middle of a body of `radius_m` can take without coming over anything but free floor, nor over one of the
 /// `blocked` points. The window is that of the knowledge.
-pub(crate) fn reachable(
+pub(crate) async fn reachable(
     knowledge: &Raster<CellKnowledge>,
-    radius_m: f64,
-    blocked: &[Point2],
+    (radius_m, blocked): (f64, &[Point2]),
+    pace: &mut Pace,
 ) -> Raster<bool> {
     let (width, height) = (knowledge.width(), knowledge.height());
     let is_free: Vec<bool> = knowledge
@@ -19,22 +24,26 @@ pub(crate) fn reachable(
     let mut reachable = Raster::filled(knowledge.origin(), width, height, true);
     // From the middle of a cell to the border of the next one is half a cell.
     let disc = Disc::of_radius(radius_m / CELL_M + 0.5);
-    for (index, free) in is_free.iter().enumerate() {
-        let (column, row) = (index % width, index / width);
-        let at = |x: usize, y: usize| is_free[y * width + x];
-        let is_rim = column == 0 || row == 0 || column + 1 == width || row + 1 == height;
-        if *free && !is_rim {
-            continue;
+    for row in 0..height {
+        let start = row * width;
+        for column in 0..width {
+            let index = start + column;
+            let is_rim = column == 0 || row == 0 || column + 1 == width || row + 1 == height;
+            if is_free[index] && !is_rim {
+                continue;
+            }
+            let beside_floor = (column > 0 && is_free[index - 1])
+                || (column + 1 < width && is_free[index + 1])
+                || (row > 0 && is_free[index - width])
+                || (row + 1 < height && is_free[index + width]);
+            if beside_floor {
+                disc.blank(&mut reachable, (column as i64, row as i64));
+                pace.spend(FILL_WORK * disc.rows.len()).await;
+            } else if let Some(place) = reachable.values_mut().get_mut(index) {
+                *place = false;
+            }
         }
-        let beside_floor = (column > 0 && at(column - 1, row))
-            || (column + 1 < width && at(column + 1, row))
-            || (row > 0 && at(column, row - 1))
-            || (row + 1 < height && at(column, row + 1));
-        if beside_floor {
-            disc.blank(&mut reachable, (column as i64, row as i64));
-        } else if let Some(place) = reachable.values_mut().get_mut(index) {
-            *place = false;
-        }
+        pace.spend(LOOK_WORK * width).await;
     }
     let disc = Disc::of_radius(radius_m / CELL_M);
     for point in blocked {
@@ -89,9 +98,17 @@ impl Disc {
 
 #[cfg(test)]
 mod tests {
-    use super::reachable;
     use crate::geometry::Point2;
+    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Raster};
+
+    fn reachable(knowledge: &Raster<CellKnowledge>, radius_m: f64, blocked: &[Point2]) -> Raster<bool> {
+        at_once(super::reachable(
+            knowledge,
+            (radius_m, blocked),
+            &mut Pace::at_once(),
+        ))
+    }
 
     #[test]
     fn the_middle_keeps_the_radius_from_walls_and_from_what_was_met() {

@@ -1,0 +1,181 @@
+//! A plan that is made while the robot goes on: step by step, from what was known when it was begun.
+
+use core::task::Poll;
+
+use super::assignment::Wanted;
+use super::frontier::hopeful;
+use super::reachable;
+use crate::coverage::plan::{CoveragePlan, Departure, plan_area};
+use crate::geometry::{Point2, Pose2};
+use crate::gradual::{Gradual, Pace};
+use crate::mapping::{CellKnowledge, Raster};
+
+/// A plan is not followed from farther away than this from where it begins, metres: back-offs get longer than expected.
+const OFF_START_M: f64 = 0.06;
+
+/// All that a plan depends on.
+#[derive(Debug)]
+pub(super) struct Basis {
+    pub(super) knowledge: Raster<CellKnowledge>,
+    /// Floor is hoped for so far beyond what is known; `None` = nothing is hoped for.
+    pub(super) beyond_m: Option<f64>,
+    /// The gap to what is known included.
+    pub(super) radius_m: f64,
+    pub(super) blocked: Vec<Point2>,
+    pub(super) wanted: Wanted,
+    pub(super) passed: Raster<bool>,
+    pub(super) departure: Departure,
+}
+
+/// How far a plan is.
+#[derive(Debug)]
+pub(super) enum Planning {
+    /// To be begun, for a robot that sets out from here.
+    Due(Pose2),
+    /// Being made.
+    UnderWay {
+        rest: Gradual<CoveragePlan>,
+        draft: Draft,
+    },
+    /// Made.
+    Made { plan: CoveragePlan, draft: Draft },
+}
+
+/// What is known of a plan before it is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Draft {
+    pub(super) start: Pose2,
+    /// Something that the map does not know stands in the way.
+    pub(super) is_blocked: bool,
+}
+
+impl Draft {
+    /// Whether a robot at this place can follow the plan.
+    pub(super) fn begins_at(&self, place: Point2) -> bool {
+        self.start.position().distance_m(place) < OFF_START_M
+    }
+}
+
+impl Planning {
+    pub(super) fn begin(basis: Basis) -> Self {
+        Self::UnderWay {
+            draft: Draft {
+                start: basis.departure.start,
+                is_blocked: !basis.blocked.is_empty(),
+            },
+            rest: Gradual::new(planned(basis)),
+        }
+    }
+
+    /// Does the next step of a plan that is being made.
+    pub(super) fn go_on(self) -> Self {
+        match self {
+            Self::UnderWay { mut rest, draft } => match rest.go_on() {
+                Poll::Pending => Self::UnderWay { rest, draft },
+                Poll::Ready(plan) => Self::Made { plan, draft },
+            },
+            other => other,
+        }
+    }
+
+    /// The same once more, because what it rests on has changed.
+    pub(super) fn afresh(self) -> Self {
+        match self {
+            Self::Due(start) => Self::Due(start),
+            Self::UnderWay { draft, .. } | Self::Made { draft, .. } => Self::Due(draft.start),
+        }
+    }
+}
+
+async fn planned(basis: Basis) -> CoveragePlan {
+    let pace = &mut Pace::in_steps();
+    let knowledge = match basis.beyond_m {
+        Some(beyond_m) => hopeful(&basis.knowledge, beyond_m, pace).await,
+        None => basis.knowledge,
+    };
+    let ground = reachable(&knowledge, (basis.radius_m, &basis.blocked), pace).await;
+    let wanted = |cell| basis.wanted.contains(cell);
+    let swept = |cell| basis.passed.get(cell).copied().unwrap_or(false);
+    plan_area(&ground, (wanted, swept), basis.departure, pace).await
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Basis, Planning, reachable};
+    use crate::config::{Body, SensorLayout};
+    use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_coverage};
+    use crate::coverage::systematic::assignment::Assignment;
+    use crate::geometry::{Point2, Pose2};
+    use crate::gradual::{Pace, at_once};
+    use crate::mapping::{Cell, CellKnowledge, Map, Raster};
+    use crate::order::CleaningOrder;
+
+    const START: Pose2 = Pose2 {
+        x_m: 0.5,
+        y_m: 0.5,
+        heading_rad: 0.0,
+    };
+    const SETTINGS: PlanSettings = PlanSettings {
+        swath_m: 0.25,
+        sigma_m: 0.01,
+        cruise_m_per_s: 0.25,
+        turn_rad_per_s: 1.2,
+    };
+
+    /// A hall of 10 x 8 m, empty so that its walls alone keep the body off.
+    fn basis() -> Basis {
+        let body = Body {
+            radius_m: 0.175,
+            track_m: 0.23,
+            swath_m: SETTINGS.swath_m,
+        };
+        let map = Map::new(body, SensorLayout::default());
+        let knowledge = Raster::filled(Cell { x: 0, y: 0 }, 400, 320, CellKnowledge::Free);
+        Basis {
+            beyond_m: None,
+            radius_m: 0.175,
+            blocked: Vec::new(),
+            wanted: Assignment::of(CleaningOrder::default()).wanted(&map),
+            passed: Raster::filled(knowledge.origin(), 400, 320, false),
+            departure: Departure {
+                start: START,
+                settings: SETTINGS,
+            },
+            knowledge,
+        }
+    }
+
+    fn made(mut planning: Planning) -> (CoveragePlan, u32) {
+        let mut steps = 0;
+        loop {
+            planning = planning.go_on();
+            steps += 1;
+            if let Planning::Made { plan, draft } = planning {
+                assert!(draft.begins_at(Point2 { x_m: 0.52, y_m: 0.5 }));
+                assert!(!draft.begins_at(Point2 { x_m: 0.6, y_m: 0.5 }));
+                return (plan, steps);
+            }
+        }
+    }
+
+    #[test]
+    fn a_plan_made_step_by_step_is_the_plan_that_is_made_at_once() {
+        let (plan, steps) = made(Planning::begin(basis()));
+        let basis = basis();
+        let ground = at_once(reachable(
+            &basis.knowledge,
+            (basis.radius_m, &[]),
+            &mut Pace::at_once(),
+        ));
+        assert_eq!(plan, plan_coverage(&ground, |_| false, START, &SETTINGS));
+        assert!((3..100).contains(&steps), "{steps} steps");
+    }
+
+    #[test]
+    fn a_plan_that_is_begun_afresh_is_the_same() {
+        let (plan, _) = made(Planning::begin(basis()));
+        let again = Planning::begin(basis()).go_on().go_on().afresh();
+        assert!(matches!(again, Planning::Due(start) if start == START));
+        assert_eq!(made(Planning::begin(basis())).0, plan);
+    }
+}
