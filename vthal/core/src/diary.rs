@@ -122,6 +122,7 @@ fn because(reason: &str) -> String {
         "came-free" => "it is out of the place that held it",
         "long-run" => "it drove straight for longer than any home is",
         "unswept-floor" => "there is floor that it has not swept yet",
+        "planning" => "its plan is not made yet",
         "off-the-way" => "it had come too far from it",
         "no-map" => "it has no map of the home to plan on",
         "rest-out-of-reach" => "what is left cannot be reached",
