@@ -253,6 +253,7 @@ async fn a_phone_in_the_dark_edits_mixes_without_sideways_scrolling() {
     let browser = &visit.browser;
     browser.click("#theme").await;
     open_line(browser).await;
+    learn_tilt(browser).await;
     browser.shot("phone-mixes-dark").await;
     let wide = browser
         .text("return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)")
@@ -265,6 +266,33 @@ async fn a_phone_in_the_dark_edits_mixes_without_sideways_scrolling() {
     assert_eq!(small, "", "controls that a thumb misses");
     let nameless = browser.text(NAMELESS).await;
     assert_eq!(nameless, "", "fields that a screen reader cannot name");
+}
+
+/// A phone that is held at forty degrees, and then tilted away from the person by a good half of a quarter turn.
+async fn learn_tilt(browser: &Browser) {
+    browser.click("#tilt").await;
+    browser
+        .until("return document.getElementById('tilt').ariaPressed === 'true'")
+        .await;
+    held_at(browser, 40).await;
+    browser.click("#line-1-0-input-set").await;
+    browser
+        .until("return document.getElementById('line-1-0-input-set').ariaPressed === 'true'")
+        .await;
+    held_at(browser, -20).await;
+    holds(browser, "line-1-0-input", "tilt-forward").await;
+}
+
+async fn held_at(browser: &Browser, top_edge_raised_deg: i32) {
+    let script = format!(
+        "const held = {{ alpha: 0, beta: {top_edge_raised_deg}, gamma: 0 }};
+         window.dispatchEvent(new DeviceOrientationEvent('deviceorientation', held)); return ''"
+    );
+    browser.text(&script).await;
+    // Some looks at the inputs pass.
+    browser
+        .text("return new Promise((done) => setTimeout(() => done(''), 300))")
+        .await;
 }
 
 /// Fields and bars without a label.
