@@ -222,7 +222,11 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "See whether the dock has power; wipe its contacts and those of the robot.",
     ),
     entry("dock-beam", "It hears the dock.", ""),
-    entry("planning", "It makes a plan, and drives on when that is made.", ""),
+    entry(
+        "planning",
+        "It makes a plan, and drives on when that is made.",
+        "",
+    ),
     entry(
         "lease-ended",
         "Driving by hand ended because the connection paused.",
