@@ -13,6 +13,7 @@ mod log_view;
 mod map;
 mod mixes;
 mod rooms_view;
+mod schedules;
 mod status_view;
 mod store;
 mod tabs;

@@ -14,12 +14,16 @@ use crate::drive::Seat;
 use crate::link::Link;
 use crate::map::{MapHandle, Orders};
 use crate::mixes::Bench;
+use crate::schedules::ScheduleDesk;
 
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 
 /// Number of the request that keeps a mix.
 const MIX_ID: u32 = 3;
+
+/// Number of the requests that save a schedule.
+pub(crate) const SCHEDULE_ID: u32 = 4;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -49,6 +53,8 @@ pub(crate) struct Store {
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
     /// What a person wants of the home.
     pub(crate) orders: Orders,
+    /// What starts by itself.
+    pub(crate) schedules: ScheduleDesk,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
@@ -77,6 +83,7 @@ impl Store {
             decisions: RwSignal::new(DecisionBook::default()),
             maps: RwSignal::new(Vec::new()),
             orders: Orders::new(),
+            schedules: ScheduleDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
             seat: Seat::new(),
@@ -144,6 +151,7 @@ impl Store {
     }
 
     fn on_done(self, id: u32) {
+        self.schedules.on_done(id);
         if id == MIX_ID
             && let Some(name) = self.bench.on_kept()
         {
@@ -182,6 +190,7 @@ impl Store {
             Topic::Way,
             Topic::Decisions,
             Topic::Log,
+            Topic::Schedules,
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
@@ -246,7 +255,8 @@ impl Store {
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
-            Message::Schedules(_) | Message::Packet { .. } => {}
+            Message::Schedules(schedules) => self.schedules.on_schedules(schedules),
+            Message::Packet { .. } => {}
         }
     }
 
@@ -259,7 +269,7 @@ impl Store {
     }
 
     fn on_failed(self, failure: Failure) {
-        if self.orders.on_failed(&failure) {
+        if self.orders.on_failed(&failure) || self.schedules.on_failed(&failure) {
             return;
         }
         if failure.id == Some(DRIVE_ID) {

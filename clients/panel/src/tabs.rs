@@ -1,4 +1,4 @@
-//! Drive, home, decisions, device and log as tabs, with the keys that tabs have everywhere.
+//! Drive, home, schedules, decisions, device and log as tabs, with the keys that tabs have everywhere.
 
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -8,12 +8,14 @@ use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::home_view::HomeSheet;
 use crate::log_view::LogView;
+use crate::schedules::ScheduleSheet;
 use crate::store::Store;
 use crate::why_view::WhyView;
 
-const TABS: [(&str, &str); 5] = [
+const TABS: [(&str, &str); 6] = [
     ("drive", "Drive"),
     ("home", "Home"),
+    ("schedules", "Schedules"),
     ("why", "Why"),
     ("device", "Device"),
     ("log", "Log"),
@@ -62,14 +64,17 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
             <div role="tabpanel" id="sheet-home" aria-labelledby="tab-home" hidden=move || open.get() != 1>
                 <Show when=move || open.get() == 1><HomeSheet store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 2>
-                <Show when=move || open.get() == 2><WhyView store /></Show>
+            <div role="tabpanel" id="sheet-schedules" aria-labelledby="tab-schedules" hidden=move || open.get() != 2>
+                <Show when=move || open.get() == 2><ScheduleSheet store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 3>
-                <Show when=move || open.get() == 3><DeviceView store /></Show>
+            <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 3>
+                <Show when=move || open.get() == 3><WhyView store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 4>
-                <Show when=move || open.get() == 4><LogView store /></Show>
+            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 4>
+                <Show when=move || open.get() == 4><DeviceView store /></Show>
+            </div>
+            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 5>
+                <Show when=move || open.get() == 5><LogView store /></Show>
             </div>
         </section>
     }

@@ -8,6 +8,7 @@
 mod browser;
 mod mixes;
 mod robot;
+mod schedules;
 mod stack;
 
 use std::time::{Duration, Instant};

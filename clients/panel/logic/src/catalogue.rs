@@ -329,6 +329,24 @@ const CATALOGUE: &[(&str, Explanation)] = &[
         "Look at what inhibits it in the device table.",
     ),
     entry("absent", "This robot has no such part.", ""),
+    entry("skipped", "Somebody wanted it left out.", ""),
+    entry("missed", "Nobody was there to start it in time.", ""),
+    entry("quiet-hours", "It fell into the quiet hours.", ""),
+    entry(
+        "interrupted",
+        "The robot's software ended just before it could start.",
+        "",
+    ),
+    entry(
+        "no-such-room",
+        "The map has no such room any more.",
+        "Choose other rooms.",
+    ),
+    entry(
+        "map-not-taken-up",
+        "It has not stood on its dock since its software began.",
+        "Put it on its dock.",
+    ),
     entry("cause-remains", "The cause is still there.", "Remove it first."),
 ];
 

@@ -1,0 +1,66 @@
+//! Schedules in the page: one is added, seen, left out and removed.
+
+use crate::Visit;
+use crate::browser::{Browser, Screen};
+
+/// Types into a field, as far as the page can tell.
+async fn fill(browser: &Browser, id: &str, text: &str) {
+    let typed = format!(
+        "const field = document.getElementById('{id}'); field.value = '{text}'; \
+         field.dispatchEvent(new Event('input', {{bubbles: true}})); return ''"
+    );
+    browser.text(&typed).await;
+}
+
+async fn until_list_says(browser: &Browser, list: &str, words: &str) {
+    let script = format!("return document.getElementById('{list}').textContent.includes('{words}')");
+    browser.until(&script).await;
+}
+
+#[tokio::test]
+async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() {
+    let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser
+        .text("document.documentElement.dataset.theme = 'dark'; return ''")
+        .await;
+    browser.click("#tab-schedules").await;
+    browser.click("#add-schedule").await;
+    browser.click("#save-schedule").await;
+    until_list_says(browser, "schedule-wrong", "Give it a name.").await;
+    fill(browser, "schedule-name", "Every morning").await;
+    fill(browser, "schedule-at", "07:30").await;
+    browser.click("#day-sat").await;
+    browser.click("#schedule-form .rooms input").await;
+    browser.shot("phone-schedule-form").await;
+    browser.click("#save-schedule").await;
+
+    until_list_says(browser, "next-runs", "Every morning: ").await;
+    until_list_says(browser, "schedules", "Mon, Tue, Wed, Thu, Fri, Sat at 07:30").await;
+    assert_eq!(
+        browser
+            .text("return document.querySelectorAll('#next-runs li').length")
+            .await,
+        "10"
+    );
+    browser.click("#skip-1").await;
+    until_list_says(browser, "next-runs", "07:30, left out").await;
+    browser.click("#set-quiet").await;
+    until_list_says(browser, "quiet-words", "from 22:00 to 07:00").await;
+    browser
+        .text("document.getElementById('schedules-title').scrollIntoView(); return ''")
+        .await;
+    browser.shot("phone-schedules").await;
+    let width = browser
+        .text("return document.documentElement.scrollWidth > document.documentElement.clientWidth")
+        .await;
+    assert_eq!(width, "false", "the page is wider than the phone");
+
+    browser.click("#remove-1").await;
+    browser
+        .until("return document.querySelectorAll('#schedules li').length === 0")
+        .await;
+    until_list_says(browser, "sheet-schedules", "Nothing starts by itself.").await;
+}

@@ -1,0 +1,273 @@
+//! A schedule while a person fills it in.
+
+use rvac_api::{
+    InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Weekday,
+};
+
+use crate::room_choice::PASSES_MAX;
+
+/// What stands in the fields.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScheduleForm {
+    /// Number of the schedule that is changed; none for a new one.
+    pub number: Option<u32>,
+    /// Name.
+    pub name: String,
+    /// Time of day, as `07:30`.
+    pub at: String,
+    /// One day only: its date. Empty for days of the week.
+    pub date: String,
+    /// Whether it is for one day only.
+    pub is_once: bool,
+    /// Days of the week.
+    pub days: Vec<Weekday>,
+    /// Rooms in their order; none for the whole home.
+    pub rooms: Vec<u16>,
+    /// How often each room is cleaned.
+    pub passes: u8,
+    /// How late it may start, minutes.
+    pub late_min: u16,
+    /// Whether it waits for the end of the quiet hours.
+    pub waits: bool,
+    enabled: bool,
+    /// What it starts, with all that these fields cannot say.
+    job: ScheduledJob,
+}
+
+impl Default for ScheduleForm {
+    fn default() -> Self {
+        Self {
+            number: None,
+            name: String::new(),
+            at: "09:30".to_owned(),
+            date: String::new(),
+            is_once: false,
+            days: Weekday::ALL.into_iter().take(5).collect(),
+            rooms: Vec::new(),
+            passes: 1,
+            late_min: 0,
+            waits: false,
+            enabled: true,
+            job: ScheduledJob::Start { strategy: None },
+        }
+    }
+}
+
+impl ScheduleForm {
+    /// The fields of a schedule that is there.
+    #[must_use]
+    pub fn of(view: &ScheduleView) -> Self {
+        let entry = &view.entry;
+        let (is_once, days, date, at) = match &entry.when {
+            ScheduleTime::Weekly { days, at } => (false, days.clone(), String::new(), at),
+            ScheduleTime::Once { date, at } => (true, Vec::new(), date.clone(), at),
+        };
+        let (rooms, passes) = rooms_of(&entry.job);
+        Self {
+            number: Some(view.number),
+            name: entry.name.clone(),
+            at: at.clone(),
+            date,
+            is_once,
+            days,
+            rooms,
+            passes,
+            late_min: entry.late_min,
+            waits: entry.in_quiet == InQuiet::Wait,
+            enabled: entry.enabled,
+            job: entry.job.clone(),
+        }
+    }
+
+    /// Takes a day in, or out.
+    pub fn toggle_day(&mut self, day: Weekday) {
+        if self.days.contains(&day) {
+            self.days.retain(|chosen| *chosen != day);
+        } else {
+            self.days.push(day);
+            self.days.sort_unstable();
+        }
+    }
+
+    /// Takes a room in as the last one, or out.
+    pub fn toggle_room(&mut self, room: u16) {
+        if self.rooms.contains(&room) {
+            self.rooms.retain(|chosen| *chosen != room);
+        } else {
+            self.rooms.push(room);
+        }
+    }
+
+    /// What is asked of the daemon.
+    ///
+    /// # Errors
+    /// A sentence that says what is missing.
+    pub fn request(&self) -> Result<RequestBody, &'static str> {
+        let entry = self.entry()?;
+        Ok(match self.number {
+            Some(number) => RequestBody::ChangeSchedule { number, entry },
+            None => RequestBody::AddSchedule(entry),
+        })
+    }
+
+    fn entry(&self) -> Result<ScheduleEntry, &'static str> {
+        if self.name.trim().is_empty() {
+            return Err("Give it a name.");
+        }
+        if self.at.is_empty() {
+            return Err("Say at what time it starts.");
+        }
+        // Browsers add seconds to a time that was typed with them.
+        let at: String = self.at.chars().take(5).collect();
+        let when = match (self.is_once, self.date.is_empty(), self.days.is_empty()) {
+            (true, true, _) => return Err("Choose the day on which it starts."),
+            (false, _, true) => return Err("Choose at least one day of the week."),
+            (true, ..) => ScheduleTime::Once {
+                date: self.date.clone(),
+                at,
+            },
+            (false, ..) => ScheduleTime::Weekly {
+                days: self.days.clone(),
+                at,
+            },
+        };
+        Ok(ScheduleEntry {
+            name: self.name.trim().to_owned(),
+            enabled: self.enabled,
+            job: self.job(),
+            when,
+            late_min: self.late_min,
+            in_quiet: if self.waits {
+                InQuiet::Wait
+            } else {
+                InQuiet::Refuse
+            },
+        })
+    }
+
+    /// Zones, strategies and places to keep out of stay as they are as long as nobody chooses other rooms.
+    fn job(&self) -> ScheduledJob {
+        let passes = self.passes.clamp(1, PASSES_MAX);
+        if (self.rooms.clone(), passes) == rooms_of(&self.job) {
+            return self.job.clone();
+        }
+        if self.rooms.is_empty() && passes == 1 {
+            return ScheduledJob::Start { strategy: None };
+        }
+        ScheduledJob::Clean(JobOrder {
+            parts: self.rooms.iter().copied().map(JobPart::Room).collect(),
+            passes,
+            ..JobOrder::default()
+        })
+    }
+}
+
+fn rooms_of(job: &ScheduledJob) -> (Vec<u16>, u8) {
+    match job {
+        ScheduledJob::Start { .. } => (Vec::new(), 1),
+        ScheduledJob::Clean(order) => {
+            let room = |part: &JobPart| match part {
+                JobPart::Room(room) => Some(*room),
+                JobPart::Zone(_) => None,
+            };
+            (order.parts.iter().filter_map(room).collect(), order.passes)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::{
+        InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
+        Weekday,
+    };
+
+    use super::ScheduleForm;
+
+    fn filled() -> ScheduleForm {
+        ScheduleForm {
+            name: " Kitchen ".to_owned(),
+            at: "07:30:00".to_owned(),
+            ..ScheduleForm::default()
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_said() {
+        let missing = |form: ScheduleForm| form.request().expect_err("is not whole");
+        assert_eq!(missing(ScheduleForm::default()), "Give it a name.");
+        let mut no_days = filled();
+        no_days.days.clear();
+        assert_eq!(missing(no_days), "Choose at least one day of the week.");
+        let once = ScheduleForm {
+            is_once: true,
+            ..filled()
+        };
+        assert_eq!(missing(once), "Choose the day on which it starts.");
+    }
+
+    #[test]
+    fn a_new_one_for_rooms_is_asked_for() {
+        let mut form = filled();
+        for room in [4, 2, 7, 4] {
+            form.toggle_room(room);
+        }
+        form.toggle_day(Weekday::Su);
+        form.toggle_day(Weekday::Mo);
+        form.waits = true;
+        let Ok(RequestBody::AddSchedule(entry)) = form.request() else {
+            panic!("is whole");
+        };
+        let parts = vec![JobPart::Room(2), JobPart::Room(7)];
+        assert_eq!(
+            entry,
+            ScheduleEntry {
+                name: "Kitchen".to_owned(),
+                enabled: true,
+                job: ScheduledJob::Clean(JobOrder {
+                    parts,
+                    ..JobOrder::default()
+                }),
+                when: ScheduleTime::Weekly {
+                    days: vec![Weekday::Tu, Weekday::We, Weekday::Th, Weekday::Fr, Weekday::Su],
+                    at: "07:30".to_owned(),
+                },
+                late_min: 0,
+                in_quiet: InQuiet::Wait,
+            }
+        );
+    }
+
+    #[test]
+    fn what_the_fields_cannot_say_is_not_lost() {
+        let job = ScheduledJob::Clean(JobOrder {
+            parts: vec![JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])],
+            passes: 2,
+            avoid: vec![],
+        });
+        let entry = ScheduleEntry {
+            job: job.clone(),
+            enabled: false,
+            ..match filled().request() {
+                Ok(RequestBody::AddSchedule(entry)) => entry,
+                other => panic!("{other:?}"),
+            }
+        };
+        let mut form = ScheduleForm::of(&ScheduleView {
+            number: 3,
+            entry: entry.clone(),
+            skip_next: false,
+            next: vec![],
+            refused_now: None,
+        });
+        assert_eq!(
+            form.request(),
+            Ok(RequestBody::ChangeSchedule { number: 3, entry })
+        );
+        form.toggle_room(2);
+        let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request() else {
+            panic!("is whole");
+        };
+        assert_ne!(entry.job, job);
+    }
+}

@@ -1,0 +1,187 @@
+//! The form for a schedule.
+
+use leptos::ev::{Event, SubmitEvent};
+use leptos::prelude::*;
+use panel_logic::{PASSES_MAX, ScheduleForm, day_text};
+use rvac_api::Weekday;
+
+use crate::store::Store;
+
+type Form = RwSignal<Option<ScheduleForm>>;
+
+fn text(form: Form, part: fn(&ScheduleForm) -> String) -> impl Fn() -> String + Copy + Send + Sync + 'static {
+    move || form.with(|form| form.as_ref().map(part).unwrap_or_default())
+}
+
+fn is(form: Form, part: fn(&ScheduleForm) -> bool) -> impl Fn() -> bool + Copy + Send + Sync + 'static {
+    move || form.with(|form| form.as_ref().is_some_and(part))
+}
+
+fn write(form: Form, change: fn(&mut ScheduleForm, String)) -> impl Fn(Event) + Copy + 'static {
+    move |event| {
+        let typed = event_target_value(&event);
+        form.update(|form| {
+            if let Some(form) = form {
+                change(form, typed);
+            }
+        });
+    }
+}
+
+fn check(form: Form, change: fn(&mut ScheduleForm, bool)) -> impl Fn(Event) + Copy + 'static {
+    move |event| {
+        let checked = event_target_checked(&event);
+        form.update(|form| {
+            if let Some(form) = form {
+                change(form, checked);
+            }
+        });
+    }
+}
+
+#[component]
+pub(super) fn FormView(store: Store) -> impl IntoView {
+    let desk = store.schedules;
+    let form = desk.form;
+    let is_new = Memo::new(move |_| is(form, |form| form.number.is_none())());
+    let is_once = Memo::new(move |_| is(form, |form| form.is_once)());
+    let save = move |event: SubmitEvent| {
+        event.prevent_default();
+        store.save_schedule();
+    };
+    view! {
+        <form id="schedule-form" class="schedule-form" aria-labelledby="form-title" on:submit=save>
+            <h3 id="form-title">{move || if is_new.get() { "New schedule" } else { "Change the schedule" }}</h3>
+            <label class="field">
+                "Name"
+                <input
+                    id="schedule-name"
+                    maxlength="40"
+                    autocomplete="off"
+                    prop:value=text(form, |form| form.name.clone())
+                    on:input=write(form, |form, typed| form.name = typed)
+                />
+            </label>
+            <label class="field">
+                "Time"
+                <input
+                    id="schedule-at"
+                    type="time"
+                    prop:value=text(form, |form| form.at.clone())
+                    on:input=write(form, |form, typed| form.at = typed)
+                />
+            </label>
+            <label class="check">
+                <input
+                    id="schedule-once"
+                    type="checkbox"
+                    prop:checked=is_once
+                    on:change=check(form, |form, checked| form.is_once = checked)
+                />
+                "On one day only"
+            </label>
+            <Show when=move || is_once.get() fallback=move || view! { <Days store /> }>
+                <label class="field">
+                    "Date"
+                    <input
+                        id="schedule-date"
+                        type="date"
+                        prop:value=text(form, |form| form.date.clone())
+                        on:input=write(form, |form, typed| form.date = typed)
+                    />
+                </label>
+            </Show>
+            <Rooms store />
+            <Terms store />
+            <p role="alert" id="schedule-wrong" class="wrong">{move || desk.wrong.get()}</p>
+            <div class="order-tools">
+                <button type="submit" class="small strong" id="save-schedule">"Save"</button>
+                <button type="button" class="small" id="cancel-schedule" on:click=move |_| form.set(None)>"Cancel"</button>
+            </div>
+        </form>
+    }
+}
+
+#[component]
+fn Days(store: Store) -> impl IntoView {
+    let form = store.schedules.form;
+    let button = move |day: Weekday| {
+        let chosen = move || form.with(|form| form.as_ref().is_some_and(|form| form.days.contains(&day)));
+        view! {
+            <button
+                type="button"
+                id=format!("day-{}", day_text(day).to_lowercase())
+                aria-pressed=move || if chosen() { "true" } else { "false" }
+                on:click=move |_| form.update(|form| if let Some(form) = form { form.toggle_day(day) })
+            >
+                {day_text(day)}
+            </button>
+        }
+    };
+    view! {
+        <div class="passes days" role="group" aria-label="Days of the week">
+            {Weekday::ALL.map(button).into_iter().collect_view()}
+        </div>
+    }
+}
+
+#[component]
+fn Rooms(store: Store) -> impl IntoView {
+    let form = store.schedules.form;
+    let place = move |id: u16| form.with(|form| form.as_ref().is_some_and(|form| form.rooms.contains(&id)));
+    view! {
+        <fieldset class="rooms">
+            <legend>"Rooms; none for the whole home"</legend>
+            <Show when=move || store.rooms.with(Vec::is_empty)>
+                <p class="hint">"No room is known yet."</p>
+            </Show>
+            <For each=move || store.rooms.get() key=|row| (row.id, row.name.clone()) let:row>
+                <label class="check">
+                    <input
+                        type="checkbox"
+                        id=format!("schedule-room-{}", row.id)
+                        prop:checked=move || place(row.id)
+                        on:change=move |_| form.update(|form| if let Some(form) = form { form.toggle_room(row.id) })
+                    />
+                    {row.name}
+                </label>
+            </For>
+        </fieldset>
+    }
+}
+
+#[component]
+fn Terms(store: Store) -> impl IntoView {
+    let form = store.schedules.form;
+    view! {
+        <label class="field">
+            "Passes over each room"
+            <select id="schedule-passes" on:change=write(form, |form, typed| form.passes = typed.parse().unwrap_or(1))>
+                {(1..=PASSES_MAX).map(|passes| {
+                    let chosen = move || form.with(|form| form.as_ref().is_some_and(|form| form.passes == passes));
+                    view! { <option value=passes.to_string() selected=chosen>{passes}</option> }
+                }).collect_view()}
+            </select>
+        </label>
+        <label class="field">
+            "Minutes that it may start late, if the robot was off at its time"
+            <input
+                id="schedule-late"
+                type="number"
+                min="0"
+                max="720"
+                prop:value=text(form, |form| form.late_min.to_string())
+                on:input=write(form, |form, typed| form.late_min = typed.parse().unwrap_or(0))
+            />
+        </label>
+        <label class="check">
+            <input
+                id="schedule-waits"
+                type="checkbox"
+                prop:checked=is(form, |form| form.waits)
+                on:change=check(form, |form, checked| form.waits = checked)
+            />
+            "In the quiet hours wait for their end"
+        </label>
+    }
+}

@@ -1,0 +1,209 @@
+//! What starts by itself: the schedules, their next runs, quiet hours, and a form for one of them.
+
+mod form;
+mod quiet;
+
+use leptos::prelude::*;
+use panel_logic::{ScheduleForm, ScheduleRow, next_rows, past_rows, schedule_rows, zone_text};
+use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
+
+use crate::store::{SCHEDULE_ID, Store};
+use form::FormView;
+use quiet::QuietView;
+
+/// Handles on all of it; cheap to copy.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ScheduleDesk {
+    known: RwSignal<Option<Schedules>>,
+    /// What is filled in, if anything is.
+    form: RwSignal<Option<ScheduleForm>>,
+    /// What is wrong with it.
+    wrong: RwSignal<Option<String>>,
+}
+
+impl ScheduleDesk {
+    pub(crate) fn new() -> Self {
+        Self {
+            known: RwSignal::new(None),
+            form: RwSignal::new(None),
+            wrong: RwSignal::new(None),
+        }
+    }
+
+    pub(crate) fn on_schedules(self, schedules: Schedules) {
+        self.known.set(Some(schedules));
+    }
+
+    /// What was filled in is kept.
+    pub(crate) fn on_done(self, id: u32) {
+        if id == SCHEDULE_ID {
+            self.form.set(None);
+            self.wrong.set(None);
+        }
+    }
+
+    /// Whether the refusal is that of the form, beside which it stands.
+    pub(crate) fn on_failed(self, failure: &Failure) -> bool {
+        let is_ours = failure.id == Some(SCHEDULE_ID);
+        if is_ours {
+            self.wrong.set(Some(failure.text.clone()));
+        }
+        is_ours
+    }
+
+    fn open(self, form: ScheduleForm) {
+        self.wrong.set(None);
+        self.form.set(Some(form));
+    }
+
+    fn with<Told: Default>(self, tell: impl FnOnce(&Schedules) -> Told) -> Told {
+        self.known
+            .with(|known| known.as_ref().map(tell).unwrap_or_default())
+    }
+
+    fn view_of(self, number: u32) -> Option<ScheduleView> {
+        let find = |known: &Schedules| known.entries.iter().find(|view| view.number == number).cloned();
+        self.known.with_untracked(|known| known.as_ref().and_then(find))
+    }
+}
+
+#[component]
+pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
+    let desk = store.schedules;
+    let rows = Memo::new(move |_| {
+        store
+            .rooms
+            .with(|rooms| desk.with(|known| schedule_rows(known, rooms)))
+    });
+    view! {
+        <div class="home" id="schedule-sheet">
+            <p class="hint" id="schedule-zone">{move || desk.known.with(|known| known.as_ref().map(zone_text))}</p>
+            <h3 id="schedules-title">"Schedules"</h3>
+            <ul id="schedules" class="rows schedules" aria-labelledby="schedules-title">
+                <For each=move || rows.get() key=|row| row.number let:row>
+                    <Entry store number=row.number rows />
+                </For>
+            </ul>
+            <Show when=move || rows.with(Vec::is_empty)>
+                <p class="hint">"Nothing starts by itself."</p>
+            </Show>
+            <Show
+                when=move || desk.form.with(Option::is_some)
+                fallback=move || view! {
+                    <div class="draw-tools">
+                        <button type="button" class="small strong" id="add-schedule" on:click=move |_| desk.open(ScheduleForm::default())>
+                            "Add a schedule"
+                        </button>
+                    </div>
+                }
+            >
+                <FormView store />
+            </Show>
+            <QuietView store />
+            {list(("next-runs", "Next runs", "No run is to come."), move || desk.with(next_rows))}
+            {list(("past-runs", "Past runs", "No run was decided yet."), move || desk.with(past_rows))}
+        </div>
+    }
+}
+
+/// A list of sentences under a title, or what is said when there are none.
+fn list(
+    (id, title, none): (&'static str, &'static str, &'static str),
+    rows: impl Fn() -> Vec<String> + Copy + Send + Sync + 'static,
+) -> impl IntoView {
+    view! {
+        <h3 id=format!("{id}-title")>{title}</h3>
+        <ul id=id class="sentences" aria-labelledby=format!("{id}-title")>
+            {move || rows().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
+        </ul>
+        <Show when=move || rows().is_empty()>
+            <p class="hint">{none}</p>
+        </Show>
+    }
+}
+
+/// A schedule; its buttons stay the same while its words change, so that a keyboard does not lose them.
+#[component]
+fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoView {
+    let row = Memo::new(move |_| rows.with(|rows| rows.iter().find(|row| row.number == number).cloned()));
+    let text = move |part: fn(&ScheduleRow) -> &String| {
+        move || row.with(|row| row.as_ref().map(|row| part(row).clone()))
+    };
+    let is = move |part: fn(&ScheduleRow) -> bool| move || row.with(|row| row.as_ref().is_some_and(part));
+    let (enabled, skips) = (is(|row| row.enabled), is(|row| row.skips));
+    let labelled =
+        move |what: &'static str| move || format!("{what} {}", text(|row| &row.name)().unwrap_or_default());
+    let skip = move |_| {
+        let skip = !row.with_untracked(|row| row.as_ref().is_some_and(|row| row.skips));
+        store.ask(RequestBody::SkipNext { number, skip });
+    };
+    let edit = move |_| {
+        if let Some(view) = store.schedules.view_of(number) {
+            store.schedules.open(ScheduleForm::of(&view));
+        }
+    };
+    view! {
+        <li id=format!("schedule-{number}")>
+            <label class="check">
+                <input
+                    type="checkbox"
+                    id=format!("enable-{number}")
+                    prop:checked=enabled
+                    on:change=move |event| store.ask(RequestBody::EnableSchedule { number, enabled: event_target_checked(&event) })
+                />
+                <strong>{text(|row| &row.name)}</strong>
+            </label>
+            <p class="words">{text(|row| &row.words)}</p>
+            <p class="words next">{text(|row| &row.next)}</p>
+            <p class="words">{text(|row| &row.now)}</p>
+            <div class="draw-tools">
+                <button
+                    type="button"
+                    class="small choose"
+                    id=format!("skip-{number}")
+                    aria-label=labelled("Skip the next run of")
+                    aria-pressed=move || if skips() { "true" } else { "false" }
+                    on:click=skip
+                >
+                    "Skip next"
+                </button>
+                <button
+                    type="button"
+                    class="small"
+                    id=format!("run-{number}")
+                    aria-label=labelled("Run now:")
+                    on:click=move |_| store.ask(RequestBody::RunSchedule { number })
+                >
+                    "Run now"
+                </button>
+                <button type="button" class="small" id=format!("edit-{number}") aria-label=labelled("Edit") on:click=edit>
+                    "Edit"
+                </button>
+                <button
+                    type="button"
+                    class="small"
+                    id=format!("remove-{number}")
+                    aria-label=labelled("Remove")
+                    on:click=move |_| store.ask(RequestBody::RemoveSchedule { number })
+                >
+                    "Remove"
+                </button>
+            </div>
+        </li>
+    }
+}
+
+impl Store {
+    /// Asks for what is filled in, or says what is missing.
+    fn save_schedule(self) {
+        let request = self
+            .schedules
+            .form
+            .with_untracked(|form| form.as_ref().map(ScheduleForm::request));
+        match request {
+            Some(Ok(body)) => self.ask_as(SCHEDULE_ID, body),
+            Some(Err(missing)) => self.schedules.wrong.set(Some(missing.to_owned())),
+            None => {}
+        }
+    }
+}

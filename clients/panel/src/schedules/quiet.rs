@@ -1,0 +1,65 @@
+//! The quiet hours.
+
+use leptos::ev::SubmitEvent;
+use leptos::prelude::*;
+use rvac_api::{QuietHours, RequestBody};
+
+use crate::store::Store;
+
+#[component]
+pub(super) fn QuietView(store: Store) -> impl IntoView {
+    let desk = store.schedules;
+    let known = Memo::new(move |_| desk.with(|known| known.quiet.clone()));
+    let (from, to) = (
+        RwSignal::new("22:00".to_owned()),
+        RwSignal::new("07:00".to_owned()),
+    );
+    Effect::new(move |_| {
+        if let Some(quiet) = known.get() {
+            from.set(quiet.from);
+            to.set(quiet.to);
+        }
+    });
+    let words = move || match known.get() {
+        Some(QuietHours { from, to }) => format!("Nothing starts by itself from {from} to {to}."),
+        None => "There are none.".to_owned(),
+    };
+    let set = move |event: SubmitEvent| {
+        event.prevent_default();
+        let quiet = Some(QuietHours {
+            from: from.get_untracked().chars().take(5).collect(),
+            to: to.get_untracked().chars().take(5).collect(),
+        });
+        store.ask(RequestBody::SetQuiet { quiet });
+    };
+    let time = move |id: &'static str, label: &'static str, text: RwSignal<String>| {
+        view! {
+            <label class="field">
+                {label}
+                <input
+                    id=id
+                    type="time"
+                    prop:value=move || text.get()
+                    on:input=move |event| text.set(event_target_value(&event))
+                />
+            </label>
+        }
+    };
+    view! {
+        <h3 id="quiet-title">"Quiet hours"</h3>
+        <p class="hint" id="quiet-words">{words}</p>
+        <form class="order-tools quiet" aria-labelledby="quiet-title" on:submit=set>
+            {time("quiet-from", "From", from)}
+            {time("quiet-to", "To", to)}
+            <button type="submit" class="small" id="set-quiet">"Set"</button>
+            <button
+                type="button"
+                class="small"
+                id="no-quiet"
+                on:click=move |_| store.ask(RequestBody::SetQuiet { quiet: None })
+            >
+                "None"
+            </button>
+        </form>
+    }
+}
