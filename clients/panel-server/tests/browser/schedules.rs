@@ -31,6 +31,9 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser.click("#save-schedule").await;
     until_list_says(browser, "schedule-wrong", "Give it a name.").await;
     fill(browser, "schedule-name", "Every morning").await;
+    browser
+        .until("return document.getElementById('schedule-wrong').innerText === ''")
+        .await;
     fill(browser, "schedule-at", "07:30").await;
     browser.click("#day-sat").await;
     browser.click("#schedule-form .rooms input").await;

@@ -4,6 +4,8 @@ use std::io::{BufRead, BufReader};
 use std::net::TcpListener;
 use std::process::{Command, Stdio};
 
+use rustix::process::{Pid, Signal, kill_process};
+
 fn folder() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("panel-server-binary-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -60,7 +62,6 @@ fn ready_is_said_when_it_listens_and_it_ends_when_told() {
         .unwrap()
         .to_owned();
     std::net::TcpStream::connect(address).unwrap();
-    let killed = Command::new("kill").arg(child.id().to_string()).status().unwrap();
-    assert!(killed.success());
+    kill_process(Pid::from_child(&child), Signal::TERM).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }

@@ -50,7 +50,13 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
         store.save_schedule();
     };
     view! {
-        <form id="schedule-form" class="schedule-form" aria-labelledby="form-title" on:submit=save>
+        <form
+            id="schedule-form"
+            class="schedule-form"
+            aria-labelledby="form-title"
+            on:input=move |_| desk.wrong.set(None)
+            on:submit=save
+        >
             <h3 id="form-title">{move || if is_new.get() { "New schedule" } else { "Change the schedule" }}</h3>
             <label class="field">
                 "Name"
