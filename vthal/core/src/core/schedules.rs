@@ -176,26 +176,29 @@ impl Core {
         entry: &Entry,
         outputs: &mut Outputs,
     ) -> Result<(), &'static str> {
-        self.could_start(entry)?;
-        let command = self
-            .command_of(&entry.plan().job)
-            .map_err(|refusal| refusal.reason)?;
+        let command = self.scheduled_command(entry)?;
         self.command_brain(now_us, command, outputs);
         Ok(())
     }
 
-    /// Whether a schedule may start its job now: everybody else comes before it (S27), and what keeps any motion from
-    /// starting keeps it, too (S25).
+    /// Whether a schedule may start its job now.
     fn could_start(&self, entry: &Entry) -> Result<(), &'static str> {
+        self.scheduled_command(entry).map(drop)
+    }
+
+    /// What the brain is told when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
+    /// keeps any motion from starting keeps it, too (S25).
+    fn scheduled_command(&self, entry: &Entry) -> Result<Command, &'static str> {
         self.require_robot()?;
         self.arbiter.admit_now(Source::Schedule).map_err(denied)?;
         if self.mind.as_ref().is_some_and(works) {
             return Err("job-runs");
         }
-        self.command_of(&entry.plan().job)
+        let command = self
+            .command_of(&entry.plan().job)
             .map_err(|refusal| refusal.reason)?;
         match &self.mind {
-            Some(mind) if mind.rests() => Ok(()),
+            Some(mind) if mind.rests() => Ok(command),
             _ => Err("job-runs"),
         }
     }

@@ -266,9 +266,10 @@ impl Book {
     }
 
     fn entry_mut(&mut self, number: u32) -> Result<&mut Entry, EditError> {
-        let absent = self.absent(number);
-        let found = self.entries.iter_mut().find(|entry| entry.number == number);
-        found.ok_or(absent)
+        match self.entries.iter().position(|entry| entry.number == number) {
+            Some(place) => Ok(&mut self.entries[place]),
+            None => Err(self.absent(number)),
+        }
     }
 
     fn absent(&self, number: u32) -> EditError {
