@@ -30,7 +30,9 @@ pub(crate) fn need(program: &str, packages: &[&str]) -> anyhow::Result<()> {
 
 /// Installs packages with apt-get, through sudo when we are not root.
 ///
-/// The lists are refreshed only when the first attempt fails: a machine with fresh lists needs no network for that.
+/// What may stand in the way is cleared only when the first attempt fails: an installation that was cut off in its middle
+/// (`dpkg` then refuses everything until it is told to finish it), and old package lists. A machine that is in order needs no
+/// network for lists.
 pub(crate) fn install(packages: &[&str]) -> anyhow::Result<()> {
     let wanted = packages.join(" ");
     let remedy = || format!("install them by hand: apt-get install {wanted}");
@@ -39,42 +41,56 @@ pub(crate) fn install(packages: &[&str]) -> anyhow::Result<()> {
             "this machine has no apt-get to install {wanted}; install the packages of the same purpose by hand"
         );
     }
-    if apt(
-        &format!("install {wanted}"),
-        &["install", packages_flag()],
-        packages,
-    )
-    .is_ok()
-    {
+    let install = || apt_install(packages);
+    if install().is_ok() {
         return Ok(());
     }
-    apt("refresh the package lists", &["update"], &[]).with_context(remedy)?;
-    apt(
-        &format!("install {wanted}"),
-        &["install", packages_flag()],
-        packages,
-    )
-    .with_context(remedy)
+    finish_interrupted_installation()?;
+    refresh_package_lists().with_context(remedy)?;
+    install().with_context(remedy)
 }
 
-fn packages_flag() -> &'static str {
-    "--no-install-recommends"
+fn apt_install(packages: &[&str]) -> anyhow::Result<()> {
+    let mut command = apt_get()?;
+    command
+        .args(["install", "--no-install-recommends"])
+        .args(packages);
+    process::run(&format!("install {}", packages.join(" ")), &mut command)
 }
 
-fn apt(what: &str, words: &[&str], packages: &[&str]) -> anyhow::Result<()> {
+fn refresh_package_lists() -> anyhow::Result<()> {
+    let mut command = apt_get()?;
+    command.arg("update");
+    process::run("refresh the package lists", &mut command)
+}
+
+/// Lets dpkg finish what a power cut or a closed terminal interrupted; nothing happens when there is nothing to finish.
+fn finish_interrupted_installation() -> anyhow::Result<()> {
+    let mut command = as_root("dpkg")?;
+    command.args(["--configure", "--pending"]);
+    process::run("finish an interrupted installation", &mut command)
+        .context("finish it by hand: dpkg --configure --pending")
+}
+
+fn apt_get() -> anyhow::Result<Command> {
+    let mut command = as_root("apt-get")?;
+    command.args(["--yes", "--option", LOCK_WAIT]);
+    Ok(command)
+}
+
+/// Another installation, a machine's nightly update say, is waited for this many seconds.
+const LOCK_WAIT: &str = "DPkg::Lock::Timeout=300";
+
+fn as_root(program: &str) -> anyhow::Result<Command> {
     let mut command = if rustix::process::geteuid().is_root() {
-        Command::new("apt-get")
+        Command::new(program)
     } else if find("sudo").is_some() {
         let mut command = Command::new("sudo");
-        command.arg("apt-get");
+        command.arg(program);
         command
     } else {
         bail!("only root may install packages and there is no sudo");
     };
-    command
-        .arg("--yes")
-        .args(words)
-        .args(packages)
-        .env("DEBIAN_FRONTEND", "noninteractive");
-    process::run(what, &mut command)
+    command.env("DEBIAN_FRONTEND", "noninteractive");
+    Ok(command)
 }
