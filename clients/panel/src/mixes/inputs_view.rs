@@ -5,6 +5,7 @@ use panel_logic::{CalibrationRun, Field, Group, InputPart};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
+use super::group_parts::Unfold;
 use super::{Bench, group_problem};
 
 #[component]
@@ -41,14 +42,9 @@ fn InputView(bench: Bench, input: usize) -> impl IntoView {
     });
     view! {
         <li>
-            <button
-                type="button"
-                class="unfold"
-                aria-expanded=move || if open.get() { "true" } else { "false" }
-                on:click=move |_| open.update(|open| *open = !*open)
-            >
+            <Unfold open>
                 <span class="name">{name}</span>
-            </button>
+            </Unfold>
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Bar label="Reading" value />

@@ -5,6 +5,7 @@ use panel_logic::{Field, Group, LinePart};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
+use super::group_parts::{GroupTools, Unfold};
 use super::{Bench, group_problem};
 
 #[component]
@@ -37,16 +38,10 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
     let total = Signal::derive(move || bench.stages(output, line).map(|stages| stages.total));
     view! {
         <li>
-            <button
-                type="button"
-                class="unfold"
-                id=format!("line-{output}-{line}")
-                aria-expanded=move || if open.get() { "true" } else { "false" }
-                on:click=move |_| open.update(|open| *open = !*open)
-            >
+            <Unfold open id=format!("line-{output}-{line}")>
                 <span class="name">{name}</span>
                 <span class="words">{input}</span>
-            </button>
+            </Unfold>
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Stages bench output line />
@@ -56,17 +51,7 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
                         .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })
                         .collect_view()}
                 </div>
-                <div class="mix-tools">
-                    <button
-                        type="button"
-                        class="small"
-                        aria-disabled=if line == 0 { "true" } else { "false" }
-                        on:click=move |_| bench.rearrange(|draft| draft.move_up(group))
-                    >
-                        "Move up"
-                    </button>
-                    <button type="button" class="small" on:click=move |_| bench.remove(group)>"Remove this line"</button>
-                </div>
+                <GroupTools bench group is_first=line == 0 remove="Remove this line" />
             </Show>
         </li>
     }

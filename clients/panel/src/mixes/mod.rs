@@ -3,6 +3,7 @@
 mod bars;
 mod bench;
 mod field_view;
+mod group_parts;
 mod inputs_view;
 mod lines_view;
 mod outputs_view;

@@ -6,6 +6,7 @@ use panel_logic::{Field, Group, OutputPart};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
+use super::group_parts::Unfold;
 use super::lines_view::Lines;
 use super::{Bench, group_problem};
 
@@ -57,14 +58,9 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
     let group = Group::Output(output);
     view! {
         <li class="output" data-output=move || name.get().unwrap_or_default()>
-            <button
-                type="button"
-                class="unfold"
-                aria-expanded=move || if open.get() { "true" } else { "false" }
-                on:click=move |_| open.update(|open| *open = !*open)
-            >
+            <Unfold open>
                 <span class="name">{move || name.get().map(words)}</span>
-            </button>
+            </Unfold>
             <Bar label="Output" value />
             {group_problem(bench, group)}
             <Show when=move || open.get()>

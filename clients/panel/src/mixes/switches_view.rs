@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{Field, Group, SwitchPart};
 
 use super::field_view::FieldView;
+use super::group_parts::GroupTools;
 use super::{Bench, group_problem};
 
 #[component]
@@ -49,17 +50,7 @@ fn SwitchView(bench: Bench, switch: usize) -> impl IntoView {
                     <FieldView bench field=Field::Switch(switch, part) />
                 </For>
             </div>
-            <div class="mix-tools">
-                <button
-                    type="button"
-                    class="small"
-                    aria-disabled=if switch == 0 { "true" } else { "false" }
-                    on:click=move |_| bench.rearrange(|draft| draft.move_up(group))
-                >
-                    "Move up"
-                </button>
-                <button type="button" class="small" on:click=move |_| bench.remove(group)>"Remove this switch"</button>
-            </div>
+            <GroupTools bench group is_first=switch == 0 remove="Remove this switch" />
         </li>
     }
 }
