@@ -1,10 +1,9 @@
 //! Puts the daemon together and runs it.
 
 use std::io::{self, Write};
-use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use brain::{SensorLayout, StoredMap};
+use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
@@ -21,7 +20,7 @@ use crate::map_folder::MapFolder;
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
-use crate::schedule_file::{self, FoundSchedules};
+use crate::schedule_file;
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
@@ -122,7 +121,12 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 
 /// Settings of the core, with what is kept in the state folder.
 fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
-    let found = found_schedules(&kept.schedules);
+    let found = schedule_file::load(&kept.schedules);
+    let (home, map_complaints) = kept.maps.newest();
+    let complaints = [found.complaints, map_complaints].concat();
+    for complaint in &complaints {
+        tracing::error!(part = "vthal", "{complaint}");
+    }
     let sensors = match &config.description {
         Some(path) => robot_file::load(path)?,
         None => SensorLayout::default(),
@@ -132,7 +136,8 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         schedules: found.book,
         schedules_distrusted: found.distrusted,
         zone: system_zone(),
-        home: newest_home(&kept.maps),
+        home,
+        complaints,
         sensors,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
@@ -151,24 +156,6 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         version: env!("CARGO_PKG_VERSION").to_owned(),
         resume: now.and_then(|now| checkpoint_file::load(&kept.checkpoint, &now)),
     })
-}
-
-/// The newest map that is whole; what is wrong with newer ones goes to the log.
-fn newest_home(maps: &MapFolder) -> Option<StoredMap> {
-    let (home, complaints) = maps.newest();
-    for complaint in complaints {
-        tracing::error!(part = "vthal", "{complaint}");
-    }
-    home
-}
-
-/// The schedules that are kept; what is wrong with them goes to the log.
-fn found_schedules(path: &Path) -> FoundSchedules {
-    let found = schedule_file::load(path);
-    for complaint in &found.complaints {
-        tracing::error!(part = "vthal", "{complaint}");
-    }
-    found
 }
 
 /// Tells whoever started the daemon that its socket is open.

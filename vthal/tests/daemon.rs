@@ -522,6 +522,27 @@ fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     assert_eq!(newest.dock().map(|dock| dock.x_m), Some(0.0));
 }
 
+#[test]
+fn damaged_files_are_told_to_clients_and_kept() {
+    let scratch = Scratch::new().expect("creates");
+    fs::create_dir_all(scratch.join("state/maps")).expect("creates");
+    for file in ["schedules.json", "maps/000001.map"] {
+        fs::write(scratch.join("state").join(file), "{").expect("writes");
+    }
+    let _daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    for said in [
+        "schedules.json cannot be read",
+        "000001.map: it does not begin like a map",
+    ] {
+        let found = client.wait_for(soon(), |update| has_text(update, said));
+        assert!(found.expect("reads").is_some(), "{said}");
+    }
+    for file in ["schedules.json.damaged-1", "maps/000001.map"] {
+        assert_eq!(fs::read(scratch.join("state").join(file)).expect("reads"), b"{");
+    }
+}
+
 fn kept_schedules(desk: &mut Desk) -> Schedules {
     for topics in ["[]", r#"["schedules","log","status"]"#] {
         let request = format!(r#"{{"c":"watch","topics":{topics}}}"#);

@@ -14,6 +14,8 @@ enum Subject {
     Relay,
     /// The daemon killed at random moments while a robot drives.
     Kill,
+    /// The daemon killed at random moments while it writes schedules, control mixes and maps.
+    Writes,
     /// The simulator against real time.
     Sim,
     /// Size of cordlib's state.
@@ -52,7 +54,10 @@ pub(crate) struct Arguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    if matches!(arguments.subject, Subject::Relay | Subject::Kill) {
+    if matches!(
+        arguments.subject,
+        Subject::Relay | Subject::Kill | Subject::Writes
+    ) {
         workspace::build(&["vthal", "rvac-sim"], workspace::Profile::Release)?;
     }
     let firmware = match arguments.subject {
@@ -141,6 +146,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Link => &["--bin", "bench-link"],
         Subject::Relay => &["--bin", "bench-relay"],
         Subject::Kill => &["--bin", "bench-kill"],
+        Subject::Writes => &["--bin", "bench-writes"],
         Subject::Sim => &["--bin", "rvac-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
@@ -170,6 +176,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         Subject::Safety => &["--phases", "20"],
         Subject::Link
         | Subject::Relay
+        | Subject::Writes
         | Subject::Cordlib
         | Subject::Flips
         | Subject::Charges
@@ -182,6 +189,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
 fn longer(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Kill => &["--kills", "200"],
+        Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
         Subject::Charges => &["--count", "100"],

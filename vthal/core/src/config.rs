@@ -35,6 +35,8 @@ pub struct CoreConfig {
     pub schedules_distrusted: bool,
     /// The time zone of the system.
     pub zone: Zone,
+    /// What was wrong with what was kept, one sentence each: the first lines of the log that clients see.
+    pub complaints: Vec<String>,
 }
 
 impl Default for CoreConfig {
@@ -53,6 +55,7 @@ impl Default for CoreConfig {
             schedules: Book::default(),
             schedules_distrusted: false,
             zone: Zone::utc(),
+            complaints: Vec::new(),
         }
     }
 }

@@ -61,6 +61,10 @@ impl Core {
     #[must_use]
     pub fn new(mut config: CoreConfig) -> Self {
         let (book, zone) = (core::mem::take(&mut config.schedules), config.zone.clone());
+        let mut journal = Journal::default();
+        for complaint in core::mem::take(&mut config.complaints) {
+            journal.write(0, LogLevel::Error, (Part::Vthal, complaint));
+        }
         Self {
             scheduler: Scheduler::new(book, zone, config.schedules_distrusted),
             schedules_told: None,
@@ -69,7 +73,7 @@ impl Core {
             clients: Clients::default(),
             arbiter: Arbiter::default(),
             driver_power: CleanerPower::FULL,
-            journal: Journal::default(),
+            journal,
             diary: Diary::default(),
             device: None,
             mind: None,

@@ -18,7 +18,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 15] = [
+pub(super) const STAGES: [Stage; 16] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -88,6 +88,11 @@ pub(super) const STAGES: [Stage; 15] = [
         name: "kill",
         does: "a robot stands soon after its daemon was killed",
         run: kill,
+    },
+    Stage {
+        name: "writes",
+        does: "nothing acknowledged is lost when the daemon is killed while it writes",
+        run: writes,
     },
     Stage {
         name: "browser",
@@ -270,6 +275,13 @@ fn kill(long: bool) -> Result {
         "--kills",
         if long { "200" } else { "20" },
     ]);
+    check(&mut command)
+}
+
+fn writes(long: bool) -> Result {
+    workspace::build(&["vthal", "bench-writes"], Profile::Dev)?;
+    let mut command = Command::new(program("bench-writes", Profile::Dev));
+    command.args(["--kills", if long { "100000" } else { "2000" }]);
     check(&mut command)
 }
 

@@ -1,0 +1,135 @@
+//! What is kept of one kind, as the daemon tells it, and changes of it.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail};
+use rvac_api::{LogEntry, LogLevel, Request, RequestBody, Topic, Update};
+
+use crate::peer::Client;
+
+/// What is kept: each item as text, whole, with the number or name by which the daemon knows it. Two states are the same when
+/// their texts are.
+pub(crate) type Kept = BTreeMap<String, String>;
+
+/// A request, and the texts of what is kept when it is done.
+#[derive(Debug)]
+pub(crate) struct Change {
+    pub(crate) request: RequestBody,
+    pub(crate) after: Vec<String>,
+}
+
+/// One kind of what people entrust to the daemon.
+pub(crate) trait Store {
+    /// For people and figures.
+    fn name(&self) -> &'static str;
+
+    /// Waits until it can be changed.
+    fn get_ready(&self, _desk: &mut Desk) -> anyhow::Result<()> {
+        Ok(())
+    }
+
+    /// Asks the daemon.
+    fn read(&self, desk: &mut Desk) -> anyhow::Result<Kept>;
+
+    /// Makes up a change. `number` is never given twice, and grows.
+    fn change(&self, kept: &Kept, number: u64) -> Change;
+}
+
+/// Longest wait for any answer.
+const ANSWERS_WITHIN: Duration = Duration::from_secs(20);
+
+/// A client, and what it has heard of errors.
+pub(crate) struct Desk {
+    client: Client,
+    /// Errors that the daemon told: damaged files are among them.
+    pub(crate) errors: Vec<String>,
+}
+
+impl Desk {
+    pub(crate) fn new(client: Client) -> Self {
+        Self {
+            client,
+            errors: Vec::new(),
+        }
+    }
+
+    pub(crate) fn send(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
+        let request = Request { id: Some(id), body };
+        Ok(self.client.send(&serde_json::to_string(&request)?)?)
+    }
+
+    /// Asks for the present view of a topic.
+    pub(crate) fn look_at(&mut self, topic: Topic) -> anyhow::Result<()> {
+        for topics in [vec![Topic::Log], vec![Topic::Log, topic]] {
+            self.send(1, RequestBody::Watch { topics })?;
+        }
+        Ok(())
+    }
+
+    /// Reads until something fits.
+    pub(crate) fn wait<T>(&mut self, what: &str, fits: impl Fn(Update) -> Option<T>) -> anyhow::Result<T> {
+        let deadline = Instant::now() + ANSWERS_WITHIN;
+        while let Some(text) = self.client.next(deadline)? {
+            let Ok(update) = serde_json::from_str::<Update>(&text) else {
+                continue;
+            };
+            if let Update::Log(LogEntry { level, text, .. }) = &update
+                && *level == LogLevel::Error
+            {
+                self.errors.push(text.clone());
+            }
+            if let Some(found) = fits(update) {
+                return Ok(found);
+            }
+        }
+        bail!("the daemon did not tell {what}")
+    }
+
+    /// Sends a change and waits until it is acknowledged.
+    pub(crate) fn carry_out(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
+        let text = format!("{body:?}");
+        self.send(id, body)?;
+        let answer = self.wait("whether a change was done", |update| answer_to(id, update))?;
+        answer
+            .map_err(anyhow::Error::msg)
+            .with_context(|| format!("refused: {text}"))
+    }
+
+    /// Whether the answer came before the daemon ended.
+    pub(crate) fn was_acknowledged(&mut self, id: u32) -> anyhow::Result<bool> {
+        let deadline = Instant::now() + ANSWERS_WITHIN;
+        while let Some(text) = self.client.next(deadline)? {
+            match serde_json::from_str(&text)
+                .ok()
+                .and_then(|update| answer_to(id, update))
+            {
+                Some(Ok(())) => return Ok(true),
+                Some(Err(reason)) => bail!("a change was refused: {reason}"),
+                None => {}
+            }
+        }
+        Ok(false)
+    }
+}
+
+fn answer_to(id: u32, update: Update) -> Option<Result<(), String>> {
+    match update {
+        Update::Done { id: done } if done == id => Some(Ok(())),
+        Update::Failed(failure) if failure.id == Some(id) => Some(Err(failure.text)),
+        _ => None,
+    }
+}
+
+/// The texts of `kept` without the one of `key`, and with `fresh`.
+pub(crate) fn replaced(kept: &Kept, key: Option<&str>, fresh: Option<String>) -> Vec<String> {
+    let others = kept.iter().filter(|(other, _)| Some(other.as_str()) != key);
+    let mut texts: Vec<String> = others.map(|(_, text)| text.clone()).chain(fresh).collect();
+    texts.sort_unstable();
+    texts
+}
+
+/// The texts, sorted.
+pub(crate) fn texts(kept: &Kept) -> Vec<String> {
+    replaced(kept, None, None)
+}
