@@ -211,18 +211,20 @@ fn parse(packet: &[u8]) -> Incoming {
     })
 }
 
-/// Reads for a client until it hangs up.
+/// Reads for a client until it hangs up. One that has ended only its own side may wait for answers still, as a script does that
+/// pipes its requests in.
 pub(crate) async fn read_for(client: ClientId, stream: Rc<ClientStream>, events: Sender<Event>) {
     let mut buffer = [0; READ_SIZE];
-    loop {
-        let event = match stream.read(&mut buffer).await {
-            Ok(0) | Err(_) => Event::ClientClosed(client),
-            Ok(count) => Event::ClientBytes(client, buffer.get(..count).unwrap_or_default().to_vec()),
-        };
-        let ends = matches!(event, Event::ClientClosed(_));
-        if events.send(event).await.is_err() || ends {
+    while let Ok(count @ 1..) = stream.read(&mut buffer).await {
+        let bytes = buffer.get(..count).unwrap_or_default().to_vec();
+        if events.send(Event::ClientBytes(client, bytes)).await.is_err() {
             return;
         }
+    }
+    if events.send(Event::ClientSilent(client)).await.is_ok() {
+        stream.closed().await;
+        // A closed queue means that the daemon ends.
+        events.send(Event::ClientClosed(client)).await.ok();
     }
 }
 

@@ -5,9 +5,17 @@
 
 use std::io::{self, IoSlice, Read, Write};
 use std::os::unix::net::UnixStream;
+use std::time::Duration;
 
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use tokio::io::Interest;
 use tokio::io::unix::AsyncFd;
+
+/// Pause between two looks whether a client that has said its last word is still there.
+const CLOSED_LOOKS_EVERY: Duration = Duration::from_millis(100);
+/// Looks at such a client: three seconds are time for the slowest answer, one that waits for an SD card, and a script that follows
+/// something comes to an end.
+const CLOSED_LOOKS_MAX: u32 = 30;
 
 /// A connected socket that does not block.
 #[derive(Debug)]
@@ -30,6 +38,28 @@ impl ClientStream {
         self.0
             .async_io(Interest::READABLE, |mut stream| stream.read(buffer))
             .await
+    }
+
+    /// Waits until nobody is there any more to whom bytes could be written, but not for ever.
+    pub(crate) async fn closed(&self) {
+        for _ in 0..CLOSED_LOOKS_MAX {
+            if self.is_closed() {
+                return;
+            }
+            tokio::time::sleep(CLOSED_LOOKS_EVERY).await;
+        }
+    }
+
+    /// The system tells HUP only when both directions are closed; a watch of one direction would not tell them apart.
+    fn is_closed(&self) -> bool {
+        let mut handle = [PollFd::new(self.0.get_ref(), PollFlags::empty())];
+        match poll(&mut handle, Some(&Timespec::default())) {
+            Ok(_) => handle
+                .iter()
+                .any(|handle| handle.revents().intersects(PollFlags::HUP | PollFlags::ERR)),
+            Err(rustix::io::Errno::INTR) => false,
+            Err(_) => true,
+        }
     }
 
     /// Writes what the socket takes at once.

@@ -141,6 +141,7 @@ impl Daemon {
                     client.unblock();
                 }
             }
+            Event::ClientSilent(client) => self.handle(Input::ClientSilent(client)),
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
             Event::Mixes(answer) => self.take_mix_answer(answer),

@@ -18,6 +18,8 @@ pub(crate) enum Event {
     ClientBytes(ClientId, Vec<u8>),
     /// A client's socket takes bytes again.
     ClientWritable(ClientId),
+    /// A client has said its last word and may listen still.
+    ClientSilent(ClientId),
     /// A client is gone.
     ClientClosed(ClientId),
     /// From the gyro of the Linux board.

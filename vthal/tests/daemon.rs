@@ -523,6 +523,29 @@ fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
 }
 
 #[test]
+fn a_client_that_ended_its_side_gets_its_answers_and_leaves_the_seat() {
+    let mut desk = Desk::idle();
+    let mut script = Client::connect(&desk.scratch.join("vthal.sock")).expect("connects");
+    for request in [
+        r#"{"c":"drive","v":0,"w":0,"ttl":400}"#,
+        r#"{"c":"set-zone","zone":"Europe/Tallinn","id":7}"#,
+    ] {
+        script.send(request).expect("sends");
+    }
+    script
+        .stream
+        .shutdown(std::net::Shutdown::Write)
+        .expect("ends its side");
+    // The schedules are on the disk first, so this answer comes after the daemon has seen the end.
+    let answered = script.wait_for(soon(), |update| matches!(update, Update::Done { id: 7 }));
+    assert!(answered.expect("reads").is_some());
+    desk.client
+        .send(r#"{"c":"drive","v":0,"w":0,"ttl":400,"id":9}"#)
+        .expect("sends");
+    assert_eq!(refused(&mut desk), None, "the seat is free");
+}
+
+#[test]
 fn damaged_files_are_told_to_clients_and_kept() {
     let scratch = Scratch::new().expect("creates");
     fs::create_dir_all(scratch.join("state/maps")).expect("creates");

@@ -108,6 +108,7 @@ impl Core {
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::MapRestored { number, home } => self.map_restored(now_us, (number, home), outputs),
+            Input::ClientSilent(client) => self.client_silent(now_us, client, outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),

@@ -56,6 +56,8 @@ pub enum Input<'a> {
         /// Or a sentence that says why they are not.
         result: Result<(), String>,
     },
+    /// A client will ask for nothing more, but may listen; a driver's seat it held is empty and the wheels stop.
+    ClientSilent(ClientId),
     /// A client is gone; a driver's seat it held is empty and the wheels stop.
     ClientGone(ClientId),
     /// The time that [`crate::Core::next_wake_us`] named has come. Too early or too often does no harm.

@@ -106,5 +106,11 @@ fn serve(port: u16, assets: &Path, stack: &mut Stack) -> anyhow::Result<()> {
         "the robot stands in its home and waits. Open this page and press Start; Ctrl-C ends it all:",
     );
     process::print(&address);
+    process::say("rvac and scripts reach it after");
+    process::print(&format!(
+        "export RVAC_SOCKET={} RVAC_SIMULATOR={}",
+        stack.daemon_socket().display(),
+        stack.simulator_socket().display()
+    ));
     stack.wait()
 }

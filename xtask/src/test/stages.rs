@@ -149,6 +149,7 @@ fn clippy(_long: bool) -> Result {
 fn workspace_tests(_long: bool) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
+    system::need("socat", &["socat"])?;
     let build = check(&mut cargo(&["build", "--workspace", "--locked"]));
     let run = if system::find("cargo-nextest").is_some() {
         tests(&mut cargo(&[

@@ -9,6 +9,7 @@ mod browser;
 mod mixes;
 mod robot;
 mod schedules;
+#[path = "../stack/mod.rs"]
 mod stack;
 
 use std::time::{Duration, Instant};

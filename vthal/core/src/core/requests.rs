@@ -233,10 +233,15 @@ impl Core {
         self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
     }
 
-    pub(super) fn client_gone(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+    /// Nobody can let go of a stick over a connection that takes no more requests.
+    pub(super) fn client_silent(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         if self.arbiter.forget(client) {
             self.driver_left(now_us, client, outputs);
         }
+    }
+
+    pub(super) fn client_gone(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
+        self.client_silent(now_us, client, outputs);
         self.clients.forget(client);
     }
 

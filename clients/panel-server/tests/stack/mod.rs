@@ -1,4 +1,8 @@
 //! The simulator, the daemon and the server as processes on sockets and ports of their own.
+#![allow(
+    dead_code,
+    reason = "each set of tests that shares this uses another part of it"
+)]
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -73,6 +77,11 @@ fn binary(name: &str) -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_panel-server")).with_file_name(name)
 }
 
+fn packed_panel() -> PathBuf {
+    let panel = std::env::var_os("RVAC_PANEL").expect("RVAC_PANEL names the folder of the packed panel");
+    PathBuf::from(panel)
+}
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -80,21 +89,26 @@ fn root() -> PathBuf {
 impl Stack {
     /// In a home that the robot does not know.
     pub(crate) fn start() -> Self {
-        Self::new(Home::Unknown, None)
+        Self::new(Home::Unknown, None, &packed_panel())
+    }
+
+    /// The same with a page of the test's own in place of the packed panel.
+    pub(crate) fn start_with_page(panel: &Path) -> Self {
+        Self::new(Home::Unknown, None, panel)
     }
 
     /// In a home whose map was kept.
     pub(crate) fn start_at_home() -> Self {
-        Self::new(Home::Kept, None)
+        Self::new(Home::Kept, None, &packed_panel())
     }
 
     /// In a home that the robot does not know, with the robot's real firmware in an emulated chip.
     pub(crate) fn start_emulated() -> Self {
         let firmware = std::env::var_os("RVAC_FIRMWARE").expect("RVAC_FIRMWARE names the robot's firmware");
-        Self::new(Home::Unknown, Some(Path::new(&firmware)))
+        Self::new(Home::Unknown, Some(Path::new(&firmware)), &packed_panel())
     }
 
-    fn new(home: Home, firmware: Option<&Path>) -> Self {
+    fn new(home: Home, firmware: Option<&Path>, panel: &Path) -> Self {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
@@ -112,8 +126,12 @@ impl Stack {
         }
         stack.start_simulator(firmware);
         stack.start_vthal();
-        stack.start_server();
+        stack.start_server(panel);
         stack
+    }
+
+    pub(crate) fn daemon_socket(&self) -> PathBuf {
+        self.folder.join("vthal.sock")
     }
 
     pub(crate) fn simulator_socket(&self) -> PathBuf {
@@ -129,7 +147,7 @@ impl Stack {
         let mut command = Command::new(binary("vthal"));
         command.arg("--config").arg(self.folder.join("vthal.toml"));
         command.arg("--serial").arg(self.folder.join("serial"));
-        command.arg("--socket").arg(self.folder.join("vthal.sock"));
+        command.arg("--socket").arg(self.daemon_socket());
         command.arg("--state").arg(self.folder.join("state"));
         self.vthal = Some(Process::start(&mut command).0);
     }
@@ -182,11 +200,10 @@ impl Stack {
         self.processes.push(Process::start(&mut command).0);
     }
 
-    fn start_server(&mut self) {
-        let panel = std::env::var_os("RVAC_PANEL").expect("RVAC_PANEL names the folder of the packed panel");
+    fn start_server(&mut self, panel: &Path) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
         command.args(["--port", "0", "--assets"]).arg(panel);
-        command.arg("--vthal").arg(self.folder.join("vthal.sock"));
+        command.arg("--vthal").arg(self.daemon_socket());
         command.arg("--simulator").arg(self.simulator_socket());
         let (process, line) = Process::start(&mut command);
         self.processes.push(process);
