@@ -7,6 +7,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use rvac_api::RunRecord;
 use rvac_protocol::seal::{Digest, Direction};
 use serde::{Deserialize, Serialize};
 use vthal_core::Checkpoint;
@@ -25,6 +26,9 @@ struct Stored {
     uptime_s: f64,
     device: String,
     brain: BrainState,
+    /// Absent in those of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    run: Option<Box<RunRecord>>,
 }
 
 /// A moment of the running system.
@@ -64,6 +68,7 @@ pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<(
         uptime_s: now.uptime_s,
         device: checkpoint.device.clone(),
         brain: BrainState::from(&checkpoint.brain),
+        run: checkpoint.run.clone(),
     };
     let body = serde_json::to_vec(&stored)?;
     let mut bytes = format!("{MAGIC} {} {:08X}\n", body.len(), digest(&body)).into_bytes();
@@ -74,12 +79,29 @@ pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<(
 /// The newest whole checkpoint that is young enough, if there is one.
 #[must_use]
 pub fn load(path: &Path, now: &BootTime) -> Option<Checkpoint> {
+    newest(path, now)
+        .filter(|found| found.is_young)
+        .map(|found| found.checkpoint)
+}
+
+/// A checkpoint of a daemon before this one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// It.
+    pub checkpoint: Checkpoint,
+    /// It is so young that its job may go on.
+    pub is_young: bool,
+}
+
+/// The newest whole checkpoint, however old.
+#[must_use]
+pub fn newest(path: &Path, now: &BootTime) -> Option<Found> {
     kept_file::versions(path)
         .iter()
         .find_map(|path| load_one(path, now))
 }
 
-fn load_one(path: &Path, now: &BootTime) -> Option<Checkpoint> {
+fn load_one(path: &Path, now: &BootTime) -> Option<Found> {
     let bytes = fs::read(path).ok()?;
     let end = bytes.iter().position(|byte| *byte == b'\n')?;
     let (header, body) = (bytes.get(..end)?, bytes.get(end + 1..)?);
@@ -89,14 +111,15 @@ fn load_one(path: &Path, now: &BootTime) -> Option<Checkpoint> {
     }
     let stored: Stored = serde_json::from_slice(body).ok()?;
     let age_s = now.uptime_s - stored.uptime_s;
-    let young = stored.boot == now.boot && (0.0..=AGE_MAX_S).contains(&age_s);
-    young
-        .then(|| stored.brain.to_brain())
-        .flatten()
-        .map(|brain| Checkpoint {
+    let brain = stored.brain.to_brain()?;
+    Some(Found {
+        checkpoint: Checkpoint {
             device: stored.device,
             brain,
-        })
+            run: stored.run,
+        },
+        is_young: stored.boot == now.boot && (0.0..=AGE_MAX_S).contains(&age_s),
+    })
 }
 
 fn digest(body: &[u8]) -> u32 {
@@ -135,6 +158,7 @@ mod tests {
                 backed_m: 0.07,
                 ..brain::Checkpoint::default()
             },
+            run: None,
         }
     }
 

@@ -1,4 +1,4 @@
-//! The thread that writes checkpoints, maps, schedules and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
+//! The thread that writes checkpoints, maps, schedules, records of runs and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use brain::StoredMap;
-use rvac_api::KeptMap;
+use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{Checkpoint, ClientId, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder};
 
@@ -14,6 +14,7 @@ use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::map_folder::MapFolder;
 use crate::mix_folder::{MixError, MixFolder};
+use crate::run_folder::RunFolder;
 use crate::schedule_file;
 
 /// Where to write.
@@ -26,6 +27,8 @@ pub(crate) struct KeptPaths {
     pub(crate) mixes: MixFolder,
     /// The schedules.
     pub(crate) schedules: PathBuf,
+    /// The records of runs.
+    pub(crate) runs: RunFolder,
 }
 
 /// Something to be kept, or asked of what is kept.
@@ -36,6 +39,7 @@ enum Kept {
     Order(MapOrder),
     MixOrder(MixOrder),
     Schedules(Box<ScheduleOrder>),
+    Run(Box<RunRecord>),
 }
 
 /// What came of an order for the kept control mixes.
@@ -139,6 +143,12 @@ impl CheckpointHandle {
         self.try_send(Kept::Schedules(Box::new(order)))
     }
 
+    /// Hands the record of a run over; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn keep_run(&self, record: Box<RunRecord>) -> bool {
+        self.try_send(Kept::Run(record))
+    }
+
     fn try_send(&self, kept: Kept) -> bool {
         self.queue
             .as_ref()
@@ -159,7 +169,7 @@ impl CheckpointHandle {
 fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
     let mut healthy = true;
     while let Ok(first) = queue.recv() {
-        let (mut checkpoint, mut home, mut orders) = (None, None, Vec::new());
+        let (mut checkpoint, mut home, mut orders, mut runs) = (None, None, Vec::new(), Vec::new());
         // Whoever waits until the home is kept.
         let mut waiting = Vec::new();
         for kept in core::iter::once(first).chain(queue.try_iter()) {
@@ -171,6 +181,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                     waiting.push((edit.client, edit.id));
                 }
                 Kept::Order(order) => orders.push(order),
+                Kept::Run(record) => runs.push(record),
                 // Small, and never in a queue behind a map that waits to be written.
                 Kept::MixOrder(order) => {
                     events
@@ -204,6 +215,10 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                 paths.maps.path().display()
             );
         }
+        for record in runs {
+            let (number, result) = (record.run.number, keep_run(*record, paths));
+            events.blocking_send(Event::RunKept(number, result)).ok();
+        }
         for (client, id) in waiting {
             let outcome = match &kept {
                 Ok(()) => MapOutcome::Kept,
@@ -217,6 +232,19 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             // Nobody is left to hear it when the daemon ends.
             events.blocking_send(Event::Maps(obey(order, &paths.maps))).ok();
         }
+    }
+}
+
+/// Keeps the record of a run, with the version of the map that is the newest then.
+fn keep_run(mut record: RunRecord, paths: &KeptPaths) -> Result<Box<Run>, String> {
+    record.run.map = paths.maps.newest_number();
+    match paths.runs.keep(&record) {
+        Ok(()) => Ok(Box::new(record.run)),
+        Err(error) => Err(format!(
+            "cannot write the record of run {} in {}: {error}; it is tried again every minute",
+            record.run.number,
+            paths.runs.path().display()
+        )),
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Duration;
 
-use rvac_api::{Failure, LogEntry, LogLevel, Update};
+use rvac_api::{Failure, LogEntry, LogLevel, RunRecord, Update};
 use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
@@ -22,6 +22,7 @@ use crate::event::{Event, SerialEvent};
 use crate::imu::ImuEvent;
 use crate::outbox::Class;
 use crate::recording::RecorderHandle;
+use crate::run_thread::{RunAnswer, RunHandle};
 use crate::socket;
 
 /// Longest wait for the wheels to stand when the daemon ends.
@@ -44,6 +45,8 @@ pub(crate) struct Wiring {
     pub recorder: Option<RecorderHandle>,
     /// Checkpoints.
     pub checkpoints: CheckpointHandle,
+    /// What is kept of runs.
+    pub runs: RunHandle,
     /// The socket's file, removed at the end.
     pub socket: PathBuf,
     /// Clients at the same time.
@@ -145,6 +148,9 @@ impl Daemon {
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
             Event::Mixes(answer) => self.take_mix_answer(answer),
+            Event::Runs(answer) => self.take_run_answer(answer),
+            Event::RunKept(number, result) => self.handle(Input::RunKept { number, result }),
+            Event::RecordingOpened(run, name) => self.handle(Input::RecordingOpened { run, name }),
             Event::Schedules(number, result) => self.handle(Input::SchedulesKept { number, result }),
             Event::Terminate(signal) => self.terminate(signal),
         }
@@ -192,6 +198,13 @@ impl Daemon {
         self.tell_done((client, id), answer);
     }
 
+    fn take_run_answer(&mut self, RunAnswer { client, id, outcome }: RunAnswer) {
+        match outcome {
+            Ok(update) => self.tell_done((client, id), Some(*update)),
+            Err(error) => self.tell(client, &refusal(id, error.name(), error.to_string())),
+        }
+    }
+
     /// What came of an order, if it has an answer of its own, and that it is done, if whoever asked numbered it.
     fn tell_done(&mut self, (client, id): (ClientId, Option<u32>), answer: Option<Update>) {
         for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
@@ -224,6 +237,17 @@ impl Daemon {
         if !self.wiring.checkpoints.keep_schedules(order) {
             let text = "The disk is too slow to take schedules now; they are as they were before.".to_owned();
             self.handle(Input::SchedulesKept {
+                number,
+                result: Err(text),
+            });
+        }
+    }
+
+    fn keep_run(&mut self, record: Box<RunRecord>) {
+        let number = record.run.number;
+        if !self.wiring.checkpoints.keep_run(record) {
+            let text = "the disk is too slow to take the record of a run now; it is tried again".to_owned();
+            self.handle(Input::RunKept {
                 number,
                 result: Err(text),
             });
@@ -349,8 +373,17 @@ impl Daemon {
         for order in std::mem::take(&mut self.outputs.mix_orders) {
             self.order_mix(order);
         }
+        for query in std::mem::take(&mut self.outputs.run_queries) {
+            if !self.wiring.runs.ask(query) {
+                self.tell_busy(query.client, query.id);
+            }
+        }
         let schedules = self.outputs.schedules.take();
+        let run = self.outputs.run.take();
         self.outputs.clear();
+        if let Some(record) = run {
+            self.keep_run(record);
+        }
         if let Some(order) = schedules {
             self.keep_schedules(order);
         }

@@ -1,10 +1,12 @@
 //! Everything that can wake the daemon.
 
+use rvac_api::Run;
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
 use crate::checkpoint_thread::{MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
+use crate::run_thread::RunAnswer;
 use crate::serial::OpenError;
 
 /// The closed set of causes.
@@ -28,6 +30,12 @@ pub(crate) enum Event {
     Maps(MapAnswer),
     /// What came of an order for the kept control mixes.
     Mixes(MixAnswer),
+    /// What a client asked of the kept runs.
+    Runs(RunAnswer),
+    /// The record of the run with this number is on the disk, or a sentence says why it is not.
+    RunKept(u64, Result<Box<Run>, String>),
+    /// The recording of a run, by its number since the daemon's start, has this file name.
+    RecordingOpened(u32, String),
     /// Schedules are on the disk, or a sentence says why they are not.
     Schedules(u64, Result<(), String>),
     /// The core asked to be called now.

@@ -23,6 +23,8 @@ mod outbox;
 pub mod recording;
 mod robot_file;
 mod rotation;
+mod run_folder;
+mod run_thread;
 mod schedule_file;
 mod serial;
 mod service;

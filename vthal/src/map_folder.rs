@@ -99,6 +99,11 @@ impl MapFolder {
         (None, complaints)
     }
 
+    /// Number of the newest version.
+    pub(crate) fn newest_number(&self) -> Option<u64> {
+        self.numbers().first().copied()
+    }
+
     /// The versions that are whole, newest first.
     pub(crate) fn list(&self) -> Vec<KeptMap> {
         let kept = |number| Some(describe(number, self.kept_s(number), &self.load(number).ok()?));

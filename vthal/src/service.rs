@@ -7,9 +7,9 @@ use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
-use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
+use vthal_core::{Checkpoint, Checkpoints, Core, CoreConfig, ExpertAccess, Recording, cut_short};
 
-use crate::checkpoint_file::{self, BootTime};
+use crate::checkpoint_file::{self, BootTime, Found};
 use crate::checkpoint_thread::KeptPaths;
 use crate::clock::Clock;
 use crate::config::Config;
@@ -20,11 +20,12 @@ use crate::map_folder::MapFolder;
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
+use crate::run_folder::RunFolder;
 use crate::schedule_file;
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{checkpoint_thread, imu, logging};
+use crate::{checkpoint_thread, imu, logging, run_thread};
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
@@ -35,6 +36,10 @@ const TO_ROBOT_MAX: usize = 64;
 const CHECKPOINT: &str = "checkpoint";
 /// Name of the folder of maps in the state folder.
 const MAPS: &str = "maps";
+/// Name of the folder of records of runs in the state folder.
+const HISTORY: &str = "history";
+/// Name of the folder of recordings in the state folder.
+const RECORDINGS: &str = "runs";
 /// Name of the folder of control mixes in the state folder.
 const MIXES: &str = "mixes";
 /// Name of the file of schedules in the state folder.
@@ -83,6 +88,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         maps: MapFolder::new(config.state.join(MAPS)),
         mixes: MixFolder::new(config.state.join(MIXES)),
         schedules: config.state.join(SCHEDULES),
+        runs: RunFolder::new(config.state.join(HISTORY), config.state.join(RECORDINGS)),
     };
     let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
@@ -91,7 +97,8 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         events,
         event_sender: event_sender.clone(),
         to_robot,
-        recorder: recorder(config)?,
+        recorder: recorder(config, &event_sender)?,
+        runs: run_thread::start(kept.runs.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept, event_sender.clone())?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
@@ -131,7 +138,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         Some(path) => robot_file::load(path)?,
         None => SensorLayout::default(),
     };
-    let now = BootTime::now().ok();
+    let (resume, next_run) = left_over(kept);
     Ok(CoreConfig {
         schedules: found.book,
         schedules_distrusted: found.distrusted,
@@ -154,8 +161,39 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         checkpoints: Checkpoints::On,
         task_budget_s: config.task_budget_min * 60,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        resume: now.and_then(|now| checkpoint_file::load(&kept.checkpoint, &now)),
+        resume,
+        next_run,
     })
+}
+
+/// The job that goes on, and the number of the next run. A run with which nobody goes on is kept as cut short.
+fn left_over(kept: &KeptPaths) -> (Option<Checkpoint>, u64) {
+    let now = BootTime::now().ok();
+    let found = now.and_then(|now| checkpoint_file::newest(&kept.checkpoint, &now));
+    let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
+    let left = run.map_or(0, |run| run.run.number);
+    let next_run = kept.runs.newest().max(left) + 1;
+    let Some(Found { checkpoint, is_young }) = found else {
+        return (None, next_run);
+    };
+    if is_young {
+        return (Some(checkpoint), next_run);
+    }
+    if let Some(record) = cut_short(checkpoint).filter(|record| !kept.runs.has(record.run.number)) {
+        let number = record.run.number;
+        match kept.runs.keep(&record) {
+            Ok(()) => tracing::info!(
+                part = "vthal",
+                "run {number} was cut short: what was known of it is kept"
+            ),
+            Err(error) => tracing::error!(
+                part = "vthal",
+                "cannot write what was known of run {number} in {}: {error}",
+                kept.runs.path().display()
+            ),
+        }
+    }
+    (None, next_run)
 }
 
 /// Tells whoever started the daemon that its socket is open.
@@ -164,7 +202,7 @@ fn announce() -> io::Result<()> {
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }
 
-fn recorder(config: &Config) -> Result<Option<RecorderHandle>, ServeError> {
+fn recorder(config: &Config, events: &mpsc::Sender<Event>) -> Result<Option<RecorderHandle>, ServeError> {
     if !config.recording.enabled {
         return Ok(None);
     }
@@ -172,8 +210,11 @@ fn recorder(config: &Config) -> Result<Option<RecorderHandle>, ServeError> {
         files_max: config.recording.files as usize,
         bytes_max: u64::from(config.recording.total_mib) << 20,
     };
-    let library = Library::open(&config.state.join("runs"), limits).map_err(ServeError::Recordings)?;
-    Ok(Some(recording::start(library, format!("{config:?}"))?))
+    let library = Library::open(&config.state.join(RECORDINGS), limits).map_err(ServeError::Recordings)?;
+    let events = events.clone();
+    // A daemon that ends has no use for the name.
+    let opened = move |run, name| drop(events.blocking_send(Event::RecordingOpened(run, name)));
+    Ok(Some(recording::start(library, (format!("{config:?}"), opened))?))
 }
 
 fn watch_signals(events: &mpsc::Sender<Event>) -> io::Result<()> {

@@ -9,8 +9,9 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
-use rvac_api::{LogEntry, Request, RequestBody, Schedules, Update};
+use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
 use rvac_protocol::message::{self, BinaryKinds};
+use rvac_protocol::seal::{Digest, Direction as SealDirection};
 
 #[path = "../bench/peer/mod.rs"]
 mod peer;
@@ -42,7 +43,7 @@ fn robot(scratch: &Scratch, boot_count: u32) -> SyntheticRobot {
 }
 
 /// Lets the robot live until the client has seen an update that fits.
-fn wait_until(robot: &mut SyntheticRobot, client: &mut Client, fits: impl Fn(&Update) -> bool) {
+fn wait_until(robot: &mut SyntheticRobot, client: &mut Client, mut fits: impl FnMut(&Update) -> bool) {
     let deadline = soon();
     let mut seen = Vec::new();
     while Instant::now() < deadline {
@@ -723,4 +724,115 @@ fn a_broken_configuration_is_one_sentence_and_nothing_is_written() {
         "{message}"
     );
     assert!(!state.exists(), "nothing was written");
+}
+
+/// What the daemon answers to a question about runs.
+fn asked_of_runs(client: &mut Client, request: &str) -> Update {
+    client.send(request).expect("sends");
+    let is_answer = |update: &Update| {
+        matches!(
+            update,
+            Update::Runs { .. } | Update::Run(_) | Update::RunFile { .. } | Update::Failed(_)
+        )
+    };
+    let answer = client.wait_for(soon(), is_answer).expect("reads");
+    answer.expect("an answer")
+}
+
+#[test]
+fn a_run_is_kept_with_its_recording_before_it_is_told() {
+    let mut desk = Desk::started();
+    wait_for_state(&mut desk.robot, &mut desk.client, "cleaning");
+    let mut person = Client::watching(&desk.scratch.join("vthal.sock"), r#"["runs"]"#).expect("connects");
+    person.send(r#"{"c":"hello","name":"Anna"}"#).expect("sends");
+    desk.robot
+        .live_until(Instant::now() + Duration::from_millis(1500), |_| false)
+        .expect("lives");
+    person.send(r#"{"c":"stop"}"#).expect("sends");
+    let mut kept = None;
+    wait_until(&mut desk.robot, &mut person, |update| {
+        if let Update::RunKept(run) = update {
+            kept = Some(run.clone());
+        }
+        kept.is_some()
+    });
+    let run = kept.expect("is kept");
+    assert_eq!((run.number, run.result), (1, RunResult::Stopped));
+    assert_eq!(run.text, "Stopped by Anna.");
+    let file = desk.scratch.join("state/history/000001.json");
+    assert!(file.exists(), "what is told is on the disk");
+    assert!(run.start_s.is_some() && run.end_s >= run.start_s, "{run:?}");
+    let Update::Runs { runs, more } = asked_of_runs(&mut person, r#"{"c":"runs"}"#) else {
+        panic!("no list")
+    };
+    assert_eq!((runs.len(), more, runs[0].number), (1, false, 1));
+    assert!(
+        runs[0].recordings[0].bytes.is_some_and(|bytes| bytes > 1000),
+        "{runs:?}"
+    );
+    let Update::Run(record) = asked_of_runs(&mut person, r#"{"c":"run","number":1}"#) else {
+        panic!("no run")
+    };
+    assert!(record.picture.is_some_and(|picture| picture.cell_m > 0.0));
+    let Update::RunFile { data, name, .. } =
+        asked_of_runs(&mut person, r#"{"c":"run-file","number":1,"from":0}"#)
+    else {
+        panic!("no piece")
+    };
+    assert_eq!(name, runs[0].recordings[0].name);
+    // The magic of MCAP in base 64.
+    assert!(data.starts_with("iU1DQVAwDQo"), "{}", &data[..20]);
+    let Update::Failed(failure) = asked_of_runs(&mut person, r#"{"c":"run","number":2}"#) else {
+        panic!("there is no run 2")
+    };
+    assert_eq!(failure.reason, "no-such-run");
+}
+
+#[test]
+fn a_run_that_nobody_goes_on_with_is_found_and_kept_as_cut_short() {
+    let Desk {
+        mut robot,
+        daemon,
+        client: _client,
+        scratch,
+    } = Desk::started();
+    let checkpoint = scratch.join("state/checkpoint");
+    let written = |path: &Path| fs::read_to_string(path).is_ok_and(|text| text.contains(r#""running":true"#));
+    assert!(
+        robot.live_until(soon(), |_| written(&checkpoint)).expect("lives"),
+        "a checkpoint is written"
+    );
+    daemon.kill().expect("kills");
+    age_checkpoint(&checkpoint);
+    let daemon = start(&scratch);
+    let mut person = Client::connect(&scratch.join("vthal.sock")).expect("connects");
+    let Update::Run(record) = asked_of_runs(&mut person, r#"{"c":"run","number":1}"#) else {
+        panic!("no run")
+    };
+    assert_eq!(record.run.result, RunResult::CutShort);
+    assert_eq!(record.run.end_s, None);
+    assert!(record.run.start_s.is_some(), "{:?}", record.run);
+    // It is found once, whatever happens then.
+    daemon.kill().expect("kills");
+    let _daemon = start(&scratch);
+    let mut person = Client::connect(&scratch.join("vthal.sock")).expect("connects");
+    let Update::Runs { runs, .. } = asked_of_runs(&mut person, r#"{"c":"runs"}"#) else {
+        panic!("no list")
+    };
+    assert_eq!(runs.len(), 1, "{runs:?}");
+}
+
+/// Makes a checkpoint look as after a power cut: of another boot of the system.
+fn age_checkpoint(path: &Path) {
+    let text = fs::read_to_string(path).expect("reads");
+    let (_, body) = text.split_once('\n').expect("has a header");
+    let at = body.find(r#""boot":""#).expect("names its boot") + 8;
+    let mut body = body.as_bytes().to_vec();
+    body[at] = if body[at] == b'0' { b'1' } else { b'0' };
+    let mut digest = Digest::start(SealDirection::HostToRobot, 0);
+    digest.extend(&body);
+    let mut whole = format!("vthal-checkpoint-1 {} {:08X}\n", body.len(), digest.seal()).into_bytes();
+    whole.extend(body);
+    fs::write(path, whole).expect("writes");
+    fs::remove_file(path.with_extension("old")).ok();
 }

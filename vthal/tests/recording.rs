@@ -8,7 +8,10 @@ use brain::action::{Arm, Decision, Tone};
 use brain::observation::{BeaconRange, ChargeFlow};
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
-use rvac_api::{LogEntry, LogLevel, Pose, Status};
+use rvac_api::{
+    BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RunRecord,
+    Status,
+};
 use serde_json::{Value, json};
 use vthal::recording::RunFile;
 use vthal_core::{Direction, Record, RunCause, RunStart};
@@ -26,6 +29,15 @@ fn start() -> RunStart {
         checkpoint: brain::Checkpoint::default(),
         device: "sr8730".to_owned(),
         firmware: "0.1.0".to_owned(),
+        robot: RobotDescription {
+            device: "sr8730".to_owned(),
+            radius_m: 0.175,
+            swath_m: 0.3,
+            speed_max_m_per_s: 0.35,
+            turn_max_rad_per_s: 1.5,
+            proximity: 5,
+            parts: vec!["gyro".to_owned()],
+        },
     }
 }
 
@@ -123,9 +135,45 @@ fn records() -> Vec<Record> {
         time_us: BEGIN_US + 3,
         status,
     }));
+    records.push(measured());
+    records.push(told());
     records.push(Record::Pose(POSE));
     records.extend([LogLevel::Debug, LogLevel::Info, LogLevel::Warn, LogLevel::Error].map(line));
     records
+}
+
+/// The device table with every part.
+fn measured() -> Record {
+    let table = DeviceTable {
+        battery: Some(BatteryReading {
+            charge: 0.5,
+            voltage_v: 15.0,
+            current_a: -1.0,
+            temperature_c: Some(25.0),
+            state: "charging".to_owned(),
+            charger: Some(ChargerReading {
+                phase: "fast".to_owned(),
+                end: Some("slope".to_owned()),
+                fault: None,
+            }),
+        }),
+        currents_a: Some([0.1, 0.2, 0.5]),
+        ..DeviceTable::default()
+    };
+    Record::Device {
+        time_us: BEGIN_US + 3,
+        table: Box::new(table),
+    }
+}
+
+/// What people are told of the run.
+fn told() -> Record {
+    let text = r#"{"run":{"number":4,"job":"spot","by":"button","duration_s":60.0,"moving_s":50.0,"swept_m2":1.0,
+        "path_m":9.0,"bumps":0,"result":"finished","reason":"finished","text":"Finished.","stop_count":0},"stops":[]}"#;
+    Record::Told {
+        time_us: BEGIN_US + 4,
+        run: serde_json::from_str(text).expect("a record"),
+    }
 }
 
 /// A radian to the left, at a time that a float cannot say exactly.
@@ -304,4 +352,21 @@ fn the_robot_stands_where_the_pose_says() {
     assert_eq!(entity["cylinders"][0]["size"]["x"], 2.0 * config().body.radius_m);
     let levels: Vec<&Value> = found["/log"].iter().map(|(_, line)| &line["level"]).collect();
     assert_eq!(levels, [1, 2, 3, 4], "DEBUG to ERROR in Foxglove's numbers");
+}
+
+#[test]
+fn one_file_says_which_robot_it_was_and_what_came_of_the_run() {
+    let bytes = recording("attachments");
+    let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
+    let attached = |name: &str| {
+        let mut indexes = summary.attachment_indexes.iter();
+        let index = indexes.find(|index| index.name == name).expect("is attached");
+        let attachment = mcap::read::attachment(&bytes, index).expect("is whole");
+        assert_eq!(attachment.media_type, "application/json");
+        attachment.data.into_owned()
+    };
+    let robot: RobotDescription = serde_json::from_slice(&attached("robot.json")).expect("a robot");
+    assert_eq!(robot, start().robot);
+    let run: RunRecord = serde_json::from_slice(&attached("run.json")).expect("a run");
+    assert_eq!((run.run.number, run.run.text.as_str()), (4, "Finished."));
 }

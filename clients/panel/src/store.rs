@@ -256,7 +256,11 @@ impl Store {
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
             Message::Schedules(schedules) => self.schedules.on_schedules(schedules),
-            Message::Packet { .. } => {}
+            Message::Packet { .. }
+            | Message::Runs { .. }
+            | Message::Run(_)
+            | Message::RunKept(_)
+            | Message::RunFile { .. } => {}
         }
     }
 

@@ -8,6 +8,7 @@
 
 extern crate alloc;
 
+mod history;
 mod home;
 mod order;
 mod request;
@@ -15,6 +16,9 @@ mod schedule;
 mod thought;
 mod update;
 
+pub use history::{
+    RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
+};
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomNaming};
 pub use request::{CleaningPower, Request, RequestBody, Topic};

@@ -43,6 +43,8 @@ pub enum Topic {
     Packets,
     /// [`crate::Update::Schedules`] at once, then when it changes.
     Schedules,
+    /// [`crate::Update::RunKept`] for each run that ends, when it is on the disk.
+    Runs,
 }
 
 /// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
@@ -192,6 +194,30 @@ pub enum RequestBody {
         /// Its name in the IANA database, for example `Europe/Tallinn`; absent = the system's.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         zone: Option<String>,
+    },
+    /// Asks for runs that are over, newest first; answered by [`crate::Update::Runs`].
+    Runs {
+        /// Only runs with lower numbers; absent = from the newest on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        before: Option<u64>,
+        /// At most so many, 1..=50; absent = 20.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        count: Option<u8>,
+    },
+    /// Asks for all that is kept of a run; answered by [`crate::Update::Run`].
+    Run {
+        /// Its number.
+        number: u64,
+    },
+    /// Asks for a piece of a recording of a run; answered by [`crate::Update::RunFile`].
+    RunFile {
+        /// Number of the run.
+        number: u64,
+        /// Which of its recordings, from 0.
+        #[serde(default)]
+        recording: u32,
+        /// First byte of the piece.
+        from: u64,
     },
     /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
     Raw {

@@ -1,10 +1,11 @@
 //! What the daemon tells its clients.
 
+use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{Decision, Estimate, HomeView, JobEstimate, KeptMap, PlannedWay, Schedules};
+use crate::{Decision, Estimate, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, Schedules};
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +62,30 @@ pub enum Update {
     },
     /// All schedules.
     Schedules(Schedules),
+    /// Runs that are over.
+    Runs {
+        /// Newest first.
+        runs: Vec<Run>,
+        /// There are older ones.
+        more: bool,
+    },
+    /// A run that is over.
+    Run(Box<RunRecord>),
+    /// A run is over, and what is kept of it is on the disk.
+    RunKept(Box<Run>),
+    /// A piece of a recording.
+    RunFile {
+        /// Number of the run.
+        number: u64,
+        /// Name of the file.
+        name: String,
+        /// Its first byte.
+        from: u64,
+        /// Bytes of the whole file.
+        size: u64,
+        /// The bytes, at most [`crate::RUN_PIECE_BYTES`] of them, in base 64; none at the end of the file.
+        data: String,
+    },
     /// What a job will take.
     JobEstimate(JobEstimate),
     /// A line of the log.

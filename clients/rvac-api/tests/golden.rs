@@ -9,9 +9,9 @@ use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
     InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
     NoGoShape, NoGoView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
-    RoomHere, RoomNaming, RoomView, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
-    ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView,
-    Weekday,
+    RoomHere, RoomNaming, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult,
+    RunStop, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
+    SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -48,10 +48,11 @@ fn requests() {
         Topic::Log,
         Topic::Packets,
         Topic::Schedules,
+        Topic::Runs,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -668,4 +669,137 @@ fn all_schedules() {
         &Update::Schedules(schedules),
         r#"{"e":"schedules","zone":"Europe/Tallinn","zone_is_set":true,"clock":"2026-11-22T16:30","entries":[{"number":3,"name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait","skip_next":true,"next":[{"entry":3,"at":"2026-11-23T07:30:00+02:00","kept_by":"skipped"}],"refused_now":"wheel-drop"}],"next":[{"entry":3,"at":"2026-11-23T07:30:00+02:00","kept_by":"skipped"}],"decisions":[{"entry":3,"name":"Köök","date":"2026-11-22","at":"2026-11-22T07:30:00+02:00","outcome":"refused","reason":"job-runs"}]}"#,
     );
+}
+
+fn run() -> Run {
+    Run {
+        number: 7,
+        job: RunJob::Clean {
+            strategy: "systematic".to_owned(),
+            rooms: vec![RoomHere { id: 2, name: None }],
+            zones: 1,
+            passes: 2,
+        },
+        by: RunAsker::Schedule {
+            number: 3,
+            name: "Morning".to_owned(),
+        },
+        start_s: Some(1_795_392_000),
+        end_s: None,
+        duration_s: 3905.5,
+        moving_s: 1800.0,
+        swept_m2: 12.5,
+        share: Some(0.75),
+        path_m: 150.5,
+        bumps: 12,
+        charge_start: Some(0.875),
+        charge_end: Some(0.5),
+        result: RunResult::GaveUp,
+        reason: "slip".to_owned(),
+        text: "Gave up: its wheels slip.".to_owned(),
+        stop_count: 1,
+        map: Some(12),
+        recordings: vec![RunRecording {
+            name: "run-a.mcap".to_owned(),
+            zero_s: -1.5,
+            bytes: Some(9),
+        }],
+    }
+}
+
+const RUN: &str = r#""number":7,"job":{"clean":{"strategy":"systematic","rooms":[{"id":2}],"zones":1,"passes":2}},"by":{"schedule":{"number":3,"name":"Morning"}},"start_s":1795392000,"duration_s":3905.5,"moving_s":1800.0,"swept_m2":12.5,"share":0.75,"path_m":150.5,"bumps":12,"charge_start":0.875,"charge_end":0.5,"result":"gave-up","reason":"slip","text":"Gave up: its wheels slip.","stop_count":1,"map":12,"recordings":[{"name":"run-a.mcap","zero_s":-1.5,"bytes":9}]"#;
+
+#[test]
+fn runs() {
+    request(
+        RequestBody::Runs {
+            before: None,
+            count: None,
+        },
+        r#"{"c":"runs"}"#,
+    );
+    request(
+        RequestBody::Runs {
+            before: Some(7),
+            count: Some(50),
+        },
+        r#"{"c":"runs","before":7,"count":50}"#,
+    );
+    request(RequestBody::Run { number: 7 }, r#"{"c":"run","number":7}"#);
+    request(
+        RequestBody::RunFile {
+            number: 7,
+            recording: 1,
+            from: 49_152,
+        },
+        r#"{"c":"run-file","number":7,"recording":1,"from":49152}"#,
+    );
+    check(
+        &Update::Runs {
+            runs: vec![run()],
+            more: true,
+        },
+        &format!(r#"{{"e":"runs","runs":[{{{RUN}}}],"more":true}}"#),
+    );
+    check(
+        &Update::RunKept(Box::new(run())),
+        &format!(r#"{{"e":"run-kept",{RUN}}}"#),
+    );
+}
+
+#[test]
+fn a_run_in_full() {
+    let stop = RunStop {
+        at_s: 61.0,
+        lasted_s: None,
+        state: "paused".to_owned(),
+        reason: "command".to_owned(),
+        text: "Paused: somebody asked for it.".to_owned(),
+        by: Some("panel".to_owned()),
+        place: Pose {
+            x: 1.0,
+            y: -2.5,
+            heading: 0.5,
+            t: 64.0,
+        },
+    };
+    let record = RunRecord {
+        run: run(),
+        stops: vec![stop],
+        picture: Some(RunPicture {
+            cell_m: 0.025,
+            swept_rows: vec![0, -1, 6],
+            path_mm: vec![0, 0, 100, 0],
+            bumps: vec![],
+            home: None,
+        }),
+    };
+    check(
+        &Update::Run(Box::new(record)),
+        &format!(
+            r#"{{"e":"run","run":{{{RUN}}},"stops":[{{"at_s":61.0,"state":"paused","reason":"command","text":"Paused: somebody asked for it.","by":"panel","place":{{"x":1.0,"y":-2.5,"heading":0.5,"t":64.0}}}}],"picture":{{"cell_m":0.025,"swept_rows":[0,-1,6],"path_mm":[0,0,100,0],"bumps":[]}}}}"#
+        ),
+    );
+    check(
+        &Update::RunFile {
+            number: 7,
+            name: "run-a.mcap".to_owned(),
+            from: 0,
+            size: 3,
+            data: "AAEC".to_owned(),
+        },
+        r#"{"e":"run-file","number":7,"name":"run-a.mcap","from":0,"size":3,"data":"AAEC"}"#,
+    );
+    check(&RunJob::Spot, r#""spot""#);
+    check(&RunAsker::Button, r#""button""#);
+    check(&RunAsker::Client("Anna".to_owned()), r#"{"client":"Anna"}"#);
+    for (result, name) in [
+        (RunResult::Finished, "finished"),
+        (RunResult::Stopped, "stopped"),
+        (RunResult::DaemonEnded, "daemon-ended"),
+        (RunResult::CutShort, "cut-short"),
+        (RunResult::OtherRobot, "other-robot"),
+    ] {
+        check(&result, &format!("\"{name}\""));
+    }
 }

@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+mod history;
 mod orders;
 mod schedules;
 
@@ -7,6 +8,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+pub(crate) use history::{HistoryJob, HistoryVerb};
 pub(crate) use orders::{
     EstimateOptions, OrderOptions, OrderParts, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb,
 };
@@ -42,6 +44,8 @@ pub(crate) enum Subcommand {
     Zone(ZoneJob),
     /// What starts by itself, and when; without a verb: list it.
     Schedule(ScheduleJob),
+    /// The runs that are over, and what came of them; without a verb: list them, newest first.
+    History(HistoryJob),
     /// What the robot decided lately, and why.
     Why(WhyOptions),
     /// Run a recording through the brain again.

@@ -6,6 +6,7 @@ mod arguments;
 mod calibrate;
 mod control;
 mod drive;
+mod history;
 mod home;
 mod lines;
 mod listen;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Subcommand::Rooms(job) => orders::rooms(&job),
         Subcommand::Zone(job) => orders::zones(&job),
         Subcommand::Schedule(job) => schedules::run(&job),
+        Subcommand::History(job) => history::run(&job),
         Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),

@@ -9,11 +9,13 @@ use std::path::PathBuf;
 use std::process::Output;
 use std::thread::JoinHandle;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
     Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
-    LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, Request, RequestBody, RoomNaming, RoomView,
-    SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update,
-    Weekday,
+    LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody,
+    RoomNaming, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
+    Status, Topic, Update, Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -330,6 +332,59 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         let last = asked.last().expect("asks");
         assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
     }
+}
+
+/// A daemon that keeps one run, whose recording has 70,000 bytes.
+fn with_history(request: &Request) -> Vec<Update> {
+    let id = request.id.unwrap_or_default();
+    match request.body {
+        RequestBody::RunFile {
+            number: 7,
+            recording: 0,
+            from,
+        } => {
+            let rest = 70_000 - from.min(70_000);
+            let data = STANDARD.encode(vec![7; rest.min(RUN_PIECE_BYTES) as usize]);
+            let name = "run-a.mcap".to_owned();
+            let piece = Update::RunFile {
+                number: 7,
+                name,
+                from,
+                size: 70_000,
+                data,
+            };
+            vec![piece, Update::Done { id }]
+        }
+        RequestBody::RunFile { .. } => vec![Update::Failed(Failure {
+            id: request.id,
+            reason: "no-such-run".to_owned(),
+            text: "No run 8 is kept.".to_owned(),
+        })],
+        _ => Vec::new(),
+    }
+}
+
+#[test]
+fn a_recording_is_saved_whole_and_over_nothing() {
+    let file = std::env::temp_dir().join(format!("rvac-test-{}-saved.mcap", std::process::id()));
+    std::fs::remove_file(&file).ok();
+    let path = file.to_str().expect("plain");
+    let save = |name: &str, number: &str| {
+        let (output, _) = Daemon::start(name, with_history).rvac(&["history", "save", number, path], "");
+        output
+    };
+    let missing = save("history-0", "8");
+    assert!(!missing.status.success() && !file.exists(), "{missing:?}");
+    let saved = save("history-1", "7");
+    assert!(saved.status.success(), "{saved:?}");
+    assert_eq!(std::fs::read(&file).expect("is there"), vec![7; 70_000]);
+    let again = save("history-2", "7");
+    let told = String::from_utf8_lossy(&again.stderr).into_owned();
+    assert!(
+        !again.status.success() && told.contains("is it there already"),
+        "{told}"
+    );
+    std::fs::remove_file(&file).expect("cleans up");
 }
 
 /// A daemon in that home with one schedule.

@@ -5,7 +5,7 @@ use brain::mapping::StoredMap;
 use brain::observation::BeaconRange;
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Pose as TruePose};
-use rvac_api::{LogEntry, Pose, Request, RequestBody, Schedules, Status};
+use rvac_api::{LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status};
 use vthal_core::schedule::{Book, StoredBook};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
@@ -28,6 +28,8 @@ pub struct Host {
     /// Its clock on the wall, if it has one.
     wall: Option<HostWall>,
     schedules: Option<StoredBook>,
+    /// Runs that are over.
+    runs: Vec<RunRecord>,
     /// Its disk takes what it is given, and never says so.
     disk_is_mute: bool,
 }
@@ -48,6 +50,7 @@ impl Host {
             born_us: now_us,
             wall: None,
             schedules: None,
+            runs: Vec::new(),
             disk_is_mute: false,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -150,7 +153,11 @@ impl Host {
             log.append(&mut self.outputs.log);
         }
         let schedules = self.outputs.schedules.take();
+        let run = self.outputs.run.take();
         self.outputs.clear();
+        if let Some(record) = run {
+            self.keep_run(now_us, *record);
+        }
         if let Some(order) = schedules {
             self.schedules = Some(order.book);
             if !self.disk_is_mute {
@@ -158,6 +165,26 @@ impl Host {
                 self.handle(now_us, Input::SchedulesKept { number, result });
             }
         }
+    }
+
+    fn keep_run(&mut self, now_us: u64, record: RunRecord) {
+        let run = Box::new(record.run.clone());
+        self.runs.push(record);
+        if !self.disk_is_mute {
+            let (number, result) = (run.number, Ok(run));
+            self.handle(now_us, Input::RunKept { number, result });
+        }
+    }
+
+    /// The runs that are on its disk, oldest first.
+    #[must_use]
+    pub fn runs(&self) -> &[RunRecord] {
+        &self.runs
+    }
+
+    /// It is told to end in good order.
+    pub fn shut_down(&mut self, now_us: u64) {
+        self.handle(now_us, Input::Shutdown);
     }
 
     /// From now on it is measured what its core takes of a processor, which costs some of that itself.

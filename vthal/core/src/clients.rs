@@ -19,6 +19,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Way => 256,
         Topic::Decisions => 512,
         Topic::Schedules => 1024,
+        Topic::Runs => 2048,
     }
 }
 

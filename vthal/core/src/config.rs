@@ -37,6 +37,8 @@ pub struct CoreConfig {
     pub zone: Zone,
     /// What was wrong with what was kept, one sentence each: the first lines of the log that clients see.
     pub complaints: Vec<String>,
+    /// Number of the next run: higher than those of all that are kept.
+    pub next_run: u64,
 }
 
 impl Default for CoreConfig {
@@ -56,6 +58,7 @@ impl Default for CoreConfig {
             schedules_distrusted: false,
             zone: Zone::utc(),
             complaints: Vec::new(),
+            next_run: 1,
         }
     }
 }

@@ -3,6 +3,7 @@
 mod explain;
 mod feed;
 mod firmware;
+mod history;
 mod link_facts;
 mod manual;
 mod orders;
@@ -17,6 +18,7 @@ use crate::arbiter::Arbiter;
 use crate::clients::Clients;
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
+use crate::history::RunFollower;
 use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
 use crate::outputs::{Delivery, Recipients};
@@ -24,6 +26,7 @@ use crate::scheduler::Scheduler;
 use crate::tap::Tap;
 use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
 use feed::Feed;
+use history::UnkeptRuns;
 use link_facts::LinkFacts;
 use rvac_api::LogLevel;
 
@@ -54,6 +57,8 @@ pub struct Core {
     scheduler: Scheduler,
     schedules_told: Option<Schedules>,
     schedules_told_us: u64,
+    runs: RunFollower,
+    unkept: UnkeptRuns,
 }
 
 impl Core {
@@ -69,6 +74,8 @@ impl Core {
             scheduler: Scheduler::new(book, zone, config.schedules_distrusted),
             schedules_told: None,
             schedules_told_us: 0,
+            runs: RunFollower::new(config.next_run),
+            unkept: UnkeptRuns::default(),
             config,
             clients: Clients::default(),
             arbiter: Arbiter::default(),
@@ -112,6 +119,8 @@ impl Core {
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
+            Input::RunKept { number, result } => self.run_kept(now_us, (number, result), outputs),
+            Input::RecordingOpened { run, name } => self.runs.recorded_as(run, name),
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
         }
@@ -243,6 +252,7 @@ impl Core {
             (LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned()),
             outputs,
         );
+        self.shut_down_run(now_us, outputs);
         let recording = self.config.recording;
         if let Some(mind) = &mut self.mind {
             if self.config.checkpoints == Checkpoints::On {

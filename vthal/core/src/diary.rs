@@ -40,7 +40,7 @@ impl Diary {
 }
 
 /// What was decided and why. A name without words of its own is shown as it is.
-fn sentence(decision: &Decision) -> String {
+pub(crate) fn sentence(decision: &Decision) -> String {
     format!(
         "{}: {}.",
         deed(decision.what, decision.value),
@@ -96,7 +96,8 @@ fn deed(what: &str, value: f64) -> String {
     }
 }
 
-fn because(reason: &str) -> String {
+/// A reason in words, for the end of a sentence.
+pub(crate) fn because(reason: &str) -> String {
     let words = match reason {
         "start-up" => "it was just switched on",
         "command" => "somebody asked for it",

@@ -1,7 +1,7 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
 use brain::mapping::{Annotations, Door, Room, WallSegment};
-use brain::{Brain, CELL_M, CellKnowledge, NoGo, Raster};
+use brain::{CELL_M, CellKnowledge, Map, NoGo, Raster};
 use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, Rle, RoomView, WallView};
 
 use crate::to_api;
@@ -15,8 +15,7 @@ const COARSE_MAX: usize = 16;
 const ITEMS_MAX: usize = 1_000;
 
 /// What is known of the home.
-pub(crate) fn home_view(brain: &Brain) -> HomeView {
-    let map = brain.map();
+pub(crate) fn home_view(map: &Map) -> HomeView {
     let rooms = map.rooms();
     let view = cells(map.knowledge(), rooms.labels());
     HomeView {

@@ -2,7 +2,7 @@
 
 use brain::StoredMap;
 use brain::observation::BeaconRange;
-use rvac_api::Request;
+use rvac_api::{Request, Run};
 
 /// A connected client, numbered by the shell; numbers are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -58,6 +58,20 @@ pub enum Input<'a> {
     },
     /// A client will ask for nothing more, but may listen; a driver's seat it held is empty and the wheels stop.
     ClientSilent(ClientId),
+    /// What [`crate::Outputs::run`] tells of a run is on the disk, or is not.
+    RunKept {
+        /// Number of the run.
+        number: u64,
+        /// What is kept, or a sentence that says why it is not.
+        result: Result<Box<Run>, String>,
+    },
+    /// The recording of a run has a file.
+    RecordingOpened {
+        /// Number of the run since the daemon's start, as in [`crate::RunStart`].
+        run: u32,
+        /// The file's name.
+        name: String,
+    },
     /// A client is gone; a driver's seat it held is empty and the wheels stop.
     ClientGone(ClientId),
     /// The time that [`crate::Core::next_wake_us`] named has come. Too early or too often does no harm.

@@ -7,7 +7,7 @@
 //!
 //! The parts, in the way of a telemetry report: [`device`] (the device model, its dead man and the wire session),
 //! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
-//! beside it the `arbiter` (who may command), [`schedule`] (what starts by itself), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
+//! beside it the `arbiter` (who may command), [`schedule`] (what starts by itself), `history` (what is kept of runs), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
 //! (what survives a crash).
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -19,6 +19,7 @@ mod config;
 mod core;
 pub mod device;
 mod diary;
+mod history;
 mod home_view;
 mod input;
 mod journal;
@@ -34,8 +35,9 @@ mod to_api;
 pub use checkpoint::Checkpoint;
 pub use config::{Checkpoints, CoreConfig, ExpertAccess, Recording};
 pub use core::Core;
+pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
     Delivery, Direction, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
-    RunStart, ScheduleOrder,
+    RunQuery, RunStart, RunTask, ScheduleOrder,
 };

@@ -9,7 +9,7 @@ use brain::{Actions, BehaviorState, Body, Brain, Command, MapCursor, Speeds};
 
 use crate::device::{Description, Shape};
 use crate::observe::Observer;
-use crate::{CoreConfig, Record, RunCause, RunEnd, RunStart};
+use crate::{CoreConfig, Record, RunCause, RunEnd, RunStart, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -30,6 +30,7 @@ pub(crate) struct Mind {
     run: Option<Run>,
     kept_home: KeptHome,
     identity: (String, String),
+    robot: rvac_api::RobotDescription,
 }
 
 /// The map of the home that was kept before the daemon's start.
@@ -79,6 +80,7 @@ impl Mind {
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
             ),
+            robot: to_api::robot(description),
         }
     }
 
@@ -110,6 +112,11 @@ impl Mind {
 
     pub(crate) fn is_recorded(&self) -> bool {
         self.run.is_some()
+    }
+
+    /// Number of the run that is recorded now.
+    pub(crate) fn recorded_run(&self) -> Option<u32> {
+        self.run.map(|_| self.runs)
     }
 
     /// Gives `command` to the brain with its next step. The first one after rest begins a run.
@@ -179,6 +186,7 @@ impl Mind {
                 checkpoint,
                 device: self.identity.0.clone(),
                 firmware: self.identity.1.clone(),
+                robot: self.robot.clone(),
             }))
         });
         // What this step says was said by the brain before.

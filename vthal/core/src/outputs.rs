@@ -1,7 +1,7 @@
 //! What the shell must perform.
 
 use brain::{Actions, Command, Observation, StoredMap};
-use rvac_api::{LogEntry, Pose, Status, Topic, Update};
+use rvac_api::{DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update};
 
 use crate::Checkpoint;
 use crate::ClientId;
@@ -30,6 +30,11 @@ pub struct Outputs {
     pub mix_orders: Vec<MixOrder>,
     /// Schedules for the disk.
     pub schedules: Option<ScheduleOrder>,
+    /// A run that is over, for the disk. The shell says with [`crate::Input::RunKept`] what came of it; until then no further
+    /// one comes.
+    pub run: Option<Box<RunRecord>>,
+    /// What clients ask of the kept runs, in order.
+    pub run_queries: Vec<RunQuery>,
 }
 
 /// Schedules that the shell keeps in place of the ones before, and says so with [`crate::Input::SchedulesKept`]. Until then no
@@ -40,6 +45,40 @@ pub struct ScheduleOrder {
     pub number: u64,
     /// What is kept.
     pub book: StoredBook,
+}
+
+/// Something that a client asks of the kept runs; the shell answers the client itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunQuery {
+    /// Who asks.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// What.
+    pub task: RunTask,
+}
+
+/// See [`RunQuery`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunTask {
+    /// Tell which there are, newest first: [`Update::Runs`].
+    List {
+        /// Only those with lower numbers.
+        before: Option<u64>,
+        /// At most so many.
+        count: u8,
+    },
+    /// Tell all that is kept of one: [`Update::Run`].
+    Show(u64),
+    /// Give a piece of a recording: [`Update::RunFile`].
+    File {
+        /// Number of the run.
+        number: u64,
+        /// Which of its recordings, from 0.
+        recording: u32,
+        /// First byte.
+        from: u64,
+    },
 }
 
 /// Something that the shell does with the kept control mixes; it answers the client itself.
@@ -109,6 +148,8 @@ impl Outputs {
         self.mix_orders.clear();
         self.map_edits.clear();
         self.schedules = None;
+        self.run = None;
+        self.run_queries.clear();
     }
 }
 
@@ -192,6 +233,20 @@ pub enum Record {
     Pose(Pose),
     /// A line of the log.
     Log(LogEntry),
+    /// The device table.
+    Device {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// It.
+        table: Box<DeviceTable>,
+    },
+    /// What people are told of the run, when its job is over. The newest one counts.
+    Told {
+        /// Host time in microseconds.
+        time_us: u64,
+        /// The record, without its picture.
+        run: Box<RunRecord>,
+    },
     /// The run is over.
     RunEnded {
         /// Host time in microseconds.
@@ -220,6 +275,8 @@ pub struct RunStart {
     pub device: String,
     /// Firmware version; empty while unknown.
     pub firmware: String,
+    /// How the robot has described itself.
+    pub robot: RobotDescription,
 }
 
 /// Why a run begins.

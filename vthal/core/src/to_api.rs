@@ -70,7 +70,8 @@ pub(crate) fn map_delta(map: u32, part: &MapPart<'_>) -> MapDelta {
     }
 }
 
-fn bump(mark: &Mark) -> BumpMark {
+/// A place where something was met.
+pub(crate) fn bump(mark: &Mark) -> BumpMark {
     BumpMark {
         x: mark.at.x_m,
         y: mark.at.y_m,

@@ -24,6 +24,8 @@ pub(crate) const DECISIONS: &str = "/decisions";
 pub(crate) const PACKETS: &str = "/packets";
 /// Channel of the status as clients see it.
 pub(crate) const STATUS: &str = "/status";
+/// Channel of the device table.
+pub(crate) const DEVICE: &str = "/device";
 /// Channel of the pose, for Foxglove.
 pub(crate) const POSE: &str = "/pose";
 /// Channel of the robot's frame in the map's, for Foxglove.

@@ -7,7 +7,7 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{WriteOptions, Writer};
+use mcap::{Attachment, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 use vthal_core::{Record, RunStart};
@@ -15,7 +15,7 @@ use vthal_core::{Record, RunStart};
 use super::format::{Answered, Given, GivenCommand, RunHeader, Seen};
 use super::foxglove;
 use super::schemas::CHANNELS;
-use super::{COMMANDS, DECISIONS, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT, RUN, STATUS, TRANSFORM};
+use super::{COMMANDS, DECISIONS, DEVICE, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT, RUN, STATUS, TRANSFORM};
 
 /// Why a record was not written.
 #[derive(Debug, thiserror::Error)]
@@ -111,6 +111,7 @@ impl RunFile {
             (ROBOT, start.time_us),
             &foxglove::robot(start.time_us, start.brain.body.radius_m),
         )?;
+        run.attach(("robot.json", start.time_us), &start.robot)?;
         run.flush()?;
         Ok(run)
     }
@@ -167,6 +168,8 @@ impl RunFile {
                 self.write_json((POSE, time_us), &foxglove::pose_in_frame(*pose))?;
                 self.write_json((TRANSFORM, time_us), &foxglove::frame_transform(*pose))
             }
+            Record::Device { time_us, table } => self.write_json((DEVICE, *time_us), table),
+            Record::Told { time_us, run } => self.attach(("run.json", *time_us), run),
             Record::Log(entry) => self.write_json((LOG, foxglove::time_us(entry.t)), &foxglove::log(entry)),
         }
     }
@@ -192,6 +195,25 @@ impl RunFile {
             error,
         })?;
         Ok(())
+    }
+
+    /// Adds what is no message: of the same name the last one counts.
+    fn attach(&mut self, (name, time_us): (&str, u64), value: &impl Serialize) -> Result<(), RecordError> {
+        let data = serde_json::to_vec(value)?;
+        let time_ns = time_us.saturating_mul(1000);
+        let attachment = Attachment {
+            log_time: time_ns,
+            create_time: 0,
+            name: name.to_owned(),
+            media_type: "application/json".to_owned(),
+            data: data.into(),
+        };
+        self.writer
+            .attach(&attachment)
+            .map_err(|error| RecordError::Write {
+                path: self.path.clone(),
+                error,
+            })
     }
 
     fn write_json(&mut self, to: (&'static str, u64), value: &impl Serialize) -> Result<(), RecordError> {

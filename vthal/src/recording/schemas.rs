@@ -1,7 +1,7 @@
 //! JSON schemas of the channels: what Foxglove needs to offer the fields by name, and to draw what is its own.
 
 /// Name, topic and schema of each channel.
-pub(crate) const CHANNELS: [(&str, &str, &str); 10] = [
+pub(crate) const CHANNELS: [(&str, &str, &str); 11] = [
     (
         super::RUN,
         "vthal.Run",
@@ -31,6 +31,11 @@ pub(crate) const CHANNELS: [(&str, &str, &str); 10] = [
         super::STATUS,
         "vthal.Status",
         r#"{"type":"object","properties":{"state":{"type":"string"},"reason":{"type":"string"},"strategy":{"type":"string"},"inhibits":{"type":"array","items":{"type":"string"}},"job_s":{"type":"number"},"swept_m2":{"type":"number"},"path_m":{"type":"number"},"bumps":{"type":"integer"},"driver":{"type":"string"}}}"#,
+    ),
+    (
+        super::DEVICE,
+        "vthal.Device",
+        r#"{"type":"object","properties":{"versions":{"type":"object","properties":{"vthal":{"type":"string"},"brain":{"type":"string"},"firmware":{"type":"string"},"cordlib":{"type":"string"},"protocol":{"type":"integer"}}},"battery":{"type":"object","properties":{"charge":{"type":"number"},"voltage_v":{"type":"number"},"current_a":{"type":"number"},"temperature_c":{"type":"number"},"state":{"type":"string"},"charger":{"type":"object","properties":{"phase":{"type":"string"},"end":{"type":"string"},"fault":{"type":"string"}}}}},"main_loop_hz":{"type":"integer"},"bytes_out_per_s":{"type":"number"},"bytes_in_per_s":{"type":"number"},"link":{"type":"object","properties":{"up":{"type":"boolean"},"age_ms":{"type":"integer"},"bad_share":{"type":"number"},"round_trip_ms":{"type":"number"},"resets":{"type":"integer"},"reset_cause":{"type":"string"},"reconnects":{"type":"integer"},"binary":{"type":"boolean"}}},"wheel_left_m_per_s":{"type":"number"},"wheel_right_m_per_s":{"type":"number"},"bumpers":{"type":"array","items":{"type":"boolean"}},"cliffs":{"type":"array","items":{"type":"boolean"}},"wheel_drops":{"type":"array","items":{"type":"boolean"}},"proximity":{"type":"array","items":{"type":"number"}},"currents_a":{"type":"array","items":{"type":"number"}},"cleaners":{"type":"array","items":{"type":"boolean"}},"dust_box":{"type":"boolean"},"docked":{"type":"boolean"}}}"#,
     ),
     (
         super::POSE,

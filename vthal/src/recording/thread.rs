@@ -22,11 +22,15 @@ pub struct RecorderHandle {
     lost: u64,
 }
 
-/// Starts the thread. `settings` goes into the metadata of each file.
+/// Starts the thread. `settings` goes into the metadata of each file; `opened` is told the number of each run that is recorded
+/// and the name of its file.
 ///
 /// # Errors
 /// When the system gives no thread.
-pub fn start(library: Library, settings: String) -> io::Result<RecorderHandle> {
+pub fn start(
+    library: Library,
+    (settings, opened): (String, impl Fn(u32, String) + Send + 'static),
+) -> io::Result<RecorderHandle> {
     let (records, queue) = sync_channel(WAITING_MAX);
     let thread = std::thread::Builder::new()
         .name("recorder".to_owned())
@@ -34,6 +38,7 @@ pub fn start(library: Library, settings: String) -> io::Result<RecorderHandle> {
             Recorder {
                 library,
                 settings,
+                opened: Box::new(opened),
                 run: None,
                 flushed: Instant::now(),
             }
@@ -72,6 +77,7 @@ impl RecorderHandle {
 struct Recorder {
     library: Library,
     settings: String,
+    opened: Box<dyn Fn(u32, String)>,
     run: Option<RunFile>,
     flushed: Instant,
 }
@@ -101,6 +107,9 @@ impl Recorder {
                 let path = self.library.new_path(SystemTime::now());
                 self.run = Some(RunFile::create(&path, start, &self.settings)?);
                 tracing::info!("records to {}", path.display());
+                if let Some(name) = path.file_name().and_then(|name| name.to_str()) {
+                    (self.opened)(start.run, name.to_owned());
+                }
                 self.tidy();
                 Ok(())
             }

@@ -18,6 +18,8 @@ use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, to
 const POSE_US: u64 = 50_000;
 /// The device table goes out this often.
 const DEVICE_US: u64 = 500_000;
+/// The device table goes to a recording this often.
+const RECORDED_DEVICE_US: u64 = 1_000_000;
 /// Map deltas go out at most this often.
 const MAP_US: u64 = 200_000;
 /// A status whose figures alone changed goes out at most this often.
@@ -43,6 +45,7 @@ pub(super) struct Feed {
     pose: Pose,
     pose_us: u64,
     device_us: u64,
+    recorded_device_us: u64,
     map_us: u64,
     map_cursor: MapCursor,
     map_number: u32,
@@ -91,6 +94,14 @@ impl Core {
             let update = Update::Device(self.device_table(now_us));
             followers(Topic::Device, update, outputs);
         }
+        if self.records() && now_us >= self.feed.recorded_device_us + RECORDED_DEVICE_US {
+            self.feed.recorded_device_us = now_us;
+            let table = Box::new(self.device_table(now_us));
+            outputs.records.push(Record::Device {
+                time_us: now_us,
+                table,
+            });
+        }
         if self.clients.any(Topic::Map) && now_us >= self.feed.map_us + MAP_US {
             self.feed.map_us = now_us;
             self.feed_map(outputs);
@@ -133,7 +144,7 @@ impl Core {
         let revision = mind.brain().map().revision();
         if revision != self.feed.home_revision {
             self.feed.home_revision = revision;
-            followers(Topic::Home, Update::Home(home_view(mind.brain())), outputs);
+            followers(Topic::Home, Update::Home(home_view(mind.brain().map())), outputs);
         }
     }
 
@@ -213,6 +224,7 @@ impl Core {
             outputs.checkpoint = Some(Checkpoint {
                 device: mind.device().to_owned(),
                 brain: mind.brain().checkpoint(),
+                run: self.runs.so_far(now_us).map(Box::new),
             });
         }
         let map = mind.brain().map().snapshot();
@@ -256,7 +268,7 @@ impl Core {
                 if let Some(mind) = &self.mind {
                     outputs
                         .deliveries
-                        .push(one(Update::Home(home_view(mind.brain()))));
+                        .push(one(Update::Home(home_view(mind.brain().map()))));
                 }
             }
             Topic::Estimate => {
@@ -278,7 +290,7 @@ impl Core {
                     .extend(entries.map(|entry| one(Update::Decision(entry))));
             }
             Topic::Schedules => outputs.deliveries.push(one(Update::Schedules(self.schedules()))),
-            Topic::Packets => {}
+            Topic::Packets | Topic::Runs => {}
         }
     }
 
@@ -428,5 +440,6 @@ pub(super) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
     Checkpoint {
         device: mind.device().to_owned(),
         brain,
+        run: None,
     }
 }

@@ -8,7 +8,7 @@ use super::{Core, recorder};
 use crate::device::{Description, FirmwareEvent};
 use crate::journal::Part;
 use crate::mind::Mind;
-use crate::{Outputs, RunEnd, to_api};
+use crate::{Outputs, RunEnd, cut_short, to_api};
 
 impl Core {
     pub(super) fn firmware_events(
@@ -95,23 +95,33 @@ impl Core {
         if self.mind.as_ref().is_none_or(|mind| mind.device() != device) {
             let recording = self.config.recording;
             if let Some(mut old) = self.mind.take() {
+                let over = self.runs.change_robot(now_us, old.brain());
                 old.end_run(now_us, RunEnd::OtherRobot, &mut recorder(recording, outputs));
+                self.keep_run(over, outputs);
             }
             let mut mind = Mind::new(description, &self.config);
-            let resume = self
-                .config
-                .resume
-                .take()
-                .filter(|checkpoint| checkpoint.device == *device);
-            if let Some(checkpoint) = resume {
+            let mut resumed = None;
+            match self.config.resume.take() {
+                Some(checkpoint) if checkpoint.device == *device => resumed = Some(checkpoint),
+                Some(others) => self.keep_run(cut_short(others), outputs),
+                None => {}
+            }
+            if let Some(checkpoint) = &resumed {
                 let line = match checkpoint.brain.job {
                     Some(_) => "resumed-after-restart: goes on with the interrupted job",
                     None => "takes up pose and map from before the restart",
                 };
-                mind.resume(now_us, checkpoint.brain, &mut recorder(recording, outputs));
+                mind.resume(
+                    now_us,
+                    checkpoint.brain.clone(),
+                    &mut recorder(recording, outputs),
+                );
                 self.log(now_us, (LogLevel::Info, Part::Vthal, line.to_owned()), outputs);
             }
             self.mind = Some(mind);
+            if let Some(checkpoint) = resumed {
+                self.resume_run(now_us, checkpoint, outputs);
+            }
         }
         (
             LogLevel::Info,

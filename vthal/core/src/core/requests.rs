@@ -1,7 +1,7 @@
 //! What clients ask.
 
 use brain::{Command, StoredMap, StrategyName};
-use rvac_api::{Failure, LogLevel, Request, RequestBody, Topic, Update};
+use rvac_api::{Failure, LogLevel, Request, RequestBody, RunAsker, Topic, Update};
 use rvac_protocol::message::Inhibit;
 
 use super::refusal::Refusal;
@@ -47,6 +47,9 @@ impl Core {
                 | RequestBody::SkipNext { .. }
                 | RequestBody::SetQuiet { .. }
                 | RequestBody::SetZone { .. }
+                | RequestBody::Runs { .. }
+                | RequestBody::Run { .. }
+                | RequestBody::RunFile { .. }
         );
         let result = self.obey(now_us, (client, request), outputs);
         let update = match (result, id) {
@@ -115,14 +118,14 @@ impl Core {
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
             RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
-            RequestBody::Maps => {
-                outputs.map_orders.push(MapOrder::List { client, id });
-                Ok(())
-            }
+            RequestBody::Maps => list_maps((client, id), outputs),
             RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
             RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
             RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
             RequestBody::RestoreMap { number } => Ok(self.restore_map((client, id), number, outputs)?),
+            body @ (RequestBody::Runs { .. } | RequestBody::Run { .. } | RequestBody::RunFile { .. }) => {
+                self.ask_of_runs((client, id), &body, outputs)
+            }
             RequestBody::RunSchedule { number } => self.run_schedule(now_us, (client, number), outputs),
             body @ (RequestBody::AddSchedule(_)
             | RequestBody::ChangeSchedule { .. }
@@ -164,6 +167,8 @@ impl Core {
             .admit(now_us, Source::Person(client))
             .map_err(denied)?;
         self.admitted(&command)?;
+        let name = self.clients.name(client);
+        self.order_run(RunAsker::Client(name), &command);
         self.command_brain(now_us, command, outputs);
         Ok(())
     }
@@ -176,6 +181,7 @@ impl Core {
     /// Anybody may stop at any time; the wheels do not wait for the brain.
     fn stop(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         self.arbiter.preempt();
+        self.runs.commanded_by(self.clients.name(client));
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         self.command_brain(now_us, Command::Stop, outputs);
         let text = format!("stopped by {}", self.clients.name(client));
@@ -350,6 +356,12 @@ impl Core {
             self.first_view(now_us, (client, topic), outputs);
         }
     }
+}
+
+/// The shell does it, and answers the client.
+fn list_maps((client, id): (ClientId, Option<u32>), outputs: &mut Outputs) -> Result<(), Refusal> {
+    outputs.map_orders.push(MapOrder::List { client, id });
+    Ok(())
 }
 
 /// The shell does it, and answers the client.

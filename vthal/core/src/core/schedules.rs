@@ -1,7 +1,7 @@
 //! Schedules: what people want of them, what the clock wants, and what the robot says to that.
 
 use brain::Command;
-use rvac_api::{Failure, LogLevel, RequestBody, ScheduledJob, Schedules, Topic, Update};
+use rvac_api::{Failure, LogLevel, RequestBody, RunAsker, ScheduledJob, Schedules, Topic, Update};
 
 use super::feed::works;
 use super::refusal::Refusal;
@@ -36,6 +36,7 @@ impl Core {
     /// The clock on the wall shows this.
     pub(super) fn set_clock(&mut self, now_us: u64, utc_s: i64, outputs: &mut Outputs) {
         self.scheduler.set_clock(utc_s);
+        self.runs.set_clock(now_us, utc_s);
         self.run_schedules(now_us, outputs);
         if self.clients.any(Topic::Schedules) && now_us >= self.schedules_told_us + TOLD_US {
             self.tell_schedules(now_us, outputs);
@@ -177,6 +178,8 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<(), &'static str> {
         let command = self.scheduled_command(entry)?;
+        let (number, name) = (entry.number(), entry.plan().name.clone());
+        self.order_run(RunAsker::Schedule { number, name }, &command);
         self.command_brain(now_us, command, outputs);
         Ok(())
     }

@@ -3,7 +3,7 @@
 use brain::action::{Decision, Tone};
 use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
-use rvac_api::{LogLevel, Topic, Update};
+use rvac_api::{LogLevel, RunAsker, Topic, Update};
 use rvac_protocol::quality::Verdict;
 
 use super::{Core, recorder};
@@ -55,6 +55,7 @@ impl Core {
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();
         }
+        self.follow_run(now_us, &actions.decisions, outputs);
         self.keep_edits(outputs);
         let Some(mind) = &self.mind else { return };
         let after = mind.brain().status().state;
@@ -187,6 +188,7 @@ impl Core {
             BehaviorState::Disconnected => return,
         };
         if mind.brain().admit(&command).is_ok() {
+            self.order_run(RunAsker::Button, &command);
             self.command_brain(now_us, command, outputs);
         }
     }

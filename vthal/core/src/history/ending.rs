@@ -1,0 +1,120 @@
+//! What came of a run, from the reasons that the brain named.
+
+use rvac_api::{RunJob, RunResult};
+
+use crate::diary::because;
+
+/// What came of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Ending {
+    pub(super) result: RunResult,
+    pub(super) reason: String,
+    pub(super) text: String,
+}
+
+/// What is known when a job is gone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LastWords<'a> {
+    /// What was asked for.
+    pub(super) job: &'a RunJob,
+    /// Why the job is gone.
+    pub(super) reason: &'a str,
+    /// Why a cleaning job had turned home, if it had.
+    pub(super) turned_home: Option<&'a str>,
+    /// Why the robot stood and could not go on by itself, if it did.
+    pub(super) trouble: Option<&'a str>,
+    /// Who wanted the end, if somebody did.
+    pub(super) by: Option<&'a str>,
+}
+
+impl Ending {
+    /// While a run goes on nobody knows more than this.
+    pub(super) fn cut_short() -> Self {
+        Self {
+            result: RunResult::CutShort,
+            reason: "cut-short".to_owned(),
+            text: "Cut short: vthal or its board stopped without notice; what is shown was known shortly before."
+                .to_owned(),
+        }
+    }
+
+    pub(super) fn daemon_ended() -> Self {
+        Self {
+            result: RunResult::DaemonEnded,
+            reason: "ending".to_owned(),
+            text: "Ended because vthal was ended in good order.".to_owned(),
+        }
+    }
+
+    pub(super) fn other_robot() -> Self {
+        Self {
+            result: RunResult::OtherRobot,
+            reason: "other-robot".to_owned(),
+            text: "Ended because another robot was attached.".to_owned(),
+        }
+    }
+
+    pub(super) fn stopped(by: Option<&str>) -> Self {
+        Self {
+            result: RunResult::Stopped,
+            reason: "command".to_owned(),
+            text: format!("Stopped by {}.", by.unwrap_or("somebody")),
+        }
+    }
+
+    /// The ending of a job that the brain has no more.
+    pub(super) fn of(words: LastWords<'_>) -> Self {
+        let LastWords {
+            job,
+            reason,
+            turned_home,
+            trouble,
+            by,
+        } = words;
+        match (reason, turned_home) {
+            ("command", _) => match trouble {
+                Some(trouble) => Self::gave_up(trouble),
+                None => Self::stopped(by),
+            },
+            ("docked", None) => Self::finished("docked"),
+            ("docked", Some("command")) => Self {
+                text: format!("Sent to its dock by {}.", by.unwrap_or("somebody")),
+                ..Self::stopped(by)
+            },
+            ("docked", Some(home)) if is_done(home) => Self::finished(home),
+            ("docked", Some(home)) => Self::gave_up(home),
+            (reason, _) if is_done(reason) && *job != RunJob::Dock => Self::finished(reason),
+            (reason, Some(home)) if is_done(home) => Self {
+                result: RunResult::Finished,
+                reason: reason.to_owned(),
+                text: format!("Finished, but did not come home: {}.", because(reason)),
+            },
+            (reason, _) => Self::gave_up(reason),
+        }
+    }
+
+    fn finished(reason: &str) -> Self {
+        let text = match reason {
+            "finished" | "docked" => "Finished.".to_owned(),
+            _ => format!("Finished: {}.", because(reason)),
+        };
+        Self {
+            result: RunResult::Finished,
+            reason: reason.to_owned(),
+            text,
+        }
+    }
+
+    fn gave_up(reason: &str) -> Self {
+        Self {
+            result: RunResult::GaveUp,
+            reason: reason.to_owned(),
+            text: format!("Gave up: {}.", because(reason)),
+        }
+    }
+}
+
+/// Reasons for which a cleaning job is over because nothing is left to do.
+fn is_done(reason: &str) -> bool {
+    matches!(reason, "finished" | "rest-out-of-reach")
+}

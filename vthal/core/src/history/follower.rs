@@ -1,0 +1,200 @@
+//! Looks at each step of the brain and makes records of runs.
+
+use brain::action::Decision;
+use brain::{BehaviorState, Brain, JobKind};
+use rvac_api::{RunAsker, RunJob, RunRecord, RunResult};
+
+use super::ending::Ending;
+use super::open_run::OpenRun;
+use crate::schedule::CLOCK_IS_SET_FROM_S;
+
+/// A run whose job is gone is over after this time: a robot that slips off its dock takes the job up again.
+const OVER_US: u64 = 5_000_000;
+
+/// An order that the brain was just given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Asked {
+    pub(crate) by: RunAsker,
+    pub(crate) job: RunJob,
+}
+
+/// A step of the brain.
+pub(crate) struct Moment<'a> {
+    pub(crate) now_us: u64,
+    pub(crate) brain: &'a Brain,
+    pub(crate) charge: Option<f32>,
+    pub(crate) decisions: &'a [Decision],
+    /// Number of the recording that goes on.
+    pub(crate) recorded: Option<u32>,
+}
+
+/// What a step brought.
+#[derive(Debug, Default)]
+pub(crate) struct Step {
+    /// Runs that are over.
+    pub(crate) over: Vec<RunRecord>,
+    /// A run whose job is gone since this step, for its recording.
+    pub(crate) done: Option<RunRecord>,
+}
+
+/// Makes the records.
+#[derive(Debug)]
+pub(crate) struct RunFollower {
+    next_number: u64,
+    /// A look at the clock on the wall when it was set: host time and seconds since 1970.
+    wall: Option<(u64, i64)>,
+    asked: Option<Asked>,
+    /// Whoever has commanded since the last step.
+    hand: Option<String>,
+    /// The newest recording: its number and its name.
+    recording: Option<(u32, String)>,
+    open: Option<OpenRun>,
+}
+
+impl RunFollower {
+    pub(crate) fn new(next_number: u64) -> Self {
+        Self {
+            next_number,
+            wall: None,
+            asked: None,
+            hand: None,
+            recording: None,
+            open: None,
+        }
+    }
+
+    /// The clock on the wall shows this.
+    pub(crate) fn set_clock(&mut self, now_us: u64, utc_s: i64) {
+        if utc_s < CLOCK_IS_SET_FROM_S {
+            return;
+        }
+        self.wall = Some((now_us, utc_s));
+        if let Some(open) = &mut self.open {
+            open.learn_clock(now_us, utc_s);
+        }
+    }
+
+    /// Somebody commands, for the next step.
+    pub(crate) fn commanded_by(&mut self, name: String) {
+        self.hand = Some(name);
+    }
+
+    /// Somebody orders a run, with the next step.
+    pub(crate) fn asked(&mut self, asked: Asked, brain: Option<&Brain>) {
+        if let (Some(open), Some(brain)) = (&mut self.open, brain) {
+            open.draw(brain);
+        }
+        self.asked = Some(asked);
+    }
+
+    /// A recording has this name.
+    pub(crate) fn recorded_as(&mut self, run: u32, name: String) {
+        if let Some(open) = &mut self.open {
+            open.add_recording(&name);
+        }
+        self.recording = Some((run, name));
+    }
+
+    /// Takes up a run that a daemon before this one had begun. If it was over already, it is given back at once.
+    pub(crate) fn resume(&mut self, now_us: u64, record: RunRecord, brain: &Brain) -> Option<RunRecord> {
+        if record.run.result != RunResult::CutShort {
+            return Some(record);
+        }
+        let mut open = OpenRun::resume(record, now_us);
+        open.note_restart(now_us, brain);
+        self.open = Some(open);
+        None
+    }
+
+    /// The record of the run that goes on, as far as it is known.
+    pub(crate) fn so_far(&self, now_us: u64) -> Option<RunRecord> {
+        self.open.as_ref().map(|open| open.so_far(now_us, None))
+    }
+
+    /// Takes in a step of the brain.
+    pub(crate) fn step(&mut self, moment: &Moment<'_>) -> Step {
+        let mut step = Step::default();
+        let (asked, hand) = (self.asked.take(), self.hand.take());
+        let has_begun =
+            |decision: &Decision| decision.what == "state-starting" && decision.reason == "command";
+        let begins = moment.decisions.iter().any(has_begun);
+        match asked {
+            Some(asked) if begins => {
+                step.over
+                    .extend(self.end(moment, Ending::stopped(hand.as_deref())));
+                self.begin(asked, moment);
+            }
+            _ => {
+                if let (None, Some(kind)) = (&self.open, moment.brain.job_kind()) {
+                    let (by, job) = (RunAsker::Robot, job_of(kind));
+                    self.begin(Asked { by, job }, moment);
+                }
+            }
+        }
+        let Some(open) = &mut self.open else { return step };
+        let was_over = open.over_us.is_some();
+        open.follow(moment, hand.as_deref());
+        let Some(over_us) = open.over_us else { return step };
+        if !was_over {
+            step.done = Some(open.so_far(moment.now_us, Some(moment.brain)));
+        }
+        let is_driven = moment.brain.status().state == BehaviorState::Manual;
+        if is_driven || moment.now_us >= over_us + OVER_US {
+            step.over.extend(self.close(moment.now_us, moment.brain));
+        }
+        step
+    }
+
+    fn begin(&mut self, asked: Asked, moment: &Moment<'_>) {
+        let start_s = self.utc_s(moment.now_us);
+        let mut open = OpenRun::begin(self.next_number, asked, (moment, start_s));
+        self.next_number += 1;
+        if let Some((run, name)) = &self.recording
+            && moment.recorded == Some(*run)
+        {
+            open.add_recording(name);
+        }
+        self.open = Some(open);
+    }
+
+    fn end(&mut self, moment: &Moment<'_>, ending: Ending) -> Option<RunRecord> {
+        self.open.as_mut()?.end_as(moment.now_us, ending);
+        self.close(moment.now_us, moment.brain)
+    }
+
+    /// The daemon ends.
+    pub(crate) fn shut_down(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
+        self.open.as_mut()?.end_as(now_us, Ending::daemon_ended());
+        self.close(now_us, brain)
+    }
+
+    /// Another robot was attached.
+    pub(crate) fn change_robot(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
+        self.open.as_mut()?.end_as(now_us, Ending::other_robot());
+        self.close(now_us, brain)
+    }
+
+    fn close(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
+        let end_s = self.utc_s(now_us);
+        Some(self.open.take()?.close(now_us, (brain, end_s)))
+    }
+
+    fn utc_s(&self, now_us: u64) -> Option<i64> {
+        let (then_us, utc_s) = self.wall?;
+        Some(utc_s + (now_us.saturating_sub(then_us) / 1_000_000).cast_signed())
+    }
+}
+
+/// A job of which only this is known.
+fn job_of(kind: JobKind) -> RunJob {
+    match kind {
+        JobKind::Clean(strategy) => RunJob::Clean {
+            strategy: strategy.name().to_owned(),
+            rooms: Vec::new(),
+            zones: 0,
+            passes: 1,
+        },
+        JobKind::Spot => RunJob::Spot,
+        JobKind::Dock => RunJob::Dock,
+    }
+}

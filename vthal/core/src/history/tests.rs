@@ -1,0 +1,86 @@
+//! What came of runs, from the words of the brain.
+
+use rvac_api::{RunJob, RunResult};
+
+use super::ending::{Ending, LastWords};
+
+fn clean() -> RunJob {
+    RunJob::Clean {
+        strategy: "systematic".to_owned(),
+        rooms: Vec::new(),
+        zones: 0,
+        passes: 1,
+    }
+}
+
+#[test]
+fn results_follow_from_the_last_words() {
+    use RunResult::{Finished, GaveUp, Stopped};
+    let clean = clean();
+    let words = |reason, turned_home| LastWords {
+        job: &clean,
+        reason,
+        turned_home,
+        trouble: None,
+        by: Some("Anna"),
+    };
+    for (words, result, reason) in [
+        (words("finished", None), Finished, "finished"),
+        (words("docked", Some("finished")), Finished, "finished"),
+        (
+            words("docked", Some("rest-out-of-reach")),
+            Finished,
+            "rest-out-of-reach",
+        ),
+        (
+            words("dock-not-found", Some("finished")),
+            Finished,
+            "dock-not-found",
+        ),
+        (words("command", None), Stopped, "command"),
+        (words("docked", Some("command")), Stopped, "command"),
+        (words("docked", Some("task-budget")), GaveUp, "task-budget"),
+        (
+            words("dock-not-found", Some("battery-low")),
+            GaveUp,
+            "dock-not-found",
+        ),
+        (words("no-heading", None), GaveUp, "no-heading"),
+        (
+            LastWords {
+                trouble: Some("contact-held"),
+                ..words("command", None)
+            },
+            GaveUp,
+            "contact-held",
+        ),
+        (
+            LastWords {
+                job: &RunJob::Dock,
+                ..words("docked", None)
+            },
+            Finished,
+            "docked",
+        ),
+        (
+            LastWords {
+                job: &RunJob::Dock,
+                ..words("dock-not-found", None)
+            },
+            GaveUp,
+            "dock-not-found",
+        ),
+    ] {
+        let ending = Ending::of(words);
+        assert_eq!(
+            (ending.result, ending.reason.as_str()),
+            (result, reason),
+            "{words:?}"
+        );
+    }
+    assert_eq!(Ending::of(words("command", None)).text, "Stopped by Anna.");
+    assert_eq!(
+        Ending::of(words("dock-not-found", Some("finished"))).text,
+        "Finished, but did not come home: it did not find the dock in time."
+    );
+}
