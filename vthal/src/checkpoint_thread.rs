@@ -239,7 +239,10 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
 fn keep_run(mut record: RunRecord, paths: &KeptPaths) -> Result<Box<Run>, String> {
     record.run.map = paths.maps.newest_number();
     match paths.runs.keep(&record) {
-        Ok(()) => Ok(Box::new(record.run)),
+        Ok(()) => {
+            paths.runs.look_for_recordings(&mut record.run);
+            Ok(Box::new(record.run))
+        }
         Err(error) => Err(format!(
             "cannot write the record of run {} in {}: {error}; it is tried again every minute",
             record.run.number,

@@ -163,7 +163,8 @@ impl RunFolder {
         Update::Runs { runs, more }
     }
 
-    fn look_for_recordings(&self, run: &mut Run) {
+    /// Fills in how large the recordings are that are still there.
+    pub(crate) fn look_for_recordings(&self, run: &mut Run) {
         for recording in &mut run.recordings {
             let file = self.recording(&recording.name);
             recording.bytes = file

@@ -759,6 +759,10 @@ fn a_run_is_kept_with_its_recording_before_it_is_told() {
     let run = kept.expect("is kept");
     assert_eq!((run.number, run.result), (1, RunResult::Stopped));
     assert_eq!(run.text, "Stopped by Anna.");
+    assert!(
+        run.recordings[0].bytes.is_some(),
+        "its recording is there: {run:?}"
+    );
     let file = desk.scratch.join("state/history/000001.json");
     assert!(file.exists(), "what is told is on the disk");
     assert!(run.start_s.is_some() && run.end_s >= run.start_s, "{run:?}");
