@@ -35,7 +35,7 @@ pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResp
 pub use coverage::JobEstimate;
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
-pub use localization::PoseEstimate;
+pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
     Raster, StoredMap, StoredMapError, SweptRun,

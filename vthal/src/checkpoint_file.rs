@@ -25,6 +25,8 @@ struct Stored {
     boot: String,
     uptime_s: f64,
     device: String,
+    #[serde(default)]
+    floor: Option<u16>,
     brain: BrainState,
     /// Absent in those of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -67,6 +69,7 @@ pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<(
         boot: now.boot,
         uptime_s: now.uptime_s,
         device: checkpoint.device.clone(),
+        floor: checkpoint.floor,
         brain: BrainState::from(&checkpoint.brain),
         run: checkpoint.run.clone(),
     };
@@ -115,6 +118,7 @@ fn load_one(path: &Path, now: &BootTime) -> Option<Found> {
     Some(Found {
         checkpoint: Checkpoint {
             device: stored.device,
+            floor: stored.floor,
             brain,
             run: stored.run,
         },
@@ -153,6 +157,7 @@ mod tests {
         };
         Checkpoint {
             device: "sr8730".to_owned(),
+            floor: Some(2),
             brain: brain::Checkpoint {
                 pose,
                 backed_m: 0.07,

@@ -1,5 +1,6 @@
 //! The thread that writes checkpoints, maps, schedules, records of runs and control mixes and reads maps and mixes, so that a slow disk never delays a wheel.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -8,11 +9,14 @@ use std::thread::JoinHandle;
 use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
-use vthal_core::{Checkpoint, ClientId, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder};
+use vthal_core::{
+    Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, KeptFloor, MapEdit, MapOrder, MixOrder, MixTask,
+    ScheduleOrder,
+};
 
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
-use crate::map_folder::MapFolder;
+use crate::floor_folder::{FloorError, FloorFolder};
 use crate::mix_folder::{MixError, MixFolder};
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
@@ -21,8 +25,8 @@ use crate::schedule_file;
 pub(crate) struct KeptPaths {
     /// The checkpoint.
     pub(crate) checkpoint: PathBuf,
-    /// The versions of the map of the home.
-    pub(crate) maps: MapFolder,
+    /// The floors, with the versions of their maps.
+    pub(crate) floors: FloorFolder,
     /// The control mixes.
     pub(crate) mixes: MixFolder,
     /// The schedules.
@@ -34,7 +38,8 @@ pub(crate) struct KeptPaths {
 /// Something to be kept, or asked of what is kept.
 enum Kept {
     Checkpoint(Box<Checkpoint>),
-    Home(Box<StoredMap>),
+    Home(Box<FloorHome>),
+    FloorOrder(FloorOrder),
     Edit(Box<MapEdit>),
     Order(MapOrder),
     MixOrder(MixOrder),
@@ -76,14 +81,27 @@ pub(crate) struct MapAnswer {
 /// See [`MapAnswer`].
 #[derive(Debug)]
 pub(crate) enum MapOutcome {
-    /// The versions, newest first.
-    Listed(Vec<KeptMap>),
-    /// The version with this number is the newest now.
-    Restored(u64, Box<StoredMap>),
+    /// The versions of this floor, newest first.
+    Listed(u16, Vec<KeptMap>),
+    /// The version of this floor with this number is the newest now.
+    Restored(u16, u64, Box<StoredMap>),
     /// The map is the newest now.
     Kept,
     /// It could not be done: name and sentence.
     Refused(&'static str, String),
+}
+
+/// What came of an order for the floors.
+#[derive(Debug)]
+pub(crate) struct FloorAnswer {
+    /// Who asked.
+    pub(crate) client: ClientId,
+    /// Number of the request.
+    pub(crate) id: Option<u32>,
+    /// What was to be done.
+    pub(crate) task: FloorTask,
+    /// All floors, and the number of the new one.
+    pub(crate) outcome: Result<(Vec<KeptFloor>, Option<u16>), FloorError>,
 }
 
 /// Sends checkpoints, maps and orders to the thread.
@@ -115,7 +133,7 @@ impl CheckpointHandle {
     }
 
     /// Hands a map over. If the disk is so slow that it is left out, the one after the next run says more.
-    pub(crate) fn send_home(&self, home: StoredMap) {
+    pub(crate) fn send_home(&self, home: FloorHome) {
         self.try_send(Kept::Home(Box::new(home)));
     }
 
@@ -129,6 +147,12 @@ impl CheckpointHandle {
     #[must_use]
     pub(crate) fn order(&self, order: MapOrder) -> bool {
         self.try_send(Kept::Order(order))
+    }
+
+    /// Hands an order for the floors over; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn order_floor(&self, order: FloorOrder) -> bool {
+        self.try_send(Kept::FloorOrder(order))
     }
 
     /// Hands an order for the control mixes over; `false` when the disk is too slow to take it now.
@@ -169,17 +193,22 @@ impl CheckpointHandle {
 fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
     let mut healthy = true;
     while let Ok(first) = queue.recv() {
-        let (mut checkpoint, mut home, mut orders, mut runs) = (None, None, Vec::new(), Vec::new());
+        let (mut checkpoint, mut orders, mut runs) = (None, Vec::new(), Vec::new());
+        // The newest one of each floor.
+        let mut homes: BTreeMap<u16, StoredMap> = BTreeMap::new();
         // Whoever waits until the home is kept.
-        let mut waiting = Vec::new();
+        let (mut waiting, mut floor_orders) = (Vec::new(), Vec::new());
         for kept in core::iter::once(first).chain(queue.try_iter()) {
             match kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
-                Kept::Home(newer) => home = Some(newer),
+                Kept::Home(newer) => {
+                    homes.insert(newer.floor, newer.home);
+                }
                 Kept::Edit(edit) => {
-                    home = Some(Box::new(edit.home));
+                    homes.insert(edit.home.floor, edit.home.home);
                     waiting.push((edit.client, edit.id));
                 }
+                Kept::FloorOrder(order) => floor_orders.push(order),
                 Kept::Order(order) => orders.push(order),
                 Kept::Run(record) => runs.push(record),
                 // Small, and never in a queue behind a map that waits to be written.
@@ -208,13 +237,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             }
             healthy = result.is_ok();
         }
-        let kept = home.map_or(Ok(()), |home| paths.maps.save(&home));
-        if let Err(error) = &kept {
-            tracing::error!(
-                "cannot write a map in {}: {error}; the robot will have to make it again",
-                paths.maps.path().display()
-            );
-        }
+        let kept = keep(&homes, &paths.floors);
         for record in runs {
             let (number, result) = (record.run.number, keep_run(*record, paths));
             events.blocking_send(Event::RunKept(number, result)).ok();
@@ -230,14 +253,47 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
         }
         for order in orders {
             // Nobody is left to hear it when the daemon ends.
-            events.blocking_send(Event::Maps(obey(order, &paths.maps))).ok();
+            events.blocking_send(Event::Maps(obey(order, &paths.floors))).ok();
         }
+        for order in floor_orders {
+            let answer = obey_floor(order, &paths.floors);
+            events.blocking_send(Event::Floors(Box::new(answer))).ok();
+        }
+    }
+}
+
+/// Writes the maps; the last thing that went wrong, if anything did.
+fn keep(homes: &BTreeMap<u16, StoredMap>, floors: &FloorFolder) -> io::Result<()> {
+    let mut kept = Ok(());
+    for (floor, home) in homes {
+        let maps = floors.maps(*floor);
+        if let Err(error) = maps.save(home) {
+            tracing::error!(
+                "cannot write a map in {}: {error}; the robot will have to make it again",
+                maps.path().display()
+            );
+            kept = Err(error);
+        }
+    }
+    kept
+}
+
+fn obey_floor(FloorOrder { client, id, task }: FloorOrder, floors: &FloorFolder) -> FloorAnswer {
+    let outcome = floors.change(&task).map(|made| (floors.load().0, made));
+    FloorAnswer {
+        client,
+        id,
+        task,
+        outcome,
     }
 }
 
 /// Keeps the record of a run, with the version of the map that is the newest then.
 fn keep_run(mut record: RunRecord, paths: &KeptPaths) -> Result<Box<Run>, String> {
-    record.run.map = paths.maps.newest_number();
+    record.run.map = record
+        .run
+        .floor
+        .and_then(|floor| paths.floors.maps(floor).newest_number());
     match paths.runs.keep(&record) {
         Ok(()) => {
             paths.runs.look_for_recordings(&mut record.run);
@@ -265,18 +321,23 @@ fn unkept_schedules(error: &io::Error) -> String {
     )
 }
 
-fn obey(order: MapOrder, maps: &MapFolder) -> MapAnswer {
+fn obey(order: MapOrder, floors: &FloorFolder) -> MapAnswer {
     match order {
-        MapOrder::List { client, id } => MapAnswer {
+        MapOrder::List { client, id, floor } => MapAnswer {
             client,
             id,
-            outcome: MapOutcome::Listed(maps.list()),
+            outcome: MapOutcome::Listed(floor, floors.maps(floor).list()),
         },
-        MapOrder::Restore { client, id, number } => MapAnswer {
+        MapOrder::Restore {
             client,
             id,
-            outcome: match maps.restore(number) {
-                Ok(home) => MapOutcome::Restored(number, Box::new(home)),
+            floor,
+            number,
+        } => MapAnswer {
+            client,
+            id,
+            outcome: match floors.maps(floor).restore(number) {
+                Ok(home) => MapOutcome::Restored(floor, number, Box::new(home)),
                 Err(error) => MapOutcome::Refused(error.name(), error.to_string()),
             },
         },

@@ -11,10 +11,11 @@ use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
 use vthal_core::{
-    ClientId, Core, Delivery, Input, MapEdit, MapOrder, MixOrder, Outputs, Recipients, ScheduleOrder,
+    ClientId, Core, Delivery, FloorOrder, Input, MapEdit, MapOrder, MixOrder, Outputs, Recipients,
+    ScheduleOrder,
 };
 
-use crate::checkpoint_thread::{CheckpointHandle, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
+use crate::checkpoint_thread::{CheckpointHandle, FloorAnswer, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
 use crate::client::{self, Client, Flushed, Incoming};
 use crate::client_stream::ClientStream;
 use crate::clock::Clock;
@@ -147,6 +148,7 @@ impl Daemon {
             Event::ClientSilent(client) => self.handle(Input::ClientSilent(client)),
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
+            Event::Floors(answer) => self.take_floor_answer(*answer),
             Event::Mixes(answer) => self.take_mix_answer(answer),
             Event::Runs(answer) => self.take_run_answer(answer),
             Event::RunKept(number, result) => self.handle(Input::RunKept { number, result }),
@@ -172,10 +174,17 @@ impl Daemon {
     /// Tells a client what came of its order, and the core what it has to know.
     fn take_map_answer(&mut self, MapAnswer { client, id, outcome }: MapAnswer) {
         let answer = match outcome {
-            MapOutcome::Listed(maps) => Some(Update::Maps { maps }),
+            MapOutcome::Listed(floor, maps) => Some(Update::Maps {
+                floor: Some(floor),
+                maps,
+            }),
             MapOutcome::Kept => None,
-            MapOutcome::Restored(number, home) => {
-                self.handle(Input::MapRestored { number, home: *home });
+            MapOutcome::Restored(floor, number, home) => {
+                self.handle(Input::MapRestored {
+                    floor,
+                    number,
+                    home: *home,
+                });
                 None
             }
             MapOutcome::Refused(reason, text) => {
@@ -184,6 +193,22 @@ impl Daemon {
             }
         };
         self.tell_done((client, id), answer);
+    }
+
+    fn take_floor_answer(&mut self, answer: FloorAnswer) {
+        let FloorAnswer {
+            client,
+            id,
+            task,
+            outcome,
+        } = answer;
+        match outcome {
+            Ok((floors, made)) => {
+                self.handle(Input::FloorsKept { task, floors, made });
+                self.tell_done((client, id), None);
+            }
+            Err(error) => self.tell(client, &refusal(id, error.name(), error.to_string())),
+        }
     }
 
     fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
@@ -220,7 +245,14 @@ impl Daemon {
 
     fn order_map(&mut self, order: MapOrder) {
         if !self.wiring.checkpoints.order(order) {
-            let (MapOrder::List { client, id } | MapOrder::Restore { client, id, .. }) = order;
+            let (MapOrder::List { client, id, .. } | MapOrder::Restore { client, id, .. }) = order;
+            self.tell_busy(client, id);
+        }
+    }
+
+    fn order_floor(&mut self, order: FloorOrder) {
+        let (client, id) = (order.client, order.id);
+        if !self.wiring.checkpoints.order_floor(order) {
             self.tell_busy(client, id);
         }
     }
@@ -369,6 +401,9 @@ impl Daemon {
         }
         for order in std::mem::take(&mut self.outputs.map_orders) {
             self.order_map(order);
+        }
+        for order in std::mem::take(&mut self.outputs.floor_orders) {
+            self.order_floor(order);
         }
         for order in std::mem::take(&mut self.outputs.mix_orders) {
             self.order_mix(order);

@@ -4,7 +4,7 @@ use rvac_api::Run;
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
-use crate::checkpoint_thread::{MapAnswer, MixAnswer};
+use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
 use crate::run_thread::RunAnswer;
 use crate::serial::OpenError;
@@ -28,6 +28,8 @@ pub(crate) enum Event {
     Imu(ImuEvent),
     /// What came of an order for the kept maps.
     Maps(MapAnswer),
+    /// What came of an order for the floors.
+    Floors(Box<FloorAnswer>),
     /// What came of an order for the kept control mixes.
     Mixes(MixAnswer),
     /// What a client asked of the kept runs.

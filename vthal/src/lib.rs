@@ -13,6 +13,7 @@ mod clock;
 pub mod config;
 mod daemon;
 mod event;
+mod floor_folder;
 pub mod imu;
 mod instance;
 mod kept_file;

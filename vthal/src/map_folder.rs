@@ -1,4 +1,4 @@
-//! The map of the home on disk: the folder `maps` in the state folder, with one file for each version. Numbers rise, the
+//! The map of a floor on disk: a folder with one file for each version. Numbers rise, the
 //! highest is the newest, and the oldest go when there are too many. No version is ever changed.
 
 use std::fs;
@@ -79,7 +79,7 @@ impl MapFolder {
         let number = number.ok_or_else(|| io::Error::other("the numbers of maps are used up"))?;
         kept_file::replace(&self.file(number), &bytes)?;
         for oldest in numbers.iter().skip(VERSIONS_MAX - 1) {
-            fs::remove_file(self.file(*oldest))?;
+            self.discard(*oldest)?;
         }
         Ok(())
     }
@@ -123,6 +123,14 @@ impl MapFolder {
             .map_err(|what| RestoreError::Broken { number, what })?;
         self.save(&home)?;
         Ok(home)
+    }
+
+    /// Deletes a version for good.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn discard(&self, number: u64) -> io::Result<()> {
+        fs::remove_file(self.file(number))
     }
 
     /// Numbers of the versions, newest first. A folder that is not there holds none.

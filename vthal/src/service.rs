@@ -15,8 +15,8 @@ use crate::clock::Clock;
 use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
+use crate::floor_folder::FloorFolder;
 use crate::instance::{self, InstanceError};
-use crate::map_folder::MapFolder;
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
@@ -85,7 +85,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     logging::start(&config.state.join("log"), &config.log).map_err(ServeError::Log)?;
     let kept = KeptPaths {
         checkpoint: config.state.join(CHECKPOINT),
-        maps: MapFolder::new(config.state.join(MAPS)),
+        floors: FloorFolder::new(config.state.join(MAPS)),
         mixes: MixFolder::new(config.state.join(MIXES)),
         schedules: config.state.join(SCHEDULES),
         runs: RunFolder::new(config.state.join(HISTORY), config.state.join(RECORDINGS)),
@@ -129,8 +129,8 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 /// Settings of the core, with what is kept in the state folder.
 fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
     let found = schedule_file::load(&kept.schedules);
-    let (home, map_complaints) = kept.maps.newest();
-    let complaints = [found.complaints, map_complaints].concat();
+    let (floors, floor_complaints) = kept.floors.load();
+    let complaints = [found.complaints, floor_complaints].concat();
     for complaint in &complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
@@ -143,7 +143,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         schedules: found.book,
         schedules_distrusted: found.distrusted,
         zone: system_zone(),
-        home,
+        floors,
         complaints,
         sensors,
         seed: config.seed.unwrap_or_else(seed_from_clock),

@@ -408,7 +408,7 @@ fn kept_numbers(desk: &mut Desk) -> Vec<u64> {
     desk.client.send(r#"{"c":"maps","id":9}"#).expect("sends");
     let is_list = |update: &Update| matches!(update, Update::Maps { .. });
     match desk.client.wait_for(soon(), is_list).expect("reads") {
-        Some(Update::Maps { maps }) => maps.iter().map(|map| map.number).collect(),
+        Some(Update::Maps { maps, .. }) => maps.iter().map(|map| map.number).collect(),
         other => panic!("no list: {other:?}"),
     }
 }

@@ -32,6 +32,8 @@ enum Subject {
     Navigation,
     /// How surely, how fast and how exactly the robot comes home to its dock.
     Docking,
+    /// How surely a robot that was put down somewhere finds out on which floor it is.
+    Floors,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -155,6 +157,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Coverage => &["--bin", "bench-coverage"],
         Subject::Navigation => &["--bin", "bench-navigation"],
         Subject::Docking => &["--bin", "bench-docking"],
+        Subject::Floors => &["--bin", "bench-floors"],
         Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
@@ -182,6 +185,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Charges
         | Subject::Navigation
         | Subject::Docking
+        | Subject::Floors
         | Subject::Coverage => &[],
     }
 }
@@ -196,6 +200,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
         Subject::Docking => &["--runs", "1000"],
+        Subject::Floors => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Link | Subject::Relay => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],

@@ -19,7 +19,7 @@ const WAY_FACTOR: f64 = 1.012;
 const GYRO_SCALE: f64 = 1.008;
 const GYRO_BIAS_RAD_PER_S: f64 = 4.0e-4;
 
-fn config() -> BrainConfig {
+pub(super) fn config() -> BrainConfig {
     let poses: Vec<Pose2> = (-3..=3)
         .map(|number| {
             let heading_rad = f64::from(number) * core::f64::consts::FRAC_PI_6;
@@ -62,7 +62,7 @@ fn config() -> BrainConfig {
 }
 
 /// Two rooms of different size with a door, a cupboard and a table leg.
-fn flat() -> Map {
+pub(super) fn flat() -> Map {
     let solid = |x_m: f64, y_m: f64| {
         let outside = !(0.1..=6.1).contains(&x_m) || !(0.1..=3.6).contains(&y_m);
         let wall = (3.6..3.7).contains(&x_m) && !(1.2..2.1).contains(&y_m);
@@ -85,16 +85,16 @@ fn flat() -> Map {
 }
 
 /// The real robot: drives until it touches, then turns by a random angle.
-struct Truth<'map> {
+pub(super) struct Truth<'map> {
     map: &'map Map,
-    pose: Pose2,
+    pub(super) pose: Pose2,
     random: Random,
     turn_left_rad: f64,
     view: Observation,
 }
 
 impl<'map> Truth<'map> {
-    fn new(map: &'map Map, pose: Pose2) -> Self {
+    pub(super) fn new(map: &'map Map, pose: Pose2) -> Self {
         Self {
             map,
             pose,
@@ -112,7 +112,7 @@ impl<'map> Truth<'map> {
         self.map.distance_field().at(at)
     }
 
-    fn step(&mut self) -> &Observation {
+    pub(super) fn step(&mut self) -> &Observation {
         self.view.time_us += 20_000;
         let (way_m, turn_rad) = if self.turn_left_rad == 0.0 {
             (SPEED_M_PER_S * STEP_S, 0.0)
@@ -165,7 +165,7 @@ impl<'map> Truth<'map> {
     }
 }
 
-const START: Pose2 = Pose2 {
+pub(super) const START: Pose2 = Pose2 {
     x_m: 0.6,
     y_m: 0.5,
     heading_rad: 0.3,

@@ -9,7 +9,10 @@ mod beacons;
 mod calibration;
 mod confidence;
 mod estimate;
+mod floors;
 mod gyro_bias;
+#[cfg(test)]
+mod known_floors;
 #[cfg(test)]
 mod known_home;
 mod odometry;
@@ -24,6 +27,7 @@ mod trail;
 use beacons::Beacons;
 pub use estimate::PoseEstimate;
 use estimate::{Drift, WHEEL_TURN_SCALE};
+pub use floors::{Finding, FloorFinder, FloorPlace};
 pub use odometry::Advance;
 use odometry::Odometry;
 use retreat::Retreat;
@@ -249,6 +253,7 @@ impl Localization {
         };
         let Tracked { tracker, terrain } = &mut **tracked;
         tracker.hear(self.beacons.heard());
+        tracker.search_on(terrain);
         if docks && let Some(dock) = terrain.dock() {
             tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
             self.odometry.calibration.interrupt();

@@ -6,7 +6,8 @@
 
 use super::particles::Surroundings;
 use crate::geometry::{Point2, Pose2};
-use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster};
+use crate::gradual::Pace;
+use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster, StoredMap};
 
 /// Cells between two places where a robot may be looked for: 15 cm.
 const PLACE_CELLS: usize = 6;
@@ -33,6 +34,16 @@ impl Terrain {
             distance: map.distance_field().clone(),
             knowledge: map.knowledge().clone(),
             dock: map.dock(),
+        }
+    }
+
+    /// A home as it was kept, made in steps.
+    pub(super) async fn of_stored(home: StoredMap, pace: &mut Pace) -> Self {
+        let knowledge = home.knowledge_in_steps(pace).await;
+        Self {
+            distance: DistanceField::in_steps(&knowledge, pace).await,
+            knowledge,
+            dock: home.dock(),
         }
     }
 

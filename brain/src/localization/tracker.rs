@@ -6,7 +6,7 @@
 use super::beacons::Heard;
 use super::confidence::{Confidence, Verdict};
 use super::estimate::turn_variance;
-use super::particles::{Motion, ParticleFilter, Spread, Surroundings};
+use super::particles::{Fit, Motion, ParticleFilter, Spread, Surroundings};
 use super::search::{Candidate, Search};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
@@ -82,6 +82,8 @@ pub(super) struct Tracker {
     search_in_m: f64,
     /// The search that is under way.
     searching: Option<Box<Search>>,
+    /// How the map fitted since the robot found itself.
+    since_found: Fit,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -103,6 +105,7 @@ impl Tracker {
             trail: Trail::default(),
             search_in_m: 0.0,
             searching: None,
+            since_found: Fit::default(),
             radius_m,
             layout,
         }
@@ -124,6 +127,7 @@ impl Tracker {
         self.confidence = Confidence::none();
         self.search_in_m = (SEARCH_FROM_M - self.trail.length_m()).max(0.0);
         self.searching = None;
+        self.since_found = Fit::default();
         self.lost = true;
     }
 
@@ -147,6 +151,23 @@ impl Tracker {
         self.heard.extend_from_slice(heard);
     }
 
+    /// Does a step of the search of a lost robot, before each [`Self::follow`] or now and then.
+    pub(super) fn search_on(&mut self, map: &impl Surroundings) {
+        if let Some(search) = &mut self.searching {
+            search.go_on(map);
+        }
+    }
+
+    /// How the map fitted what the sensors showed since the robot found itself.
+    pub(super) fn since_found(&self) -> Fit {
+        self.since_found
+    }
+
+    /// A search for all places where the last metres can have been, whatever the robot believes.
+    pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<Search> {
+        Search::of(&Whole(map), &self.trail, self.radius_m)
+    }
+
     /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
     /// had their say.
     pub(super) fn follow(
@@ -159,7 +180,6 @@ impl Tracker {
         self.collect(advance);
         if let Some(search) = &mut self.searching {
             search.follow(advance);
-            search.go_on(map);
         }
         let felt = self.felt(observation);
         if self.was_lifted(observation, advance) {
@@ -195,7 +215,9 @@ impl Tracker {
     /// Compares the estimate with what the sensors show, and draws the consequences.
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
         let estimate = self.filter.estimate();
-        self.confidence.take(self.filter.fit(map, estimate.pose));
+        let fit = self.filter.fit(map, estimate.pose);
+        self.confidence.take(fit);
+        self.since_found = self.since_found.and(fit);
         let verdict = self.confidence.verdict();
         if verdict == Verdict::Wrong || estimate.sigma_m > LOST_SIGMA_M {
             self.lose(estimate.pose);
@@ -241,7 +263,7 @@ impl Tracker {
         self.confidence = Confidence::none();
     }
 
-    fn estimate(&self) -> PoseEstimate {
+    pub(super) fn estimate(&self) -> PoseEstimate {
         PoseEstimate {
             lost: self.lost,
             ..self.filter.estimate()
@@ -315,7 +337,7 @@ impl<M: Surroundings> Surroundings for Whole<'_, M> {
 }
 
 /// Whether `pose` is at the best of the places, and no other fits nearly as well.
-fn is_alone(places: &[Candidate], pose: Pose2) -> bool {
+pub(super) fn is_alone(places: &[Candidate], pose: Pose2) -> bool {
     let Some((best, others)) = places.split_first() else {
         return false;
     };

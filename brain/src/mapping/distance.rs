@@ -38,13 +38,24 @@ impl DistanceField {
     /// The field of the occupied cells of `knowledge`.
     #[must_use]
     pub fn new(knowledge: &Raster<CellKnowledge>) -> Self {
-        let mut field = Self {
-            millimetres: Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), FAR_MM),
-        };
+        at_once(Self::in_steps(knowledge, &mut Pace::at_once()))
+    }
+
+    /// As [`Self::new`], in steps.
+    pub(crate) async fn in_steps(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Self {
+        let mut millimetres =
+            Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), FAR_MM);
         if let Some(all) = window(knowledge) {
-            field.renew(knowledge, all);
+            let is_occupied = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Occupied);
+            let outward = squared_cells(all, is_occupied, pace).await;
+            let inward = squared_cells(all, |cell| !is_occupied(cell), pace).await;
+            let squared = outward.iter().zip(&inward);
+            for (value, (out, inside)) in millimetres.values_mut().iter_mut().zip(squared) {
+                *value = signed_mm(*out, *inside);
+                pace.spend(1).await;
+            }
         }
-        field
+        Self { millimetres }
     }
 
     /// Lower left cell, columns and rows of the window that has values.

@@ -1,4 +1,4 @@
-//! What the robot knows of the home, in words: how sure it is, the rooms, what is forbidden, and the kept versions of the map.
+//! What the robot knows of the home, in words: how sure it is, the floors, the rooms, what is forbidden, and the kept versions of the map.
 
 use std::time::Duration;
 
@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
+use crate::floors_view::FloorList;
 use crate::rooms_view::{NoGoList, RoomList};
 use crate::store::Store;
 
@@ -14,9 +15,9 @@ const RENEW_EVERY: Duration = Duration::from_secs(5);
 
 #[component]
 pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
-    store.ask_quietly(RequestBody::Maps);
+    ask_for_maps(store);
     // A map is kept some seconds after a run, and nobody tells of it.
-    if let Ok(renewal) = set_interval_with_handle(move || store.ask_quietly(RequestBody::Maps), RENEW_EVERY) {
+    if let Ok(renewal) = set_interval_with_handle(move || ask_for_maps(store), RENEW_EVERY) {
         on_cleanup(move || renewal.clear());
     }
     let sentences = move || {
@@ -29,6 +30,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <ul class="sentences">
                 {move || sentences().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
             </ul>
+            <FloorList store />
             <RoomList store />
             <NoGoList store />
             <h3 id="maps-title">"Kept maps"</h3>
@@ -45,13 +47,22 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
     }
 }
 
+fn ask_for_maps(store: Store) {
+    let floor = store.floors.with_untracked(|view| view.here);
+    store.ask_quietly(RequestBody::Maps { floor });
+}
+
 fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
     let rooms = if map.rooms == 1 { "room" } else { "rooms" };
     let words = format!("{}, {} {rooms}", area_text(map.area_m2), map.rooms);
     let restore = move |_| {
-        store.ask(RequestBody::RestoreMap { number: map.number });
+        let floor = store.maps_floor.get_untracked();
+        store.ask(RequestBody::RestoreMap {
+            number: map.number,
+            floor,
+        });
         // Answered after the one before, so with the restored map in it.
-        store.ask_quietly(RequestBody::Maps);
+        ask_for_maps(store);
     };
     view! {
         <li>

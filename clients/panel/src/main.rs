@@ -5,6 +5,7 @@ mod actions;
 mod app;
 mod device_view;
 mod drive;
+mod floors_view;
 mod header;
 mod home_view;
 mod icons;

@@ -4,8 +4,8 @@ use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows, top_speeds};
 use rvac_api::{
-    DeviceTable, Estimate, Failure, KeptMap, Request, RequestBody, RobotDescription, SimulatedTruth, Status,
-    Topic,
+    DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody, RobotDescription,
+    SimulatedTruth, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -49,8 +49,12 @@ pub(crate) struct Store {
     pub(crate) estimate: RwSignal<Option<Estimate>>,
     /// What it decided.
     pub(crate) decisions: RwSignal<DecisionBook>,
-    /// Versions of the map that the daemon keeps, newest first.
+    /// The floors, and on which of them the robot is.
+    pub(crate) floors: RwSignal<FloorsView>,
+    /// Versions of the map of a floor that the daemon keeps, newest first.
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
+    /// That floor.
+    pub(crate) maps_floor: RwSignal<Option<u16>>,
     /// What a person wants of the home.
     pub(crate) orders: Orders,
     /// What starts by itself.
@@ -81,7 +85,9 @@ impl Store {
             rooms: RwSignal::new(Vec::new()),
             estimate: RwSignal::new(None),
             decisions: RwSignal::new(DecisionBook::default()),
+            floors: RwSignal::new(FloorsView::default()),
             maps: RwSignal::new(Vec::new()),
+            maps_floor: RwSignal::new(None),
             orders: Orders::new(),
             schedules: ScheduleDesk::new(),
             log: RwSignal::new(LogBook::default()),
@@ -191,6 +197,7 @@ impl Store {
             Topic::Decisions,
             Topic::Log,
             Topic::Schedules,
+            Topic::Floors,
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
@@ -251,7 +258,11 @@ impl Store {
             }
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
-            Message::Maps { maps } => self.maps.set(maps),
+            Message::Maps { floor, maps } => {
+                self.maps_floor.set(floor);
+                self.maps.set(maps);
+            }
+            Message::Floors(floors) => self.floors.set(floors),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),

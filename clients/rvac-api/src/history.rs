@@ -51,7 +51,10 @@ pub struct Run {
     pub text: String,
     /// Times that it stood or waited on the way.
     pub stop_count: u32,
-    /// Version of the map of the home that was kept when it ended, if there was one.
+    /// The floor on which it was, as in [`crate::FloorView`]; absent where the robot did not know.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<u16>,
+    /// Version of that floor's map that was kept when it ended, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<u64>,
     /// Its recordings: one, none if none was wanted, or more if the daemon began anew on the way.

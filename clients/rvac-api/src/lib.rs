@@ -8,6 +8,7 @@
 
 extern crate alloc;
 
+mod floor;
 mod history;
 mod home;
 mod order;
@@ -16,6 +17,7 @@ mod schedule;
 mod thought;
 mod update;
 
+pub use floor::{FloorQuestion, FloorView, FloorsView};
 pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
 };

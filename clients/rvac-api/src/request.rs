@@ -45,6 +45,8 @@ pub enum Topic {
     Schedules,
     /// [`crate::Update::RunKept`] for each run that ends, when it is on the disk.
     Runs,
+    /// [`crate::Update::Floors`] at once, then when it changes.
+    Floors,
 }
 
 /// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
@@ -130,12 +132,49 @@ pub enum RequestBody {
         /// Name, as in [`crate::Status::reason`].
         reason: String,
     },
-    /// Asks which versions of the map of the home are kept; answered by [`crate::Update::Maps`].
-    Maps,
-    /// Takes up a version of the map of the home again, and keeps it as the newest. Refused while a job runs or waits.
+    /// Asks which versions of the map of a floor are kept; answered by [`crate::Update::Maps`].
+    Maps {
+        /// Number of the floor; absent = the one on which the robot is, else the first one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        floor: Option<u16>,
+    },
+    /// Takes up a version of the map of a floor again, and keeps it as the newest. Refused while a job runs or waits.
     RestoreMap {
         /// Number of the version.
         number: u64,
+        /// Number of the floor, as in [`RequestBody::Maps`].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        floor: Option<u16>,
+    },
+    /// Says on which floor the robot is.
+    ChooseFloor {
+        /// Its number.
+        floor: u16,
+    },
+    /// Says that the robot is on a floor of which nothing is kept; what it has drawn, not knowing where it was, becomes the
+    /// map of it. Answered, as all changes of floors, when it is on the disk.
+    NewFloor {
+        /// What people call it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
+    },
+    /// Names a floor.
+    NameFloor {
+        /// Its number.
+        floor: u16,
+        /// Its name; absent = none any more.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
+    },
+    /// Removes a floor. Its maps are kept, and it can come back.
+    RemoveFloor {
+        /// Its number.
+        floor: u16,
+    },
+    /// Brings a removed floor back.
+    RestoreFloor {
+        /// Its number.
+        floor: u16,
     },
     /// Asks which control mixes are kept; answered by [`crate::Update::Mixes`].
     Mixes,

@@ -5,7 +5,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{Decision, Estimate, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, Schedules};
+use crate::{
+    Decision, Estimate, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, Schedules,
+};
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,11 +52,16 @@ pub enum Update {
     Way(PlannedWay),
     /// Something that it decided.
     Decision(Decision),
-    /// The versions of the map of the home that are kept.
+    /// The versions of the map of a floor that are kept.
     Maps {
+        /// Number of the floor.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        floor: Option<u16>,
         /// Newest first.
         maps: Vec<KeptMap>,
     },
+    /// The floors of the home, and on which of them the robot is.
+    Floors(FloorsView),
     /// The control mixes that are kept.
     Mixes {
         /// By their names, each as one line of JSON, see the crate `mixer`.

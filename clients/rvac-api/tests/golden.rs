@@ -6,12 +6,13 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure, HomeView,
-    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
-    RoomHere, RoomNaming, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult,
-    RunStop, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
-    SimulatedPlan, SimulatedTruth, Status, Topic, Update, Versions, WallView, Weekday,
+    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure,
+    FloorQuestion, FloorView, FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun, PlannedWay,
+    Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView, Run, RunAsker,
+    RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, ScheduleDecision, ScheduleEntry,
+    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Status, Topic,
+    Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -49,10 +50,11 @@ fn requests() {
         Topic::Packets,
         Topic::Schedules,
         Topic::Runs,
+        Topic::Floors,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -61,9 +63,12 @@ fn requests() {
         },
         r#"{"c":"start","strategy":"bounce"}"#,
     );
-    request(RequestBody::Maps, r#"{"c":"maps"}"#);
+    request(RequestBody::Maps { floor: None }, r#"{"c":"maps"}"#);
     request(
-        RequestBody::RestoreMap { number: 12 },
+        RequestBody::RestoreMap {
+            number: 12,
+            floor: None,
+        },
         r#"{"c":"restore-map","number":12}"#,
     );
     request(RequestBody::Spot, r#"{"c":"spot"}"#);
@@ -91,6 +96,84 @@ fn requests() {
             body: RequestBody::Stop,
         },
         r#"{"id":7,"c":"stop"}"#,
+    );
+}
+
+#[test]
+fn requests_of_floors() {
+    request(RequestBody::Maps { floor: Some(2) }, r#"{"c":"maps","floor":2}"#);
+    request(
+        RequestBody::RestoreMap {
+            number: 12,
+            floor: Some(2),
+        },
+        r#"{"c":"restore-map","number":12,"floor":2}"#,
+    );
+    request(
+        RequestBody::ChooseFloor { floor: 2 },
+        r#"{"c":"choose-floor","floor":2}"#,
+    );
+    request(RequestBody::NewFloor { name: None }, r#"{"c":"new-floor"}"#);
+    request(
+        RequestBody::NewFloor {
+            name: Some("Attic".to_owned()),
+        },
+        r#"{"c":"new-floor","name":"Attic"}"#,
+    );
+    request(
+        RequestBody::NameFloor {
+            floor: 2,
+            name: Some("Attic".to_owned()),
+        },
+        r#"{"c":"name-floor","floor":2,"name":"Attic"}"#,
+    );
+    request(
+        RequestBody::RemoveFloor { floor: 2 },
+        r#"{"c":"remove-floor","floor":2}"#,
+    );
+    request(
+        RequestBody::RestoreFloor { floor: 2 },
+        r#"{"c":"restore-floor","floor":2}"#,
+    );
+}
+
+#[test]
+fn floors() {
+    let floors = FloorsView {
+        floors: vec![
+            FloorView {
+                number: 1,
+                name: Some("Ground".to_owned()),
+                area_m2: 41.5,
+                rooms: 3,
+                has_dock: true,
+                removed: false,
+            },
+            FloorView {
+                number: 2,
+                removed: true,
+                ..FloorView::default()
+            },
+        ],
+        here: Some(1),
+        sought: false,
+        question: None,
+    };
+    check(
+        &Update::Floors(floors),
+        r#"{"e":"floors","floors":[{"number":1,"name":"Ground","area_m2":41.5,"rooms":3,"has_dock":true},{"number":2,"area_m2":0.0,"rooms":0,"has_dock":false,"removed":true}],"here":1,"sought":false}"#,
+    );
+    let asks = FloorsView {
+        sought: true,
+        question: Some(FloorQuestion {
+            reason: "which-dock".to_owned(),
+            text: "Choose.".to_owned(),
+        }),
+        ..FloorsView::default()
+    };
+    check(
+        &Update::Floors(asks),
+        r#"{"e":"floors","floors":[],"sought":true,"question":{"reason":"which-dock","text":"Choose."}}"#,
     );
 }
 
@@ -462,8 +545,8 @@ fn what_the_robot_thinks() {
         rooms: 3,
     }];
     check(
-        &Update::Maps { maps },
-        r#"{"e":"maps","maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
+        &Update::Maps { floor: Some(2), maps },
+        r#"{"e":"maps","floor":2,"maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
     );
     check(
         &Update::Mixes {

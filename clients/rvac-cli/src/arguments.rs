@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+mod floors;
 mod history;
 mod orders;
 mod schedules;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+pub(crate) use floors::{FloorJob, FloorVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
 pub(crate) use orders::{
     EstimateOptions, OrderOptions, OrderParts, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb,
@@ -34,6 +36,8 @@ pub(crate) enum Subcommand {
     Watch(WatchOptions),
     /// What the robot knows of the home, which versions of its map are kept, and the way back to one of them.
     Map(MapJob),
+    /// The floors of the home, each with a map of its own, and on which of them the robot is; without a verb: list them.
+    Floor(FloorJob),
     /// Clean rooms and zones of the home; without any all of it.
     Clean(OrderOptions),
     /// What such a job will take.
@@ -194,14 +198,21 @@ pub(crate) struct MapJob {
     pub(crate) json: bool,
 }
 
-#[derive(Clone, Copy, Debug, clap::Subcommand)]
+#[derive(Clone, Debug, clap::Subcommand)]
 pub(crate) enum MapVerb {
     /// The versions that are kept, newest first.
-    List,
+    List {
+        /// Whose, by number or name; of the floor on which the robot is when absent.
+        #[arg(long)]
+        floor: Option<String>,
+    },
     /// Take a version up again; it becomes the newest one, and the others stay.
     Restore {
         /// Its number, as `rvac map list` tells it.
         number: u64,
+        /// Whose, by number or name; of the floor on which the robot is when absent.
+        #[arg(long)]
+        floor: Option<String>,
     },
 }
 

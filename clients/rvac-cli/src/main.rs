@@ -6,6 +6,7 @@ mod arguments;
 mod calibrate;
 mod control;
 mod drive;
+mod floors;
 mod history;
 mod home;
 mod lines;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Subcommand::Status(options) => status::print(&options),
         Subcommand::Watch(options) => status::watch(&options),
         Subcommand::Map(job) => home::run(&job),
+        Subcommand::Floor(job) => floors::run(&job),
         Subcommand::Clean(order) => orders::clean(&order),
         Subcommand::Estimate(options) => orders::estimate(&options),
         Subcommand::Rooms(job) => orders::rooms(&job),

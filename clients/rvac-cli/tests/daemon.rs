@@ -272,7 +272,8 @@ fn at_home(request: &Request) -> Vec<Update> {
             }),
             Update::Status(Status::default()),
         ],
-        RequestBody::Maps => vec![Update::Maps {
+        RequestBody::Maps { .. } => vec![Update::Maps {
+            floor: Some(1),
             maps: vec![kept(12), kept(11)],
         }],
         RequestBody::Estimate(_) => vec![Update::JobEstimate(JobEstimate {
@@ -528,7 +529,13 @@ fn kept_maps_are_listed_and_one_is_asked_back() {
     assert!(row.starts_with("12 ") && row.ends_with("12  newest"), "{words}");
     let (output, asked) = Daemon::start("restore", at_home).rvac(&["map", "restore", "11"], "");
     assert!(output.status.success(), "{output:?}");
-    assert_eq!(asked[1].body, RequestBody::RestoreMap { number: 11 });
+    assert_eq!(
+        asked[1].body,
+        RequestBody::RestoreMap {
+            number: 11,
+            floor: None
+        }
+    );
 }
 
 #[test]

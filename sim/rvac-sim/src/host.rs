@@ -5,11 +5,12 @@ use brain::mapping::StoredMap;
 use brain::observation::BeaconRange;
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Pose as TruePose};
-use rvac_api::{LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status};
+use rvac_api::{FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status};
 use vthal_core::schedule::{Book, StoredBook};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
 
 use crate::HostCost;
+use crate::host_floors::HostFloors;
 use crate::host_wall::HostWall;
 
 /// A core and the shell's duties towards it.
@@ -30,6 +31,7 @@ pub struct Host {
     schedules: Option<StoredBook>,
     /// Runs that are over.
     runs: Vec<RunRecord>,
+    floors: HostFloors,
     /// Its disk takes what it is given, and never says so.
     disk_is_mute: bool,
 }
@@ -40,8 +42,10 @@ impl Host {
     /// Starts at `now_us` with an open link and one client. `now_us` is any clock; the core's own begins with 0.
     #[must_use]
     pub fn start(now_us: u64, config: CoreConfig) -> Self {
+        let floors = HostFloors::of(&config.floors);
         let mut host = Self {
             core: Core::new(config),
+            floors,
             outputs: Outputs::default(),
             pending: Vec::new(),
             checkpoint: None,
@@ -93,6 +97,12 @@ impl Host {
     /// From now on its disk takes what it is given, and never says so.
     pub fn mute_disk(&mut self) {
         self.disk_is_mute = true;
+    }
+
+    /// The floors of the home, as clients are told.
+    #[must_use]
+    pub fn floors(&self) -> FloorsView {
+        self.core.floors_view()
     }
 
     /// All schedules, as clients are told.
@@ -154,9 +164,17 @@ impl Host {
         }
         let schedules = self.outputs.schedules.take();
         let run = self.outputs.run.take();
+        let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
+        if let Some(kept) = self.outputs.home.take() {
+            self.floors.keep(kept);
+        }
         self.outputs.clear();
         if let Some(record) = run {
             self.keep_run(now_us, *record);
+        }
+        for order in floor_orders {
+            let input = self.floors.obey(order.task);
+            self.handle(now_us, input);
         }
         if let Some(order) = schedules {
             self.schedules = Some(order.book);

@@ -11,6 +11,7 @@ mod figures;
 mod firmware;
 mod host;
 mod host_cost;
+mod host_floors;
 mod host_wall;
 mod household;
 mod known_map;

@@ -8,6 +8,8 @@ use rvac_api::RunRecord;
 pub struct Checkpoint {
     /// Device it belongs to; another one does not take it up.
     pub device: String,
+    /// Floor on which the robot was, if that was known.
+    pub floor: Option<u16>,
     /// State of the brain.
     pub brain: brain::Checkpoint,
     /// The record of the run that goes on, as far as it was known.

@@ -20,6 +20,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Decisions => 512,
         Topic::Schedules => 1024,
         Topic::Runs => 2048,
+        Topic::Floors => 4096,
     }
 }
 

@@ -1,9 +1,10 @@
 //! Settings of the core.
 
+use brain::SensorLayout;
 use brain::command::StrategyName;
-use brain::{SensorLayout, StoredMap};
 
 use crate::Checkpoint;
+use crate::floors::KeptFloor;
 use crate::schedule::{Book, Zone};
 
 /// Settings of the core, fixed for its life.
@@ -25,8 +26,9 @@ pub struct CoreConfig {
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
     pub version: String,
-    /// The home as it was kept. Taken up when the robot is seen on its dock: elsewhere it does not know where it is.
-    pub home: Option<StoredMap>,
+    /// The floors of the home as they were kept. One is taken up when the robot is seen on its dock, or when it has found out
+    /// on its way on which it is.
+    pub floors: Vec<KeptFloor>,
     /// Where an interrupted run goes on.
     pub resume: Option<Checkpoint>,
     /// The schedules as they were kept.
@@ -52,7 +54,7 @@ impl Default for CoreConfig {
             sensors: SensorLayout::default(),
             task_budget_s: 120 * 60,
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            home: None,
+            floors: Vec::new(),
             resume: None,
             schedules: Book::default(),
             schedules_distrusted: false,

@@ -3,6 +3,7 @@
 mod explain;
 mod feed;
 mod firmware;
+mod floors;
 mod history;
 mod link_facts;
 mod manual;
@@ -18,6 +19,7 @@ use crate::arbiter::Arbiter;
 use crate::clients::Clients;
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
+use crate::floors::Floors;
 use crate::history::RunFollower;
 use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
@@ -54,6 +56,7 @@ pub struct Core {
     ended: bool,
     /// Whoever changed the map since the brain's last step: client and number of the request.
     edits: Vec<(ClientId, Option<u32>)>,
+    floors: Floors,
     scheduler: Scheduler,
     schedules_told: Option<Schedules>,
     schedules_told_us: u64,
@@ -72,6 +75,7 @@ impl Core {
         }
         Self {
             scheduler: Scheduler::new(book, zone, config.schedules_distrusted),
+            floors: Floors::new(core::mem::take(&mut config.floors)),
             schedules_told: None,
             schedules_told_us: 0,
             runs: RunFollower::new(config.next_run),
@@ -114,7 +118,12 @@ impl Core {
             }
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
-            Input::MapRestored { number, home } => self.map_restored(now_us, (number, home), outputs),
+            Input::MapRestored { floor, number, home } => {
+                self.map_restored(now_us, (floor, number, home), outputs)
+            }
+            Input::FloorsKept { task, floors, made } => {
+                self.floors_kept(now_us, (&task, floors, made), outputs);
+            }
             Input::ClientSilent(client) => self.client_silent(now_us, client, outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),

@@ -4,6 +4,8 @@ use brain::StoredMap;
 use brain::observation::BeaconRange;
 use rvac_api::{Request, Run};
 
+use crate::{FloorTask, KeptFloor};
+
 /// A connected client, numbered by the shell; numbers are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ClientId(pub u64);
@@ -39,10 +41,21 @@ pub enum Input<'a> {
     /// A version of the map of the home was read from the disk and is the newest there now, as
     /// [`crate::MapOrder::Restore`] asked.
     MapRestored {
+        /// Floor that it is of.
+        floor: u16,
         /// Number that was asked for, for the log.
         number: u64,
         /// The map.
         home: StoredMap,
+    },
+    /// The floors that are kept after a [`crate::FloorOrder`] was carried out.
+    FloorsKept {
+        /// What was done.
+        task: FloorTask,
+        /// All floors.
+        floors: Vec<KeptFloor>,
+        /// The new floor, if there is one.
+        made: Option<u16>,
     },
     /// The clock on the wall, seconds since 1970 (UTC), at least once a second. It may have been set, either way.
     WallClock {

@@ -19,6 +19,7 @@ mod config;
 mod core;
 pub mod device;
 mod diary;
+mod floors;
 mod history;
 mod home_view;
 mod input;
@@ -27,6 +28,7 @@ mod mind;
 mod newest;
 pub mod observe;
 mod outputs;
+mod quest;
 pub mod schedule;
 mod scheduler;
 mod tap;
@@ -35,9 +37,10 @@ mod to_api;
 pub use checkpoint::Checkpoint;
 pub use config::{Checkpoints, CoreConfig, ExpertAccess, Recording};
 pub use core::Core;
+pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    Delivery, Direction, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
-    RunQuery, RunStart, RunTask, ScheduleOrder,
+    Delivery, Direction, FloorHome, FloorOrder, FloorTask, MapEdit, MapOrder, MixOrder, MixTask, Outputs,
+    Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask, ScheduleOrder,
 };

@@ -5,11 +5,13 @@
 
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
-use brain::{Actions, BehaviorState, Body, Brain, Command, MapCursor, Speeds};
+use brain::{Actions, BehaviorState, Body, Brain, Checkpoint, Command, FloorPlace, MapCursor, Speeds};
 
 use crate::device::{Description, Shape};
+use crate::floors::Floors;
 use crate::observe::Observer;
-use crate::{CoreConfig, Record, RunCause, RunEnd, RunStart, to_api};
+use crate::quest::{Quest, Question};
+use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, RunStart, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -28,18 +30,37 @@ pub(crate) struct Mind {
     map_base: u32,
     runs: u32,
     run: Option<Run>,
-    kept_home: KeptHome,
+    /// The floor whose map the brain has; `None` while nobody knows on which floor it is.
+    floor: Option<u16>,
+    /// The search for the floor: while it is not known, and while the robot is lost on one of several.
+    quest: Option<Quest>,
+    carried: Carried,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
 }
 
-/// The map of the home that was kept before the daemon's start.
-#[derive(Debug)]
-enum KeptHome {
-    /// The robot was not seen on its dock yet, so nobody knows where in it it is.
-    Offered(StoredMap),
-    /// The brain has it, or there was none: what the brain knows is what is kept.
-    Present,
+/// Whether hands had the robot since its floor was known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Carried {
+    #[default]
+    No,
+    /// A wheel hangs since then, microseconds.
+    Hangs(u64),
+    Yes,
+}
+
+/// A wheel that hangs for so long hangs because somebody holds the robot.
+const LIFTED_US: u64 = 1_000_000;
+
+/// What has become known of the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FloorNews {
+    /// The robot stands on the dock of this floor, whose map is taken up.
+    Docked(u16),
+    /// The robot has found itself on this floor, whose map is taken up.
+    Found(u16),
+    /// A person is asked.
+    Asked(Question),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +84,7 @@ impl Recorder<'_> {
 }
 
 impl Mind {
-    pub(crate) fn new(description: &Description, settings: &CoreConfig) -> Self {
+    pub(crate) fn new(description: &Description, settings: &CoreConfig, floors: &Floors) -> Self {
         let config = brain_config(description, settings);
         let seed = settings.seed;
         Self {
@@ -75,7 +96,9 @@ impl Mind {
             map_base: 0,
             runs: 0,
             run: None,
-            kept_home: settings.home.clone().map_or(KeptHome::Present, KeptHome::Offered),
+            floor: floors.homes().next().is_none().then(|| floors.first()),
+            quest: None,
+            carried: Carried::No,
             identity: (
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
@@ -155,16 +178,21 @@ impl Mind {
         self.run.is_none() || (rests && cause == RunCause::Job)
     }
 
-    /// Takes up what a daemon before this one was doing.
-    pub(crate) fn resume(&mut self, now_us: u64, checkpoint: brain::Checkpoint, recorder: &mut Recorder<'_>) {
-        self.kept_home = KeptHome::Present;
+    /// Takes up what a daemon before this one was doing, on this floor.
+    pub(crate) fn resume(
+        &mut self,
+        now_us: u64,
+        (checkpoint, floor): (Checkpoint, Option<u16>),
+        recorder: &mut Recorder<'_>,
+    ) {
+        self.floor = floor;
         self.begin_run(now_us, (RunCause::ResumedAfterRestart, checkpoint), recorder);
     }
 
     fn begin_run(
         &mut self,
         now_us: u64,
-        (cause, checkpoint): (RunCause, brain::Checkpoint),
+        (cause, checkpoint): (RunCause, Checkpoint),
         recorder: &mut Recorder<'_>,
     ) {
         self.map_base = self.map_number();
@@ -190,51 +218,194 @@ impl Mind {
             }))
         });
         // What this step says was said by the brain before.
-        if cause != RunCause::ResumedAfterRestart {
+        if matches!(cause, RunCause::Job | RunCause::Manual) {
             self.step_once(&[], recorder);
         }
     }
 
-    /// Takes up the home that was kept, once the robot stands on its dock at rest: there it knows where it is. What it has
-    /// drawn since the start, not knowing, is forgotten. `true` when it did.
-    pub(crate) fn take_up_kept_home(&mut self) -> bool {
+    /// The floor on which the robot is, as far as that is known.
+    pub(crate) fn floor(&self) -> Option<u16> {
+        self.floor
+    }
+
+    /// Why a person should say which floor it is; `None` while nobody need.
+    pub(crate) fn asked(&self) -> Option<Question> {
+        self.quest.as_ref().and_then(|quest| quest.asked)
+    }
+
+    /// Whether the floor is being looked for.
+    pub(crate) fn seeks_floor(&self) -> bool {
+        self.floor.is_none() || self.quest.is_some()
+    }
+
+    /// Finds out on which floor the robot is: from the dock, where it stands at rest, or from its way. What it has drawn
+    /// since, not knowing, is forgotten. To be called before each step.
+    pub(crate) fn look_for_floor(
+        &mut self,
+        now_us: u64,
+        floors: &Floors,
+        recorder: &mut Recorder<'_>,
+    ) -> Option<FloorNews> {
+        let asked_before = self.asked();
         let observation = self.observer.observation();
-        if self.run.is_some() || !observation.docked || !observation.link_up {
-            return false;
+        if self.run.is_none() && observation.docked && observation.link_up {
+            let news = self.know_dock(floors);
+            return news.or_else(|| self.new_question(asked_before));
         }
-        match core::mem::replace(&mut self.kept_home, KeptHome::Present) {
-            KeptHome::Offered(home) => {
-                self.take_up(&home);
-                true
+        self.watch_hands(now_us);
+        self.run?;
+        let is_lost_among_several = self.brain.estimate().lost && floors.homes().nth(1).is_some();
+        if self.floor.is_some() && !is_lost_among_several {
+            self.quest = None;
+            return None;
+        }
+        let quest = self.quest.get_or_insert_default();
+        let seed = self.seed;
+        match quest.follow(self.observer.observation(), (floors, &self.config, seed)) {
+            // It has its map, and will find itself in it as well.
+            Some(place) if self.floor == Some(place.floor) => None,
+            Some(place) => {
+                self.move_to(now_us, (place, floors), recorder);
+                Some(FloorNews::Found(place.floor))
             }
-            KeptHome::Present => false,
+            None => self.new_question(asked_before),
         }
     }
 
-    /// Offers a kept home in place of what is known now, which is not worth keeping any more. It is taken up when the robot
-    /// stands on its dock; a run that has nothing left to do ends before.
-    pub(crate) fn offer(&mut self, now_us: u64, home: StoredMap, recorder: &mut Recorder<'_>) {
-        self.end_run(now_us, RunEnd::Finished, recorder);
-        self.kept_home = KeptHome::Offered(home);
+    fn new_question(&self, before: Option<Question>) -> Option<FloorNews> {
+        self.asked()
+            .filter(|asked| before != Some(*asked))
+            .map(FloorNews::Asked)
+    }
+
+    /// The robot stands on a dock at rest.
+    fn know_dock(&mut self, floors: &Floors) -> Option<FloorNews> {
+        let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
+        if self.floor.is_some() && self.carried == Carried::Yes && docks > 1 {
+            self.forget_floor(None);
+        }
+        if self.floor.is_some() {
+            return None;
+        }
+        let number = self.quest.get_or_insert_default().by_dock(floors)?;
+        self.take_up(floors.home(number)?);
+        self.floor = Some(number);
+        self.quest = None;
+        self.carried = Carried::No;
+        Some(FloorNews::Docked(number))
+    }
+
+    fn watch_hands(&mut self, now_us: u64) {
+        let hangs = self.observer.observation().wheel_drop;
+        self.carried = match (self.carried, hangs) {
+            (Carried::Yes, _) => Carried::Yes,
+            (_, false) => Carried::No,
+            (Carried::No, true) => Carried::Hangs(now_us),
+            (Carried::Hangs(since_us), true) if now_us >= since_us + LIFTED_US => Carried::Yes,
+            (hanging @ Carried::Hangs(_), true) => hanging,
+        };
+    }
+
+    /// The robot is at a place of a floor: what it does goes on there.
+    fn move_to(&mut self, now_us: u64, (place, floors): (FloorPlace, &Floors), recorder: &mut Recorder<'_>) {
+        let checkpoint = Checkpoint {
+            pose: place.pose,
+            home: floors.home(place.floor).cloned(),
+            tracking: Some(place.tracking),
+            ..self.without_place()
+        };
+        self.go_on_with(now_us, checkpoint, recorder);
+        self.floor = Some(place.floor);
+        self.quest = None;
+        self.carried = Carried::No;
+    }
+
+    /// What the brain is doing, without any map.
+    fn without_place(&self) -> Checkpoint {
+        let present = self.brain.checkpoint();
+        Checkpoint {
+            random_state: present.random_state,
+            backed_m: present.backed_m,
+            job: present.job,
+            energy: present.energy,
+            ..Checkpoint::default()
+        }
+    }
+
+    fn go_on_with(&mut self, now_us: u64, checkpoint: Checkpoint, recorder: &mut Recorder<'_>) {
+        if self.run.is_some() {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.begin_run(now_us, (RunCause::FloorFound, checkpoint), recorder);
+        } else {
+            self.map_base = self.map_number();
+            self.brain = Brain::new(self.config, self.seed);
+        }
+    }
+
+    /// The floor is not known any more, and what is known of it is not worth keeping; a person may have said which it is.
+    fn forget_floor(&mut self, chosen: Option<u16>) {
+        self.map_base = self.map_number();
+        self.brain = Brain::new(self.config, self.seed);
+        self.floor = None;
+        self.quest = Some(chosen.map_or_else(Quest::default, Quest::for_floor));
+    }
+
+    /// A person says on which floor the robot is. It is taken up on the dock, or when the robot has found its place on it. A
+    /// run that has nothing left to do ends before.
+    pub(crate) fn choose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_none() && self.run.is_some() {
+            self.quest = Some(Quest::for_floor(number));
+        } else {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.forget_floor(Some(number));
+        }
+    }
+
+    /// A person says that the robot is on a floor of which nothing is kept. What it has drawn, not knowing where it was, is
+    /// the map of this floor.
+    pub(crate) fn begin_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_some() {
+            self.go_on_with(now_us, self.without_place(), recorder);
+        }
+        self.floor = Some(number);
+        self.quest = None;
+        self.carried = Carried::No;
+    }
+
+    /// The map of a floor is another one now. If the robot is there, it is taken up when it stands on its dock; a run that has nothing
+    /// left to do ends before.
+    pub(crate) fn offer(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_none_or(|floor| floor == number) {
+            self.choose_floor(now_us, number, recorder);
+        }
+    }
+
+    /// A floor is not there any more.
+    pub(crate) fn lose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        let is_sought = self
+            .quest
+            .as_ref()
+            .is_some_and(|quest| quest.chosen == Some(number));
+        if self.floor == Some(number) || is_sought {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.forget_floor(None);
+        }
     }
 
     /// Whether what the brain knows is the home that is kept, so that people may change it.
     pub(crate) fn admit_edit(&self) -> Result<(), &'static str> {
-        match self.kept_home {
-            KeptHome::Offered(_) => Err("map-not-taken-up"),
-            KeptHome::Present if self.brain.estimate().lost => Err("place-unknown"),
-            KeptHome::Present => Ok(()),
+        match self.floor {
+            None => Err("map-not-taken-up"),
+            Some(_) if self.brain.estimate().lost => Err("place-unknown"),
+            Some(_) => Ok(()),
         }
     }
 
-    /// The home as it is worth keeping; `None` while the one that was kept is a better one, or the robot is lost.
-    pub(crate) fn home_to_keep(&self) -> Option<StoredMap> {
-        match self.kept_home {
-            KeptHome::Present if !self.brain.estimate().lost => {
-                Some(self.brain.map().stored()).filter(|home| !home.is_empty())
-            }
-            KeptHome::Present | KeptHome::Offered(_) => None,
-        }
+    /// The home as it is worth keeping, with its floor; `None` while nobody knows on which it is, or the robot is lost.
+    pub(crate) fn home_to_keep(&self) -> Option<FloorHome> {
+        let floor = self.floor.filter(|_| !self.brain.estimate().lost)?;
+        let home = self.brain.map().stored();
+        (!home.is_empty()).then_some(FloorHome { floor, home })
     }
 
     /// One step with the present observation.

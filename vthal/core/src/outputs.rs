@@ -1,6 +1,6 @@
 //! What the shell must perform.
 
-use brain::{Actions, Command, Observation, StoredMap};
+use brain::{Actions, Command, Observation, RoomName, StoredMap};
 use rvac_api::{DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update};
 
 use crate::Checkpoint;
@@ -21,11 +21,13 @@ pub struct Outputs {
     /// The newest state worth surviving a crash; replaces an older one that is not yet written.
     pub checkpoint: Option<Checkpoint>,
     /// The home after a run, worth keeping for the next start.
-    pub home: Option<StoredMap>,
+    pub home: Option<FloorHome>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
     /// Maps that clients have changed, in order.
     pub map_edits: Vec<MapEdit>,
+    /// What clients want of the floors, in order.
+    pub floor_orders: Vec<FloorOrder>,
     /// What clients ask of the kept control mixes, in order.
     pub mix_orders: Vec<MixOrder>,
     /// Schedules for the disk.
@@ -103,6 +105,40 @@ pub enum MixTask {
     Remove(String),
 }
 
+/// A map and the floor that it is of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloorHome {
+    /// Number of the floor.
+    pub floor: u16,
+    /// What is known of it.
+    pub home: StoredMap,
+}
+
+/// Something that the shell does with the floors that are kept: it says what they are then with
+/// [`crate::Input::FloorsKept`], and answers the client itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FloorOrder {
+    /// Who asks.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// What.
+    pub task: FloorTask,
+}
+
+/// See [`FloorOrder`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FloorTask {
+    /// Keep a new floor, of which nothing is known yet.
+    New(Option<RoomName>),
+    /// Name a floor, or take its name away.
+    Name(u16, Option<RoomName>),
+    /// Remove a floor; its maps stay on the disk.
+    Remove(u16),
+    /// Bring a removed floor back.
+    Restore(u16),
+}
+
 /// Something that the shell does with the kept maps of the home; it answers the client itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapOrder {
@@ -112,6 +148,8 @@ pub enum MapOrder {
         client: ClientId,
         /// Number of the request.
         id: Option<u32>,
+        /// Whose.
+        floor: u16,
     },
     /// Make a version the newest one and give it back as [`crate::Input::MapRestored`].
     Restore {
@@ -119,6 +157,8 @@ pub enum MapOrder {
         client: ClientId,
         /// Number of the request.
         id: Option<u32>,
+        /// Whose.
+        floor: u16,
         /// Number of the version.
         number: u64,
     },
@@ -132,7 +172,7 @@ pub struct MapEdit {
     /// Number of the request.
     pub id: Option<u32>,
     /// The map with the change.
-    pub home: StoredMap,
+    pub home: FloorHome,
 }
 
 impl Outputs {
@@ -145,6 +185,7 @@ impl Outputs {
         self.checkpoint = None;
         self.home = None;
         self.map_orders.clear();
+        self.floor_orders.clear();
         self.mix_orders.clear();
         self.map_edits.clear();
         self.schedules = None;
@@ -288,6 +329,8 @@ pub enum RunCause {
     Manual,
     /// The daemon before this one was killed while a job ran.
     ResumedAfterRestart,
+    /// The robot has found out on which floor it is.
+    FloorFound,
 }
 
 impl RunCause {
@@ -298,6 +341,7 @@ impl RunCause {
             Self::Job => "job",
             Self::Manual => "manual",
             Self::ResumedAfterRestart => "resumed-after-restart",
+            Self::FloorFound => "floor-found",
         }
     }
 }

@@ -11,7 +11,10 @@ use rvac_protocol::message::{
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
-use vthal_core::{ClientId, Core, CoreConfig, Input, MapEdit, MapOrder, Outputs, Record, Recording};
+use vthal_core::{
+    ClientId, Core, CoreConfig, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, MapEdit, MapOrder,
+    Outputs, Record, Recording,
+};
 
 const ANNA: ClientId = ClientId(1);
 const BERT: ClientId = ClientId(2);
@@ -30,7 +33,9 @@ struct Pair {
     updates: Vec<Update>,
     records: Vec<Record>,
     /// Maps that the shell should keep.
-    homes: Vec<StoredMap>,
+    homes: Vec<FloorHome>,
+    /// What it should do with the floors.
+    floor_orders: Vec<FloorOrder>,
     /// What the shell should do with the kept ones.
     orders: Vec<MapOrder>,
     /// Maps that clients have changed.
@@ -48,10 +53,19 @@ impl Pair {
 
     /// As [`Self::new`], with a map that was kept.
     fn in_home(home: Option<StoredMap>) -> Self {
+        let floor = home.map(|home| KeptFloor {
+            home: Some(home),
+            ..KeptFloor::new(1)
+        });
+        Self::with_floors(floor.into_iter().collect())
+    }
+
+    /// As [`Self::new`], with these floors that were kept.
+    fn with_floors(floors: Vec<KeptFloor>) -> Self {
         let mut pair = Self {
             core: Core::new(CoreConfig {
                 recording: Recording::On,
-                home,
+                floors,
                 ..CoreConfig::default()
             }),
             robot: RobotSession::new(identity(), Tick(0)),
@@ -61,6 +75,7 @@ impl Pair {
             updates: Vec::new(),
             records: Vec::new(),
             homes: Vec::new(),
+            floor_orders: Vec::new(),
             orders: Vec::new(),
             edits: Vec::new(),
             to_robot: Vec::new(),
@@ -88,6 +103,7 @@ impl Pair {
             .extend(outputs.deliveries.into_iter().map(|delivery| delivery.update));
         self.records.extend(outputs.records);
         self.homes.extend(outputs.home);
+        self.floor_orders.extend(outputs.floor_orders);
         self.orders.extend(outputs.map_orders);
         self.edits.extend(outputs.map_edits);
     }
@@ -592,7 +608,7 @@ fn a_kept_home_is_taken_up_on_the_dock_and_kept_again() {
     assert!(view.rooms.len() == 1 && (view.rooms[0].area_m2 - 1.0).abs() < 1e-9);
     assert!(view.dock.is_some());
     pair.handle(Input::Shutdown);
-    let kept = pair.homes.pop().expect("a map to keep").knowledge();
+    let kept = pair.homes.pop().expect("a map to keep").home.knowledge();
     let known = kept.values().iter().filter(|kind| **kind == CellKnowledge::Free);
     assert_eq!(known.count(), 1600);
 }
@@ -615,7 +631,10 @@ fn a_robot_that_never_saw_its_dock_does_not_overwrite_the_home() {
 #[test]
 fn a_map_is_restored_at_rest_only_and_taken_up_on_the_dock() {
     let mut pair = Pair::new();
-    let restore = || RequestBody::RestoreMap { number: 4 };
+    let restore = || RequestBody::RestoreMap {
+        number: 4,
+        floor: None,
+    };
     assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
     pair.run_ms(200);
     assert_eq!(pair.ask(ANNA, restore()).as_deref(), Some("job-runs"));
@@ -626,11 +645,13 @@ fn a_map_is_restored_at_rest_only_and_taken_up_on_the_dock() {
     let order = MapOrder::Restore {
         client: ANNA,
         id: Some(1),
+        floor: 1,
         number: 4,
     };
     assert_eq!(pair.orders, [order]);
     pair.homes.clear();
     pair.handle(Input::MapRestored {
+        floor: 1,
         number: 4,
         home: kept_home(),
     });
@@ -693,7 +714,7 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     );
     let askers: Vec<_> = pair.edits.iter().map(|edit| (edit.client, edit.id)).collect();
     assert_eq!(askers, [(ANNA, Some(1)), (BERT, Some(1))]);
-    let words = pair.edits[1].home.annotations();
+    let words = pair.edits[1].home.home.annotations();
     assert_eq!(words.name(1).map(brain::RoomName::as_str), Some("Kitchen"));
     assert_eq!(words.no_go().count(), 1);
     let topics = vec![Topic::Home];
@@ -841,4 +862,141 @@ fn decisions_and_estimates_are_told_to_who_follows_them() {
         _ => false,
     });
     assert!(stopped, "{:?}", &pair.updates[before..]);
+}
+
+/// A floor with a dock at x.
+fn floor_with_dock(number: u16, x_m: f64) -> KeptFloor {
+    let floor = Raster::filled(Cell { x: 0, y: 0 }, 160, 120, CellKnowledge::Free);
+    let dock = Pose2 {
+        x_m,
+        y_m: 0.5,
+        heading_rad: 1.5,
+    };
+    KeptFloor {
+        home: Some(StoredMap::from_raster(&floor, Some(dock))),
+        ..KeptFloor::new(number)
+    }
+}
+
+#[test]
+fn on_a_dock_that_one_floor_has_the_robot_is_on_that_floor() {
+    let plain = KeptFloor {
+        home: Some(StoredMap::from_raster(
+            &Raster::filled(Cell { x: 0, y: 0 }, 40, 40, CellKnowledge::Free),
+            None,
+        )),
+        ..KeptFloor::new(1)
+    };
+    let mut pair = Pair::with_floors(vec![plain, floor_with_dock(2, 2.0)]);
+    let view = pair.core.floors_view();
+    assert!(
+        view.here.is_none() && view.sought && view.question.is_none(),
+        "{view:?}"
+    );
+    pair.state.docked = true;
+    pair.run_ms(100);
+    assert_eq!(pair.core.floors_view().here, Some(2));
+    assert!((pair.core.pose().x - 2.0).abs() < 1e-6);
+    pair.handle(Input::Shutdown);
+    assert_eq!(pair.homes.pop().expect("a map").floor, 2);
+}
+
+#[test]
+fn on_a_dock_that_several_floors_have_a_person_is_asked_and_the_answer_counts() {
+    let mut pair = Pair::with_floors(vec![floor_with_dock(1, 1.0), floor_with_dock(2, 2.0)]);
+    let topics = vec![Topic::Floors];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    pair.state.docked = true;
+    pair.run_ms(100);
+    let told = pair.updates.iter().rev().find_map(|update| match update {
+        Update::Floors(view) => Some(view.clone()),
+        _ => None,
+    });
+    let question = told.expect("is told").question.expect("is asked");
+    assert_eq!(question.reason, "which-dock");
+    assert_eq!(pair.core.pose().x, 0.0, "neither is believed");
+    let choose = |floor| RequestBody::ChooseFloor { floor };
+    assert_eq!(pair.ask(ANNA, choose(7)).as_deref(), Some("no-such-floor"));
+    assert_eq!(pair.ask(ANNA, choose(2)), None);
+    pair.run_ms(100);
+    let view = pair.core.floors_view();
+    assert_eq!((view.here, view.sought, view.question), (Some(2), false, None));
+    assert!((pair.core.pose().x - 2.0).abs() < 1e-6);
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, choose(1)).as_deref(), Some("job-runs"));
+}
+
+#[test]
+fn a_robot_that_was_carried_to_a_dock_asks_again_when_several_floors_have_one() {
+    let mut pair = Pair::with_floors(vec![floor_with_dock(1, 1.0), floor_with_dock(2, 2.0)]);
+    pair.state.docked = true;
+    pair.ask(ANNA, RequestBody::ChooseFloor { floor: 1 });
+    pair.run_ms(100);
+    assert_eq!(pair.core.floors_view().here, Some(1));
+    pair.state.docked = false;
+    pair.state.wheel_drops = WheelDrops {
+        left: true,
+        right: true,
+    };
+    pair.run_ms(2_000);
+    pair.state.wheel_drops = WheelDrops::default();
+    pair.run_ms(200);
+    pair.state.docked = true;
+    pair.run_ms(200);
+    let view = pair.core.floors_view();
+    assert_eq!(view.here, None);
+    assert_eq!(view.question.expect("is asked").reason, "which-dock");
+}
+
+#[test]
+fn a_new_floor_takes_what_was_drawn_and_a_floor_that_is_gone_is_forgotten() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    pair.handle(Input::BoardHeading { heading_urad: 0 });
+    pair.run_ms(500);
+    let name = || Some("Attic".to_owned());
+    assert_eq!(pair.ask(ANNA, RequestBody::NewFloor { name: name() }), None);
+    let task = pair.floor_orders.pop().expect("an order").task;
+    assert!(matches!(&task, FloorTask::New(Some(name)) if name.as_str() == "Attic"));
+    assert_eq!(
+        pair.core.floors_view().here,
+        None,
+        "nothing counts before it is kept"
+    );
+    let first = KeptFloor {
+        home: Some(kept_home()),
+        ..KeptFloor::new(1)
+    };
+    let attic = KeptFloor {
+        name: Some(brain::RoomName::new("Attic").expect("is a name")),
+        ..KeptFloor::new(2)
+    };
+    pair.handle(Input::FloorsKept {
+        task,
+        floors: vec![first.clone(), attic.clone()],
+        made: Some(2),
+    });
+    assert_eq!(pair.core.floors_view().here, Some(2));
+    let naming = RequestBody::NameFloor {
+        floor: 1,
+        name: name(),
+    };
+    assert_eq!(pair.ask(ANNA, naming).as_deref(), Some("name-taken"));
+    let removal = RequestBody::RemoveFloor { floor: 2 };
+    assert_eq!(pair.ask(ANNA, removal), None);
+    let removed = KeptFloor {
+        removed: true,
+        ..attic
+    };
+    pair.handle(Input::FloorsKept {
+        task: FloorTask::Remove(2),
+        floors: vec![first, removed],
+        made: None,
+    });
+    let view = pair.core.floors_view();
+    assert!(view.here.is_none() && view.floors[1].removed, "{view:?}");
+    let removal = RequestBody::RemoveFloor { floor: 1 };
+    assert_eq!(pair.ask(ANNA, removal).as_deref(), Some("last-floor"));
+    let back = RequestBody::RestoreFloor { floor: 1 };
+    assert_eq!(pair.ask(ANNA, back).as_deref(), Some("not-removed"));
 }

@@ -70,6 +70,16 @@ pub(in crate::localization) struct Fit {
     pub(in crate::localization) agreed: u32,
 }
 
+impl Fit {
+    /// Both together.
+    pub(in crate::localization) fn and(self, other: Self) -> Self {
+        Self {
+            told: self.told.saturating_add(other.told),
+            agreed: self.agreed.saturating_add(other.agreed),
+        }
+    }
+}
+
 impl Beams {
     pub(super) fn new(layout: &ProximityLayout) -> Self {
         let mut beams = [Beam::default(); PROXIMITY_MAX];

@@ -14,6 +14,7 @@ use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
 use super::rooms::Rooms;
 use super::{Cell, CellKnowledge, Raster};
 use crate::geometry::Pose2;
+use crate::gradual::{Pace, at_once};
 
 /// Most cells of a stored map's window.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
@@ -88,6 +89,11 @@ impl StoredMap {
     /// What is known of each cell.
     #[must_use]
     pub fn knowledge(&self) -> Raster<CellKnowledge> {
+        at_once(self.knowledge_in_steps(&mut Pace::at_once()))
+    }
+
+    /// As [`Self::knowledge`], in steps.
+    pub(crate) async fn knowledge_in_steps(&self, pace: &mut Pace) -> Raster<CellKnowledge> {
         let mut raster = Raster::filled(
             self.origin,
             self.width as usize,
@@ -96,6 +102,7 @@ impl StoredMap {
         );
         for (place, value) in raster.values_mut().iter_mut().zip(values_of(&self.cells)) {
             *place = unpack(value).knowledge();
+            pace.spend(1).await;
         }
         raster
     }

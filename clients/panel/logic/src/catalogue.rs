@@ -344,8 +344,8 @@ const CATALOGUE: &[(&str, Explanation)] = &[
     ),
     entry(
         "map-not-taken-up",
-        "It has not stood on its dock since its software began.",
-        "Put it on its dock.",
+        "It does not know yet where in the map of which floor it is.",
+        "Put it on its dock, or let it clean until it knows.",
     ),
     entry("cause-remains", "The cause is still there.", "Remove it first."),
 ];

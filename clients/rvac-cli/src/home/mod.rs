@@ -11,16 +11,32 @@ use rvac_api::{Estimate, HomeView, KeptMap, Pose, RequestBody, RoomView, Update}
 
 use crate::arguments::{Daemon, MapJob, MapVerb};
 use crate::control;
+use crate::floors;
 use crate::socket::Connection;
 use known::KnownHome;
 use picture::picture;
 
 pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
-    match job.verb {
+    match &job.verb {
         None => show(job),
-        Some(MapVerb::List) => list(&job.daemon),
-        Some(MapVerb::Restore { number }) => control::send(RequestBody::RestoreMap { number }, &job.daemon),
+        Some(MapVerb::List { floor }) => list(&job.daemon, floor.as_deref()),
+        Some(MapVerb::Restore { number, floor }) => {
+            let mut connection = Connection::open(&job.daemon.socket)?;
+            let request = RequestBody::RestoreMap {
+                number: *number,
+                floor: floor_meant(&mut connection, floor.as_deref())?,
+            };
+            control::ask(&mut connection, request)
+        }
     }
+}
+
+fn floor_meant(connection: &mut Connection, wanted: Option<&str>) -> anyhow::Result<Option<u16>> {
+    let Some(wanted) = wanted else {
+        return Ok(None);
+    };
+    let (floors, _) = floors::ask(connection)?;
+    floors::find(&floors, wanted).map(Some)
 }
 
 fn show(job: &MapJob) -> anyhow::Result<ExitCode> {
@@ -131,11 +147,12 @@ fn doors_of(home: &HomeView, room: u16) -> String {
     }
 }
 
-fn list(daemon: &Daemon) -> anyhow::Result<ExitCode> {
+fn list(daemon: &Daemon, floor: Option<&str>) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&daemon.socket)?;
-    let request = (RequestBody::Maps, control::ANSWER);
+    let floor = floor_meant(&mut connection, floor)?;
+    let request = (RequestBody::Maps { floor }, control::ANSWER);
     let maps = control::answer(&mut connection, request, |update, _| match update {
-        Update::Maps { maps } => Some(maps),
+        Update::Maps { maps, .. } => Some(maps),
         _ => None,
     })?;
     write!(stdout(), "{}", table(&maps, now_s()))?;

@@ -24,9 +24,17 @@ pub(super) fn explain(reason: &str) -> &'static str {
         "docked" => "The robot is on its dock.",
         "battery-low" => "The battery is too low: charge the robot first.",
         "map-not-taken-up" => {
-            "The robot has not stood on its dock since vthal began, so it does not know where in its map it is: put it on \
-             its dock."
+            "The robot does not know yet where in the map of which floor it is: put it on its dock, or let it clean until it \
+             knows."
         }
+        "floor-unknown" => {
+            "The robot does not know on which floor it is: choose the floor, or begin a new one."
+        }
+        "which-dock" => {
+            "Several floors have a dock, and the robot stands on one: choose the floor on which it is."
+        }
+        "last-floor" => "This is the only floor: there must be one.",
+        "not-removed" => "There is no removed floor of this number.",
         "place-unknown" => "The robot does not know where it is: put it on its dock.",
         "rest-out-of-reach" => {
             "No way leads there from where the robot stands: look at doors and no-go zones."

@@ -2,7 +2,8 @@
 
 use brain::{BehaviorState, MapCursor};
 use rvac_api::{
-    API_VERSION, DeviceTable, Estimate, LinkReading, PlannedWay, Pose, Status, Topic, Update, Versions,
+    API_VERSION, DeviceTable, Estimate, FloorsView, LinkReading, PlannedWay, Pose, Status, Topic, Update,
+    Versions,
 };
 use rvac_protocol::message::State;
 
@@ -53,6 +54,7 @@ pub(super) struct Feed {
     home_revision: u32,
     estimate_us: u64,
     estimate: Estimate,
+    floors: Option<FloorsView>,
     way_us: u64,
     way: PlannedWay,
     checkpoint_us: u64,
@@ -118,6 +120,9 @@ impl Core {
             self.feed.way_us = now_us;
             self.feed_way(outputs);
         }
+        if self.clients.any(Topic::Floors) {
+            self.feed_floors(outputs);
+        }
         self.feed_checkpoint(now_us, outputs);
     }
 
@@ -127,6 +132,14 @@ impl Core {
         if !looks_alike(&self.feed.estimate, &estimate) {
             self.feed.estimate = estimate;
             followers(Topic::Estimate, Update::Estimate(estimate), outputs);
+        }
+    }
+
+    fn feed_floors(&mut self, outputs: &mut Outputs) {
+        if self.is_new_of_floors(self.feed.floors.as_ref()) {
+            let floors = self.floors_view();
+            self.feed.floors = Some(floors.clone());
+            followers(Topic::Floors, Update::Floors(floors), outputs);
         }
     }
 
@@ -223,6 +236,7 @@ impl Core {
             self.feed.checkpoint_had_job = has_job;
             outputs.checkpoint = Some(Checkpoint {
                 device: mind.device().to_owned(),
+                floor: mind.floor(),
                 brain: mind.brain().checkpoint(),
                 run: self.runs.so_far(now_us).map(Box::new),
             });
@@ -290,6 +304,7 @@ impl Core {
                     .extend(entries.map(|entry| one(Update::Decision(entry))));
             }
             Topic::Schedules => outputs.deliveries.push(one(Update::Schedules(self.schedules()))),
+            Topic::Floors => outputs.deliveries.push(one(Update::Floors(self.floors_view()))),
             Topic::Packets | Topic::Runs => {}
         }
     }
@@ -439,6 +454,7 @@ pub(super) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
     };
     Checkpoint {
         device: mind.device().to_owned(),
+        floor: mind.floor(),
         brain,
         run: None,
     }

@@ -99,7 +99,7 @@ impl Core {
                 old.end_run(now_us, RunEnd::OtherRobot, &mut recorder(recording, outputs));
                 self.keep_run(over, outputs);
             }
-            let mut mind = Mind::new(description, &self.config);
+            let mut mind = Mind::new(description, &self.config, &self.floors);
             let mut resumed = None;
             match self.config.resume.take() {
                 Some(checkpoint) if checkpoint.device == *device => resumed = Some(checkpoint),
@@ -111,9 +111,10 @@ impl Core {
                     Some(_) => "resumed-after-restart: goes on with the interrupted job",
                     None => "takes up pose and map from before the restart",
                 };
+                let floor = checkpoint.floor.filter(|floor| self.floors.get(*floor).is_some());
                 mind.resume(
                     now_us,
-                    checkpoint.brain.clone(),
+                    (checkpoint.brain.clone(), floor),
                     &mut recorder(recording, outputs),
                 );
                 self.log(now_us, (LogLevel::Info, Part::Vthal, line.to_owned()), outputs);

@@ -10,6 +10,7 @@ use super::Core;
 use super::refusal::Refusal;
 use crate::history::{Asked, Moment};
 use crate::journal::Part;
+use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Asker;
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
@@ -92,7 +93,9 @@ impl Core {
 
     /// These runs are over: they go to the disk.
     pub(super) fn keep_run(&mut self, over: impl IntoIterator<Item = RunRecord>, outputs: &mut Outputs) {
-        for record in over {
+        let floor = self.mind.as_ref().and_then(Mind::floor);
+        for mut record in over {
+            record.run.floor = record.run.floor.or(floor);
             if self.unkept.waiting.len() == UNKEPT_MAX {
                 // The first one may be on its way.
                 self.unkept.waiting.remove(1);

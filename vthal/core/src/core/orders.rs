@@ -149,6 +149,9 @@ impl Core {
         }
         self.feed.tell_home_now();
         let home = self.mind.as_ref().and_then(Mind::home_to_keep);
+        if let Some(kept) = &home {
+            self.floors.take_home(kept.floor, &kept.home);
+        }
         for (client, id) in self.edits.drain(..) {
             match &home {
                 Some(home) => outputs.map_edits.push(MapEdit {
@@ -241,7 +244,7 @@ fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
     }
 }
 
-fn to_name(text: &str) -> Result<RoomName, Refusal> {
+pub(super) fn to_name(text: &str) -> Result<RoomName, Refusal> {
     RoomName::new(text).map_err(|reason| {
         let text = format!(
             "The name has {} characters: it must be one line of 1 to 40.",

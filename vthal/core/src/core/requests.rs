@@ -1,16 +1,16 @@
 //! What clients ask.
 
-use brain::{Command, StoredMap, StrategyName};
+use brain::{Command, StrategyName};
 use rvac_api::{Failure, LogLevel, Request, RequestBody, RunAsker, Topic, Update};
 use rvac_protocol::message::Inhibit;
 
 use super::refusal::Refusal;
-use super::{Core, manual, recorder};
+use super::{Core, manual};
 use crate::arbiter::{Denied, Source, Stick};
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
-use crate::{ClientId, ExpertAccess, MapOrder, MixOrder, MixTask, Outputs, tap};
+use crate::{ClientId, ExpertAccess, MixOrder, MixTask, Outputs, tap};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
 const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
@@ -31,7 +31,11 @@ impl Core {
         // The shell answers these when the disk has; an estimate is its own answer.
         let is_answered_later = matches!(
             request.body,
-            RequestBody::Maps
+            RequestBody::Maps { .. }
+                | RequestBody::NewFloor { .. }
+                | RequestBody::NameFloor { .. }
+                | RequestBody::RemoveFloor { .. }
+                | RequestBody::RestoreFloor { .. }
                 | RequestBody::RestoreMap { .. }
                 | RequestBody::Mixes
                 | RequestBody::SaveMix { .. }
@@ -118,11 +122,16 @@ impl Core {
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
             RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
-            RequestBody::Maps => list_maps((client, id), outputs),
+            body @ (RequestBody::Maps { .. }
+            | RequestBody::RestoreMap { .. }
+            | RequestBody::ChooseFloor { .. }
+            | RequestBody::NewFloor { .. }
+            | RequestBody::NameFloor { .. }
+            | RequestBody::RemoveFloor { .. }
+            | RequestBody::RestoreFloor { .. }) => self.ask_floors(now_us, ((client, id), body), outputs),
             RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
             RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
             RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
-            RequestBody::RestoreMap { number } => Ok(self.restore_map((client, id), number, outputs)?),
             body @ (RequestBody::Runs { .. } | RequestBody::Run { .. } | RequestBody::RunFile { .. }) => {
                 self.ask_of_runs((client, id), &body, outputs)
             }
@@ -301,41 +310,6 @@ impl Core {
         device.send_raw(command, &mut io).map_err(|_| "not-sent")
     }
 
-    /// A restored map must not pull the floor away from under a job.
-    fn admit_restored_map(&self) -> Result<(), Refused> {
-        match &self.mind {
-            Some(mind) if !mind.rests() => Err("job-runs"),
-            _ => Ok(()),
-        }
-    }
-
-    fn restore_map(
-        &self,
-        (client, id): (ClientId, Option<u32>),
-        number: u64,
-        outputs: &mut Outputs,
-    ) -> Result<(), Refused> {
-        self.admit_restored_map()?;
-        outputs.map_orders.push(MapOrder::Restore { client, id, number });
-        Ok(())
-    }
-
-    pub(super) fn map_restored(
-        &mut self,
-        now_us: u64,
-        (number, home): (u64, StoredMap),
-        outputs: &mut Outputs,
-    ) {
-        let recording = self.config.recording;
-        if let Some(mind) = &mut self.mind {
-            mind.offer(now_us, home.clone(), &mut recorder(recording, outputs));
-        }
-        // For a robot that is attached later.
-        self.config.home = Some(home);
-        let text = format!("map {number} is restored; the robot takes it up when it stands on its dock");
-        self.log(now_us, (LogLevel::Info, Part::Vthal, text), outputs);
-    }
-
     fn hello(&mut self, now_us: u64, (client, name): (ClientId, String), outputs: &mut Outputs) {
         let kept: String = name
             .chars()
@@ -356,12 +330,6 @@ impl Core {
             self.first_view(now_us, (client, topic), outputs);
         }
     }
-}
-
-/// The shell does it, and answers the client.
-fn list_maps((client, id): (ClientId, Option<u32>), outputs: &mut Outputs) -> Result<(), Refusal> {
-    outputs.map_orders.push(MapOrder::List { client, id });
-    Ok(())
 }
 
 /// The shell does it, and answers the client.

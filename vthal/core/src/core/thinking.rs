@@ -48,7 +48,7 @@ impl Core {
         let recording = self.config.recording;
         let Some(mind) = &mut self.mind else { return };
         mind.observer.stamp(now_us, link);
-        let knows_home = mind.take_up_kept_home();
+        let news = mind.look_for_floor(now_us, &self.floors, &mut recorder(recording, outputs));
         let before = mind.brain().status().state;
         let was_recorded = mind.is_recorded();
         let actions = mind.step(&mut recorder(recording, outputs));
@@ -56,6 +56,7 @@ impl Core {
             outputs.home = mind.home_to_keep();
         }
         self.follow_run(now_us, &actions.decisions, outputs);
+        self.note_kept_home(outputs);
         self.keep_edits(outputs);
         let Some(mind) = &self.mind else { return };
         let after = mind.brain().status().state;
@@ -65,9 +66,8 @@ impl Core {
                 self.arbiter.preempt();
             }
         }
-        if knows_home {
-            let line = "takes up the map of the home that was kept".to_owned();
-            self.log(now_us, (LogLevel::Info, Part::Brain, line), outputs);
+        if let Some(news) = news {
+            self.log_floor(now_us, news, outputs);
         }
         self.perform(now_us, actions, outputs);
     }

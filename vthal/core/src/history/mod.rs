@@ -21,7 +21,8 @@ use crate::Checkpoint;
 /// The run of a checkpoint with which nobody goes on, as it is to be kept; `None` if there was none.
 #[must_use]
 pub fn cut_short(checkpoint: Checkpoint) -> Option<RunRecord> {
-    let record = *checkpoint.run?;
+    let mut record = *checkpoint.run?;
+    record.run.floor = checkpoint.floor;
     let picture = match record.run.job {
         // The way of the job before stands in the checkpoint, too, and nobody can tell them apart.
         RunJob::Dock => None,

@@ -70,6 +70,7 @@ impl OpenRun {
             reason,
             text,
             stop_count: 0,
+            floor: None,
             map: None,
             recordings: Vec::new(),
         };

@@ -1,0 +1,379 @@
+//! The floors of the home on disk: their list, `floors.json`, in the folder of maps, and a folder of versions for each floor. The
+//! first floor's versions lie in the folder of maps itself, where the only map lay before there were floors; those of floor 2
+//! in `floor-2` below it, and so on. A removed floor keeps its folder until its place is needed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use brain::{RoomName, StoredMap};
+use serde::{Deserialize, Serialize};
+use vthal_core::{FloorTask, KeptFloor};
+
+use crate::kept_file;
+use crate::map_folder::MapFolder;
+
+/// Floors that are kept, removed ones included.
+const FLOORS_MAX: usize = 16;
+/// Name of the list.
+const LIST: &str = "floors.json";
+/// Largest list that is looked at.
+const LIST_BYTES_MAX: u64 = 1 << 16;
+
+/// The folder of maps with all its floors.
+#[derive(Clone, Debug)]
+pub(crate) struct FloorFolder {
+    path: PathBuf,
+}
+
+/// Why the floors are as they were before.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum FloorError {
+    /// There are as many as may be.
+    #[error("There are as many floors as may be, {FLOORS_MAX}: remove one first.")]
+    Full,
+    /// There is none with this number.
+    #[error("There is no floor {0}: ask which there are.")]
+    Absent(u16),
+    /// The disk refuses.
+    #[error(
+        "The floors cannot be written: {0}. Check the disk and the state folder; they are as they were before."
+    )]
+    Unwritable(#[from] io::Error),
+}
+
+impl FloorError {
+    /// The reason's name for clients.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Full => "too-many-floors",
+            Self::Absent(_) => "no-such-floor",
+            Self::Unwritable(_) => "floors-unwritable",
+        }
+    }
+}
+
+/// The list as it is written.
+#[derive(Debug, Serialize, Deserialize)]
+struct List {
+    version: u32,
+    /// Removed ones in the order in which they were removed.
+    floors: Vec<Entry>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Entry {
+    number: u16,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(default)]
+    removed: bool,
+}
+
+impl Entry {
+    const fn new(number: u16) -> Self {
+        Self {
+            number,
+            name: None,
+            removed: false,
+        }
+    }
+}
+
+impl FloorFolder {
+    /// The floors in the folder of maps at `path`, which is made with the first map.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path }
+    }
+
+    /// The versions of a floor's map.
+    pub(crate) fn maps(&self, floor: u16) -> MapFolder {
+        MapFolder::new(match floor {
+            1 => self.path.clone(),
+            _ => self.path.join(format!("floor-{floor}")),
+        })
+    }
+
+    /// Where it is.
+    #[cfg(test)]
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// All floors with their newest maps that are whole, and what is wrong with what is not.
+    pub(crate) fn load(&self) -> (Vec<KeptFloor>, Vec<String>) {
+        let (entries, mut complaints) = self.entries();
+        let mut floors = Vec::new();
+        for entry in entries {
+            let (home, wrong) = self.maps(entry.number).newest();
+            complaints.extend(wrong);
+            floors.push(kept(&entry, home));
+        }
+        (floors, complaints)
+    }
+
+    /// Does what a client wants of the floors, and says what the number of a new one is.
+    ///
+    /// # Errors
+    /// See [`FloorError`]; then nothing is changed.
+    pub(crate) fn change(&self, task: &FloorTask) -> Result<Option<u16>, FloorError> {
+        let mut entries = self.entries().0;
+        let mut made = None;
+        match task {
+            FloorTask::New(name) => {
+                let dropped = make_room(&mut entries)?;
+                let number = free_number(&entries).ok_or(FloorError::Full)?;
+                let entry = Entry {
+                    name: name.as_ref().map(|name| name.as_str().to_owned()),
+                    ..Entry::new(number)
+                };
+                entries.push(entry);
+                if let Some(dropped) = dropped {
+                    self.discard(dropped)?;
+                }
+                made = Some(number);
+            }
+            FloorTask::Name(number, name) => {
+                entry(&mut entries, *number)?.name = name.as_ref().map(|name| name.as_str().to_owned());
+            }
+            FloorTask::Remove(number) => {
+                let mut removed = entry(&mut entries, *number)?.clone();
+                removed.removed = true;
+                entries.retain(|entry| entry.number != *number);
+                entries.push(removed);
+            }
+            FloorTask::Restore(number) => entry(&mut entries, *number)?.removed = false,
+        }
+        self.write(entries)?;
+        Ok(made)
+    }
+
+    fn write(&self, floors: Vec<Entry>) -> Result<(), FloorError> {
+        let list = List { version: 1, floors };
+        let bytes = serde_json::to_vec_pretty(&list).map_err(io::Error::from)?;
+        fs::create_dir_all(&self.path)?;
+        kept_file::replace(&self.path.join(LIST), &bytes)?;
+        Ok(())
+    }
+
+    /// The versions of a floor that was removed long ago give way to a new one.
+    fn discard(&self, number: u16) -> io::Result<()> {
+        let maps = self.maps(number);
+        for version in maps.list() {
+            maps.discard(version.number)?;
+        }
+        Ok(())
+    }
+
+    /// The list, and what is wrong with it. A floor that has a folder and no entry is on it nevertheless, so that none is
+    /// lost with the list.
+    fn entries(&self) -> (Vec<Entry>, Vec<String>) {
+        let (mut entries, complaints) = self.listed();
+        let mut found: Vec<u16> = self.folders();
+        found.sort_unstable();
+        for number in found {
+            if entries.iter().all(|entry| entry.number != number) {
+                entries.push(Entry::new(number));
+            }
+        }
+        (entries, complaints)
+    }
+
+    fn listed(&self) -> (Vec<Entry>, Vec<String>) {
+        let mut complaints = Vec::new();
+        for path in kept_file::versions(&self.path.join(LIST)) {
+            if !path.exists() {
+                continue;
+            }
+            match read(&path) {
+                Ok(list) => return (list.floors, complaints),
+                Err(what) => complaints.push(format!(
+                    "cannot use the list of floors {}: {what}",
+                    path.display()
+                )),
+            }
+        }
+        (vec![Entry::new(1)], complaints)
+    }
+
+    /// Numbers of the floors that have versions.
+    fn folders(&self) -> Vec<u16> {
+        let Ok(entries) = fs::read_dir(&self.path) else {
+            return Vec::new();
+        };
+        let number = |name: &str| name.strip_prefix("floor-")?.parse::<u16>().ok();
+        let below = entries
+            .flatten()
+            .filter_map(|entry| number(entry.file_name().to_str()?));
+        let all = core::iter::once(1).chain(below.filter(|number| *number > 1));
+        all.filter(|number| !self.maps(*number).list().is_empty())
+            .collect()
+    }
+}
+
+fn read(path: &Path) -> Result<List, String> {
+    let said = |error: io::Error| error.to_string();
+    if fs::metadata(path).map_err(said)?.len() > LIST_BYTES_MAX {
+        return Err("it is larger than any list of floors".to_owned());
+    }
+    let list: List =
+        serde_json::from_slice(&fs::read(path).map_err(said)?).map_err(|error| error.to_string())?;
+    match list.version {
+        1 => Ok(list),
+        version => Err(format!(
+            "it has version {version}, and this vthal knows version 1"
+        )),
+    }
+}
+
+fn kept(entry: &Entry, home: Option<StoredMap>) -> KeptFloor {
+    KeptFloor {
+        name: entry.name.as_deref().and_then(|name| RoomName::new(name).ok()),
+        home,
+        removed: entry.removed,
+        ..KeptFloor::new(entry.number)
+    }
+}
+
+fn entry(entries: &mut [Entry], number: u16) -> Result<&mut Entry, FloorError> {
+    let found = entries.iter_mut().find(|entry| entry.number == number);
+    found.ok_or(FloorError::Absent(number))
+}
+
+/// When all places are taken, the floor that was removed first is given up.
+fn make_room(entries: &mut Vec<Entry>) -> Result<Option<u16>, FloorError> {
+    if entries.len() < FLOORS_MAX {
+        return Ok(None);
+    }
+    let oldest = entries.iter().find(|entry| entry.removed);
+    let oldest = oldest.map(|entry| entry.number).ok_or(FloorError::Full)?;
+    entries.retain(|entry| entry.number != oldest);
+    Ok(Some(oldest))
+}
+
+fn free_number(entries: &[Entry]) -> Option<u16> {
+    (1..=u16::MAX).find(|number| entries.iter().all(|entry| entry.number != *number))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use brain::{Cell, CellKnowledge, Raster, RoomName, StoredMap};
+    use vthal_core::{FloorTask, KeptFloor};
+
+    use super::{FLOORS_MAX, FloorFolder, LIST};
+
+    fn home(width: usize) -> StoredMap {
+        let floor = Raster::filled(Cell { x: 1, y: 2 }, width, 4, CellKnowledge::Free);
+        StoredMap::from_raster(&floor, None)
+    }
+
+    struct Scratch(FloorFolder);
+
+    impl Scratch {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("vthal-floors-{name}-{}", std::process::id()));
+            fs::remove_dir_all(&path).ok();
+            Self(FloorFolder::new(path))
+        }
+
+        fn floors(&self) -> Vec<KeptFloor> {
+            self.0.load().0
+        }
+    }
+
+    impl Drop for Scratch {
+        fn drop(&mut self) {
+            fs::remove_dir_all(self.0.path()).ok();
+        }
+    }
+
+    fn called(name: &str) -> Option<RoomName> {
+        Some(RoomName::new(name).expect("is a name"))
+    }
+
+    #[test]
+    fn the_only_map_of_before_there_were_floors_is_the_first_floors() {
+        let scratch = Scratch::new("before");
+        fs::create_dir_all(scratch.0.path()).expect("creates");
+        let bytes = home(7).encode();
+        for file in ["000003.map", "000004.map"] {
+            fs::write(scratch.0.path().join(file), &bytes).expect("writes");
+        }
+        let first = KeptFloor {
+            home: Some(home(7)),
+            ..KeptFloor::new(1)
+        };
+        assert_eq!(scratch.floors(), [first]);
+        scratch.0.change(&FloorTask::New(called("Attic"))).expect("makes");
+        scratch.0.maps(2).save(&home(9)).expect("saves");
+        assert_eq!(scratch.0.maps(1).list().len(), 2, "nothing was moved");
+        assert_eq!(scratch.0.maps(2).list().len(), 1);
+    }
+
+    #[test]
+    fn a_removed_floor_comes_back_with_its_name_and_versions() {
+        let scratch = Scratch::new("removed");
+        assert_eq!(scratch.floors(), [KeptFloor::new(1)]);
+        let made = scratch.0.change(&FloorTask::New(called("Attic"))).expect("makes");
+        assert_eq!(made, Some(2));
+        for width in [4, 5] {
+            scratch.0.maps(2).save(&home(width)).expect("saves");
+        }
+        scratch.0.change(&FloorTask::Remove(2)).expect("removes");
+        assert!(scratch.floors()[1].removed);
+        assert_eq!(scratch.0.change(&FloorTask::New(None)).expect("makes"), Some(3));
+        scratch.0.change(&FloorTask::Restore(2)).expect("comes back");
+        let attic = scratch
+            .floors()
+            .into_iter()
+            .find(|floor| floor.number == 2)
+            .expect("is there");
+        assert_eq!(
+            (attic.name, attic.home, attic.removed),
+            (called("Attic"), Some(home(5)), false)
+        );
+        assert_eq!(scratch.0.maps(2).list().len(), 2);
+        let error = scratch.0.change(&FloorTask::Remove(9)).expect_err("is absent");
+        assert_eq!(error.name(), "no-such-floor");
+    }
+
+    #[test]
+    fn a_spoilt_list_loses_no_floor() {
+        let scratch = Scratch::new("spoilt");
+        scratch.0.change(&FloorTask::New(called("Attic"))).expect("makes");
+        scratch.0.maps(2).save(&home(5)).expect("saves");
+        let list = scratch.0.path().join(LIST);
+        fs::write(&list, b"garbage").expect("writes");
+        let (floors, complaints) = scratch.0.load();
+        assert_eq!(floors.len(), 2);
+        assert_eq!(floors[1].home, Some(home(5)));
+        assert!(complaints[0].contains(LIST), "{complaints:?}");
+    }
+
+    #[test]
+    fn when_all_places_are_taken_the_floor_that_was_removed_first_gives_way() {
+        let scratch = Scratch::new("many");
+        for number in 2..=FLOORS_MAX as u16 {
+            assert_eq!(
+                scratch.0.change(&FloorTask::New(None)).expect("makes"),
+                Some(number)
+            );
+        }
+        let error = scratch.0.change(&FloorTask::New(None)).expect_err("is full");
+        assert_eq!(error.name(), "too-many-floors");
+        scratch.0.maps(5).save(&home(5)).expect("saves");
+        for number in [5, 3] {
+            scratch.0.change(&FloorTask::Remove(number)).expect("removes");
+        }
+        assert_eq!(scratch.0.change(&FloorTask::New(None)).expect("makes"), Some(5));
+        assert_eq!(scratch.0.maps(5).list(), [], "it begins without a map");
+        assert!(
+            scratch
+                .floors()
+                .iter()
+                .any(|floor| floor.number == 3 && floor.removed)
+        );
+    }
+}
