@@ -781,6 +781,7 @@ fn run() -> Run {
         reason: "slip".to_owned(),
         text: "Gave up: its wheels slip.".to_owned(),
         stop_count: 1,
+        floor: Some(2),
         map: Some(12),
         recordings: vec![RunRecording {
             name: "run-a.mcap".to_owned(),
@@ -790,7 +791,7 @@ fn run() -> Run {
     }
 }
 
-const RUN: &str = r#""number":7,"job":{"clean":{"strategy":"systematic","rooms":[{"id":2}],"zones":1,"passes":2}},"by":{"schedule":{"number":3,"name":"Morning"}},"start_s":1795392000,"duration_s":3905.5,"moving_s":1800.0,"swept_m2":12.5,"share":0.75,"path_m":150.5,"bumps":12,"charge_start":0.875,"charge_end":0.5,"result":"gave-up","reason":"slip","text":"Gave up: its wheels slip.","stop_count":1,"map":12,"recordings":[{"name":"run-a.mcap","zero_s":-1.5,"bytes":9}]"#;
+const RUN: &str = r#""number":7,"job":{"clean":{"strategy":"systematic","rooms":[{"id":2}],"zones":1,"passes":2}},"by":{"schedule":{"number":3,"name":"Morning"}},"start_s":1795392000,"duration_s":3905.5,"moving_s":1800.0,"swept_m2":12.5,"share":0.75,"path_m":150.5,"bumps":12,"charge_start":0.875,"charge_end":0.5,"result":"gave-up","reason":"slip","text":"Gave up: its wheels slip.","stop_count":1,"floor":2,"map":12,"recordings":[{"name":"run-a.mcap","zero_s":-1.5,"bytes":9}]"#;
 
 #[test]
 fn runs() {
