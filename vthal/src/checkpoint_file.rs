@@ -12,7 +12,6 @@ use rvac_protocol::seal::{Digest, Direction};
 use serde::{Deserialize, Serialize};
 use vthal_core::Checkpoint;
 
-use crate::kept_file;
 use crate::recording::format::BrainState;
 
 /// A checkpoint older than this is not taken up: somebody may have moved the robot.

@@ -10,7 +10,6 @@ use brain::{RoomName, StoredMap};
 use serde::{Deserialize, Serialize};
 use vthal_core::{FloorTask, KeptFloor};
 
-use crate::kept_file;
 use crate::map_folder::MapFolder;
 
 /// Floors that are kept, removed ones included.

@@ -16,7 +16,6 @@ mod event;
 mod floor_folder;
 pub mod imu;
 mod instance;
-mod kept_file;
 mod logging;
 mod map_folder;
 mod mix_folder;

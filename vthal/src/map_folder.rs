@@ -9,8 +9,6 @@ use std::time::UNIX_EPOCH;
 use brain::{CELL_M, CellKnowledge, StoredMap};
 use rvac_api::KeptMap;
 
-use crate::kept_file;
-
 /// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
 const VERSIONS_MAX: usize = 40;
 /// Largest file that is looked at. A home of 150 square metres takes some ten kilobytes.

@@ -8,8 +8,6 @@ use std::path::{Path, PathBuf};
 
 use mixer::{Name, PROFILE_BYTES_MAX, Profile, ProfileError};
 
-use crate::kept_file;
-
 /// Profiles kept: some for each person of a household.
 const PROFILES_MAX: usize = 8;
 /// Ending of the files.

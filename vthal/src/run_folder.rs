@@ -12,8 +12,6 @@ use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, Update};
 use serde::Deserialize;
 use vthal_core::RunTask;
 
-use crate::kept_file;
-
 /// Records kept.
 const RUNS_MAX: usize = 200;
 /// Largest file that is looked at. Pictures are bounded; a large home takes some hundred kilobytes.

@@ -6,8 +6,6 @@ use std::path::{Path, PathBuf};
 
 use vthal_core::schedule::{Book, StoredBook};
 
-use crate::kept_file;
-
 /// What a daemon finds at its start.
 #[derive(Debug, Default)]
 pub(crate) struct FoundSchedules {

@@ -10,8 +10,9 @@ use tokio::sync::Notify;
 use tokio::time::{Instant, Interval, interval, timeout};
 use tracing::{debug, info, warn};
 
-use crate::courtesy::{Courtesy, disconnected, is_one_message, refused};
+use crate::courtesy::{Courtesy, disconnected, is_one_message, is_stop, new_device, refused};
 use crate::outbox::{Outbox, Stalled};
+use crate::pass::{Change, Judged, Pass};
 use crate::upstream::{Event, Upstream};
 
 /// A browser that takes longer for one message is dropped.
@@ -24,7 +25,12 @@ const PING_EVERY: Duration = Duration::from_secs(10);
 const MESSAGES_PER_S_MAX: u32 = 200;
 
 /// Relays between one browser and its upstreams until the browser goes away or misbehaves.
-pub(crate) async fn relay(socket: WebSocket, vthal: Upstream, simulator: Option<Upstream>) {
+pub(crate) async fn relay(
+    socket: WebSocket,
+    vthal: Upstream,
+    simulator: Option<Upstream>,
+    pass: Option<Pass>,
+) {
     let (sink, stream) = socket.split();
     let shared = Arc::new(Shared::default());
     let writer = tokio::spawn(write_all(sink, Arc::clone(&shared)));
@@ -32,6 +38,7 @@ pub(crate) async fn relay(socket: WebSocket, vthal: Upstream, simulator: Option<
         shared,
         vthal,
         simulator,
+        pass,
         courtesy: Courtesy::default(),
         budget: Budget::default(),
         heard: Instant::now(),
@@ -54,6 +61,8 @@ enum Parting {
     Stalled,
     Flooding,
     NotText,
+    Stranger,
+    Revoked,
 }
 
 impl From<Stalled> for Parting {
@@ -89,6 +98,8 @@ struct Browser {
     shared: Arc<Shared>,
     vthal: Upstream,
     simulator: Option<Upstream>,
+    /// None on the robot's own computer, where everything is allowed.
+    pass: Option<Pass>,
     courtesy: Courtesy,
     budget: Budget,
     heard: Instant,
@@ -118,6 +129,7 @@ impl Browser {
             message = stream.next() => self.on_browser(message).await,
             event = self.vthal.next() => self.on_vthal(event).await,
             event = next_of(&mut self.simulator) => self.on_simulator(event),
+            change = change_of(&mut self.pass) => self.on_change(change),
             () = shared.failed.notified() => Err(Parting::Stalled),
             _ = pulse.tick() => self.on_pulse(),
         }
@@ -128,14 +140,28 @@ impl Browser {
             return Err(Parting::Closed);
         };
         self.heard = Instant::now();
-        if !self.budget.spend(self.heard) {
+        // Stop is passed on however often it is said.
+        let says_stop = || matches!(&message, Message::Text(text) if is_stop(text.as_str()));
+        if !self.budget.spend(self.heard) && !says_stop() {
             return Err(Parting::Flooding);
         }
         match message {
-            Message::Text(text) => self.on_request(text.as_str()).await,
+            Message::Text(text) => self.on_text(text.as_str()).await,
             Message::Ping(_) | Message::Pong(_) => Ok(()),
             Message::Close(_) => Err(Parting::Closed),
             Message::Binary(_) => Err(Parting::NotText),
+        }
+    }
+
+    async fn on_text(&mut self, text: &str) -> Result<(), Parting> {
+        let Some(pass) = &mut self.pass else {
+            return self.on_request(text).await;
+        };
+        match pass.judge(text) {
+            Judged::Greeted => Ok(()),
+            Judged::PassOn(request) => self.on_request(&request).await,
+            Judged::Answer(answer) => Ok(self.shared.push(answer)?),
+            Judged::Stranger => Err(Parting::Stranger),
         }
     }
 
@@ -179,6 +205,13 @@ impl Browser {
         }
     }
 
+    fn on_change(&mut self, change: Change) -> Result<(), Parting> {
+        match change {
+            Change::Revoked => Err(Parting::Revoked),
+            Change::Newcomer(newcomer) => Ok(self.shared.push(new_device(newcomer))?),
+        }
+    }
+
     fn on_pulse(&mut self) -> Result<(), Parting> {
         if self.heard.elapsed() > 3 * PING_EVERY {
             return Err(Parting::Silent);
@@ -191,6 +224,13 @@ impl Browser {
 async fn next_of(upstream: &mut Option<Upstream>) -> Event {
     match upstream {
         Some(upstream) => upstream.next().await,
+        None => std::future::pending().await,
+    }
+}
+
+async fn change_of(pass: &mut Option<Pass>) -> Change {
+    match pass {
+        Some(pass) => pass.changed().await,
         None => std::future::pending().await,
     }
 }

@@ -1,5 +1,6 @@
 //! What the server itself says and remembers on behalf of one browser: the little it must know about the messages it relays.
 
+use crate::guarded::Newcomer;
 use rvac_api::{Failure, Request, RequestBody, SEPARATOR, Status, Update};
 
 /// What vthal must hear again after a reconnect, and whether the browser sits in the driver's seat.
@@ -45,6 +46,20 @@ impl Courtesy {
 /// Whether the text would be one message on the Unix socket.
 pub(crate) fn is_one_message(text: &str) -> bool {
     !text.as_bytes().contains(&SEPARATOR)
+}
+
+/// Whether the text asks the robot to stop.
+pub(crate) fn is_stop(text: &str) -> bool {
+    serde_json::from_str::<Request>(text).is_ok_and(|request| request.body == RequestBody::Stop)
+}
+
+/// What everybody hears when a device was let in.
+pub(crate) fn new_device(newcomer: Newcomer) -> String {
+    text_of(&Update::NewDevice {
+        name: newcomer.name,
+        role: newcomer.role.name().to_owned(),
+        from: newcomer.from,
+    })
 }
 
 /// What a browser hears while vthal is away.

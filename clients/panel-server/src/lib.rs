@@ -2,24 +2,34 @@
 //!
 //! Words used here. A *browser* is one WebSocket connection. Its *upstream* is the Unix socket connection to vthal that belongs to
 //! it alone, so that vthal sees each browser as one client with its own lease and its own topics. The *outbox* holds what waits
-//! to be sent to the browser. The *rules* say which requests are answered at all.
+//! to be sent to the browser. The *rules* say which requests are answered at all. The *gate* is what stands before a robot on a
+//! network: TLS under the robot's own certificate authority, and the list of paired clients with their roles.
 //!
 //! The server decides nothing about the robot: it passes messages on, says `disconnected` while vthal is away, and gives up the
-//! driver's seat of a browser that went away. There is no authentication yet, so it stays on loopback unless it is told to
-//! open itself to the network.
+//! driver's seat of a browser that went away. On loopback there is no gate; beyond it there is no way around.
 #![forbid(unsafe_code)]
 
+mod api;
 mod assets;
 mod browser;
 mod courtesy;
+mod gate;
+mod guarded;
+mod identity;
 mod outbox;
+mod page;
+mod pass;
 mod rules;
+mod seats;
 mod server;
 mod settings;
 mod upstream;
 
 pub use assets::{Assets, AssetsError};
+pub use gate::GateError;
+pub use guarded::ClientsError;
+pub use identity::IdentityError;
 pub use outbox::{Outbox, Stalled};
-pub use rules::{Refusal, Rules};
+pub use rules::{Refusal, Rules, Scheme};
 pub use server::Server;
-pub use settings::{NetworkAccess, Settings, StartError};
+pub use settings::{Guard, Settings, StartError};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use panel_server::{NetworkAccess, Server, Settings, StartError};
+use panel_server::{Guard, Server, Settings, StartError};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
@@ -32,23 +32,30 @@ struct Arguments {
     /// Further name by which browsers may call this server, for example robot.local
     #[arg(long, value_name = "NAME")]
     host_name: Vec<String>,
-    /// Listen beyond this computer although there is no authentication yet
-    #[arg(long)]
-    allow_network: bool,
+    /// Folder of the robot's identity and of its paired devices: with it, HTTPS and for paired devices only
+    #[arg(long, value_name = "DIR")]
+    state: Option<PathBuf>,
+    /// Unix socket for rvac pair, clients and trust; console.sock in the folder of --state when absent
+    #[arg(long, value_name = "SOCKET", requires = "state")]
+    console: Option<PathBuf>,
+    /// Port of a page that tells the way to the HTTPS address, usually 80
+    #[arg(long, value_name = "PORT", requires = "state")]
+    page_port: Option<u16>,
 }
 
 impl From<Arguments> for Settings {
     fn from(arguments: Arguments) -> Self {
-        let network = if arguments.allow_network {
-            NetworkAccess::Everyone
-        } else {
-            NetworkAccess::LoopbackOnly
-        };
+        let (console, page_port) = (arguments.console, arguments.page_port);
+        let guard = arguments.state.map(|state| Guard {
+            state,
+            console,
+            page_port,
+        });
         Self {
             vthal: arguments.vthal,
             simulator: arguments.simulator,
             address: SocketAddr::new(arguments.bind, arguments.port),
-            network,
+            guard,
             assets: arguments.assets,
             host_names: arguments.host_name,
         }
@@ -73,7 +80,7 @@ async fn run(settings: Settings) -> anyhow::Result<()> {
     let server = Server::bind(settings).await?;
     let mut terminate = signal(SignalKind::terminate())?;
     let mut interrupt = signal(SignalKind::interrupt())?;
-    writeln!(std::io::stdout(), "ready http://{}/", server.address())?;
+    writeln!(std::io::stdout(), "ready {}", server.url())?;
     tokio::select! {
         () = server.run() => {}
         _ = terminate.recv() => {}

@@ -1,17 +1,56 @@
-//! Which requests are answered at all: the checks of Host, Origin and Sec-Fetch-Site.
+//! Which requests are answered at all: the checks of Host, Origin and Sec-Fetch-Site, and of what a change looks like.
 //!
 //! They keep foreign web pages out. A page of another site can make the owner's browser send requests here; the browser tells
 //! their origin in headers that the page cannot forge. A page whose name was re-pointed to this address (DNS rebinding) betrays
 //! itself by its name in `Host`.
+
+use std::net::IpAddr;
 
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, Method, StatusCode, header};
 
 const SEC_FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// The names and the port by which browsers may call the server.
+/// A header that no form can send, and no page of another site without asking first.
+const OURS: HeaderName = HeaderName::from_static("x-rvac");
+
+/// How the server is spoken to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// On the computer itself.
+    Http,
+    /// From everywhere else.
+    Https,
+}
+
+impl Scheme {
+    const fn port(self) -> u16 {
+        match self {
+            Self::Http => 80,
+            Self::Https => 443,
+        }
+    }
+
+    const fn before(self) -> &'static str {
+        match self {
+            Self::Http => "http://",
+            Self::Https => "https://",
+        }
+    }
+}
+
+/// An address as it stands in `Host`.
+pub(crate) fn in_authority(ip: IpAddr) -> String {
+    match ip {
+        IpAddr::V4(ip) => ip.to_string(),
+        IpAddr::V6(ip) => format!("[{ip}]"),
+    }
+}
+
+/// The names, the scheme and the port by which browsers may call the server.
 #[derive(Clone, Debug)]
 pub struct Rules {
+    scheme: Scheme,
     authorities: Vec<String>,
 }
 
@@ -28,8 +67,10 @@ pub enum Refusal {
     OriginForeign,
     /// `Sec-Fetch-Site` says that another site asks.
     CrossSite,
-    /// Only GET and HEAD exist here.
+    /// Beside GET and HEAD only POST below `/api/` exists here.
     Method,
+    /// A change that a form could have sent.
+    NotOurs,
 }
 
 impl Refusal {
@@ -41,6 +82,7 @@ impl Refusal {
             Self::HostForeign => StatusCode::MISDIRECTED_REQUEST,
             Self::OriginMissing | Self::OriginForeign | Self::CrossSite => StatusCode::FORBIDDEN,
             Self::Method => StatusCode::METHOD_NOT_ALLOWED,
+            Self::NotOurs => StatusCode::UNSUPPORTED_MEDIA_TYPE,
         }
     }
 
@@ -59,22 +101,24 @@ impl Refusal {
                 "Another site led here: type the address of the panel into the address bar instead.\n"
             }
             Self::Method => "Only GET and HEAD are answered here.\n",
+            Self::NotOurs => "A change is sent as application/json with the header X-Rvac: 1.\n",
         }
     }
 }
 
 impl Rules {
     /// Rules for a server on `port` that goes by the names of loopback and by `host_names` (IPv6 addresses in brackets).
-    pub fn new<'a>(port: u16, host_names: impl IntoIterator<Item = &'a str>) -> Self {
+    pub fn new(scheme: Scheme, port: u16, host_names: impl IntoIterator<Item = String>) -> Self {
         let mut authorities = Vec::new();
-        for name in ["localhost", "127.0.0.1", "[::1]"].into_iter().chain(host_names) {
+        let own = ["localhost", "127.0.0.1", "[::1]"].map(str::to_owned);
+        for name in own.into_iter().chain(host_names) {
             let name = name.to_ascii_lowercase();
             authorities.push(format!("{name}:{port}"));
-            if port == 80 {
+            if port == scheme.port() {
                 authorities.push(name);
             }
         }
-        Self { authorities }
+        Self { scheme, authorities }
     }
 
     /// Checks a request before anything else looks at it.
@@ -87,10 +131,10 @@ impl Rules {
         let upgrades = request.headers.contains_key(header::UPGRADE);
         check_site(&request.headers, changes || upgrades)?;
         if changes || upgrades {
-            check_origin(&request.headers, &host)?;
+            self.check_origin(&request.headers, &host)?;
         }
         if changes {
-            return Err(Refusal::Method);
+            check_change(request)?;
         }
         Ok(())
     }
@@ -109,6 +153,25 @@ impl Rules {
         }
         Ok(host)
     }
+
+    /// The origin must be the scheme that we speak and the very authority that was called.
+    fn check_origin(&self, headers: &HeaderMap, host: &str) -> Result<(), Refusal> {
+        let origin = only(headers, &header::ORIGIN).ok_or(Refusal::OriginMissing)?;
+        if origin.strip_prefix(self.scheme.before()) == Some(host) {
+            return Ok(());
+        }
+        Err(Refusal::OriginForeign)
+    }
+}
+
+/// A change goes to our own interface and looks like nothing that a page of another site can send unasked.
+fn check_change(request: &Parts) -> Result<(), Refusal> {
+    if request.method != Method::POST || !request.uri.path().starts_with("/api/") {
+        return Err(Refusal::Method);
+    }
+    let is_ours = only(&request.headers, &header::CONTENT_TYPE) == Some("application/json")
+        && only(&request.headers, &OURS) == Some("1");
+    is_ours.then_some(()).ok_or(Refusal::NotOurs)
 }
 
 /// The text of a header that stands exactly once.
@@ -133,18 +196,9 @@ fn check_site(headers: &HeaderMap, acts: bool) -> Result<(), Refusal> {
     }
 }
 
-/// The origin must be the scheme that we speak and the very authority that was called.
-fn check_origin(headers: &HeaderMap, host: &str) -> Result<(), Refusal> {
-    let origin = only(headers, &header::ORIGIN).ok_or(Refusal::OriginMissing)?;
-    if origin.strip_prefix("http://") == Some(host) {
-        return Ok(());
-    }
-    Err(Refusal::OriginForeign)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Refusal, Rules};
+    use super::{Refusal, Rules, Scheme};
     use axum::http::Request;
 
     /// Checks a request made of `method`, `uri` and header lines against a server on port 8080 with one extra name.
@@ -156,7 +210,7 @@ mod tests {
         }
         let (parts, ()) = request.body(()).unwrap().into_parts();
         assert_eq!(
-            Rules::new(8080, ["Robot.local"]).check(&parts),
+            Rules::new(Scheme::Http, 8080, ["Robot.local".to_owned()]).check(&parts),
             expected,
             "{line:?} {headers:?}"
         );
@@ -265,6 +319,46 @@ mod tests {
             .body(())
             .unwrap()
             .into_parts();
-        assert_eq!(Rules::new(80, []).check(&parts), Ok(()));
+        assert_eq!(Rules::new(Scheme::Http, 80, []).check(&parts), Ok(()));
+    }
+
+    #[test]
+    fn a_change_is_one_that_only_our_page_can_send() {
+        let origin = ("origin", "http://localhost:8080");
+        let json = ("content-type", "application/json");
+        let ours = ("x-rvac", "1");
+        let post = ("POST", "/api/clients/revoke");
+        check(post, &[OURS, origin, json, ours], Ok(()));
+        check(post, &[OURS, json, ours], Err(Refusal::OriginMissing));
+        check(post, &[OURS, origin, json], Err(Refusal::NotOurs));
+        check(post, &[OURS, origin, ours], Err(Refusal::NotOurs));
+        check(
+            post,
+            &[OURS, origin, ours, ("content-type", "text/plain")],
+            Err(Refusal::NotOurs),
+        );
+        check(("POST", "/"), &[OURS, origin, json, ours], Err(Refusal::Method));
+        check(
+            ("DELETE", "/api/clients"),
+            &[OURS, origin, json, ours],
+            Err(Refusal::Method),
+        );
+    }
+
+    #[test]
+    fn over_tls_the_page_is_an_https_page() {
+        let request = |origin: &str| {
+            let request = Request::builder().uri("/api/ws").header("host", "robot.local");
+            let (parts, ()) = request
+                .header("upgrade", "websocket")
+                .header("origin", origin)
+                .body(())
+                .unwrap()
+                .into_parts();
+            Rules::new(Scheme::Https, 443, ["robot.local".to_owned()]).check(&parts)
+        };
+        assert_eq!(request("https://robot.local"), Ok(()));
+        assert_eq!(request("http://robot.local"), Err(Refusal::OriginForeign));
+        assert_eq!(request("https://robot.local:8443"), Err(Refusal::OriginForeign));
     }
 }

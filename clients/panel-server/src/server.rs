@@ -3,30 +3,38 @@
 use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Duration;
 
 use axum::Router;
 use axum::body::Body;
 use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::{Request, State};
+use axum::extract::{Extension, Request, State};
 use axum::http::{HeaderName, HeaderValue, Response, header};
 use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
+use futures_util::future::OptionFuture;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
-use tracing::{debug, warn};
+use pairing::need_of;
+use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::net::{TcpListener, TcpStream, UnixListener};
+use tokio::time::timeout;
+use tokio_rustls::TlsAcceptor;
+use tracing::{debug, error, warn};
 
+use crate::api::{self, Peer};
 use crate::browser;
+use crate::gate::Gate;
+use crate::guarded::{Known, listen_console, serve_console};
+use crate::page;
+use crate::pass::Pass;
+use crate::rules::in_authority;
+use crate::seats::Seats;
 use crate::upstream::Upstream;
-use crate::{Assets, Rules, Settings, StartError};
-
-/// Connections at one time; a page needs two.
-const CONNECTIONS_MAX: usize = 64;
+use crate::{Assets, Guard, Rules, Scheme, Settings, StartError};
 
 /// Bytes of a request's head, the least that hyper accepts.
 const HEAD_BYTES_MAX: usize = 8 << 10;
@@ -61,15 +69,25 @@ const SECURITY_HEADERS: [(HeaderName, &str); 6] = [
 pub struct Server {
     listener: TcpListener,
     address: SocketAddr,
+    url: String,
+    page: Option<TcpListener>,
+    console: Option<UnixListener>,
     site: Arc<Site>,
 }
 
 #[derive(Debug)]
-struct Site {
-    rules: Rules,
+pub(crate) struct Site {
+    rules: RwLock<Rules>,
     assets: Assets,
     vthal: PathBuf,
     simulator: Option<PathBuf>,
+    gate: Option<Arc<Gate>>,
+}
+
+impl Site {
+    pub(crate) const fn gate(&self) -> Option<&Arc<Gate>> {
+        self.gate.as_ref()
+    }
 }
 
 impl Server {
@@ -80,31 +98,43 @@ impl Server {
     pub async fn bind(settings: Settings) -> Result<Self, StartError> {
         settings.check_reach()?;
         let assets = Assets::read(&settings.assets)?;
-        let wanted = settings.address;
-        let listener = TcpListener::bind(wanted)
-            .await
-            .map_err(|source| listen_error(wanted, source))?;
-        let address = listener
-            .local_addr()
-            .map_err(|source| listen_error(wanted, source))?;
-        let own_ip = authority_of(address);
-        let names = settings
-            .host_names
-            .iter()
-            .map(String::as_str)
-            .chain([own_ip.as_str()]);
-        let rules = Rules::new(address.port(), names);
-        let site = Site {
-            rules,
-            assets,
-            vthal: settings.vthal,
-            simulator: settings.simulator,
-        };
-        Ok(Self {
+        let (listener, address) = listen(settings.address).await?;
+        let mut server = Self {
             listener,
             address,
-            site: Arc::new(site),
-        })
+            url: format!("http://{address}/"),
+            page: None,
+            console: None,
+            site: Arc::new(Site {
+                rules: RwLock::new(plain_rules(address, &settings.host_names)),
+                assets,
+                vthal: settings.vthal,
+                simulator: settings.simulator,
+                gate: None,
+            }),
+        };
+        if let Some(guard) = settings.guard {
+            server.stand_behind(guard, settings.host_names).await?;
+        }
+        Ok(server)
+    }
+
+    /// Puts a gate before everything.
+    async fn stand_behind(&mut self, guard: Guard, host_names: Vec<String>) -> Result<(), StartError> {
+        let Some(site) = Arc::get_mut(&mut self.site) else {
+            return Ok(());
+        };
+        let gate = Gate::new(&guard.state, host_names, self.address, site.vthal.clone())?;
+        site.rules = RwLock::new(gate.rules());
+        site.gate = Some(Arc::new(gate));
+        self.url = format!("https://{}/", self.address);
+        let path = guard.console.unwrap_or_else(|| guard.state.join("console.sock"));
+        let console = listen_console(&path).map_err(|source| StartError::Console { path, source })?;
+        self.console = Some(console);
+        if let Some(port) = guard.page_port {
+            self.page = Some(listen(SocketAddr::new(self.address.ip(), port)).await?.0);
+        }
+        Ok(())
     }
 
     /// Where it listens.
@@ -113,40 +143,105 @@ impl Server {
         self.address
     }
 
+    /// Where its page is.
+    #[must_use]
+    pub fn url(&self) -> &str {
+        &self.url
+    }
+
+    /// Where the page listens that tells the way.
+    #[must_use]
+    pub fn page_address(&self) -> Option<SocketAddr> {
+        self.page.as_ref()?.local_addr().ok()
+    }
+
     /// Answers connections for ever.
     pub async fn run(self) {
-        let router = Router::new()
+        let router = api::routes()
             .route("/api/ws", get(open_socket))
             .fallback(serve_asset)
             .layer(middleware::from_fn_with_state(Arc::clone(&self.site), guard))
-            .with_state(self.site);
-        let seats = Arc::new(Semaphore::new(CONNECTIONS_MAX));
-        loop {
-            let Ok(seat) = Arc::clone(&seats).acquire_owned().await else {
+            .with_state(Arc::clone(&self.site));
+        let seats = Seats::default();
+        let Some(gate) = self.site.gate.clone() else {
+            accept(self.listener, None, router, seats).await;
+            return;
+        };
+        let acceptor = match gate.acceptor() {
+            Ok(acceptor) => acceptor,
+            Err(error) => {
+                error!(%error, "no TLS");
                 return;
-            };
-            match self.listener.accept().await {
-                Ok((stream, _)) => {
-                    let router = router.clone();
-                    tokio::spawn(async move {
-                        serve(stream, router).await;
-                        drop(seat);
-                    });
-                }
-                Err(error) => {
-                    warn!(%error, "cannot accept a connection");
-                    tokio::time::sleep(Duration::from_millis(100)).await;
-                }
+            }
+        };
+        let page = self
+            .page
+            .map(|listener| accept(listener, None, page::router(Arc::clone(&gate)), seats.clone()));
+        let console = self
+            .console
+            .map(|console| serve_console(console, Arc::clone(&gate)));
+        tokio::join!(
+            accept(self.listener, Some(acceptor), router, seats),
+            gate.keep(&self.site.rules),
+            OptionFuture::from(page),
+            OptionFuture::from(console),
+        );
+    }
+}
+
+async fn listen(wanted: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {
+    let listener = TcpListener::bind(wanted)
+        .await
+        .map_err(|source| listen_error(wanted, source))?;
+    let address = listener
+        .local_addr()
+        .map_err(|source| listen_error(wanted, source))?;
+    Ok((listener, address))
+}
+
+/// The rules for a server that only this computer reaches.
+fn plain_rules(address: SocketAddr, host_names: &[String]) -> Rules {
+    let own_ip = in_authority(address.ip());
+    Rules::new(
+        Scheme::Http,
+        address.port(),
+        host_names.iter().cloned().chain([own_ip]),
+    )
+}
+
+/// Takes connections for ever, each with its seat.
+async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router, seats: Seats) {
+    while let Some(room) = seats.room().await {
+        match listener.accept().await {
+            Ok((stream, peer)) => {
+                let Some(seat) = seats.take(room, peer.ip()) else {
+                    debug!(%peer, "too many connections from one address");
+                    continue;
+                };
+                let router = router.clone().layer(Extension(Peer(peer.ip())));
+                let tls = tls.clone();
+                tokio::spawn(async move {
+                    welcome(stream, tls, router).await;
+                    drop(seat);
+                });
+            }
+            Err(error) => {
+                warn!(%error, "cannot accept a connection");
+                tokio::time::sleep(Duration::from_millis(100)).await;
             }
         }
     }
 }
 
-/// The address as a browser writes it in `Host`, without the port.
-fn authority_of(address: SocketAddr) -> String {
-    match address {
-        SocketAddr::V4(address) => address.ip().to_string(),
-        SocketAddr::V6(address) => format!("[{}]", address.ip()),
+async fn welcome(stream: TcpStream, tls: Option<TlsAcceptor>, router: Router) {
+    stream.set_nodelay(true).ok(); // Only costs latency when it fails.
+    let Some(tls) = tls else {
+        return serve(stream, router).await;
+    };
+    match timeout(HEAD_TIME_MAX, tls.accept(stream)).await {
+        Ok(Ok(stream)) => serve(stream, router).await,
+        Ok(Err(error)) => debug!(%error, "no TLS connection"),
+        Err(_) => debug!("a TLS handshake took too long"),
     }
 }
 
@@ -157,8 +252,7 @@ fn listen_error(address: SocketAddr, source: io::Error) -> StartError {
     StartError::Listen { address, source }
 }
 
-async fn serve(stream: TcpStream, router: Router) {
-    stream.set_nodelay(true).ok(); // Only costs latency when it fails.
+async fn serve(stream: impl AsyncRead + AsyncWrite + Unpin + Send + 'static, router: Router) {
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD_TIME_MAX)
@@ -170,11 +264,16 @@ async fn serve(stream: TcpStream, router: Router) {
     }
 }
 
-/// Lets through what keeps to the rules and adds the security headers to every answer.
+/// Lets through what keeps to the rules and whom the gate knows, and adds the security headers to every answer.
 async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> Response<Body> {
     let (parts, body) = request.into_parts();
-    let mut response = match site.rules.check(&parts) {
-        Ok(()) => next.run(Request::from_parts(parts, body)).await,
+    let checked = site
+        .rules
+        .read()
+        .unwrap_or_else(PoisonError::into_inner)
+        .check(&parts);
+    let mut response = match checked {
+        Ok(()) => admit(&site, Request::from_parts(parts, body), next).await,
         Err(refusal) => (refusal.status(), refusal.text()).into_response(),
     };
     for (name, value) in SECURITY_HEADERS {
@@ -185,15 +284,58 @@ async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> R
     response
 }
 
+/// Asks the gate, where there is one.
+async fn admit(site: &Site, mut request: Request, next: Next) -> Response<Body> {
+    let Some(gate) = &site.gate else {
+        return next.run(request).await;
+    };
+    let known = gate.guarded.identify(request.headers());
+    if !need_of(request.uri().path()).is_met_by(known.map(|known| known.role)) {
+        return known.map_or_else(api::not_paired, |known| api::not_allowed(known.role));
+    }
+    if let Some(known) = known {
+        request.extensions_mut().insert(known);
+    }
+    next.run(request).await
+}
+
 async fn serve_asset(State(site): State<Arc<Site>>, request: Request) -> Response<Body> {
+    if let Some(gate) = &site.gate
+        && let Some(file) = trust_file(gate, request.uri().path())
+    {
+        return file;
+    }
     site.assets.answer(request.uri().path(), request.headers())
 }
 
-async fn open_socket(State(site): State<Arc<Site>>, upgrade: WebSocketUpgrade) -> Response<Body> {
+/// The robot's certificate for devices that shall trust it; everybody sees it in each TLS connection.
+fn trust_file(gate: &Gate, path: &str) -> Option<Response<Body>> {
+    let trust = gate.trust();
+    let (media_type, bytes) = match path {
+        "/robot.crt" => ("application/x-x509-ca-cert", trust.der()?),
+        "/robot.mobileconfig" => (
+            "application/x-apple-aspen-config",
+            trust.mobile_profile()?.into_bytes(),
+        ),
+        _ => return None,
+    };
+    Some(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
+}
+
+async fn open_socket(
+    State(site): State<Arc<Site>>,
+    known: Option<Extension<Known>>,
+    upgrade: WebSocketUpgrade,
+) -> Response<Body> {
+    let pass = match (&site.gate, known) {
+        (None, _) => None,
+        (Some(gate), Some(Extension(known))) => Some(Pass::new(Arc::clone(gate), known)),
+        (Some(_), None) => return api::not_paired(),
+    };
     let vthal = Upstream::new(site.vthal.clone());
     let simulator = site.simulator.clone().map(Upstream::new);
     upgrade
         .max_message_size(MESSAGE_BYTES_MAX)
         .max_frame_size(MESSAGE_BYTES_MAX)
-        .on_upgrade(move |socket| browser::relay(socket, vthal, simulator))
+        .on_upgrade(move |socket| browser::relay(socket, vthal, simulator, pass))
 }

@@ -4,6 +4,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
 use crate::AssetsError;
+use crate::gate::GateError;
 
 /// Settings of a server.
 #[derive(Clone, Debug)]
@@ -14,30 +15,33 @@ pub struct Settings {
     pub simulator: Option<PathBuf>,
     /// Address to listen on. Port 0 takes any free port.
     pub address: SocketAddr,
-    /// Whether an address beyond loopback is allowed.
-    pub network: NetworkAccess,
+    /// With it the server speaks HTTPS to paired devices only, which it must beyond loopback; without it, HTTP to everybody on
+    /// this computer.
+    pub guard: Option<Guard>,
     /// Folder of the packed panel.
     pub assets: PathBuf,
     /// Names, beside those of loopback, by which browsers may call this server.
     pub host_names: Vec<String>,
 }
 
-/// Who may reach the server.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NetworkAccess {
-    /// Only this computer.
-    LoopbackOnly,
-    /// Everyone on the network. There is no authentication yet: whoever reaches the port drives the robot.
-    Everyone,
+/// How the robot is kept from others on the network.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    /// Folder of the robot's identity and of the list of its devices.
+    pub state: PathBuf,
+    /// Unix socket of the person at this computer; in `state` when absent.
+    pub console: Option<PathBuf>,
+    /// Port of a page that only tells the way to the HTTPS address.
+    pub page_port: Option<u16>,
 }
 
 /// Why the server does not start. Each is one sentence with its remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
-    /// The address is reachable from outside and nobody allowed that.
+    /// The address is reachable from outside, and nothing would keep others out.
     #[error(
-        "refusing to listen on {0}: whoever reaches that address could drive the robot, because this version has no \
-         authentication; use --bind 127.0.0.1, or add --allow-network if you trust everyone on your network"
+        "refusing to listen on {0} without --state: whoever reaches that address could drive the robot; name a folder with \
+         --state, so that only paired devices may, or use --bind 127.0.0.1"
     )]
     BeyondLoopback(IpAddr),
     /// Another program has the port.
@@ -54,16 +58,27 @@ pub enum StartError {
     /// The packed panel cannot be read.
     #[error(transparent)]
     Assets(#[from] AssetsError),
+    /// Certificate or clients are not to be had.
+    #[error(transparent)]
+    Gate(#[from] GateError),
+    /// The console's socket cannot be made.
+    #[error("cannot listen on {path}: {source}; choose another place with --console")]
+    Console {
+        /// Where.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
 }
 
 impl Settings {
-    /// Checks that the address is loopback or that the network is allowed.
+    /// Checks that the address is loopback or that only paired devices are answered.
     ///
     /// # Errors
     /// [`StartError::BeyondLoopback`].
     pub fn check_reach(&self) -> Result<(), StartError> {
         let ip = self.address.ip();
-        if ip.is_loopback() || self.network == NetworkAccess::Everyone {
+        if ip.is_loopback() || self.guard.is_some() {
             return Ok(());
         }
         Err(StartError::BeyondLoopback(ip))

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use crate::access::{Access, NewcomerView, PairView};
 use crate::actions::Actions;
 use crate::header::Header;
 use crate::map::MapView;
@@ -16,14 +17,19 @@ pub(crate) fn App() -> impl IntoView {
     let theme = RwSignal::new(Theme::at_start());
     store.map.with_value(|map| map.set_theme(theme.get_untracked()));
     store.connect();
+    let is_stranger = Memo::new(move |_| store.entrance.access.with(|access| *access == Access::Stranger));
     view! {
         <a class="skip" href="#actions">"Skip to the controls"</a>
         <Header store theme />
-        <main class="page">
+        <Show when=move || is_stranger.get()>
+            <PairView store />
+        </Show>
+        <main class="page" hidden=move || is_stranger.get()>
             <MapView store />
             <div class="side">
                 <StatusView store />
                 <RefusalView store />
+                <NewcomerView entrance=store.entrance />
                 <Actions store />
                 <Tabs store />
             </div>

@@ -5,12 +5,14 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use leptos::prelude::*;
+use pairing::wire::Greeting;
 use panel_logic::Backoff;
 use rvac_api::{Request, RequestBody, Update};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 use web_sys::{Event, MessageEvent, WebSocket};
 
+use crate::access::Access;
 use crate::store::Store;
 
 /// Bytes that may wait in the browser. A drive request behind more than this would arrive late and still look fresh.
@@ -37,13 +39,26 @@ struct Listeners {
 }
 
 impl Link {
-    /// Connects; after a loss tries again with growing pauses.
+    /// Connects, if the robot knows this device; after a loss tries again with growing pauses.
     pub(crate) fn connect(&self, store: Store) {
+        let link = self.clone();
+        leptos::task::spawn_local(async move {
+            match store.entrance.ask().await {
+                Some(Access::Known(session)) => link.open(store, session.nonce),
+                // Whoever pairs it connects then.
+                Some(Access::Stranger) => {}
+                Some(Access::Asked) | None => link.retry(store),
+            }
+        });
+    }
+
+    /// `nonce` is said first, where the server asks for it.
+    fn open(&self, store: Store, nonce: Option<String>) {
         let Ok(socket) = WebSocket::new(&address()) else {
             self.retry(store);
             return;
         };
-        let listeners = self.listen(&socket, store);
+        let listeners = self.listen(&socket, store, nonce);
         let mut inner = self.inner.borrow_mut();
         inner.socket = Some(socket);
         inner.listeners = Some(listeners);
@@ -68,10 +83,12 @@ impl Link {
         }
     }
 
-    fn listen(&self, socket: &WebSocket, store: Store) -> Listeners {
+    fn listen(&self, socket: &WebSocket, store: Store, nonce: Option<String>) -> Listeners {
         let link = self.clone();
+        let greeting = nonce.and_then(|nonce| serde_json::to_string(&Greeting { nonce }).ok());
         let open = Closure::<dyn FnMut(Event)>::new(move |_| {
             link.inner.borrow_mut().backoff.succeeded();
+            link.greet(greeting.as_deref());
             store.on_open();
         });
         let message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
@@ -93,6 +110,13 @@ impl Link {
             _open: open,
             _message: message,
             _close: close,
+        }
+    }
+
+    fn greet(&self, greeting: Option<&str>) {
+        let inner = self.inner.borrow();
+        if let (Some(socket), Some(greeting)) = (&inner.socket, greeting) {
+            socket.send_with_str(greeting).ok(); // A socket that is closing tells so by its own event.
         }
     }
 

@@ -1,6 +1,7 @@
 //! The web page that shows and drives the robot. What can be decided without a browser is in `panel-logic`.
 #![forbid(unsafe_code)]
 
+mod access;
 mod actions;
 mod app;
 mod device_view;

@@ -10,6 +10,7 @@ use rvac_api::{
 
 use rvac_api::Update as Message;
 
+use crate::access::{Entrance, Newcomer};
 use crate::drive::Seat;
 use crate::link::Link;
 use crate::map::{MapHandle, Orders};
@@ -67,6 +68,8 @@ pub(crate) struct Store {
     pub(crate) seat: Seat,
     /// The mix that is edited.
     pub(crate) bench: Bench,
+    /// Who this device is to the robot.
+    pub(crate) entrance: Entrance,
     /// The map.
     pub(crate) map: StoredValue<MapHandle, LocalStorage>,
     /// The connection to the server.
@@ -94,6 +97,7 @@ impl Store {
             refusal: RwSignal::new(None),
             seat: Seat::new(),
             bench: Bench::new(),
+            entrance: Entrance::new(),
             map: StoredValue::new_local(MapHandle::default()),
             link: StoredValue::new_local(Link::default()),
         }
@@ -272,6 +276,9 @@ impl Store {
             | Message::Run(_)
             | Message::RunKept(_)
             | Message::RunFile { .. } => {}
+            Message::NewDevice { name, role, from } => {
+                self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
+            }
         }
     }
 

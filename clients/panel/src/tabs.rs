@@ -4,6 +4,7 @@ use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 
+use crate::access::{Access, DevicesView};
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::home_view::HomeSheet;
@@ -24,6 +25,7 @@ const TABS: [(&str, &str); 6] = [
 #[component]
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
     let open = RwSignal::new(0_usize);
+    let manages = Memo::new(move |_| store.entrance.access.with(Access::manages));
     let on_key = move |event: KeyboardEvent| {
         let now = open.get_untracked();
         let next = match event.key().as_str() {
@@ -71,7 +73,10 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <Show when=move || open.get() == 3><WhyView store /></Show>
             </div>
             <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 4>
-                <Show when=move || open.get() == 4><DeviceView store /></Show>
+                <Show when=move || open.get() == 4>
+                    <DeviceView store />
+                    <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
+                </Show>
             </div>
             <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 5>
                 <Show when=move || open.get() == 5><LogView store /></Show>

@@ -106,6 +106,15 @@ pub enum Update {
         /// The packet.
         text: String,
     },
+    /// A device was paired with the robot. Said by the server of the panel to paired devices.
+    NewDevice {
+        /// What its owner calls it.
+        name: String,
+        /// What it may do: `view`, `drive` or `admin`.
+        role: String,
+        /// The address it came from, or `console`.
+        from: String,
+    },
     /// Only with a simulated robot: the floor plan.
     SimulatedPlan(SimulatedPlan),
     /// Only with a simulated robot: where it really is.

@@ -887,3 +887,15 @@ fn a_run_in_full() {
         check(&result, &format!("\"{name}\""));
     }
 }
+
+#[test]
+fn a_new_device() {
+    check(
+        &Update::NewDevice {
+            name: "Mari's phone".to_owned(),
+            role: "drive".to_owned(),
+            from: "192.168.1.7".to_owned(),
+        },
+        r#"{"e":"new-device","name":"Mari's phone","role":"drive","from":"192.168.1.7"}"#,
+    );
+}

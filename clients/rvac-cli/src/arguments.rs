@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+mod devices;
 mod floors;
 mod history;
 mod orders;
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+pub(crate) use devices::{ClientsJob, ClientsVerb, Console, PairOptions, TrustOptions};
 pub(crate) use floors::{FloorJob, FloorVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
 pub(crate) use orders::{
@@ -62,6 +64,12 @@ pub(crate) enum Subcommand {
     Drive(DriveOptions),
     /// The control mixes that the robot keeps; without a verb: list them.
     Mix(MixJob),
+    /// Let a new device in: open a window and show its code.
+    Pair(PairOptions),
+    /// The devices that were let in; without a verb: list them.
+    Clients(ClientsJob),
+    /// The robot's certificate: its fingerprint, and files for devices that shall trust it.
+    Trust(TrustOptions),
     /// Start cleaning.
     Start {
         /// Strategy by name; the daemon's default when absent.

@@ -5,6 +5,7 @@
 mod arguments;
 mod calibrate;
 mod control;
+mod devices;
 mod drive;
 mod floors;
 mod history;
@@ -51,6 +52,9 @@ fn main() -> ExitCode {
         Subcommand::Probe(job) => probe::run(&job),
         Subcommand::Drive(options) => drive::run(&options),
         Subcommand::Mix(job) => mixes::run(&job),
+        Subcommand::Pair(options) => devices::pair(&options),
+        Subcommand::Clients(job) => devices::clients(&job),
+        Subcommand::Trust(options) => devices::trust(&options),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

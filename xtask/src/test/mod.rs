@@ -14,9 +14,14 @@ use std::time::{Duration, Instant};
 /// Arguments of `cargo xtask test`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
+    /// Stages to run; all when none is named.
+    stages: Vec<String>,
     /// Run only this stage; may be given several times.
     #[arg(long, value_name = "STAGE")]
     only: Vec<String>,
+    /// Print what the stage `attacks` saw as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
     /// Print the names of the stages and what each does.
     #[arg(long)]
     list: bool,
@@ -41,7 +46,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             .for_each(|stage| process::print(&format!("{:10} {}", stage.name, stage.does)));
         return Ok(());
     }
-    let outcomes: Vec<Outcome> = chosen(&arguments.only)?
+    let names: Vec<String> = arguments.stages.iter().chain(&arguments.only).cloned().collect();
+    if arguments.json {
+        if names != ["attacks"] {
+            bail!("--json is for one stage: cargo xtask test attacks --json");
+        }
+        return stages::attacks_as_json();
+    }
+    let outcomes: Vec<Outcome> = chosen(&names)?
         .into_iter()
         .map(|stage| run_one(stage, arguments.long))
         .collect();

@@ -18,7 +18,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 16] = [
+pub(super) const STAGES: [Stage; 17] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -53,6 +53,11 @@ pub(super) const STAGES: [Stage; 16] = [
         name: "tests",
         does: "unit and integration tests, C and Raku included",
         run: workspace_tests,
+    },
+    Stage {
+        name: "attacks",
+        does: "each line of the attack table, against a real server on real sockets",
+        run: attacks,
     },
     Stage {
         name: "doctests",
@@ -173,6 +178,32 @@ fn workspace_tests(_long: bool) -> Result {
         ]))
     };
     all([build, run].into_iter())
+}
+
+const ATTACKS: [&str; 7] = [
+    "test",
+    "--quiet",
+    "--locked",
+    "--package",
+    "panel-server",
+    "--test",
+    "attacks",
+];
+
+fn attacks(_long: bool) -> Result {
+    check(&mut cargo(&ATTACKS))
+}
+
+/// The same for programs: nothing but the table goes to the output.
+pub(super) fn attacks_as_json() -> anyhow::Result<()> {
+    let mut command = cargo(&ATTACKS);
+    command.args(["--", "--json"]);
+    let status = command.status()?;
+    anyhow::ensure!(
+        status.success(),
+        "some attacks came out otherwise than they should"
+    );
+    Ok(())
 }
 
 fn doctests(_long: bool) -> Result {

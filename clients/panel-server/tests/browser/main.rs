@@ -7,6 +7,7 @@
 
 mod browser;
 mod mixes;
+mod pairing;
 mod robot;
 mod schedules;
 #[path = "../stack/mod.rs"]
@@ -46,6 +47,13 @@ impl Visit {
     }
 
     async fn with(start: fn() -> Stack, screen: Screen) -> Option<Self> {
+        let visit = Self::at_the_door(start, screen).await?;
+        visit.browser.until_state(&["idle", "docked"]).await;
+        Some(visit)
+    }
+
+    /// Without waiting for a robot that may not be shown.
+    async fn at_the_door(start: fn() -> Stack, screen: Screen) -> Option<Self> {
         if std::env::var_os("RVAC_BROWSER_TESTS").is_none() {
             println!("skipped: RVAC_BROWSER_TESTS is not set");
             return None;
@@ -53,7 +61,6 @@ impl Visit {
         let turn = ONE_AT_A_TIME.lock().await;
         let stack = start();
         let browser = Browser::open(&stack, screen).await;
-        browser.until_state(&["idle", "docked"]).await;
         Some(Self {
             browser,
             stack,

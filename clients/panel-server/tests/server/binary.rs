@@ -39,7 +39,7 @@ fn the_network_is_refused_with_code_2() {
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(
-        text.contains("no authentication") && text.contains("--allow-network"),
+        text.contains("could drive the robot") && text.contains("--state"),
         "{text}"
     );
 }

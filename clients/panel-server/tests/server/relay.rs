@@ -1,7 +1,7 @@
 //! What passes between browsers and vthal, over real sockets.
 
 use crate::rig::{Folder, Rig, settings};
-use panel_server::{NetworkAccess, Server, StartError};
+use panel_server::{Guard, Server, StartError};
 use tokio::net::UnixListener;
 
 #[tokio::test]
@@ -132,11 +132,16 @@ async fn refusals_to_start_name_the_remedy() {
     open.address.set_ip([0, 0, 0, 0].into());
     let error = Server::bind(open.clone()).await.unwrap_err();
     assert!(
-        matches!(error, StartError::BeyondLoopback(_)) && error.to_string().contains("--allow-network"),
+        matches!(error, StartError::BeyondLoopback(_)) && error.to_string().contains("--state"),
         "{error}"
     );
-    open.network = NetworkAccess::Everyone;
-    Server::bind(open).await.unwrap();
+    open.guard = Some(Guard {
+        state: folder.0.join("state"),
+        console: None,
+        page_port: None,
+    });
+    let server = Server::bind(open).await.unwrap();
+    assert!(server.url().starts_with("https://"), "{}", server.url());
 
     let first = Server::bind(settings(&folder.0)).await.unwrap();
     let mut same = settings(&folder.0);

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use futures_util::{SinkExt, StreamExt};
-use panel_server::{NetworkAccess, Server, Settings};
+use panel_server::{Server, Settings};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpStream, UnixListener, UnixStream};
 use tokio::time::timeout;
@@ -53,7 +53,7 @@ pub(crate) fn settings(folder: &Path) -> Settings {
         vthal: folder.join("vthal.sock"),
         simulator: None,
         address: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
-        network: NetworkAccess::LoopbackOnly,
+        guard: None,
         assets: folder.to_owned(),
         host_names: vec!["robot.local".to_owned()],
     }

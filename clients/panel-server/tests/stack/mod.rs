@@ -4,6 +4,7 @@
     reason = "each set of tests that shares this uses another part of it"
 )]
 
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
@@ -108,7 +109,37 @@ impl Stack {
         Self::new(Home::Unknown, Some(Path::new(&firmware)), &packed_panel())
     }
 
+    /// In a home that the robot does not know, with a server that only paired devices may use.
+    pub(crate) fn start_guarded() -> Self {
+        let mut stack = Self::without_server(Home::Unknown, None);
+        let state = stack.folder.join("panel");
+        stack.start_server(&packed_panel(), &["--state".as_ref(), state.as_os_str()]);
+        stack
+    }
+
+    /// What `rvac` says at the console of that server.
+    pub(crate) fn console(&self, words: &[&str]) -> String {
+        let mut command = Command::new(binary("rvac"));
+        command
+            .args(words)
+            .arg("--console")
+            .arg(self.folder.join("panel/console.sock"));
+        let output = command.output().unwrap();
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        String::from_utf8(output.stdout).unwrap()
+    }
+
     fn new(home: Home, firmware: Option<&Path>, panel: &Path) -> Self {
+        let mut stack = Self::without_server(home, firmware);
+        stack.start_server(panel, &[]);
+        stack
+    }
+
+    fn without_server(home: Home, firmware: Option<&Path>) -> Self {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
@@ -126,7 +157,6 @@ impl Stack {
         }
         stack.start_simulator(firmware);
         stack.start_vthal();
-        stack.start_server(panel);
         stack
     }
 
@@ -200,9 +230,9 @@ impl Stack {
         self.processes.push(Process::start(&mut command).0);
     }
 
-    fn start_server(&mut self, panel: &Path) {
+    fn start_server(&mut self, panel: &Path, more: &[&OsStr]) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
-        command.args(["--port", "0", "--assets"]).arg(panel);
+        command.args(["--port", "0", "--assets"]).arg(panel).args(more);
         command.arg("--vthal").arg(self.daemon_socket());
         command.arg("--simulator").arg(self.simulator_socket());
         let (process, line) = Process::start(&mut command);

@@ -1,0 +1,37 @@
+//! Who is let in to a robot, by what proof, and what each may do. No I/O, no clock, no randomness of its own.
+//!
+//! Words used here. A *client* is a browser, a program or a person's phone that was let in once; its *token* is what it shows
+//! from then on, and its *role* says what it may do. The *register* lists the clients. The *window* is the short time in which
+//! a new one can be let in, opened by a person; its *code* has eight digits. *Guest* and *host* are the two ends of the
+//! exchange that proves the code without showing it. The *door* is register, window and counters together.
+//!
+//! What changes must be on the disk before anybody is answered: the caller writes [`Door::stored`] after each change.
+#![forbid(unsafe_code)]
+
+mod code;
+pub mod console;
+mod door;
+mod exchange;
+mod hex;
+mod name;
+mod profile;
+mod register;
+mod rights;
+mod robot_id;
+mod role;
+mod stored;
+mod token;
+mod window;
+pub mod wire;
+
+pub use code::{Code, CodeError};
+pub use door::{Door, Moment, Refusal};
+pub use exchange::{Ends, ExchangeError, Guest, Waiting};
+pub use name::{DeviceName, NameError};
+pub use register::{CLIENTS_MAX, Paired, Register, Wanted};
+pub use rights::{Denied, Method, Need, ROUTES, Route, VERBS, checked_request, need_of};
+pub use robot_id::{RobotId, sha256};
+pub use role::{Role, UnknownRole};
+pub use stored::StoredError;
+pub use token::{Token, TokenId};
+pub use window::{ATTEMPTS_MAX, OPEN_US, REOPENING_US};

@@ -1,0 +1,201 @@
+//! Which role each request and each address needs: the one table that the server asks and that tests walk through.
+
+use rvac_api::Request;
+
+use crate::Role;
+
+/// Who may use something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// Anybody on the network.
+    Nobody,
+    /// A client of this role or a higher one.
+    Role(Role),
+}
+
+impl Need {
+    /// Whether a client of `role`, or nobody known, may.
+    #[must_use]
+    pub fn is_met_by(self, role: Option<Role>) -> bool {
+        match self {
+            Self::Nobody => true,
+            Self::Role(needed) => role.is_some_and(|role| role >= needed),
+        }
+    }
+}
+
+/// How an address is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Reading.
+    Get,
+    /// Changing.
+    Post,
+}
+
+/// An address of the server's interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Route {
+    /// How.
+    pub method: Method,
+    /// Where.
+    pub path: &'static str,
+    /// By whom.
+    pub need: Need,
+}
+
+/// Every address below `/api/`. The page and its files are for anybody: they hold no secret.
+#[rustfmt::skip]
+pub const ROUTES: [Route; 9] = [
+    Route { method: Method::Get,  path: "/api/pairing",        need: Need::Nobody },
+    Route { method: Method::Post, path: "/api/pairing/begin",  need: Need::Nobody },
+    Route { method: Method::Post, path: "/api/pairing/finish", need: Need::Nobody },
+    Route { method: Method::Get,  path: "/api/session",        need: Need::Role(Role::View) },
+    Route { method: Method::Get,  path: "/api/ws",             need: Need::Role(Role::View) },
+    Route { method: Method::Post, path: "/api/pairing/open",   need: Need::Role(Role::Admin) },
+    Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
+    Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },
+    Route { method: Method::Post, path: "/api/clients/role",   need: Need::Role(Role::Admin) },
+];
+
+/// What an address needs; one below `/api/` that is not in the table needs the highest role.
+#[must_use]
+pub fn need_of(path: &str) -> Need {
+    match ROUTES.iter().find(|route| route.path == path) {
+        Some(route) => route.need,
+        None if path.starts_with("/api/") => Need::Role(Role::Admin),
+        None => Need::Nobody,
+    }
+}
+
+/// Every request on the WebSocket, by its word in `c`.
+#[rustfmt::skip]
+pub const VERBS: [(&str, Role); 39] = [
+    ("hello",           Role::View),
+    ("watch",           Role::View),
+    ("estimate",        Role::View),
+    ("maps",            Role::View),
+    ("mixes",           Role::View),
+    ("runs",            Role::View),
+    ("run",             Role::View),
+    ("run-file",        Role::View),
+    ("stop",            Role::View),
+    ("start",           Role::Drive),
+    ("clean",           Role::Drive),
+    ("spot",            Role::Drive),
+    ("pause",           Role::Drive),
+    ("resume",          Role::Drive),
+    ("dock",            Role::Drive),
+    ("drive",           Role::Drive),
+    ("release",         Role::Drive),
+    ("locate",          Role::Drive),
+    ("clear",           Role::Drive),
+    ("run-schedule",    Role::Drive),
+    ("skip-next",       Role::Drive),
+    ("choose-floor",    Role::Drive),
+    ("add-no-go",       Role::Admin),
+    ("remove-no-go",    Role::Admin),
+    ("name-room",       Role::Admin),
+    ("restore-map",     Role::Admin),
+    ("new-floor",       Role::Admin),
+    ("name-floor",      Role::Admin),
+    ("remove-floor",    Role::Admin),
+    ("restore-floor",   Role::Admin),
+    ("save-mix",        Role::Admin),
+    ("remove-mix",      Role::Admin),
+    ("add-schedule",    Role::Admin),
+    ("change-schedule", Role::Admin),
+    ("remove-schedule", Role::Admin),
+    ("enable-schedule", Role::Admin),
+    ("set-quiet",       Role::Admin),
+    ("set-zone",        Role::Admin),
+    ("raw",             Role::Admin),
+];
+
+/// Why a request is not passed on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Denied {
+    /// It is none.
+    Unreadable,
+    /// The role is too low.
+    NotAllowed {
+        /// Number of the request.
+        id: Option<u32>,
+        /// What it needs.
+        needed: Role,
+    },
+}
+
+/// A request that `role` may make, written anew, so that the daemon reads what was judged here and nothing else.
+///
+/// # Errors
+/// See [`Denied`].
+pub fn checked_request(text: &str, role: Role) -> Result<String, Denied> {
+    let request: Request = serde_json::from_str(text).map_err(|_| Denied::Unreadable)?;
+    let value = serde_json::to_value(&request).map_err(|_| Denied::Unreadable)?;
+    let verb = value.get("c").and_then(|verb| verb.as_str()).unwrap_or_default();
+    let needed = role_for(verb);
+    if role < needed {
+        return Err(Denied::NotAllowed {
+            id: request.id,
+            needed,
+        });
+    }
+    Ok(value.to_string())
+}
+
+fn role_for(verb: &str) -> Role {
+    let row = VERBS.iter().find(|(known, _)| *known == verb);
+    row.map_or(Role::Admin, |(_, role)| *role)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Denied, Need, VERBS, checked_request, need_of};
+    use crate::Role;
+
+    /// The words of all requests, as the interface itself tells them.
+    fn words_of_the_interface() -> Vec<String> {
+        let error = serde_json::from_str::<rvac_api::Request>(r#"{"c":"no-such-word"}"#).unwrap_err();
+        let text = error.to_string();
+        let listed = text.split("expected one of ").nth(1).unwrap();
+        listed.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn every_request_stands_in_the_table_once() {
+        let mut listed: Vec<&str> = VERBS.iter().map(|(verb, _)| *verb).collect();
+        let mut words = words_of_the_interface();
+        listed.sort_unstable();
+        words.sort_unstable();
+        assert_eq!(
+            listed, words,
+            "give each request a role in VERBS of clients/pairing/src/rights.rs"
+        );
+    }
+
+    #[test]
+    fn what_is_not_in_the_table_is_for_administrators() {
+        assert_eq!(need_of("/api/new"), Need::Role(Role::Admin));
+        assert_eq!(need_of("/"), Need::Nobody);
+        assert_eq!(need_of("/api/pairing"), Need::Nobody);
+    }
+
+    #[test]
+    fn a_request_is_written_anew() {
+        assert_eq!(
+            checked_request(r#"{ "id":7, "c":"stop", "extra":1 }"#, Role::View).as_deref(),
+            Ok(r#"{"c":"stop","id":7}"#)
+        );
+        assert_eq!(
+            checked_request(r#"{"id":7,"c":"start"}"#, Role::View),
+            Err(Denied::NotAllowed {
+                id: Some(7),
+                needed: Role::Drive
+            })
+        );
+        for hidden in [r#"{"c":"stop","c":"start"}"#, "[]", "", r#"{"c":"fly"}"#] {
+            assert!(checked_request(hidden, Role::View).is_err(), "{hidden}");
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! A server that knows its clients: who asks, who may be let in, and what of it lies on the disk.
+
+mod console;
+mod cookie;
+mod nonces;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use axum::http::HeaderMap;
+use pairing::wire::{Begin, Begun, Finish, Finished, OpenWindow, Opened};
+use pairing::{Door, Moment, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted};
+use tokio::sync::{broadcast, watch};
+use tracing::{info, warn};
+
+pub(crate) use console::{listen as listen_console, refused, serve_console};
+pub(crate) use cookie::set_cookie;
+use nonces::Nonces;
+
+/// Notices that wait for a slow relay; a home sees a few in a year.
+const NOTICES_MAX: usize = 16;
+
+/// Why the clients cannot be known.
+#[derive(Debug, thiserror::Error)]
+pub enum ClientsError {
+    /// The file cannot be read or written.
+    #[error("cannot keep the list of devices in {path}: {source}; choose another folder with --state")]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file is damaged.
+    #[error(
+        "{path} does not hold a list of devices ({source}): put back a copy of it, or remove it, after which devices must pair anew"
+    )]
+    Damaged {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: StoredError,
+    },
+    /// There is no randomness.
+    #[error("the system gives no random numbers: {0}; nothing can be kept secret without")]
+    Random(#[from] getrandom::Error),
+}
+
+/// Why a change was not made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NotDone {
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    #[error("The robot cannot write its list of devices: {0}.")]
+    Disk(io::Error),
+    #[error("The robot's system gives no random numbers: {0}.")]
+    Random(#[from] getrandom::Error),
+}
+
+/// Somebody known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Known {
+    pub(crate) id: TokenId,
+    pub(crate) role: Role,
+}
+
+/// A new device, as it is told to everybody.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Newcomer {
+    pub(crate) name: String,
+    pub(crate) role: Role,
+    pub(crate) from: String,
+}
+
+/// The clients of one robot.
+#[derive(Debug)]
+pub(crate) struct Guarded {
+    path: PathBuf,
+    began: Instant,
+    door: tokio::sync::Mutex<Door>,
+    register: watch::Sender<Register>,
+    notices: broadcast::Sender<Newcomer>,
+    nonces: Mutex<Nonces>,
+}
+
+impl Guarded {
+    /// The clients as they are kept at `path`.
+    pub(crate) fn at(path: &Path, robot: RobotId) -> Result<Self, ClientsError> {
+        let stored = crate::identity::kept_text(path).map_err(|source| ClientsError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        let door = Door::new(0, robot, stored.as_deref()).map_err(|source| ClientsError::Damaged {
+            path: path.to_owned(),
+            source,
+        })?;
+        random::<8>()?;
+        Ok(Self {
+            path: path.to_owned(),
+            began: Instant::now(),
+            register: watch::Sender::new(door.register().clone()),
+            door: tokio::sync::Mutex::new(door),
+            notices: broadcast::Sender::new(NOTICES_MAX),
+            nonces: Mutex::default(),
+        })
+    }
+
+    /// Who sends these headers, as far as the token in them is right.
+    pub(crate) fn identify(&self, headers: &HeaderMap) -> Option<Known> {
+        let token = cookie::token_of(headers)?;
+        let register = self.register.borrow();
+        let client = register.admit(&token)?;
+        Some(Known {
+            id: client.id,
+            role: client.role,
+        })
+    }
+
+    /// The clients, now and whenever they change.
+    pub(crate) fn watch(&self) -> watch::Receiver<Register> {
+        self.register.subscribe()
+    }
+
+    /// Everybody who is let in from now on.
+    pub(crate) fn notices(&self) -> broadcast::Receiver<Newcomer> {
+        self.notices.subscribe()
+    }
+
+    /// A word that opens one WebSocket of this client.
+    pub(crate) fn nonce(&self, id: TokenId) -> Result<String, NotDone> {
+        let random = random()?;
+        Ok(self.nonces().make(self.now_us(), id, &random))
+    }
+
+    /// Whether the word was this client's; it is none any more.
+    pub(crate) fn take_nonce(&self, id: TokenId, nonce: &str) -> bool {
+        self.nonces().take(self.now_us(), id, nonce)
+    }
+
+    fn nonces(&self) -> std::sync::MutexGuard<'_, Nonces> {
+        self.nonces.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether somebody can be let in, and the robot's number.
+    pub(crate) async fn invitation(&self) -> pairing::wire::Invitation {
+        let door = self.door.lock().await;
+        pairing::wire::Invitation {
+            open: door.is_open(self.now_us()),
+            robot: door.robot().full().to_owned(),
+        }
+    }
+
+    pub(crate) async fn open(&self, wanted: OpenWindow) -> Result<Opened, NotDone> {
+        let random = random()?;
+        let opened = self
+            .change(|door, now_us| door.open(now_us, wanted.role, random))
+            .await?;
+        info!(role = %wanted.role, "a window for a new device is open");
+        Ok(opened)
+    }
+
+    pub(crate) async fn begin(&self, begin: Begin) -> Result<Begun, NotDone> {
+        let random = random()?;
+        self.change(|door, now_us| door.begin(now_us, begin, &random))
+            .await
+    }
+
+    pub(crate) async fn finish(&self, finish: &Finish, from: &str) -> Result<(Finished, Token), NotDone> {
+        let random = random()?;
+        let outcome = self
+            .change(|door, now_us| {
+                let unix_s = unix_s();
+                door.finish(Moment { now_us, unix_s }, finish, &random)
+            })
+            .await;
+        match &outcome {
+            Ok((_, token)) => self.tell(token.id(), from),
+            Err(error) => warn!(%error, from, "a device was not let in"),
+        }
+        outcome
+    }
+
+    pub(crate) async fn add(&self, wanted: Wanted) -> Result<Token, NotDone> {
+        let random = random()?;
+        let token = self.change(|door, _| door.add(unix_s(), wanted, &random)).await?;
+        self.tell(token.id(), "console");
+        Ok(token)
+    }
+
+    pub(crate) async fn revoke(&self, id: TokenId) -> Result<(), NotDone> {
+        self.change(|door, _| door.revoke(id)).await?;
+        info!(%id, "a device was shut out");
+        Ok(())
+    }
+
+    pub(crate) async fn set_role(&self, id: TokenId, role: Role) -> Result<(), NotDone> {
+        self.change(|door, _| door.set_role(id, role)).await?;
+        info!(%id, %role, "a device has another role");
+        Ok(())
+    }
+
+    /// Tells everybody who was let in.
+    fn tell(&self, id: TokenId, from: &str) {
+        let register = self.register.borrow();
+        let Some(client) = register.get(id) else { return };
+        info!(%id, name = %client.name, role = %client.role, from, "a device was let in");
+        // Nobody may be connected, who could be told.
+        self.notices
+            .send(Newcomer {
+                name: client.name.to_string(),
+                role: client.role,
+                from: from.to_owned(),
+            })
+            .ok();
+    }
+
+    /// Changes the door and writes what changed before anybody hears of it, also after a refusal: attempts are counted so.
+    async fn change<T>(&self, act: impl FnOnce(&mut Door, u64) -> Result<T, Refusal>) -> Result<T, NotDone> {
+        let mut door = self.door.lock().await;
+        let now_us = self.now_us();
+        let before = door.stored();
+        let outcome = act(&mut door, now_us);
+        let after = door.stored();
+        if after != before
+            && let Err(error) = self.write(after).await
+        {
+            let robot = door.robot().clone();
+            if let Ok(unchanged) = Door::new(now_us, robot, Some(&before)) {
+                *door = unchanged;
+            }
+            return Err(NotDone::Disk(error));
+        }
+        self.register.send_replace(door.register().clone());
+        Ok(outcome?)
+    }
+
+    async fn write(&self, text: String) -> io::Result<()> {
+        let path = self.path.clone();
+        tokio::task::spawn_blocking(move || kept_file::replace_secret(&path, text.as_bytes()))
+            .await
+            .map_err(io::Error::other)?
+    }
+
+    fn now_us(&self) -> u64 {
+        u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX)
+    }
+}
+
+/// Random bytes of the system.
+fn random<const N: usize>() -> Result<[u8; N], getrandom::Error> {
+    let mut bytes = [0; N];
+    getrandom::fill(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The time as far as the system knows it.
+pub(crate) fn unix_s() -> u64 {
+    std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(0, |since| since.as_secs())
+}

@@ -1,0 +1,120 @@
+//! What a paired client may do on its WebSocket, as long as it is paired.
+
+use std::sync::Arc;
+
+use pairing::wire::Greeting;
+use pairing::{Denied, Register, Role, checked_request};
+use tokio::sync::{broadcast, watch};
+
+use crate::api::may;
+use crate::courtesy::refused;
+use crate::gate::Gate;
+use crate::guarded::{Known, Newcomer};
+
+/// The pass of one client on one connection.
+#[derive(Debug)]
+pub(crate) struct Pass {
+    gate: Arc<Gate>,
+    known: Known,
+    register: watch::Receiver<Register>,
+    notices: broadcast::Receiver<Newcomer>,
+    greeted: bool,
+}
+
+/// What happens to a pass from outside.
+#[derive(Debug)]
+pub(crate) enum Change {
+    /// The client was shut out.
+    Revoked,
+    /// Somebody else was let in.
+    Newcomer(Newcomer),
+}
+
+/// What to do with a message of the browser.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Judged {
+    /// It was the word that opens the connection.
+    Greeted,
+    /// The daemon shall hear this.
+    PassOn(String),
+    /// The browser shall hear this.
+    Answer(String),
+    /// The connection was never opened rightly.
+    Stranger,
+}
+
+impl Pass {
+    pub(crate) fn new(gate: Arc<Gate>, known: Known) -> Self {
+        Self {
+            register: gate.guarded.watch(),
+            notices: gate.guarded.notices(),
+            gate,
+            known,
+            greeted: false,
+        }
+    }
+
+    /// Waits for the next change that concerns this client.
+    pub(crate) async fn changed(&mut self) -> Change {
+        loop {
+            if !self.renew() {
+                return Change::Revoked;
+            }
+            tokio::select! {
+                gone = self.register.changed() => if gone.is_err() { return Change::Revoked },
+                Ok(newcomer) = self.notices.recv() => return Change::Newcomer(newcomer),
+            }
+        }
+    }
+
+    /// Whether the client is still paired; takes over its present role.
+    fn renew(&mut self) -> bool {
+        let role = self
+            .register
+            .borrow_and_update()
+            .get(self.known.id)
+            .map(|client| client.role);
+        role.map(|role| self.known.role = role).is_some()
+    }
+
+    /// Judges a message of the browser by the role of this moment.
+    pub(crate) fn judge(&mut self, text: &str) -> Judged {
+        if !self.renew() {
+            return Judged::Stranger;
+        }
+        if !self.greeted {
+            return self.greet(text);
+        }
+        match checked_request(text, self.known.role) {
+            Ok(request) => Judged::PassOn(request),
+            Err(Denied::Unreadable) => Judged::Answer(refused(
+                text,
+                "syntax",
+                "The request could not be read: reload the page, or update the software.",
+            )),
+            Err(Denied::NotAllowed { needed, .. }) => Judged::Answer(refused(
+                text,
+                "not-allowed",
+                &not_allowed(self.known.role, needed),
+            )),
+        }
+    }
+
+    fn greet(&mut self, text: &str) -> Judged {
+        let greeting: Option<Greeting> = serde_json::from_str(text).ok();
+        self.greeted =
+            greeting.is_some_and(|greeting| self.gate.guarded.take_nonce(self.known.id, &greeting.nonce));
+        if self.greeted {
+            Judged::Greeted
+        } else {
+            Judged::Stranger
+        }
+    }
+}
+
+fn not_allowed(role: Role, needed: Role) -> String {
+    format!(
+        "This device may only {}; that needs the role {needed}, which an administrator can give it.",
+        may(role)
+    )
+}

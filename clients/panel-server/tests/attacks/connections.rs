@@ -1,0 +1,102 @@
+//! A18: too many connections, too much in one, and too slow ones, while somebody else is served.
+
+use futures_util::SinkExt as _;
+use pairing::Role;
+use tokio::io::AsyncWriteExt as _;
+use tokio::net::TcpStream;
+use tokio_tungstenite::tungstenite::Message;
+
+use crate::report::Report;
+use crate::rig::{Rig, read_all};
+
+/// Twice as many as all connections that are served at one time.
+const CROWD: usize = 256;
+
+pub(crate) async fn try_all(report: &mut Report) {
+    let rig = Rig::start().await;
+    let cookie = rig.pair(Role::Drive).await;
+    for _ in 0..2 {
+        rig.daemon().await;
+    }
+    too_much(&rig, &cookie, report).await;
+    flood(&rig, &cookie, report).await;
+    crowd(&rig, &cookie, report).await;
+}
+
+async fn too_much(rig: &Rig, cookie: &str, report: &mut Report) {
+    let host = rig.host();
+    let head = format!(
+        "GET / HTTP/1.1\r\nHost: {host}\r\nX-Padding: {}\r\n\r\n",
+        "x".repeat(64 << 10)
+    );
+    let status = rig.raw(&head).await.status;
+    let seen = if matches!(status, 0 | 431) {
+        "refused"
+    } else {
+        "taken"
+    };
+    report.row(("A18", "a head of 64 KiB"), "refused", seen);
+    let body = format!(r#"{{"name":"{}"}}"#, "x".repeat(1 << 20));
+    let answer = rig.ask(("POST", "/api/pairing/begin"), "", &body).await;
+    let seen = if matches!(answer.status, 0 | 400 | 413) {
+        "refused"
+    } else {
+        "taken"
+    };
+    report.row(("A18", "a body of 1 MiB"), "refused", seen);
+    let mut socket = rig.socket(cookie).await;
+    let mut daemon = rig.daemon().await;
+    socket
+        .say(&format!(r#"{{"c":"hello","name":"{}"}}"#, "x".repeat(1 << 20)))
+        .await;
+    let heard = daemon.hear().await.is_some();
+    report.row(
+        ("A18", "a message of 1 MiB reaches the daemon"),
+        "false",
+        heard.to_string(),
+    );
+}
+
+async fn flood(rig: &Rig, cookie: &str, report: &mut Report) {
+    let mut socket = rig.socket(cookie).await;
+    let mut daemon = rig.daemon().await;
+    for _ in 0..190 {
+        socket.say(r#"{"c":"maps"}"#).await;
+    }
+    for _ in 0..30 {
+        socket.say(r#"{"c":"stop"}"#).await;
+    }
+    let mut stops = 0;
+    for _ in 0..220 {
+        stops += u32::from(daemon.hear().await.is_some_and(|text| text.contains("stop")));
+    }
+    report.row(("A18", "Stop behind a flood, 30 times"), "30", stops.to_string());
+    let mut said = 0;
+    while said < 10_000 && socket.0.send(Message::text(r#"{"c":"maps"}"#)).await.is_ok() {
+        said += 1;
+    }
+    let seen = if said < 10_000 { "ended" } else { "goes on" };
+    report.row(("A18", "a flood of requests"), "ended", seen);
+}
+
+async fn crowd(rig: &Rig, cookie: &str, report: &mut Report) {
+    let mut slow = Vec::new();
+    for _ in 0..CROWD {
+        let mut stream = TcpStream::connect(rig.address).await.unwrap();
+        stream.write_all(b"\x16\x03\x01").await.ok(); // It may be closed already.
+        slow.push(stream);
+    }
+    // The ones for whom there is no room are closed at once, the others when they have been too slow.
+    let mut closed = 0;
+    for mut stream in slow {
+        read_all(&mut stream).await;
+        closed += 1;
+    }
+    report.row(
+        ("A18", "connections that say nothing"),
+        format!("{CROWD} closed"),
+        format!("{closed} closed"),
+    );
+    let status = rig.get("/api/session", cookie).await.status;
+    report.row(("A18", "the owner afterwards"), "200", status.to_string());
+}

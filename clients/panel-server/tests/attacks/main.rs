@@ -1,0 +1,53 @@
+//! The attack table: each line is tried against a real server over real sockets. Prints attack, expected and seen, and at
+//! the end how many there were and how many came out otherwise; `--json` for programs.
+#![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
+
+mod connections;
+mod entrance;
+mod pages;
+mod report;
+#[path = "../gate/rig.rs"]
+mod rig;
+mod roles;
+mod tokens;
+mod transport;
+
+use std::process::ExitCode;
+
+use report::Report;
+
+#[tokio::main(flavor = "current_thread")]
+async fn main() -> ExitCode {
+    // A test runner that asks for single tests finds none.
+    if std::env::args().any(|argument| argument == "--list") {
+        return ExitCode::SUCCESS;
+    }
+    let mut report = Report::default();
+    roles::try_all(&mut report).await;
+    entrance::try_all(&mut report).await;
+    pages::try_all(&mut report).await;
+    tokens::try_all(&mut report).await;
+    connections::try_all(&mut report).await;
+    transport::try_all(&mut report).await;
+    report.elsewhere(
+        "A4: 100,000 guesses on a virtual clock, and A5: 500 races (clients/pairing/tests/door.rs)",
+    );
+    report.elsewhere("A20: a name with HTML is text in Chromium (panel-server's browser test of pairing)");
+    report.elsewhere(
+        "A16: a second driver (vthal-core's tests); A17: a lost driver (vthal-core's and the browser tests)",
+    );
+    report.elsewhere(
+        "A23, A24: misuse of the authority, clocks that are wrong (panel-server's tests of identity)",
+    );
+    report.not_there_yet("A8 to A12 from real pages in a browser: here only what a browser would send");
+    report.not_there_yet("A26: updates of firmware and daemon");
+    report.not_there_yet("A27: MQTT");
+    report.not_there_yet("A28: recovery by buttons");
+    let wants_json = std::env::args().any(|argument| argument == "--json");
+    println!("{}", if wants_json { report.json() } else { report.text() });
+    if report.is_good() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}

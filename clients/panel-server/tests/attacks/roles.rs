@@ -1,0 +1,150 @@
+//! A1, A2: who has no token, and who has one of a role that is too low.
+
+use pairing::{Method, Need, ROUTES, Role, VERBS};
+
+use crate::report::Report;
+use crate::rig::{Answer, Rig};
+
+pub(crate) async fn try_all(report: &mut Report) {
+    let rig = Rig::start().await;
+    nobody(&rig, report).await;
+    for role in Role::ALL {
+        let cookie = rig.pair(role).await;
+        // The robot beeped at the opening and at the success.
+        for _ in 0..2 {
+            rig.daemon().await;
+        }
+        addresses(&rig, role, &cookie, report).await;
+        verbs(&rig, role, &cookie, report).await;
+    }
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::Get => "GET",
+        Method::Post => "POST",
+    }
+}
+
+async fn nobody(rig: &Rig, report: &mut Report) {
+    let false_token = format!("__Host-rvac={}.{}", "0".repeat(16), "0".repeat(64));
+    let unknown = [(Method::Get, "/api/unknown"), (Method::Post, "/api/pairing/x")];
+    let known = ROUTES.iter().filter(|route| route.need != Need::Nobody);
+    let all = known.map(|route| (route.method, route.path)).chain(unknown);
+    for (how, path) in all {
+        for (who, cookie) in [("no token", ""), ("a false token", false_token.as_str())] {
+            let seen = call(rig, method(how), path, cookie).await.status;
+            report.row(
+                ("A1", format!("{who}: {} {path}", method(how))),
+                "401",
+                seen.to_string(),
+            );
+        }
+    }
+    for path in ["/", "/robot.crt", "/api/pairing"] {
+        let seen = call(rig, "GET", path, "").await.status;
+        report.row(
+            ("A1", format!("what is for everybody: GET {path}")),
+            "200",
+            seen.to_string(),
+        );
+    }
+}
+
+async fn call(rig: &Rig, method: &str, path: &str, cookie: &str) -> Answer {
+    if path == "/api/ws" {
+        let (host, origin) = (rig.host(), rig.origin());
+        return rig
+            .raw(&format!(
+                "GET /api/ws HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nConnection: close, Upgrade\r\nUpgrade: websocket\r\n\
+                 Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nCookie: {cookie}\r\n\r\n"
+            ))
+            .await;
+    }
+    let cookie = if cookie.is_empty() {
+        String::new()
+    } else {
+        format!("Cookie: {cookie}\r\n")
+    };
+    let body = if method == "POST" { "{}" } else { "" };
+    rig.ask((method, path), &cookie, body).await
+}
+
+/// Every address, with a body that means nothing: whoever may gets as far as that.
+async fn addresses(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
+    for route in ROUTES.iter().filter(|route| route.path != "/api/ws") {
+        let answer = call(rig, method(route.method), route.path, cookie).await;
+        let seen = if answer.body.contains("not-allowed") {
+            "403"
+        } else {
+            "heard"
+        };
+        let expected = if route.need.is_met_by(Some(role)) {
+            "heard"
+        } else {
+            "403"
+        };
+        report.row(
+            ("A2", format!("{role}: {} {}", method(route.method), route.path)),
+            expected,
+            seen,
+        );
+    }
+}
+
+/// Every request, each followed by one that everybody may make: either the daemon hears it or it does not.
+async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
+    let mut socket = rig.socket(cookie).await;
+    let mut daemon = rig.daemon().await;
+    for (verb, needed) in VERBS {
+        let arguments = arguments_of(verb);
+        socket
+            .say(&format!(r#"{{"id":1,"c":"{verb}"{arguments}}}"#))
+            .await;
+        socket.say(r#"{"id":2,"c":"maps"}"#).await;
+        let first = daemon.hear().await.unwrap_or_default();
+        let heard = first.contains(&format!(r#""c":"{verb}""#)) && first.contains(r#""id":1"#);
+        if heard {
+            daemon.hear().await;
+        }
+        let expected = if role >= needed {
+            "the daemon hears it"
+        } else {
+            "nobody hears it"
+        };
+        let seen = if heard {
+            "the daemon hears it"
+        } else {
+            "nobody hears it"
+        };
+        report.row(("A2", format!("{role}: {verb}")), expected, seen);
+    }
+}
+
+/// What each request must say besides.
+fn arguments_of(verb: &str) -> &'static str {
+    match verb {
+        "hello" => r#","name":"x""#,
+        "watch" => r#","topics":[]"#,
+        "clean" | "estimate" => r#","parts":[]"#,
+        "drive" => r#","v":0.1,"w":0.0,"ttl":250"#,
+        "clear" => r#","reason":"x""#,
+        "add-no-go" => r#","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
+        "name-room" => r#","room":1,"name":"x""#,
+        "remove-no-go" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => r#","number":1"#,
+        "run-file" => r#","number":1,"from":0"#,
+        "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,
+        "save-mix" => r#","profile":"{}""#,
+        "remove-mix" => r#","name":"x""#,
+        "enable-schedule" => r#","number":1,"enabled":true"#,
+        "skip-next" => r#","number":1,"skip":true"#,
+        "add-schedule" => {
+            r#","name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
+        }
+        "change-schedule" => {
+            r#","number":1,"name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
+        }
+        "raw" => r#","packet":"{}""#,
+        _ => "",
+    }
+}

@@ -1,0 +1,118 @@
+//! Pairing in the page: a stranger's device, a wrong code, the right one, what its role allows, and the end.
+
+use crate::Visit;
+use crate::browser::{Browser, Screen};
+use crate::stack::Stack;
+
+/// Types into a field, as far as the page can tell.
+async fn fill(browser: &Browser, id: &str, text: &str) {
+    let typed = format!(
+        "const field = document.getElementById('{id}'); field.value = {text:?}; \
+         field.dispatchEvent(new Event('input', {{bubbles: true}})); return ''"
+    );
+    browser.text(&typed).await;
+}
+
+/// The code of a window that is opened at the console.
+fn open(stack: &Stack, role: &str) -> String {
+    let said = stack.console(&["pair", "--role", role]);
+    let code = said.lines().find_map(|line| line.strip_prefix("Code: "));
+    code.expect("a code").to_owned()
+}
+
+/// The number of the only device.
+fn number(stack: &Stack) -> String {
+    let listed = stack.console(&["clients"]);
+    listed.split_whitespace().next().expect("a device").to_owned()
+}
+
+async fn pair(browser: &Browser, code: &str) {
+    fill(browser, "pair-code", code).await;
+    browser.click("#pair-now").await;
+}
+
+/// What is no code, a code without a window, and a wrong one; gives the right one.
+async fn try_in_vain(browser: &Browser, stack: &Stack) -> String {
+    fill(browser, "pair-name", "Mari's phone").await;
+    let wrong = "return document.getElementById('pair-wrong').textContent";
+    pair(browser, "1234").await;
+    browser.until(&format!("{wrong}.includes('eight digits')")).await;
+    pair(browser, "12345678").await;
+    browser
+        .until(&format!("{wrong}.includes('Nobody can be let in now')"))
+        .await;
+    let code = open(stack, "drive");
+    let other = if code.starts_with('0') {
+        "11111111"
+    } else {
+        "00000000"
+    };
+    pair(browser, other).await;
+    browser
+        .until(&format!(
+            "{wrong}.includes('The code is wrong; 4 more attempts.')"
+        ))
+        .await;
+    browser.shot("phone-pair-wrong").await;
+    code
+}
+
+#[tokio::test]
+async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
+    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone).await else {
+        return;
+    };
+    let (browser, stack) = (&visit.browser, &visit.stack);
+    browser
+        .until("return document.getElementById('pair') !== null")
+        .await;
+    browser.shot("phone-pair").await;
+    let code = try_in_vain(browser, stack).await;
+    pair(browser, &code).await;
+    browser.until_state(&["idle", "docked"]).await;
+    assert_eq!(
+        browser.text("return document.cookie").await,
+        "",
+        "no script can read the token"
+    );
+    browser.click("#start").await;
+    browser.until_state(&["cleaning"]).await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.click("#tab-device").await;
+    assert_eq!(
+        browser
+            .text("return document.getElementById('devices') === null")
+            .await,
+        "true",
+        "only administrators see the devices"
+    );
+
+    let number = number(stack);
+    stack.console(&["clients", "role", &number, "admin"]);
+    browser.reload().await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.click("#tab-device").await;
+    browser
+        .until("return document.querySelectorAll('#devices li').length === 1")
+        .await;
+    browser.click("#add-device").await;
+    browser
+        .until("return /Type [0-9]{4} [0-9]{4} on/.test(document.getElementById('pairing-code').textContent)")
+        .await;
+    browser.shot("phone-devices").await;
+    stack.console(&["clients", "add", "<b>script</b>", "--role", "view"]);
+    browser
+        .until("return document.getElementById('newcomer')?.textContent.includes('<b>script</b>')")
+        .await;
+    browser
+        .until("return document.querySelectorAll('#devices li').length === 2")
+        .await;
+    let wide = "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
+    assert_eq!(browser.text(wide).await, "0", "the page is wider than the phone");
+
+    stack.console(&["clients", "revoke", &number]);
+    browser
+        .until("return document.getElementById('pair') !== null")
+        .await;
+}

@@ -1,0 +1,352 @@
+//! A guarded server on a free port, spoken to over TLS by clients that trust its authority and by some that do not.
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+
+use futures_util::{SinkExt as _, StreamExt as _};
+use pairing::console::{Order, Reply, Trust};
+use pairing::wire::{Begin, Begun, Finish, Session};
+use pairing::{Code, DeviceName, Ends, Guest, Role};
+use panel_server::{Guard, Server, Settings};
+use rustls::pki_types::pem::PemObject as _;
+use rustls::pki_types::{CertificateDer, ServerName};
+use rustls::{ClientConfig, RootCertStore};
+use serde::Serialize;
+use tokio::io::{AsyncBufReadExt as _, AsyncReadExt as _, AsyncWriteExt as _, BufReader};
+use tokio::net::{TcpStream, UnixListener, UnixStream};
+use tokio::time::timeout;
+use tokio_rustls::TlsConnector;
+use tokio_rustls::client::TlsStream;
+use tokio_tungstenite::WebSocketStream;
+use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
+
+/// Whatever is awaited comes within this time or the test fails.
+pub(crate) const DEADLINE: Duration = Duration::from_secs(20);
+
+static FOLDERS: AtomicU32 = AtomicU32::new(0);
+
+/// What a request was answered.
+#[derive(Clone, Debug)]
+pub(crate) struct Answer {
+    pub(crate) status: u16,
+    pub(crate) head: String,
+    pub(crate) body: String,
+}
+
+impl Answer {
+    fn parse(text: &str) -> Self {
+        let (head, body) = text.split_once("\r\n\r\n").unwrap_or((text, ""));
+        let status = head
+            .get(9..12)
+            .and_then(|status| status.parse().ok())
+            .unwrap_or(0);
+        Self {
+            status,
+            head: head.to_ascii_lowercase(),
+            body: body.to_owned(),
+        }
+    }
+
+    /// The cookie that a browser would keep.
+    pub(crate) fn cookie(&self) -> Option<String> {
+        let line = self
+            .head
+            .lines()
+            .find_map(|line| line.strip_prefix("set-cookie: "))?;
+        let (pair, _) = line.split_once(';')?;
+        Some(pair.replace("__host-rvac", "__Host-rvac"))
+    }
+}
+
+/// A server with its folder; `vthal` is where the daemon would be.
+#[derive(Debug)]
+pub(crate) struct Rig {
+    pub(crate) folder: PathBuf,
+    pub(crate) address: SocketAddr,
+    pub(crate) page: SocketAddr,
+    pub(crate) vthal: UnixListener,
+    pub(crate) trust: Trust,
+    server: tokio::task::JoinHandle<()>,
+}
+
+impl Drop for Rig {
+    fn drop(&mut self) {
+        self.server.abort();
+        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder hurts nobody.
+    }
+}
+
+impl Rig {
+    pub(crate) async fn start() -> Self {
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let folder = std::env::temp_dir().join(format!("panel-gate-{}-{number}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("index.html"), "<!doctype html><title>x</title>").unwrap();
+        let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
+        let (server, address, page) = serve(&folder).await;
+        let trust = match console(&folder, &Order::Trust).await {
+            Reply::Trust(trust) => trust,
+            other => panic!("{other:?}"),
+        };
+        Self {
+            folder,
+            address,
+            page,
+            vthal,
+            trust,
+            server,
+        }
+    }
+
+    /// The server is killed and started again on what it has written.
+    pub(crate) async fn restart(&mut self) {
+        self.server.abort();
+        (&mut self.server).await.ok();
+        (self.server, self.address, self.page) = serve(&self.folder).await;
+    }
+
+    /// As it stands in `Host`.
+    pub(crate) fn host(&self) -> String {
+        format!("{}:{}", self.trust.host_name, self.address.port())
+    }
+
+    pub(crate) fn origin(&self) -> String {
+        format!("https://{}", self.host())
+    }
+
+    pub(crate) async fn console(&self, order: &Order) -> Reply {
+        console(&self.folder, order).await
+    }
+
+    /// A connection of a device that trusts the robot's authority.
+    pub(crate) async fn tls(&self) -> TlsStream<TcpStream> {
+        let authority = CertificateDer::from_pem_slice(self.trust.pem.as_bytes()).unwrap();
+        self.tls_trusting(authority).await.unwrap()
+    }
+
+    pub(crate) async fn tls_trusting(
+        &self,
+        authority: CertificateDer<'static>,
+    ) -> std::io::Result<TlsStream<TcpStream>> {
+        let mut roots = RootCertStore::empty();
+        roots.add(authority).unwrap();
+        let provider = Arc::new(rustls::crypto::ring::default_provider());
+        let config = ClientConfig::builder_with_provider(provider)
+            .with_protocol_versions(&[&rustls::version::TLS13])
+            .unwrap()
+            .with_root_certificates(roots)
+            .with_no_client_auth();
+        let name = ServerName::try_from(self.trust.host_name.clone()).unwrap();
+        let stream = TcpStream::connect(self.address).await?;
+        TlsConnector::from(Arc::new(config)).connect(name, stream).await
+    }
+
+    /// Sends a request as it stands.
+    pub(crate) async fn raw(&self, request: &str) -> Answer {
+        let mut stream = self.tls().await;
+        stream.write_all(request.as_bytes()).await.unwrap();
+        Answer::parse(&read_all(&mut stream).await)
+    }
+
+    /// A request of our own page, with these further header lines.
+    pub(crate) async fn ask(&self, (method, path): (&str, &str), more: &str, body: &str) -> Answer {
+        let (host, origin) = (self.host(), self.origin());
+        self.raw(&format!(
+            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nContent-Type: application/json\r\nX-Rvac: 1\r\n\
+             Connection: close\r\nContent-Length: {}\r\n{more}\r\n{body}",
+            body.len()
+        ))
+        .await
+    }
+
+    pub(crate) async fn get(&self, path: &str, cookie: &str) -> Answer {
+        self.ask(("GET", path), &cookie_line(cookie), "").await
+    }
+
+    pub(crate) async fn post(&self, path: &str, cookie: &str, body: &impl Serialize) -> Answer {
+        let body = serde_json::to_string(body).unwrap();
+        self.ask(("POST", path), &cookie_line(cookie), &body).await
+    }
+
+    /// Opens a window at the console; gives the code.
+    pub(crate) async fn open(&self, role: Role) -> Result<Code, String> {
+        match self.console(&Order::Pair { role }).await {
+            Reply::Opened { opened, .. } => Ok(Code::parse(&opened.code).unwrap()),
+            Reply::Refused(refused) => Err(refused.reason),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// The first half of pairing; gives the proof to show.
+    pub(crate) async fn begin(&self, code: &Code, name: &str, random: u8) -> Result<Finish, Answer> {
+        let name = DeviceName::new(name).unwrap();
+        let ends = Ends {
+            guest: &name,
+            robot: &self.trust.robot,
+        };
+        let (guest, message) = Guest::begin(code, ends, [random; 64]);
+        let begin = Begin {
+            name: name.clone(),
+            message,
+        };
+        let answer = self.post("/api/pairing/begin", "", &begin).await;
+        if answer.status != 200 {
+            return Err(answer);
+        }
+        let begun: Begun = serde_json::from_str(&answer.body).unwrap();
+        let (_, proof) = guest.hear(&begun.message).unwrap();
+        Ok(Finish {
+            attempt: begun.attempt,
+            proof,
+        })
+    }
+
+    pub(crate) async fn finish(&self, finish: &Finish) -> Answer {
+        self.post("/api/pairing/finish", "", finish).await
+    }
+
+    /// Lets a device in; gives its cookie.
+    pub(crate) async fn pair(&self, role: Role) -> String {
+        let code = self.open(role).await.unwrap();
+        let finish = self.begin(&code, role.name(), 7).await.unwrap();
+        self.finish(&finish).await.cookie().expect("a cookie")
+    }
+
+    pub(crate) async fn session(&self, cookie: &str) -> Session {
+        let answer = self.get("/api/session", cookie).await;
+        assert_eq!(answer.status, 200, "{answer:?}");
+        serde_json::from_str(&answer.body).unwrap()
+    }
+
+    /// Opens a WebSocket and says the word that it needs.
+    pub(crate) async fn socket(&self, cookie: &str) -> Socket {
+        let nonce = self.session(cookie).await.nonce.unwrap();
+        let mut socket = self.mute_socket(cookie).await;
+        socket.say(&format!(r#"{{"nonce":"{nonce}"}}"#)).await;
+        socket
+    }
+
+    /// Opens a WebSocket and says nothing.
+    pub(crate) async fn mute_socket(&self, cookie: &str) -> Socket {
+        let mut request = format!("wss://{}/api/ws", self.host())
+            .into_client_request()
+            .unwrap();
+        let headers = request.headers_mut();
+        headers.insert("origin", self.origin().parse().unwrap());
+        headers.insert("cookie", cookie.parse().unwrap());
+        let (socket, _) = tokio_tungstenite::client_async(request, self.tls().await)
+            .await
+            .unwrap();
+        Socket(socket)
+    }
+
+    /// The connection that the daemon gets for the next WebSocket; connections that only beep are answered with patience.
+    pub(crate) async fn daemon(&self) -> Daemon {
+        let (stream, _) = timeout(DEADLINE, self.vthal.accept())
+            .await
+            .expect("in time")
+            .unwrap();
+        Daemon(stream)
+    }
+}
+
+fn cookie_line(cookie: &str) -> String {
+    if cookie.is_empty() {
+        return String::new();
+    }
+    format!("Cookie: {cookie}\r\n")
+}
+
+async fn serve(folder: &std::path::Path) -> (tokio::task::JoinHandle<()>, SocketAddr, SocketAddr) {
+    let settings = Settings {
+        vthal: folder.join("vthal.sock"),
+        simulator: None,
+        address: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
+        guard: Some(Guard {
+            state: folder.join("state"),
+            console: None,
+            page_port: Some(0),
+        }),
+        assets: folder.to_owned(),
+        host_names: Vec::new(),
+    };
+    let server = Server::bind(settings).await.unwrap();
+    let (address, page) = (server.address(), server.page_address().unwrap());
+    (tokio::spawn(server.run()), address, page)
+}
+
+async fn console(folder: &std::path::Path, order: &Order) -> Reply {
+    let mut stream = UnixStream::connect(folder.join("state/console.sock"))
+        .await
+        .unwrap();
+    let mut line = serde_json::to_vec(order).unwrap();
+    line.push(b'\n');
+    stream.write_all(&line).await.unwrap();
+    let mut answer = String::new();
+    BufReader::new(stream).read_line(&mut answer).await.unwrap();
+    serde_json::from_str(&answer).unwrap()
+}
+
+/// Everything until the end, however it comes.
+pub(crate) async fn read_all(stream: &mut (impl tokio::io::AsyncRead + Unpin)) -> String {
+    let mut bytes = Vec::new();
+    timeout(DEADLINE, stream.read_to_end(&mut bytes))
+        .await
+        .expect("an answer in time")
+        .ok();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// The end of a browser.
+#[derive(Debug)]
+pub(crate) struct Socket(pub(crate) WebSocketStream<TlsStream<TcpStream>>);
+
+impl Socket {
+    pub(crate) async fn say(&mut self, text: &str) {
+        self.0.send(Message::text(text)).await.unwrap();
+    }
+
+    /// The next text; none when the connection has ended.
+    pub(crate) async fn hear(&mut self) -> Option<String> {
+        loop {
+            match timeout(DEADLINE, self.0.next())
+                .await
+                .expect("a message or an end in time")
+            {
+                Some(Ok(Message::Text(text))) => return Some(text.as_str().to_owned()),
+                Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
+                Some(_) | None => return None,
+            }
+        }
+    }
+
+    /// Waits for the end, whatever is said before it.
+    pub(crate) async fn until_ended(&mut self) {
+        while self.hear().await.is_some() {}
+    }
+}
+
+/// The end of the daemon.
+#[derive(Debug)]
+pub(crate) struct Daemon(UnixStream);
+
+impl Daemon {
+    /// The next message; none when the other end is gone.
+    pub(crate) async fn hear(&mut self) -> Option<String> {
+        let mut text = Vec::new();
+        loop {
+            match timeout(DEADLINE, self.0.read_u8())
+                .await
+                .expect("a message in time")
+            {
+                Ok(0x1f) => return Some(String::from_utf8(text).unwrap()),
+                Ok(byte) => text.push(byte),
+                Err(_) => return None,
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! All devices that the robot knows: for administrators.
+
+use leptos::prelude::*;
+use pairing::Role;
+use pairing::wire::{ClientRow, OpenWindow, Opened, Revoke, SetRole};
+
+use super::http::{self, Failed};
+use super::{Access, Entrance};
+
+/// What the section shows.
+#[derive(Clone, Copy)]
+struct Devices {
+    rows: RwSignal<Vec<ClientRow>>,
+    wrong: RwSignal<String>,
+    opened: RwSignal<Option<Opened>>,
+}
+
+impl Devices {
+    fn new() -> Self {
+        Self {
+            rows: RwSignal::new(Vec::new()),
+            wrong: RwSignal::new(String::new()),
+            opened: RwSignal::new(None),
+        }
+    }
+
+    fn renew(self) {
+        leptos::task::spawn_local(async move {
+            match http::get("/api/clients").await {
+                Ok(rows) => self.rows.set(rows),
+                Err(failed) => self.tell(&failed),
+            }
+        });
+    }
+
+    /// Changes something and lists anew.
+    fn change(self, path: &'static str, body: impl serde::Serialize + 'static) {
+        self.wrong.set(String::new());
+        leptos::task::spawn_local(async move {
+            if let Err(failed) = http::send(path, &body).await {
+                self.tell(&failed);
+            }
+            self.renew();
+        });
+    }
+
+    fn open(self, role: Role) {
+        self.wrong.set(String::new());
+        leptos::task::spawn_local(async move {
+            match http::post("/api/pairing/open", &OpenWindow { role }).await {
+                Ok(opened) => self.opened.set(Some(opened)),
+                Err(failed) => self.tell(&failed),
+            }
+        });
+    }
+
+    fn tell(self, failed: &Failed) {
+        self.wrong.set(failed.text());
+    }
+}
+
+#[component]
+pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
+    let devices = Devices::new();
+    let role = RwSignal::new(Role::Drive);
+    // A device that was let in stands in the list at once, and its code has served.
+    Effect::new(move |_| {
+        entrance.newcomer.track();
+        devices.opened.set(None);
+        devices.renew();
+    });
+    let choose = move |event| {
+        if let Ok(chosen) = event_target_value(&event).parse() {
+            role.set(chosen);
+        }
+    };
+    let code = move || {
+        devices.opened.get().map(|opened| {
+            format!(
+                "Type {} on the new device within {} seconds.",
+                opened.code, opened.seconds
+            )
+        })
+    };
+    view! {
+        <section class="devices" aria-labelledby="devices-title">
+            <h3 id="devices-title">"Paired devices"</h3>
+            <ul id="devices" class="rows">
+                {move || devices.rows.get().into_iter().map(|row| line(entrance, devices, row)).collect_view()}
+            </ul>
+            <p class="wrong" role="alert">{move || devices.wrong.get()}</p>
+            <div class="order-tools">
+                <label class="field grow">
+                    "A new device may"
+                    <select id="new-role" prop:value=move || role.get().name() on:change=choose>
+                        {Role::ALL.map(|role| view! { <option value=role.name()>{may(role)}</option> }).collect_view()}
+                    </select>
+                </label>
+                <button type="button" class="small strong" id="add-device" on:click=move |_| devices.open(role.get_untracked())>
+                    "Add a device"
+                </button>
+            </div>
+            <p id="pairing-code" role="status" class="remark" hidden=move || code().is_none()>{code}</p>
+        </section>
+    }
+}
+
+fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
+    let (id, name) = (row.id, row.name.to_string());
+    let own = entrance
+        .access
+        .with_untracked(|access| matches!(access, Access::Known(session) if session.client == Some(id)));
+    let set_role = move |event| {
+        if let Ok(role) = event_target_value(&event).parse() {
+            devices.change("/api/clients/role", SetRole { id, role });
+        }
+    };
+    let label = format!("What {name} may do");
+    let shut_out = format!("Shut {name} out");
+    view! {
+        <li>
+            <span class="name">{name}</span>
+            <span class="words">{if own { "this device" } else { "" }}</span>
+            <select class="role" aria-label=label prop:value=row.role.name() on:change=set_role>
+                {Role::ALL
+                    .map(|role| view! { <option value=role.name() selected=role == row.role>{may(role)}</option> })
+                    .collect_view()}
+            </select>
+            <button
+                type="button"
+                class="small"
+                aria-label=shut_out
+                on:click=move |_| devices.change("/api/clients/revoke", Revoke { id })
+            >
+                "Shut out"
+            </button>
+        </li>
+    }
+}
+
+/// What a role may, in few words.
+const fn may(role: Role) -> &'static str {
+    match role {
+        Role::View => "look and stop",
+        Role::Drive => "drive and clean",
+        Role::Admin => "change everything",
+    }
+}

@@ -1,0 +1,92 @@
+//! Who this device is to the robot, and which other devices there are.
+
+mod devices_view;
+mod http;
+mod pair_view;
+mod pairing_steps;
+
+use leptos::prelude::*;
+use pairing::Role;
+use pairing::wire::Session;
+
+pub(crate) use devices_view::DevicesView;
+pub(crate) use pair_view::PairView;
+
+use http::Failed;
+
+/// What the server says of this device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Access {
+    /// Nothing yet.
+    Asked,
+    /// The robot does not know it.
+    Stranger,
+    /// The robot knows it, or it is the robot's own computer.
+    Known(Session),
+}
+
+impl Access {
+    /// Whether it decides about other devices.
+    pub(crate) fn manages(&self) -> bool {
+        matches!(self, Self::Known(session) if session.client.is_some() && session.role == Role::Admin)
+    }
+}
+
+/// A device that was let in while this page was open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Newcomer {
+    pub(crate) name: String,
+    pub(crate) role: String,
+    pub(crate) from: String,
+}
+
+/// What this page knows about who may do what.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entrance {
+    /// This device.
+    pub(crate) access: RwSignal<Access>,
+    /// The newest other one, until it is dismissed.
+    pub(crate) newcomer: RwSignal<Option<Newcomer>>,
+}
+
+impl Entrance {
+    pub(crate) fn new() -> Self {
+        Self {
+            access: RwSignal::new(Access::Asked),
+            newcomer: RwSignal::new(None),
+        }
+    }
+
+    /// Asks the server who this device is. None when the server is not to be had.
+    pub(crate) async fn ask(self) -> Option<Access> {
+        let access = match http::get("/api/session").await {
+            Ok(session) => Access::Known(session),
+            Err(Failed::NotPaired) => Access::Stranger,
+            Err(Failed::Refused(_) | Failed::Unreachable) => return None,
+        };
+        self.access.set(access.clone());
+        Some(access)
+    }
+}
+
+/// What is said when another device was let in.
+#[component]
+pub(crate) fn NewcomerView(entrance: Entrance) -> impl IntoView {
+    let text = move || {
+        let newcomer = entrance.newcomer.get()?;
+        let Newcomer { name, role, from } = newcomer;
+        Some(format!(
+            "A new device is paired with the robot: {name}, with the role {role}, from {from}."
+        ))
+    };
+    view! {
+        <div role="status">
+            <Show when=move || entrance.newcomer.with(Option::is_some)>
+                <div class="alert calm" id="newcomer">
+                    <p>{text}</p>
+                    <button type="button" class="small" on:click=move |_| entrance.newcomer.set(None)>"Good"</button>
+                </div>
+            </Show>
+        </div>
+    }
+}

@@ -1,0 +1,74 @@
+//! What can be said about devices and who may use them.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use pairing::{DeviceName, Role, TokenId};
+
+/// Where panel-server listens for the person at its computer.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Console {
+    /// Unix socket of panel-server.
+    #[arg(
+        long,
+        value_name = "PATH",
+        env = "RVAC_CONSOLE",
+        default_value = "/var/lib/rvac-panel/console.sock",
+        global = true
+    )]
+    pub(crate) console: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PairOptions {
+    #[command(flatten)]
+    pub(crate) console: Console,
+    /// What the new device may do: view, drive or admin.
+    #[arg(long, default_value_t = Role::Admin)]
+    pub(crate) role: Role,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ClientsJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<ClientsVerb>,
+    #[command(flatten)]
+    pub(crate) console: Console,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum ClientsVerb {
+    /// Shut a device out.
+    Revoke {
+        /// Its number.
+        id: TokenId,
+    },
+    /// Give a device another role.
+    Role {
+        /// Its number.
+        id: TokenId,
+        /// view, drive or admin.
+        role: Role,
+    },
+    /// Let a program in, and print the token that it shows as `Authorization: Bearer TOKEN`.
+    Add {
+        /// How it is called in the list.
+        #[arg(value_parser = DeviceName::new)]
+        name: DeviceName,
+        /// What it may do: view, drive or admin.
+        #[arg(long, default_value_t = Role::View)]
+        role: Role,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TrustOptions {
+    #[command(flatten)]
+    pub(crate) console: Console,
+    /// Write the certificate into this folder: as PEM, for Android and Windows, and as a profile for iPhones.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) save: Option<PathBuf>,
+    /// Put it into the store that Chromium on this computer uses.
+    #[arg(long)]
+    pub(crate) install: bool,
+}

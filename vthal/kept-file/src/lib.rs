@@ -1,0 +1,90 @@
+//! Files that must be whole after a crash at any moment.
+//!
+//! A new file is written beside the present one, flushed, and renamed over it; the present one stays as `.old`, because SD
+//! cards lie about flushing, and so that a person can go back.
+#![forbid(unsafe_code)]
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::os::unix::fs::{OpenOptionsExt as _, PermissionsExt as _};
+use std::path::{Path, PathBuf};
+
+/// Mode of a file that nobody but its owner reads.
+const SECRET: u32 = 0o600;
+
+/// Puts `bytes` in place of the file. After a crash at any moment either it or its predecessor is there, whole.
+///
+/// # Errors
+/// What the file system says.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let fresh = beside(path, "new");
+    let file = File::create(&fresh)?;
+    put(path, &fresh, file, bytes)
+}
+
+/// The same for a file that nobody but its owner may read.
+///
+/// # Errors
+/// What the file system says.
+pub fn replace_secret(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let fresh = beside(path, "new");
+    let file = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(true)
+        .mode(SECRET)
+        .open(&fresh)?;
+    // One that a crash left behind keeps the mode it had.
+    file.set_permissions(fs::Permissions::from_mode(SECRET))?;
+    put(path, &fresh, file, bytes)
+}
+
+fn put(path: &Path, fresh: &Path, mut file: File, bytes: &[u8]) -> io::Result<()> {
+    file.write_all(bytes)?;
+    file.sync_all()?;
+    if path.exists() {
+        fs::rename(path, beside(path, "old"))?;
+    }
+    fs::rename(fresh, path)?;
+    if let Some(folder) = path.parent() {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+/// The present file and its predecessor, whether they are there or not.
+#[must_use]
+pub fn versions(path: &Path) -> [PathBuf; 2] {
+    [path.to_owned(), beside(path, "old")]
+}
+
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{ending}"));
+    PathBuf::from(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::os::unix::fs::PermissionsExt as _;
+
+    #[test]
+    fn the_predecessor_stays_and_a_secret_is_the_owner_s_alone() {
+        let folder = std::env::temp_dir().join(format!("kept-file-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("secret");
+        fs::write(folder.join("secret.new"), "left by a crash").unwrap();
+        for text in ["first", "second"] {
+            super::replace_secret(&path, text.as_bytes()).unwrap();
+        }
+        let [present, old] = super::versions(&path);
+        assert_eq!(fs::read_to_string(&present).unwrap(), "second");
+        assert_eq!(fs::read_to_string(old).unwrap(), "first");
+        assert_eq!(
+            fs::metadata(&present).unwrap().permissions().mode() & 0o777,
+            0o600
+        );
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}
