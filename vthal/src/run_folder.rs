@@ -8,9 +8,11 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, Update};
+use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, RunRecording, RunTrack, Update};
 use serde::Deserialize;
 use vthal_core::RunTask;
+
+use crate::recording;
 
 /// Records kept.
 const RUNS_MAX: usize = 200;
@@ -131,6 +133,7 @@ impl RunFolder {
                 self.look_for_recordings(&mut record.run);
                 Ok(Update::Run(Box::new(record)))
             }
+            RunTask::Track { number, recording } => self.track(number, recording),
             RunTask::File {
                 number,
                 recording,
@@ -177,17 +180,34 @@ impl RunFolder {
         is_plain.then(|| self.recordings.join(name))
     }
 
-    fn piece(&self, number: u64, index: usize, from: u64) -> Result<Update, RunError> {
+    /// Opens a recording of a run.
+    fn open(&self, number: u64, index: usize) -> Result<(File, RunRecording), RunError> {
         let Head { run } = self.load(number)?;
         let count = run.recordings.len();
         let recording = run.recordings.into_iter().nth(index);
-        let name = recording.ok_or(RunError::NoRecording { number, count })?.name;
-        let opened = self.recording(&name).map(File::open);
-        let mut file = match opened {
-            Some(Ok(file)) => file,
-            Some(Err(error)) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
-            _ => return Err(RunError::Removed { number, name }),
-        };
+        let recording = recording.ok_or(RunError::NoRecording { number, count })?;
+        match self.recording(&recording.name).map(File::open) {
+            Some(Ok(file)) => Ok((file, recording)),
+            Some(Err(error)) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
+            _ => Err(RunError::Removed {
+                number,
+                name: recording.name,
+            }),
+        }
+    }
+
+    fn track(&self, number: u64, recording: u32) -> Result<Update, RunError> {
+        let (mut file, known) = self.open(number, recording as usize)?;
+        let track = recording::track(&mut file, known.zero_s)?;
+        Ok(Update::RunTrack(Box::new(RunTrack {
+            number,
+            recording,
+            ..track
+        })))
+    }
+
+    fn piece(&self, number: u64, index: usize, from: u64) -> Result<Update, RunError> {
+        let (mut file, RunRecording { name, .. }) = self.open(number, index)?;
         let size = file.metadata()?.len();
         file.seek(SeekFrom::Start(from.min(size)))?;
         let mut bytes = Vec::new();

@@ -10,10 +10,10 @@ use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, St
 use mcap::{MessageStream, Summary};
 use rvac_api::{
     BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RunRecord,
-    Status,
+    Status, TrackPose,
 };
 use serde_json::{Value, json};
-use vthal::recording::RunFile;
+use vthal::recording::{RunFile, track};
 use vthal_core::{Direction, Record, RunCause, RunStart};
 
 /// Host time of the run's begin.
@@ -369,4 +369,24 @@ fn one_file_says_which_robot_it_was_and_what_came_of_the_run() {
     assert_eq!(robot, start().robot);
     let run: RunRecord = serde_json::from_slice(&attached("run.json")).expect("a run");
     assert_eq!((run.run.number, run.run.text.as_str()), (4, "Finished."));
+}
+
+#[test]
+fn a_track_has_places_and_readings_in_the_times_of_the_run_also_of_a_file_that_was_cut() {
+    let bytes = recording("track");
+    let whole = track(&mut &bytes[..], 8.0).expect("reads");
+    assert!(!whole.truncated);
+    let [TrackPose(t, x, y, heading)] = whole.poses[..] else {
+        panic!("one pose: {:?}", whole.poses)
+    };
+    assert_eq!((t, x, y, heading), (251.975, 1.25, -0.333, 1.0));
+    let reading = whole.readings[0];
+    assert_eq!(
+        (reading.t, reading.charge, reading.battery_a),
+        (0.008, Some(0.5), Some(-1.0))
+    );
+    assert_eq!(reading.motors_a, Some([0.1, 0.2, 0.5]));
+    let cut = track(&mut &bytes[..bytes.len() - 100], 8.0).expect("reads");
+    assert!(cut.truncated);
+    assert_eq!(cut.poses, whole.poses);
 }

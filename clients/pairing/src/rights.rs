@@ -44,14 +44,15 @@ pub struct Route {
     pub need: Need,
 }
 
-/// Every address below `/api/`. The page and its files are for anybody: they hold no secret.
+/// Every address below `/api/`; one that ends with `/` stands for all that begin so. The page and its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 9] = [
+pub const ROUTES: [Route; 10] = [
     Route { method: Method::Get,  path: "/api/pairing",        need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/begin",  need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/finish", need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/session",        need: Need::Role(Role::View) },
     Route { method: Method::Get,  path: "/api/ws",             need: Need::Role(Role::View) },
+    Route { method: Method::Get,  path: "/api/runs/",          need: Need::Role(Role::View) },
     Route { method: Method::Post, path: "/api/pairing/open",   need: Need::Role(Role::Admin) },
     Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },
@@ -61,7 +62,9 @@ pub const ROUTES: [Route; 9] = [
 /// What an address needs; one below `/api/` that is not in the table needs the highest role.
 #[must_use]
 pub fn need_of(path: &str) -> Need {
-    match ROUTES.iter().find(|route| route.path == path) {
+    let is_it =
+        |route: &&Route| route.path == path || route.path.ends_with('/') && path.starts_with(route.path);
+    match ROUTES.iter().find(is_it) {
         Some(route) => route.need,
         None if path.starts_with("/api/") => Need::Role(Role::Admin),
         None => Need::Nobody,
@@ -70,7 +73,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 39] = [
+pub const VERBS: [(&str, Role); 40] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -78,6 +81,7 @@ pub const VERBS: [(&str, Role); 39] = [
     ("mixes",           Role::View),
     ("runs",            Role::View),
     ("run",             Role::View),
+    ("run-track",       Role::View),
     ("run-file",        Role::View),
     ("stop",            Role::View),
     ("start",           Role::Drive),

@@ -13,6 +13,7 @@ mod api;
 mod assets;
 mod browser;
 mod courtesy;
+mod download;
 mod gate;
 mod guarded;
 mod identity;

@@ -9,7 +9,7 @@ use std::time::Duration;
 use axum::Router;
 use axum::body::Body;
 use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::{Extension, Request, State};
+use axum::extract::{Extension, Path, Request, State};
 use axum::http::{HeaderName, HeaderValue, Response, header};
 use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
@@ -27,6 +27,7 @@ use tracing::{debug, error, warn};
 
 use crate::api::{self, Peer};
 use crate::browser;
+use crate::download::{self, Wanted};
 use crate::gate::Gate;
 use crate::guarded::{Known, listen_console, serve_console};
 use crate::page;
@@ -159,6 +160,10 @@ impl Server {
     pub async fn run(self) {
         let router = api::routes()
             .route("/api/ws", get(open_socket))
+            .route(
+                "/api/runs/{number}/recording/{recording}",
+                get(download_recording),
+            )
             .fallback(serve_asset)
             .layer(middleware::from_fn_with_state(Arc::clone(&self.site), guard))
             .with_state(Arc::clone(&self.site));
@@ -306,6 +311,13 @@ async fn serve_asset(State(site): State<Arc<Site>>, request: Request) -> Respons
         return file;
     }
     site.assets.answer(request.uri().path(), request.headers())
+}
+
+async fn download_recording(
+    State(site): State<Arc<Site>>,
+    Path((number, recording)): Path<(u64, u32)>,
+) -> Response<Body> {
+    download::answer(site.vthal.clone(), Wanted { number, recording }).await
 }
 
 /// The robot's certificate for devices that shall trust it; everybody sees it in each TLS connection.

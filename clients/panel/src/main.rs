@@ -8,6 +8,7 @@ mod device_view;
 mod drive;
 mod floors_view;
 mod header;
+mod history;
 mod home_view;
 mod icons;
 mod link;

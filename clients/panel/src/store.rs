@@ -12,6 +12,7 @@ use rvac_api::Update as Message;
 
 use crate::access::{Entrance, Newcomer};
 use crate::drive::Seat;
+use crate::history::HistoryDesk;
 use crate::link::Link;
 use crate::map::{MapHandle, Orders};
 use crate::mixes::Bench;
@@ -25,6 +26,9 @@ const MIX_ID: u32 = 3;
 
 /// Number of the requests that save a schedule.
 pub(crate) const SCHEDULE_ID: u32 = 4;
+
+/// Number of the requests for a run that is over.
+pub(crate) const RUN_ID: u32 = 5;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -60,6 +64,8 @@ pub(crate) struct Store {
     pub(crate) orders: Orders,
     /// What starts by itself.
     pub(crate) schedules: ScheduleDesk,
+    /// Runs that are over.
+    pub(crate) history: HistoryDesk,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
@@ -93,6 +99,7 @@ impl Store {
             maps_floor: RwSignal::new(None),
             orders: Orders::new(),
             schedules: ScheduleDesk::new(),
+            history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
             seat: Seat::new(),
@@ -202,6 +209,7 @@ impl Store {
             Topic::Log,
             Topic::Schedules,
             Topic::Floors,
+            Topic::Runs,
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
@@ -271,11 +279,11 @@ impl Store {
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
             Message::Schedules(schedules) => self.schedules.on_schedules(schedules),
-            Message::Packet { .. }
-            | Message::Runs { .. }
-            | Message::Run(_)
-            | Message::RunKept(_)
-            | Message::RunFile { .. } => {}
+            Message::Runs { runs, more } => self.history.on_runs(runs, more),
+            Message::Run(record) => self.history.on_record(*record),
+            Message::RunKept(run) => self.history.on_kept(*run),
+            Message::RunTrack(track) => self.history.on_track(*track),
+            Message::Packet { .. } | Message::RunFile { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
             }
@@ -291,7 +299,10 @@ impl Store {
     }
 
     fn on_failed(self, failure: Failure) {
-        if self.orders.on_failed(&failure) || self.schedules.on_failed(&failure) {
+        if self.orders.on_failed(&failure)
+            || self.schedules.on_failed(&failure)
+            || self.history.on_failed(&failure)
+        {
             return;
         }
         if failure.id == Some(DRIVE_ID) {

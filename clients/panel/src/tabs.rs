@@ -1,4 +1,4 @@
-//! Drive, home, schedules, decisions, device and log as tabs, with the keys that tabs have everywhere.
+//! Drive, home, schedules, history, decisions, device and log as tabs, with the keys that tabs have everywhere.
 
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -7,16 +7,18 @@ use wasm_bindgen::JsCast;
 use crate::access::{Access, DevicesView};
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
+use crate::history::HistorySheet;
 use crate::home_view::HomeSheet;
 use crate::log_view::LogView;
 use crate::schedules::ScheduleSheet;
 use crate::store::Store;
 use crate::why_view::WhyView;
 
-const TABS: [(&str, &str); 6] = [
+const TABS: [(&str, &str); 7] = [
     ("drive", "Drive"),
     ("home", "Home"),
     ("schedules", "Schedules"),
+    ("history", "History"),
     ("why", "Why"),
     ("device", "Device"),
     ("log", "Log"),
@@ -69,17 +71,20 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
             <div role="tabpanel" id="sheet-schedules" aria-labelledby="tab-schedules" hidden=move || open.get() != 2>
                 <Show when=move || open.get() == 2><ScheduleSheet store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 3>
-                <Show when=move || open.get() == 3><WhyView store /></Show>
+            <div role="tabpanel" id="sheet-history" aria-labelledby="tab-history" hidden=move || open.get() != 3>
+                <Show when=move || open.get() == 3><HistorySheet store /></Show>
             </div>
-            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 4>
-                <Show when=move || open.get() == 4>
+            <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 4>
+                <Show when=move || open.get() == 4><WhyView store /></Show>
+            </div>
+            <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 5>
+                <Show when=move || open.get() == 5>
                     <DeviceView store />
                     <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
                 </Show>
             </div>
-            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 5>
-                <Show when=move || open.get() == 5><LogView store /></Show>
+            <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 6>
+                <Show when=move || open.get() == 6><LogView store /></Show>
             </div>
         </section>
     }

@@ -182,3 +182,41 @@ pub struct RunPicture {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub home: Option<HomeView>,
 }
+
+/// What a recording tells of a run in few numbers, for a replay: thinned, so that it stays below a megabyte. Times are seconds
+/// since the run began.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunTrack {
+    /// Number of the run.
+    pub number: u64,
+    /// Which of its recordings, from 0.
+    pub recording: u32,
+    /// Poses, at most two a second.
+    pub poses: Vec<TrackPose>,
+    /// Readings, at most one a second.
+    pub readings: Vec<TrackReading>,
+    /// The recording ends in the middle, as after a crash.
+    pub truncated: bool,
+}
+
+/// Where the robot believed to be: time in seconds, x and y in metres, heading in radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrackPose(pub f32, pub f32, pub f32, pub f32);
+
+/// What was measured at a time. What was not is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrackReading {
+    /// Time, seconds.
+    pub t: f32,
+    /// Charge of the battery, 0..1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub charge: Option<f32>,
+    /// Current into the pack, amperes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub battery_a: Option<f32>,
+    /// Motor currents in amperes: left wheel, right wheel, main brush.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motors_a: Option<[f32; 3]>,
+    /// Share of bad packets on the link, 0..1.
+    pub bad_share: f32,
+}

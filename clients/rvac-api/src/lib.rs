@@ -20,6 +20,7 @@ mod update;
 pub use floor::{FloorQuestion, FloorView, FloorsView};
 pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
+    RunTrack, TrackPose, TrackReading,
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomNaming};

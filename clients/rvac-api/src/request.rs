@@ -248,6 +248,14 @@ pub enum RequestBody {
         /// Its number.
         number: u64,
     },
+    /// Asks for what a recording of a run tells, in few numbers; answered by [`crate::Update::RunTrack`].
+    RunTrack {
+        /// Number of the run.
+        number: u64,
+        /// Which of its recordings, from 0.
+        #[serde(default)]
+        recording: u32,
+    },
     /// Asks for a piece of a recording of a run; answered by [`crate::Update::RunFile`].
     RunFile {
         /// Number of the run.

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Decision, Estimate, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, Schedules,
+    Decision, Estimate, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, RunTrack,
+    Schedules,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -80,6 +81,8 @@ pub enum Update {
     Run(Box<RunRecord>),
     /// A run is over, and what is kept of it is on the disk.
     RunKept(Box<Run>),
+    /// What a recording tells of a run.
+    RunTrack(Box<RunTrack>),
     /// A piece of a recording.
     RunFile {
         /// Number of the run.

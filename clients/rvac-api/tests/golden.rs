@@ -10,9 +10,9 @@ use rvac_api::{
     FloorQuestion, FloorView, FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
     LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun, PlannedWay,
     Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView, Run, RunAsker,
-    RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, ScheduleDecision, ScheduleEntry,
-    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Status, Topic,
-    Update, Versions, WallView, Weekday,
+    RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision,
+    ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth,
+    Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -811,6 +811,13 @@ fn runs() {
     );
     request(RequestBody::Run { number: 7 }, r#"{"c":"run","number":7}"#);
     request(
+        RequestBody::RunTrack {
+            number: 7,
+            recording: 0,
+        },
+        r#"{"c":"run-track","number":7,"recording":0}"#,
+    );
+    request(
         RequestBody::RunFile {
             number: 7,
             recording: 1,
@@ -873,6 +880,23 @@ fn a_run_in_full() {
             data: "AAEC".to_owned(),
         },
         r#"{"e":"run-file","number":7,"name":"run-a.mcap","from":0,"size":3,"data":"AAEC"}"#,
+    );
+    let track = RunTrack {
+        number: 7,
+        recording: 0,
+        poses: vec![TrackPose(0.5, 1.0, -2.0, 0.25)],
+        readings: vec![TrackReading {
+            t: 1.0,
+            charge: Some(0.5),
+            battery_a: None,
+            motors_a: Some([0.5, 0.25, 1.0]),
+            bad_share: 0.0,
+        }],
+        truncated: true,
+    };
+    check(
+        &Update::RunTrack(Box::new(track)),
+        r#"{"e":"run-track","number":7,"recording":0,"poses":[[0.5,1.0,-2.0,0.25]],"readings":[{"t":1.0,"charge":0.5,"motors_a":[0.5,0.25,1.0],"bad_share":0.0}],"truncated":true}"#,
     );
     check(&RunJob::Spot, r#""spot""#);
     check(&RunAsker::Button, r#""button""#);

@@ -72,6 +72,13 @@ pub enum RunTask {
     },
     /// Tell all that is kept of one: [`Update::Run`].
     Show(u64),
+    /// Tell what a recording of one tells: [`Update::RunTrack`].
+    Track {
+        /// Number of the run.
+        number: u64,
+        /// Which of its recordings, from 0.
+        recording: u32,
+    },
     /// Give a piece of a recording: [`Update::RunFile`].
     File {
         /// Number of the run.

@@ -7,10 +7,12 @@ pub mod replay;
 mod run_file;
 mod schemas;
 mod thread;
+mod track;
 
 pub use library::{Library, LibraryLimits};
 pub use run_file::{RecordError, RunFile};
 pub use thread::{RecorderHandle, start};
+pub use track::track;
 
 /// Channel of the run's beginning.
 pub(crate) const RUN: &str = "/run";

@@ -133,6 +133,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "name-room" => r#","room":1,"name":"x""#,
         "remove-no-go" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => r#","number":1"#,
         "run-file" => r#","number":1,"from":0"#,
+        "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,
         "save-mix" => r#","profile":"{}""#,
         "remove-mix" => r#","name":"x""#,

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod browser;
+mod history;
 mod mixes;
 mod pairing;
 mod robot;

@@ -3,5 +3,6 @@
 
 mod attacks;
 mod binary;
+mod download;
 mod relay;
 mod rig;

@@ -12,6 +12,7 @@ mod device_rows;
 mod driver;
 mod figures;
 mod frame_meter;
+mod history;
 mod home;
 mod latency;
 mod log_book;
@@ -34,6 +35,9 @@ pub use device_rows::{Row, Section, device_sections};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
+pub use history::{
+    Plot, Replay, RunDrawing, RunRow, StopRow, plots, run_drawing, run_figures, run_rows, stop_rows,
+};
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};

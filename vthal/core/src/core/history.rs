@@ -167,6 +167,7 @@ impl Core {
                 count: count.unwrap_or(COUNT).clamp(1, COUNT_MAX),
             },
             RequestBody::Run { number } => RunTask::Show(number),
+            RequestBody::RunTrack { number, recording } => RunTask::Track { number, recording },
             RequestBody::RunFile {
                 number,
                 recording,

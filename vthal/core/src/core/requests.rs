@@ -53,6 +53,7 @@ impl Core {
                 | RequestBody::SetZone { .. }
                 | RequestBody::Runs { .. }
                 | RequestBody::Run { .. }
+                | RequestBody::RunTrack { .. }
                 | RequestBody::RunFile { .. }
         );
         let result = self.obey(now_us, (client, request), outputs);
@@ -132,9 +133,10 @@ impl Core {
             RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
             RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
             RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
-            body @ (RequestBody::Runs { .. } | RequestBody::Run { .. } | RequestBody::RunFile { .. }) => {
-                self.ask_of_runs((client, id), &body, outputs)
-            }
+            body @ (RequestBody::Runs { .. }
+            | RequestBody::Run { .. }
+            | RequestBody::RunTrack { .. }
+            | RequestBody::RunFile { .. }) => self.ask_of_runs((client, id), &body, outputs),
             RequestBody::RunSchedule { number } => self.run_schedule(now_us, (client, number), outputs),
             body @ (RequestBody::AddSchedule(_)
             | RequestBody::ChangeSchedule { .. }

@@ -1,0 +1,148 @@
+//! The recording of a run as a file for the browser, asked of vthal piece by piece as the browser takes it.
+
+use std::io;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use axum::body::{Body, Bytes};
+use axum::http::{Response, StatusCode, header};
+use axum::response::IntoResponse;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use futures_util::stream::try_unfold;
+use rvac_api::{Failure, Request, RequestBody, Update};
+use tokio::time::timeout;
+
+use crate::upstream::{Event, Upstream};
+
+/// A disk that takes longer for a piece is as good as gone.
+const PIECE_TIME_MAX: Duration = Duration::from_secs(20);
+/// Number of our requests.
+const REQUEST_ID: u32 = 1;
+
+/// Which file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Wanted {
+    /// Number of the run.
+    pub(crate) number: u64,
+    /// Which of its recordings, from 0.
+    pub(crate) recording: u32,
+}
+
+/// Why there is no piece.
+enum NoPiece {
+    /// vthal says so.
+    Refused(Failure),
+    /// vthal does not answer.
+    Silent,
+}
+
+struct Piece {
+    bytes: Vec<u8>,
+    size: u64,
+    name: String,
+}
+
+/// Answers with the file, or with a sentence that says why not.
+pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
+    let mut upstream = Upstream::new(vthal);
+    let first = piece(&mut upstream, wanted, 0).await;
+    let Piece { bytes, size, name } = match first {
+        Ok(first) => first,
+        Err(NoPiece::Refused(failure)) => {
+            return (StatusCode::NOT_FOUND, format!("{}\n", failure.text)).into_response();
+        }
+        Err(NoPiece::Silent) => {
+            let text = "The robot's software does not answer.\n";
+            return (StatusCode::BAD_GATEWAY, text).into_response();
+        }
+    };
+    let headers = [
+        (header::CONTENT_TYPE, "application/octet-stream".to_owned()),
+        (header::CONTENT_LENGTH, size.to_string()),
+        (header::CACHE_CONTROL, "no-store".to_owned()),
+        (
+            header::CONTENT_DISPOSITION,
+            format!("attachment; filename=\"{}\"", plain(&name)),
+        ),
+    ];
+    let begun = (upstream, 0_u64, Some(bytes));
+    let rest = try_unfold(begun, move |(mut upstream, sent, ready)| async move {
+        if sent >= size {
+            return Ok::<_, io::Error>(None);
+        }
+        let mut bytes = match ready {
+            Some(bytes) => bytes,
+            None => match piece(&mut upstream, wanted, sent).await {
+                Ok(piece) => piece.bytes,
+                Err(_) => return Err(io::ErrorKind::UnexpectedEof.into()),
+            },
+        };
+        // A recording that grows meanwhile is as long as was promised.
+        bytes.truncate(usize::try_from(size - sent).unwrap_or(usize::MAX));
+        if bytes.is_empty() {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        let sent = sent + bytes.len() as u64;
+        Ok(Some((Bytes::from(bytes), (upstream, sent, None))))
+    });
+    (headers, Body::from_stream(rest)).into_response()
+}
+
+async fn piece(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Piece, NoPiece> {
+    timeout(PIECE_TIME_MAX, ask(upstream, wanted, from))
+        .await
+        .unwrap_or(Err(NoPiece::Silent))
+}
+
+async fn ask(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Piece, NoPiece> {
+    let request = Request {
+        id: Some(REQUEST_ID),
+        body: RequestBody::RunFile {
+            number: wanted.number,
+            recording: wanted.recording,
+            from,
+        },
+    };
+    let text = serde_json::to_string(&request).map_err(|_| NoPiece::Silent)?;
+    if from == 0 && upstream.next().await != Event::Connected {
+        return Err(NoPiece::Silent);
+    }
+    upstream.send(&text).await.map_err(|_| NoPiece::Silent)?;
+    loop {
+        let Event::Message(text) = upstream.next().await else {
+            return Err(NoPiece::Silent);
+        };
+        match serde_json::from_str(&text) {
+            Ok(Update::RunFile {
+                from: begins,
+                name,
+                size,
+                data,
+                ..
+            }) if begins == from => {
+                let bytes = STANDARD.decode(data).map_err(|_| NoPiece::Silent)?;
+                return Ok(Piece { bytes, size, name });
+            }
+            Ok(Update::Failed(failure)) => return Err(NoPiece::Refused(failure)),
+            _ => {}
+        }
+    }
+}
+
+/// A name that needs no quoting in a header.
+fn plain(name: &str) -> String {
+    let is_plain = |letter: &char| letter.is_ascii_alphanumeric() || "._-".contains(*letter);
+    name.chars().filter(is_plain).take(100).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn names_cannot_break_out_of_their_header() {
+        assert_eq!(plain("run-20261123-080000.mcap"), "run-20261123-080000.mcap");
+        assert_eq!(plain("a\"\r\nSet-Cookie: b"), "aSet-Cookieb");
+    }
+}

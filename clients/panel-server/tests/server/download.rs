@@ -1,0 +1,70 @@
+//! Recordings as files for the browser.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use crate::rig::{Rig, Vthal};
+
+const ASK: &str = "GET /api/runs/7/recording/0 HTTP/1.1\r\nHost: localhost:PORT\r\nConnection: close\r\n\r\n";
+
+async fn give(vthal: &mut Vthal, from: usize, whole: &[u8]) {
+    let heard = vthal.hear().await.expect("asks");
+    let wanted = format!(r#"{{"id":1,"c":"run-file","number":7,"recording":0,"from":{from}}}"#);
+    assert_eq!(heard, wanted);
+    let end = whole.len().min(from + 5);
+    let (data, size) = (STANDARD.encode(&whole[from..end]), whole.len());
+    let piece = format!(
+        r#"{{"e":"run-file","number":7,"name":"run-a.mcap","from":{from},"size":{size},"data":"{data}"}}"#
+    );
+    vthal.say(&piece).await;
+    vthal.say(r#"{"e":"done","id":1}"#).await;
+}
+
+#[tokio::test]
+async fn a_recording_comes_whole_with_its_name() {
+    let rig = Rig::start().await;
+    let serve = async {
+        let mut vthal = rig.accept().await;
+        for from in [0, 5, 10] {
+            give(&mut vthal, from, b"twelve bytes").await;
+        }
+    };
+    let (answer, ()) = tokio::join!(rig.raw(ASK), serve);
+    let (head, body) = answer.split_once("\r\n\r\n").expect("a head");
+    assert!(head.starts_with("HTTP/1.1 200"), "{head}");
+    let head = head.to_ascii_lowercase();
+    for line in [
+        "content-disposition: attachment; filename=\"run-a.mcap\"",
+        "content-length: 12",
+        "x-content-type-options: nosniff",
+    ] {
+        assert!(head.contains(line), "{line} in {head}");
+    }
+    assert_eq!(body, "twelve bytes");
+}
+
+#[tokio::test]
+async fn a_recording_that_is_not_there_is_told_in_words() {
+    let rig = Rig::start().await;
+    let serve = async {
+        let mut vthal = rig.accept().await;
+        vthal.hear().await.expect("asks");
+        vthal
+            .say(r#"{"e":"failed","id":1,"reason":"no-such-run","text":"No run 7 is kept."}"#)
+            .await;
+    };
+    let (answer, ()) = tokio::join!(rig.raw(ASK), serve);
+    assert!(
+        answer.starts_with("HTTP/1.1 404") && answer.ends_with("No run 7 is kept.\n"),
+        "{answer}"
+    );
+}
+
+#[tokio::test]
+async fn a_page_of_another_site_gets_no_recording() {
+    let rig = Rig::start().await;
+    let foreign = ASK.replace("Connection", "Sec-Fetch-Site: cross-site\r\nConnection");
+    assert!(rig.raw(&foreign).await.starts_with("HTTP/1.1 403"));
+    let wrong = ASK.replace("/7/", "/seven/");
+    assert!(rig.raw(&wrong).await.starts_with("HTTP/1.1 400"));
+}

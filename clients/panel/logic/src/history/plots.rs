@@ -1,0 +1,132 @@
+//! What was measured during a run, as lines over time.
+
+use std::fmt::Write as _;
+
+use rvac_api::{RunTrack, TrackReading};
+
+/// Width and height of a plot in its own units.
+const WIDTH: f64 = 300.0;
+const HEIGHT: f64 = 60.0;
+
+/// A plot: 300 wide, 60 high, y downwards.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// What it shows, with its unit.
+    pub title: &'static str,
+    /// Its lines: what each shows, and its path.
+    pub lines: Vec<(&'static str, String)>,
+    /// The value at the lower edge.
+    pub low: String,
+    /// The value at the upper edge.
+    pub high: String,
+}
+
+type Reading = fn(&TrackReading) -> Option<f32>;
+
+/// The plots of a run that lasted `end_s`; only of what was measured.
+#[must_use]
+pub fn plots(track: &RunTrack, end_s: f64) -> Vec<Plot> {
+    let battery: [(&str, Reading); 1] = [("Charge", |reading| reading.charge.map(|charge| 100.0 * charge))];
+    let battery_a: [(&str, Reading); 1] = [("Battery", |reading| reading.battery_a)];
+    let motors: [(&str, Reading); 3] = [
+        ("Left wheel", |reading| reading.motors_a.map(|[left, _, _]| left)),
+        ("Right wheel", |reading| {
+            reading.motors_a.map(|[_, right, _]| right)
+        }),
+        ("Main brush", |reading| {
+            reading.motors_a.map(|[_, _, brush]| brush)
+        }),
+    ];
+    let link: [(&str, Reading); 1] = [("Bad packets", |reading| Some(100.0 * reading.bad_share))];
+    [
+        plot("Battery charge in %", &battery, (track, end_s)),
+        plot("Current into the battery in A", &battery_a, (track, end_s)),
+        plot("Currents of the motors in A", &motors, (track, end_s)),
+        plot("Bad packets on the cable in %", &link, (track, end_s)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn plot(
+    title: &'static str,
+    lines: &[(&'static str, Reading)],
+    (track, end_s): (&RunTrack, f64),
+) -> Option<Plot> {
+    let values = |reading: Reading| {
+        let points = track
+            .readings
+            .iter()
+            .filter_map(move |entry| Some((entry.t, reading(entry)?)));
+        points.filter(|(t, value)| t.is_finite() && value.is_finite())
+    };
+    let all = lines
+        .iter()
+        .flat_map(|(_, reading)| values(*reading))
+        .map(|(_, value)| f64::from(value));
+    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    if low > high {
+        return None;
+    }
+    // A line that hardly moves is drawn as one, not as its last digits.
+    let middle = 0.5 * (low + high);
+    let half = (0.5 * (high - low)).max(0.5);
+    let (low, high) = (middle - half, middle + half);
+    let place = |(t, value): (f32, f32)| {
+        let x = WIDTH * (f64::from(t) / end_s.max(1.0)).clamp(0.0, 1.0);
+        (x, HEIGHT * (high - f64::from(value)) / (high - low))
+    };
+    let path = |reading: Reading| {
+        let mut path = String::new();
+        for (x, y) in values(reading).map(place) {
+            let letter = if path.is_empty() { 'M' } else { 'L' };
+            // Writing to a string does not fail.
+            write!(path, "{letter}{x:.1} {y:.1}").ok();
+        }
+        path
+    };
+    Some(Plot {
+        title,
+        lines: lines
+            .iter()
+            .map(|(name, reading)| (*name, path(*reading)))
+            .collect(),
+        low: format!("{low:.1}"),
+        high: format!("{high:.1}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::{RunTrack, TrackReading};
+
+    use super::plots;
+
+    #[test]
+    fn only_what_was_measured_has_a_plot() {
+        let reading = |t, charge| TrackReading {
+            t,
+            charge,
+            bad_share: 0.01,
+            ..TrackReading::default()
+        };
+        let track = RunTrack {
+            readings: vec![
+                reading(0.0, Some(0.9)),
+                reading(50.0, None),
+                reading(100.0, Some(0.7)),
+            ],
+            ..RunTrack::default()
+        };
+        let plots = plots(&track, 100.0);
+        let titles: Vec<&str> = plots.iter().map(|plot| plot.title).collect();
+        assert_eq!(titles, ["Battery charge in %", "Bad packets on the cable in %"]);
+        assert_eq!(plots[0].lines, [("Charge", "M0.0 0.0L300.0 60.0".to_owned())]);
+        assert_eq!((plots[0].low.as_str(), plots[0].high.as_str()), ("70.0", "90.0"));
+        assert_eq!(plots[1].lines[0].1, "M0.0 30.0L150.0 30.0L300.0 30.0");
+        assert!(super::plots(&RunTrack::default(), 5.0).is_empty());
+    }
+}

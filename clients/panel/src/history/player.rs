@@ -1,0 +1,213 @@
+//! The picture of a run, and the run seen again along its recording.
+
+use std::time::Duration;
+
+use leptos::prelude::*;
+use panel_logic::{Plot, Replay, clock_text, plots, run_drawing};
+use rvac_api::RunRecord;
+
+use crate::store::Store;
+
+/// Pause between two pictures of a replay.
+const STEP: Duration = Duration::from_millis(100);
+/// What a robot measures that has not told: the picture needs some width.
+const SWATH_M: f64 = 0.25;
+const RADIUS_M: f64 = 0.17;
+/// How many times as fast as it was.
+const SPEEDS: [(&str, f64); 4] = [("1", 1.0), ("8", 8.0), ("32", 32.0), ("128", 128.0)];
+
+#[component]
+pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSignal<f64>) -> impl IntoView {
+    let desk = store.history;
+    let replay = Memo::new(move |_| {
+        desk.track
+            .with(|track| track.as_ref().map(Replay::new))
+            .filter(|replay| replay.end_s() > 0.0)
+    });
+    let end_s = record.with_value(|record| record.run.duration_s.max(1.0));
+    // At first the whole run is seen.
+    time.set(end_s);
+    let (plays, speed) = (RwSignal::new(false), RwSignal::new(32.0_f64));
+    let step = move || {
+        if plays.get_untracked() {
+            let next_s = time.get_untracked() + speed.get_untracked() * STEP.as_secs_f64();
+            time.set(next_s.min(end_s));
+            plays.set(next_s < end_s);
+        }
+    };
+    if let Ok(timer) = set_interval_with_handle(step, STEP) {
+        on_cleanup(move || timer.clear());
+    }
+    let press = move |_| {
+        let begins = !plays.get_untracked();
+        if begins && time.get_untracked() >= end_s {
+            time.set(0.0);
+        }
+        plays.set(begins);
+    };
+    let slide = move |event| {
+        if let Ok(value) = event_target_value(&event).parse::<f64>() {
+            plays.set(false);
+            time.set(value);
+        }
+    };
+    view! {
+        {picture(store, (record, end_s), (replay, time))}
+        <Show
+            when=move || replay.with(Option::is_some)
+            fallback=|| view! { <p class="hint">"Without a recording the run cannot be seen again."</p> }
+        >
+            <div class="replay-tools">
+                <button type="button" class="small strong" id="replay-play" on:click=press>
+                    {move || if plays.get() { "Pause" } else { "Play" }}
+                </button>
+                <input
+                    type="range"
+                    id="replay-time"
+                    aria-label="Time into the run"
+                    min="0"
+                    max=end_s
+                    step="0.5"
+                    prop:value=move || time.get()
+                    aria-valuetext=move || clock_text(time.get())
+                    on:input=slide
+                />
+                <span class="replay-clock" id="replay-clock">{move || clock_text(time.get())}</span>
+                <label class="field">
+                    <span class="visually-hidden">"Speed"</span>
+                    <select
+                        id="replay-speed"
+                        on:change=move |event| speed.set(event_target_value(&event).parse().unwrap_or(1.0))
+                    >
+                        {SPEEDS.map(|(name, factor)| view! {
+                            <option value=name selected=factor == 32.0>{format!("{name}×")}</option>
+                        }).collect_view()}
+                    </select>
+                </label>
+            </div>
+        </Show>
+        {move || {
+            let plots = desk.track.with(|track| track.as_ref().map(|track| plots(track, end_s)));
+            plots.unwrap_or_default().into_iter().map(|plot| plot_view(plot, (time, end_s))).collect_view()
+        }}
+    }
+}
+
+fn picture(
+    store: Store,
+    (record, end_s): (StoredValue<RunRecord>, f64),
+    (replay, time): (Memo<Option<Replay>>, RwSignal<f64>),
+) -> impl IntoView {
+    let drawing = record.with_value(|record| record.picture.as_ref().map(run_drawing).unwrap_or_default());
+    let [left, top, width, height] = drawing.view_box;
+    let (swath_m, radius_m) = store.robot.with_untracked(|robot| {
+        robot
+            .as_ref()
+            .map_or((SWATH_M, RADIUS_M), |robot| (robot.swath_m, robot.radius_m))
+    });
+    let swept_is_whole = move || time.get() >= end_s || replay.with(Option::is_none);
+    let sweeps = record.with_value(|record| {
+        record
+            .picture
+            .as_ref()
+            .is_some_and(|picture| !picture.swept_rows.is_empty())
+    });
+    let (swept, way) = (drawing.swept, drawing.way);
+    let whole_way = way.clone();
+    let driven = move || {
+        replay.with(|replay| {
+            replay
+                .as_ref()
+                .map(|replay| replay.way_until(time.get()))
+                .unwrap_or_default()
+        })
+    };
+    let robot = move || {
+        replay
+            .with(|replay| replay.as_ref().and_then(|replay| replay.robot_at(time.get())))
+            .map(|(x, y, turn)| format!("translate({x:.1} {y:.1}) rotate({turn:.0})"))
+    };
+    let text = record.with_value(|record| {
+        format!(
+            "Picture of the run: {} square metres swept, {} stops",
+            record.run.swept_m2.round(),
+            record.run.stop_count
+        )
+    });
+    let radius_cm = 100.0 * radius_m;
+    view! {
+        <svg
+            class="run-picture"
+            id="run-picture"
+            role="img"
+            aria-label=text
+            viewBox=format!("{left} {top} {width} {height}")
+        >
+            <path class="floor" d=drawing.floor />
+            <path class="walls" d=drawing.walls />
+            <path class="swept" d=move || if swept_is_whole() { swept.clone() } else { String::new() } />
+            <path
+                class="sweeping"
+                stroke-width=100.0 * swath_m
+                d=move || if swept_is_whole() || !sweeps { String::new() } else { driven() }
+            />
+            <path class="way" d=move || if swept_is_whole() { whole_way.clone() } else { driven() } />
+            {marks(record)}
+            <g class="robot" id="replay-robot" transform=move || robot().unwrap_or_default() hidden=move || robot().is_none()>
+                <circle r=radius_cm />
+                <path d=format!("M0 0H{radius_cm:.0}") />
+            </g>
+        </svg>
+    }
+}
+
+/// Numbers where it stood or waited.
+fn marks(record: StoredValue<RunRecord>) -> impl IntoView {
+    let places = record.with_value(|record| {
+        let stops = record
+            .stops
+            .iter()
+            .map(|stop| (100.0 * stop.place.x, -100.0 * stop.place.y));
+        stops.collect::<Vec<_>>()
+    });
+    let mark = |(index, (x, y)): (usize, (f64, f64))| {
+        view! {
+            <g class="stop-mark" transform=format!("translate({x:.0} {y:.0})")>
+                <circle r="14" />
+                <text text-anchor="middle" dy="6">{index + 1}</text>
+            </g>
+        }
+    };
+    places.into_iter().enumerate().map(mark).collect_view()
+}
+
+fn plot_view(plot: Plot, (time, end_s): (RwSignal<f64>, f64)) -> impl IntoView {
+    let names = plot
+        .lines
+        .iter()
+        .map(|(name, _)| *name)
+        .collect::<Vec<_>>()
+        .join(", ");
+    let label = format!("{}: {names}, between {} and {}", plot.title, plot.low, plot.high);
+    let is_alone = plot.lines.len() == 1;
+    let at = move || format!("{:.1}", 300.0 * (time.get() / end_s).clamp(0.0, 1.0));
+    let line = |(index, (_, path)): (usize, &(&'static str, String))| {
+        view! { <path class=format!("line line-{index}") d=path.clone() vector-effect="non-scaling-stroke" /> }
+    };
+    let key = |(index, (name, _)): (usize, &(&'static str, String))| {
+        view! { <li><span class=format!("plot-key line-{index}")></span>{*name}</li> }
+    };
+    let keys = (!is_alone).then(|| plot.lines.iter().enumerate().map(key).collect_view());
+    view! {
+        <figure class="plot">
+            <figcaption>{plot.title}</figcaption>
+            <span class="edge high">{plot.high}</span>
+            <svg viewBox="0 0 300 60" preserveAspectRatio="none" role="img" aria-label=label>
+                {plot.lines.iter().enumerate().map(line).collect_view()}
+                <line class="now-line" y1="0" y2="60" x1=at x2=at vector-effect="non-scaling-stroke" />
+            </svg>
+            <span class="edge low">{plot.low}</span>
+            <ul class="plot-keys">{keys}</ul>
+        </figure>
+    }
+}

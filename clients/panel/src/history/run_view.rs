@@ -1,0 +1,92 @@
+//! One run.
+
+use leptos::prelude::*;
+use panel_logic::{StopRow, run_figures, stop_rows};
+use rvac_api::RunRecord;
+
+use super::date_text;
+use super::player::Player;
+use crate::store::Store;
+
+#[component]
+pub(crate) fn RunView(store: Store) -> impl IntoView {
+    let desk = store.history;
+    let back = move |_| desk.chosen.set(None);
+    view! {
+        <div class="draw-tools">
+            <button type="button" class="small" id="all-runs" on:click=back>"All runs"</button>
+        </div>
+        <p class="wrong" id="run-wrong" role="status">{move || desk.wrong.get()}</p>
+        {move || desk.record.get().map(|record| run(store, record))}
+    }
+}
+
+fn run(store: Store, record: RunRecord) -> impl IntoView {
+    let kept = &record.run;
+    let (number, text) = (kept.number, kept.text.clone());
+    let heading = format!("Run {number}, {}", date_text(kept.start_s));
+    let figures = run_figures(kept);
+    let stops = stop_rows(&record);
+    let left_out = (kept.stop_count as usize).saturating_sub(stops.len());
+    let downloads = downloads(&record);
+    let time = RwSignal::new(0.0_f64);
+    let (has_stops, has_more) = (!stops.is_empty(), left_out > 0);
+    let record = StoredValue::new(record);
+    view! {
+        <h3 id="run-title">{heading}</h3>
+        <p id="run-result" class="remark">{text}</p>
+        <Player store record time />
+        <Show when=move || has_stops>
+            <h3 id="stops-title">"Where it stood or waited"</h3>
+        </Show>
+        <ol id="run-stops" class="sentences" aria-label="Where it stood or waited">
+            {stops.into_iter().map(|stop| stop_line(stop, time)).collect_view()}
+        </ol>
+        <Show when=move || has_more>
+            <p class="hint">{format!("And {left_out} more stops.")}</p>
+        </Show>
+        <h3>"Figures"</h3>
+        <dl class="run-figures">
+            {figures.into_iter().map(|(what, value)| view! { <dt>{what}</dt><dd>{value}</dd> }).collect_view()}
+        </dl>
+        <h3>"For a bug report"</h3>
+        <div class="draw-tools">{downloads}</div>
+    }
+}
+
+/// A stop, with a button that shows the moment.
+fn stop_line(StopRow { number, at_s, words }: StopRow, time: RwSignal<f64>) -> impl IntoView {
+    view! {
+        <li class="stop">
+            <button
+                type="button"
+                class="small choose"
+                aria-label=format!("Show the moment of stop {number}")
+                on:click=move |_| time.set(at_s)
+            >
+                {number}
+            </button>
+            <span>{words}</span>
+        </li>
+    }
+}
+
+fn downloads(record: &RunRecord) -> AnyView {
+    let run = &record.run;
+    if run.recordings.is_empty() {
+        return view! { <p class="hint">"This run was not recorded."</p> }.into_any();
+    }
+    let links = run.recordings.iter().enumerate().map(|(index, recording)| {
+        let Some(bytes) = recording.bytes else {
+            let text = "The recording was removed because newer ones took its place.";
+            return view! { <p class="hint">{text}</p> }.into_any();
+        };
+        let address = format!("/api/runs/{}/recording/{index}", run.number);
+        let size = format!("Save the recording ({:.1} MB)", bytes as f64 / 1e6);
+        view! {
+            <a class="small link" id=format!("save-{index}") href=address download=recording.name.clone()>{size}</a>
+        }
+        .into_any()
+    });
+    links.collect_view().into_any()
+}
