@@ -839,6 +839,27 @@ fn runs() {
 }
 
 #[test]
+fn the_track_of_a_run() {
+    let track = RunTrack {
+        number: 7,
+        recording: 0,
+        poses: vec![TrackPose(0.5, 1.0, -2.0, 0.25)],
+        readings: vec![TrackReading {
+            t: 1.0,
+            charge: Some(0.5),
+            battery_a: None,
+            motors_a: Some([0.5, 0.25, 1.0]),
+            bad_share: 0.0,
+        }],
+        truncated: true,
+    };
+    check(
+        &Update::RunTrack(Box::new(track)),
+        r#"{"e":"run-track","number":7,"recording":0,"poses":[[0.5,1.0,-2.0,0.25]],"readings":[{"t":1.0,"charge":0.5,"motors_a":[0.5,0.25,1.0],"bad_share":0.0}],"truncated":true}"#,
+    );
+}
+
+#[test]
 fn a_run_in_full() {
     let stop = RunStop {
         at_s: 61.0,
@@ -880,23 +901,6 @@ fn a_run_in_full() {
             data: "AAEC".to_owned(),
         },
         r#"{"e":"run-file","number":7,"name":"run-a.mcap","from":0,"size":3,"data":"AAEC"}"#,
-    );
-    let track = RunTrack {
-        number: 7,
-        recording: 0,
-        poses: vec![TrackPose(0.5, 1.0, -2.0, 0.25)],
-        readings: vec![TrackReading {
-            t: 1.0,
-            charge: Some(0.5),
-            battery_a: None,
-            motors_a: Some([0.5, 0.25, 1.0]),
-            bad_share: 0.0,
-        }],
-        truncated: true,
-    };
-    check(
-        &Update::RunTrack(Box::new(track)),
-        r#"{"e":"run-track","number":7,"recording":0,"poses":[[0.5,1.0,-2.0,0.25]],"readings":[{"t":1.0,"charge":0.5,"motors_a":[0.5,0.25,1.0],"bad_share":0.0}],"truncated":true}"#,
     );
     check(&RunJob::Spot, r#""spot""#);
     check(&RunAsker::Button, r#""button""#);

@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn what_is_no_recording_gives_nothing() {
-        for bytes in [&b""[..], b"hello", &[0; 5_000], &mcap::MAGIC[..]] {
+        for bytes in [&b""[..], b"hello", &[0; 5_000], mcap::MAGIC] {
             let track = track(&mut &bytes[..], 0.0).expect("reads");
             assert!(track.truncated && track.poses.is_empty(), "{bytes:?}");
         }

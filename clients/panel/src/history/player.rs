@@ -73,23 +73,27 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
                     on:input=slide
                 />
                 <span class="replay-clock" id="replay-clock">{move || clock_text(time.get())}</span>
-                <label class="field">
-                    <span class="visually-hidden">"Speed"</span>
-                    <select
-                        id="replay-speed"
-                        on:change=move |event| speed.set(event_target_value(&event).parse().unwrap_or(1.0))
-                    >
-                        {SPEEDS.map(|(name, factor)| view! {
-                            <option value=name selected=factor == 32.0>{format!("{name}×")}</option>
-                        }).collect_view()}
-                    </select>
-                </label>
+                {speed_choice(speed)}
             </div>
         </Show>
         {move || {
             let plots = desk.track.with(|track| track.as_ref().map(|track| plots(track, end_s)));
             plots.unwrap_or_default().into_iter().map(|plot| plot_view(plot, (time, end_s))).collect_view()
         }}
+    }
+}
+
+fn speed_choice(speed: RwSignal<f64>) -> impl IntoView {
+    let choose = move |event| speed.set(event_target_value(&event).parse().unwrap_or(1.0));
+    view! {
+        <label class="field">
+            <span class="visually-hidden">"Speed"</span>
+            <select id="replay-speed" on:change=choose>
+                {SPEEDS.map(|(name, factor)| view! {
+                    <option value=name selected=factor == 32.0>{format!("{name}×")}</option>
+                }).collect_view()}
+            </select>
+        </label>
     }
 }
 

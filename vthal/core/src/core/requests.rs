@@ -81,14 +81,8 @@ impl Core {
     ) -> Result<(), Refusal> {
         let id = request.id;
         match request.body {
-            RequestBody::Hello { name } => {
-                self.hello(now_us, (client, name), outputs);
-                Ok(())
-            }
-            RequestBody::Watch { topics } => {
-                self.watch(now_us, (client, &topics), outputs);
-                Ok(())
-            }
+            RequestBody::Hello { name } => self.hello(now_us, (client, name), outputs),
+            RequestBody::Watch { topics } => self.watch(now_us, (client, &topics), outputs),
             RequestBody::Start { strategy } => {
                 let strategy = self.strategy_named(strategy.as_deref())?;
                 Ok(self.job(now_us, (client, Command::Clean { strategy }), outputs)?)
@@ -312,7 +306,12 @@ impl Core {
         device.send_raw(command, &mut io).map_err(|_| "not-sent")
     }
 
-    fn hello(&mut self, now_us: u64, (client, name): (ClientId, String), outputs: &mut Outputs) {
+    fn hello(
+        &mut self,
+        now_us: u64,
+        (client, name): (ClientId, String),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
         let kept: String = name
             .chars()
             .filter(|letter| !letter.is_control())
@@ -325,12 +324,19 @@ impl Core {
             to: Recipients::One(client),
             update: self.greeting(),
         });
+        Ok(())
     }
 
-    fn watch(&mut self, now_us: u64, (client, topics): (ClientId, &[Topic]), outputs: &mut Outputs) {
+    fn watch(
+        &mut self,
+        now_us: u64,
+        (client, topics): (ClientId, &[Topic]),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
         for topic in self.clients.watch(client, topics) {
             self.first_view(now_us, (client, topic), outputs);
         }
+        Ok(())
     }
 }
 
