@@ -9,8 +9,9 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
         return;
     };
     let browser = &visit.browser;
+    browser.click("#theme").await;
     browser
-        .text("document.documentElement.dataset.theme = 'dark'; return ''")
+        .until("return document.documentElement.dataset.theme === 'dark'")
         .await;
     browser.click("#start").await;
     browser.until_state(&["cleaning"]).await;

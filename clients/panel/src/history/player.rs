@@ -156,11 +156,11 @@ fn picture(
                 d=move || if swept_is_whole() || !sweeps { String::new() } else { driven() }
             />
             <path class="way" d=move || if swept_is_whole() { whole_way.clone() } else { driven() } />
-            {marks(record)}
             <g class="robot" id="replay-robot" transform=move || robot().unwrap_or_default() hidden=move || robot().is_none()>
                 <circle r=radius_cm />
                 <path d=format!("M0 0H{radius_cm:.0}") />
             </g>
+            {marks(record)}
         </svg>
     }
 }
