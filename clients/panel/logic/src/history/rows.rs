@@ -179,6 +179,7 @@ mod tests {
                 reason: "slip".to_owned(),
                 text: "Gave up: its wheels slip.".to_owned(),
                 stop_count: 1,
+                floor: None,
                 map: Some(3),
                 recordings: vec![],
             },
