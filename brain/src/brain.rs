@@ -2,7 +2,7 @@
 
 use crate::action::Actions;
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::{Checkpoint, CheckpointWork};
 use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
 use crate::coverage::{JobEstimate, estimate};
@@ -10,7 +10,7 @@ use crate::docking::BeamMemory;
 use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, Map, Mark, MarkKind, SeenAt, StoredMap};
+use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::order::CleaningOrder;
 use crate::random::Random;
@@ -61,11 +61,24 @@ impl Brain {
     pub fn with_map(config: BrainConfig, seed: u64, home: &StoredMap) -> Self {
         let mut brain = Self::new(config, seed);
         brain.map.take_up(home);
-        if let Some(dock) = home.dock() {
-            brain.localization.place_at(dock);
-        }
-        brain.track();
+        brain.wake_on_dock();
         brain
+    }
+
+    /// As [`Self::with_map`], with a home that is taken up already.
+    #[must_use]
+    pub fn with_home(config: BrainConfig, seed: u64, home: ReadyHome) -> Self {
+        let mut brain = Self::new(config, seed);
+        brain.map.put(home);
+        brain.wake_on_dock();
+        brain
+    }
+
+    fn wake_on_dock(&mut self) {
+        if let Some(dock) = self.map.dock() {
+            self.localization.place_at(dock);
+        }
+        self.track();
     }
 
     /// Takes in what the robot perceived and what people asked since the last step, and says what to do. To be called
@@ -221,10 +234,27 @@ impl Brain {
         self.behavior.planned_way()
     }
 
-    /// Everything that must survive a restart of the shell. Sorts all swept cells: for every few seconds, not for every
-    /// step.
+    /// Everything that must survive a restart of the shell. Writes down the whole home: for a robot at rest.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            home: Some(self.map.stored()).filter(|home| !home.is_empty()),
+            ..self.checkpoint_without_home()
+        }
+    }
+
+    /// As [`Self::checkpoint`], of the state of now, in steps: for a robot that drives.
+    #[must_use]
+    pub fn begin_checkpoint(&self) -> CheckpointWork {
+        CheckpointWork {
+            rest: self.checkpoint_without_home(),
+            home: self.map.stored_in_steps(),
+        }
+    }
+
+    /// Everything but the home, which the one who takes it up has or does not need.
+    #[must_use]
+    pub fn checkpoint_without_home(&self) -> Checkpoint {
         let map = self.map.snapshot();
         Checkpoint {
             pose: self.pose(),
@@ -235,7 +265,7 @@ impl Brain {
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
             marks: map.marks.to_vec(),
-            home: Some(self.map.stored()).filter(|home| !home.is_empty()),
+            home: None,
             tracking: self.localization.checkpoint(),
         }
     }
@@ -246,6 +276,16 @@ impl Brain {
         if let Some(home) = &checkpoint.home {
             self.map.take_up(home);
         }
+        self.go_on_from(checkpoint);
+    }
+
+    /// As [`Self::restore`], with the checkpoint's home taken up already.
+    pub fn restore_at(&mut self, home: ReadyHome, checkpoint: &Checkpoint) {
+        self.map.put(home);
+        self.go_on_from(checkpoint);
+    }
+
+    fn go_on_from(&mut self, checkpoint: &Checkpoint) {
         self.localization.place_at(checkpoint.pose);
         self.localization.resume_backed(checkpoint.backed_m);
         self.mind.random = Random::from_state(checkpoint.random_state);

@@ -1,8 +1,11 @@
 //! What must survive a restart of the daemon, as plain data: the shell writes and reads it in a form of its own.
 
+use core::task::Poll;
+
 use crate::behavior::{JobFigures, JobKind};
 use crate::energy::EnergyModel;
 use crate::geometry::Pose2;
+use crate::gradual::Gradual;
 use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
 use crate::order::CleaningOrder;
 
@@ -29,6 +32,27 @@ pub struct Checkpoint {
     pub energy: EnergyModel,
     /// How the pose is followed in the map of the home; `None` = by odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
+}
+
+/// A checkpoint that is being made: writing down the home takes some steps.
+#[derive(Debug)]
+pub struct CheckpointWork {
+    /// All but the home.
+    pub(crate) rest: Checkpoint,
+    pub(crate) home: Gradual<StoredMap>,
+}
+
+impl CheckpointWork {
+    /// Does the next step. What it gives in the end is the state at the beginning. Not to be called again after that.
+    pub fn go_on(&mut self) -> Option<Checkpoint> {
+        let Poll::Ready(home) = self.home.go_on() else {
+            return None;
+        };
+        Some(Checkpoint {
+            home: Some(home).filter(|home| !home.is_empty()),
+            ..core::mem::take(&mut self.rest)
+        })
+    }
 }
 
 /// How sure a robot is of its pose in the map of its home, and what it has learnt of its gyro.

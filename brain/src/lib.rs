@@ -29,7 +29,7 @@ mod task;
 pub use action::{Actions, Motion};
 pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};
 pub use brain::Brain;
-pub use checkpoint::{Checkpoint, JobCheckpoint, TrackingCheckpoint};
+pub use checkpoint::{Checkpoint, CheckpointWork, JobCheckpoint, TrackingCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
 pub use coverage::JobEstimate;
@@ -38,7 +38,7 @@ pub use geometry::{Point2, Pose2};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
-    Raster, StoredMap, StoredMapError, SweptRun,
+    Raster, ReadyHome, StoredMap, StoredMapError, SweptRun, TakingUp,
 };
 pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;

@@ -177,6 +177,7 @@ impl Behavior {
     }
 
     fn pause(&mut self, mind: &mut Mind) {
+        self.stays_where_it_is();
         match self.mode {
             Mode::Disconnected { since_us, .. } => {
                 self.enter(
@@ -194,6 +195,7 @@ impl Behavior {
 
     fn stop(&mut self, mind: &mut Mind) {
         self.centre_first = true;
+        self.stays_where_it_is();
         match self.mode {
             // A fault or a lost link outlives the job.
             Mode::Error { .. } | Mode::Disconnected { .. } => {

@@ -121,6 +121,11 @@ impl Behavior {
             && self.slips_left()
     }
 
+    /// A person wants it to stand: it does not come back to its contacts by itself.
+    pub(super) fn stays_where_it_is(&mut self) {
+        self.home_us = None;
+    }
+
     /// Counts a slip, and tells whether there may be one more try.
     pub(super) fn slips_left(&mut self) -> bool {
         let left = self.slips < SLIPS_MAX;

@@ -3,6 +3,10 @@
 use super::distance::{DistanceField, grown, window};
 use super::layers::{CellBox, Layers};
 use super::{Cell, CellKnowledge, Raster};
+use crate::gradual::Pace;
+
+/// Work of finding a cell among the tiles.
+const LOOK_UP_WORK: usize = 6;
 
 /// Knowledge and distances over everything that was ever seen.
 #[derive(Clone, Debug)]
@@ -21,6 +25,22 @@ impl Default for Derived {
 }
 
 impl Derived {
+    /// Everything that `layers` tell.
+    pub(super) async fn anew(layers: &mut Layers, pace: &mut Pace) -> Self {
+        layers.take_dirty();
+        let mut derived = Self::default();
+        derived.cover(layers);
+        for index in 0..derived.knowledge.values().len() {
+            let cell = derived.knowledge.cell(index);
+            if let Some(place) = derived.knowledge.values_mut().get_mut(index) {
+                *place = layers.at(cell).knowledge();
+            }
+            pace.spend(LOOK_UP_WORK).await;
+        }
+        derived.distance = DistanceField::in_steps(&derived.knowledge, pace).await;
+        derived
+    }
+
     /// Takes up what is dirty in `layers`.
     pub(super) fn refresh(&mut self, layers: &mut Layers) {
         let changed = layers.take_dirty();

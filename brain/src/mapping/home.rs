@@ -32,7 +32,7 @@ const POCKET_M: f64 = 0.1;
 #[derive(Debug)]
 pub(super) struct HomeMap {
     pub(super) pencil: Pencil,
-    layers: Layers,
+    pub(super) layers: Layers,
     derived: Derived,
     /// What was known before the first of the sightings.
     pub(super) base: Layers,
@@ -41,11 +41,11 @@ pub(super) struct HomeMap {
     refreshed_us: u64,
     /// Tiles that are not brought up to date yet, of those that were to be.
     stale_tiles: usize,
-    rooms: Rooms,
+    pub(super) rooms: Rooms,
     surveyed_us: u64,
     surveying: Option<Gradual<Rooms>>,
     slip: SlipMeter,
-    dock: Option<Pose2>,
+    pub(super) dock: Option<Pose2>,
     revision: u32,
     redrawn: u32,
     /// Cells that are shut until the next job.
@@ -256,25 +256,26 @@ impl HomeMap {
         self.redrawn = self.redrawn.wrapping_add(1);
     }
 
-    fn restore(&mut self, stored: &StoredMap) {
-        self.layers = Layers::default();
-        stored.fill(&mut self.layers);
+    /// The same with a stored home instead of nothing.
+    pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
+        self.layers = stored.layers(pace).await;
         self.base = self.layers.clone();
-        self.sightings.clear();
-        self.pockets.clear();
-        self.last = None;
         self.dock = stored.dock();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
-        self.derive_anew();
-        self.rooms = stored.rooms();
-        self.survey();
+        self.derived = Derived::anew(&mut self.layers, pace).await;
+        let beneath = self.knowledge_beneath();
+        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
+        self.rooms = stored.rooms().renewed_in_steps(knowledge, pace).await;
+        self
     }
 
-    fn derive_anew(&mut self) {
-        self.derived = Derived::default();
-        self.derived.refresh(&mut self.layers);
-        self.revision = self.revision.wrapping_add(1);
+    /// Goes on with the counters of the home that was there before.
+    pub(super) fn count_on(&mut self, before: &Self) {
+        self.revision = before.revision.wrapping_add(1);
+        self.redrawn = before.redrawn;
+        self.refreshed_us = before.refreshed_us;
+        self.surveyed_us = before.surveyed_us;
     }
 }
 
@@ -426,21 +427,6 @@ impl Map {
         evidence
             .has(Flag::Seen)
             .then(|| 0.01 * f64::from(evidence.sigma_cm))
-    }
-
-    /// The home as plain data.
-    #[must_use]
-    pub fn stored(&self) -> StoredMap {
-        StoredMap::of_layers(&self.home.layers, &self.home.rooms)
-            .with_dock(self.home.dock)
-            .with_annotations(self.home.annotations.clone())
-    }
-
-    /// Takes up a stored home in place of what is known.
-    pub fn take_up(&mut self, stored: &StoredMap) {
-        self.redrawing = None;
-        self.settle();
-        self.home.restore(stored);
     }
 
     /// Bytes that the map of the home takes, sightings included.

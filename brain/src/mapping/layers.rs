@@ -4,6 +4,7 @@
 //! to. *Dirty*: cells whose knowledge may have changed since the derived rasters were last brought up to date.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::Cell;
 
@@ -152,7 +153,8 @@ type TileKey = (i32, i32);
 
 #[derive(Clone, Debug)]
 struct Tile {
-    cells: Box<[Evidence]>,
+    /// Shared with copies of the layers until one of them changes it, so that a copy costs next to nothing.
+    cells: Arc<[Evidence]>,
     dirty: Option<CellBox>,
 }
 
@@ -160,7 +162,7 @@ impl Tile {
     fn new() -> Self {
         let area = (TILE_CELLS * TILE_CELLS) as usize;
         Self {
-            cells: vec![Evidence::default(); area].into_boxed_slice(),
+            cells: Arc::from(vec![Evidence::default(); area]),
             dirty: None,
         }
     }
@@ -213,7 +215,7 @@ impl Layers {
         let Some(tile) = self.tiles.get_mut(place) else {
             return;
         };
-        let Some(evidence) = tile.cells.get_mut(index) else {
+        let Some(evidence) = Arc::make_mut(&mut tile.cells).get_mut(index) else {
             return;
         };
         let before = evidence.knowledge();
@@ -286,7 +288,7 @@ impl Layers {
         })
     }
 
-    /// Bytes that the tiles take.
+    /// Bytes that the tiles take, those included that are shared with a copy.
     pub(super) fn memory_bytes(&self) -> usize {
         self.tiles.len() * (TILE_CELLS * TILE_CELLS) as usize * size_of::<Evidence>()
     }

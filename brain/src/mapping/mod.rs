@@ -23,8 +23,10 @@ mod rooms;
 mod sighting;
 mod stored;
 mod swept;
+mod taking_up;
 mod traces;
 mod walls;
+mod writing_down;
 
 pub use annotations::Annotations;
 pub use distance::{DistanceField, FAR_M};
@@ -35,6 +37,7 @@ pub use redraw::Keyframe;
 pub use rooms::{Door, Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};
 pub use swept::{CELL_M, Cell, SweptRun};
+pub use taking_up::{ReadyHome, TakingUp};
 pub use traces::{Mark, MarkKind, PathPoint};
 pub use walls::WallSegment;
 

@@ -55,6 +55,14 @@ pub struct SweptRun {
     pub length: u32,
 }
 
+impl SweptRun {
+    /// Whether `cell` is the one to the right of its last.
+    fn ends_before(&self, cell: Cell) -> bool {
+        self.start.y == cell.y
+            && i64::from(self.start.x) + i64::from(self.length) == i64::from(cell.x)
+    }
+}
+
 type Tile = [u64; TILE_CELLS as usize];
 
 /// Which cells were swept, and in which order.
@@ -84,22 +92,22 @@ impl SweptLayer {
             .is_some_and(|tile| tile[row] & bit != 0)
     }
 
+    /// All cells, joined to runs in the order of their rows.
     pub(super) fn runs(&self) -> Vec<SweptRun> {
-        let mut cells = self.order.clone();
-        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
-        let mut runs: Vec<SweptRun> = Vec::new();
-        for cell in cells {
-            match runs.last_mut() {
-                Some(run)
-                    if run.start.y == cell.y
-                        && i64::from(run.start.x) + i64::from(run.length) == i64::from(cell.x) =>
-                {
-                    run.length += 1;
+        let mut rows: BTreeMap<i32, Vec<(i32, &Tile)>> = BTreeMap::new();
+        for ((column, row), place) in &self.tile_at {
+            if let Some(tile) = self.tiles.get(*place) {
+                rows.entry(*row).or_default().push((*column, tile));
+            }
+        }
+        let mut runs = Vec::new();
+        for (tile_row, tiles) in rows {
+            for row in 0..TILE_CELLS {
+                let y = tile_row * TILE_CELLS + row;
+                for (column, tile) in &tiles {
+                    let start = Cell { x: column * TILE_CELLS, y };
+                    add_runs(&mut runs, start, tile[row as usize]);
                 }
-                _ => runs.push(SweptRun {
-                    start: cell,
-                    length: 1,
-                }),
             }
         }
         runs
@@ -159,6 +167,25 @@ impl SweptLayer {
                 }
             }
         }
+    }
+}
+
+/// Adds the cells of a row of a tile, which begins with `start`; what touches the last run makes that longer.
+fn add_runs(runs: &mut Vec<SweptRun>, start: Cell, bits: u64) {
+    let mut left = bits;
+    while left != 0 {
+        let skipped = left.trailing_zeros();
+        let length = (left >> skipped).trailing_ones();
+        let first = Cell {
+            x: start.x + skipped as i32,
+            y: start.y,
+        };
+        match runs.last_mut() {
+            Some(run) if run.ends_before(first) => run.length += length,
+            _ => runs.push(SweptRun { start: first, length }),
+        }
+        // In two steps: a run may fill the row, and 64 bits cannot be shifted out at once.
+        left = (left >> skipped >> (length - 1) >> 1) << (skipped + length - 1) << 1;
     }
 }
 
@@ -307,6 +334,31 @@ mod tests {
             2.0 * PI,
             PI * 0.25 * SWATH_M * SWATH_M,
         );
+    }
+
+    #[test]
+    fn runs_are_the_cells_in_order_joined_where_they_touch() {
+        let mut random = crate::random::Random::new(4);
+        let mut layer = SweptLayer::default();
+        for _ in 0..400 {
+            layer.paint_run(SweptRun {
+                start: Cell {
+                    x: random.between(-150.0, 150.0) as i32,
+                    y: random.between(-70.0, 70.0) as i32,
+                },
+                length: random.between(1.0, 140.0) as u32,
+            });
+        }
+        let mut cells: Vec<Cell> = layer.cells().to_vec();
+        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+        let mut expected: Vec<SweptRun> = Vec::new();
+        for cell in cells {
+            match expected.last_mut() {
+                Some(run) if run.ends_before(cell) => run.length += 1,
+                _ => expected.push(SweptRun { start: cell, length: 1 }),
+            }
+        }
+        assert_eq!(layer.runs(), expected);
     }
 
     #[test]

@@ -42,6 +42,9 @@ pub(super) struct Run {
     pub(super) length: u32,
 }
 
+/// Work on a cell that is written down or taken up, beside one that is only looked at.
+const CELL_WORK: usize = 4;
+
 /// Occupancy is stored in 15 steps of this size.
 const OCCUPANCY_STEP: i8 = 12;
 
@@ -120,11 +123,12 @@ impl StoredMap {
         self.cells.iter().all(|run| run.value == 0)
     }
 
-    pub(super) fn of_layers(layers: &Layers, rooms: &Rooms) -> Self {
+    pub(super) async fn of_layers(layers: &Layers, rooms: &Rooms, pace: &mut Pace) -> Self {
         let mut around: Option<CellBox> = None;
         for (cell, _) in layers.gathered() {
             let here = CellBox::of(cell);
             around = Some(around.map_or(here, |before| before.joined(here)));
+            pace.spend(CELL_WORK).await;
         }
         let Some(around) = around else {
             return Self {
@@ -138,16 +142,21 @@ impl StoredMap {
             if let Some(place) = raster.get_mut(cell) {
                 *place = pack(evidence);
             }
+            pace.spend(CELL_WORK).await;
         }
-        let labels = (0..raster.values().len())
-            .map(|index| rooms.labels().get(raster.cell(index)).copied().unwrap_or(0));
-        let labels = runs_of(labels);
+        let (mut cells, mut labels) = (Vec::new(), Vec::new());
+        for (index, value) in raster.values().iter().enumerate() {
+            let label = rooms.labels().get(raster.cell(index)).copied();
+            lengthen(&mut cells, *value);
+            lengthen(&mut labels, label.unwrap_or(0));
+            pace.spend(CELL_WORK).await;
+        }
         Self {
             dock: None,
             origin: around.low,
             width: width.try_into().unwrap_or(u32::MAX),
             height: height.try_into().unwrap_or(u32::MAX),
-            cells: runs_of(raster.values().iter().copied()),
+            cells,
             rooms: labels,
             next_room: rooms.next(),
             annotations: Annotations::default(),
@@ -163,14 +172,18 @@ impl StoredMap {
         Rooms::remembered(labels, self.next_room)
     }
 
-    /// Adds what is stored to empty layers.
-    pub(super) fn fill(&self, layers: &mut Layers) {
+    /// What is stored, as layers.
+    pub(super) async fn layers(&self, pace: &mut Pace) -> Layers {
+        let mut layers = Layers::default();
         let raster: Raster<()> = Raster::filled(self.origin, self.width as usize, self.height as usize, ());
         for (index, value) in values_of(&self.cells).enumerate() {
             if value != 0 {
                 layers.change(raster.cell(index), |evidence| *evidence = unpack(value));
+                pace.spend(CELL_WORK).await;
             }
+            pace.spend(1).await;
         }
+        layers
     }
 }
 
@@ -237,14 +250,19 @@ fn unpack(packed: u16) -> Evidence {
 }
 
 pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs = Vec::new();
     for value in values {
-        match runs.last_mut() {
-            Some(run) if run.value == value && run.length < u32::MAX => run.length += 1,
-            _ => runs.push(Run { value, length: 1 }),
-        }
+        lengthen(&mut runs, value);
     }
     runs
+}
+
+/// Adds a cell to the last run, or begins another one.
+fn lengthen(runs: &mut Vec<Run>, value: u16) {
+    match runs.last_mut() {
+        Some(run) if run.value == value && run.length < u32::MAX => run.length += 1,
+        _ => runs.push(Run { value, length: 1 }),
+    }
 }
 
 pub(super) fn values_of(runs: &[Run]) -> impl Iterator<Item = u16> + '_ {
