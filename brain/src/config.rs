@@ -190,7 +190,7 @@ pub struct BrainConfig {
 }
 
 impl BrainConfig {
-    /// A configuration with the project's budgets: 120 minutes of cleaning (S26), 30 minutes of dock search, low at 15 %,
+    /// A configuration with the project's budgets: 120 minutes of cleaning (S26), 60 minutes of dock search, low at 15 %,
     /// charged at 90 %, and no sensors but a bumper.
     #[must_use]
     pub fn new(body: Body, speeds: Speeds) -> Self {
@@ -199,7 +199,7 @@ impl BrainConfig {
             speeds,
             sensors: SensorLayout::default(),
             task_budget_s: 7200.0,
-            dock_budget_s: 1800.0,
+            dock_budget_s: 3600.0,
             battery_low: 0.15,
             battery_charged: 0.9,
         }

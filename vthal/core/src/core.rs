@@ -56,6 +56,8 @@ pub struct Core {
     ended: bool,
     /// Whoever changed the map since the brain's last step: client and number of the request.
     edits: Vec<(ClientId, Option<u32>)>,
+    /// Commands wait for the home of the next run, and were not carried out in the brain's last step.
+    commands_wait: bool,
     floors: Floors,
     scheduler: Scheduler,
     schedules_told: Option<Schedules>,
@@ -95,6 +97,7 @@ impl Core {
             stepped_us: 0,
             ended: false,
             edits: Vec::new(),
+            commands_wait: false,
         }
     }
 

@@ -3,9 +3,14 @@
 //! *Run*: what is recorded to one file and can be replayed. Each run begins with a fresh brain that takes up a checkpoint
 //! of the one before, and then sees the last observation again. So a replay needs nothing from before the run.
 
+mod next_run;
+
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
-use brain::{Actions, BehaviorState, Body, Brain, Checkpoint, Command, FloorPlace, MapCursor, Speeds};
+use brain::{
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, FloorPlace, MapCursor, ReadyHome, Speeds,
+};
+use next_run::{FloorOnItsWay, NextHome, NextRun};
 
 use crate::device::{Description, Shape};
 use crate::floors::Floors;
@@ -30,6 +35,10 @@ pub(crate) struct Mind {
     map_base: u32,
     runs: u32,
     run: Option<Run>,
+    /// A run that begins as soon as its home is ready; commands wait for it.
+    next: Option<NextRun>,
+    /// The home of a floor that is just being taken up.
+    on_its_way: Option<FloorOnItsWay>,
     /// The floor whose map the brain has; `None` while nobody knows on which floor it is.
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
@@ -96,6 +105,8 @@ impl Mind {
             map_base: 0,
             runs: 0,
             run: None,
+            next: None,
+            on_its_way: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             quest: None,
             carried: Carried::No,
@@ -113,7 +124,25 @@ impl Mind {
 
     /// Begins anew in a home that is known.
     pub(crate) fn take_up(&mut self, home: &StoredMap) {
-        self.brain = Brain::with_map(self.config, self.seed, home);
+        self.begin_with(Brain::with_map(self.config, self.seed, home));
+    }
+
+    /// Another brain, without a run.
+    fn begin_with(&mut self, brain: Brain) {
+        self.brain = brain;
+        self.prepare_anew();
+    }
+
+    /// A run that is about to begin takes what the brain knows now.
+    fn prepare_anew(&mut self) {
+        if let Some(next) = self.next.take() {
+            self.next = Some(NextRun::after(&self.brain, next.cause));
+        }
+    }
+
+    /// Whether commands wait for a run whose home is being made ready.
+    pub(crate) fn holds_commands(&self) -> bool {
+        self.next.is_some()
     }
 
     pub(crate) fn place_at(&mut self, pose: brain::Pose2) {
@@ -142,7 +171,8 @@ impl Mind {
         self.run.map(|_| self.runs)
     }
 
-    /// Gives `command` to the brain with its next step. The first one after rest begins a run.
+    /// Gives `command` to the brain with its next step. The first one after rest begins a run, in which it is carried out; with a
+    /// home that takes some steps.
     pub(crate) fn command(&mut self, now_us: u64, command: Command, recorder: &mut Recorder<'_>) {
         let cause = match command {
             Command::Clean { .. } | Command::CleanParts { .. } | Command::Spot | Command::Dock => {
@@ -161,9 +191,13 @@ impl Mind {
         if let Some(cause) = cause
             && self.begins_run(cause)
         {
-            self.end_run(now_us, RunEnd::Finished, recorder);
-            let checkpoint = self.brain.checkpoint();
-            self.begin_run(now_us, (cause, checkpoint), recorder);
+            if self.brain.map().knowledge().values().is_empty() {
+                self.end_run(now_us, RunEnd::Finished, recorder);
+                let checkpoint = self.brain.checkpoint();
+                self.begin_run(now_us, (cause, checkpoint, None), recorder);
+            } else {
+                self.next = Some(NextRun::after(&self.brain, cause));
+            }
         }
         // A stick that moves faster than telemetry comes: only its newest position counts.
         if matches!(command, Command::Manual { .. }) {
@@ -175,7 +209,27 @@ impl Mind {
 
     fn begins_run(&self, cause: RunCause) -> bool {
         let rests = self.rests() && self.waiting.is_empty();
-        self.run.is_none() || (rests && cause == RunCause::Job)
+        self.next.is_none() && (self.run.is_none() || (rests && cause == RunCause::Job))
+    }
+
+    /// Goes on with the home of the next run, and begins that when it is ready.
+    fn prepare_run(&mut self, recorder: &mut Recorder<'_>) {
+        let now_us = self.observer.observation().time_us;
+        let Some(next) = &mut self.next else { return };
+        if self.on_its_way.is_some() {
+            return;
+        }
+        let Some(NextHome { written, ready }) = next.go_on(&self.config) else {
+            return;
+        };
+        let cause = next.cause;
+        self.next = None;
+        self.end_run(now_us, RunEnd::Finished, recorder);
+        let checkpoint = Checkpoint {
+            home: Some(written),
+            ..self.brain.checkpoint_without_home()
+        };
+        self.begin_run(now_us, (cause, checkpoint, Some(ready)), recorder);
     }
 
     /// Takes up what a daemon before this one was doing, on this floor.
@@ -186,13 +240,13 @@ impl Mind {
         recorder: &mut Recorder<'_>,
     ) {
         self.floor = floor;
-        self.begin_run(now_us, (RunCause::ResumedAfterRestart, checkpoint), recorder);
+        self.begin_run(now_us, (RunCause::ResumedAfterRestart, checkpoint, None), recorder);
     }
 
     fn begin_run(
         &mut self,
         now_us: u64,
-        (cause, checkpoint): (RunCause, Checkpoint),
+        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<ReadyHome>),
         recorder: &mut Recorder<'_>,
     ) {
         self.map_base = self.map_number();
@@ -200,7 +254,10 @@ impl Mind {
         // Any odd multiplier gives each run a seed of its own; this one is the golden ratio's.
         let seed = self.seed ^ u64::from(self.runs).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         self.brain = Brain::new(self.config, seed);
-        self.brain.restore(&checkpoint);
+        match ready {
+            Some(home) => self.brain.restore_at(home, &checkpoint),
+            None => self.brain.restore(&checkpoint),
+        }
         self.run = Some(Run {
             resting_since_us: None,
         });
@@ -247,9 +304,10 @@ impl Mind {
         recorder: &mut Recorder<'_>,
     ) -> Option<FloorNews> {
         let asked_before = self.asked();
+        let under_way = self.on_its_way.take();
         let observation = self.observer.observation();
         if self.run.is_none() && observation.docked && observation.link_up {
-            let news = self.know_dock(floors);
+            let news = self.know_dock(floors, under_way);
             return news.or_else(|| self.new_question(asked_before));
         }
         self.watch_hands(now_us);
@@ -265,7 +323,9 @@ impl Mind {
             // It has its map, and will find itself in it as well.
             Some(place) if self.floor == Some(place.floor) => None,
             Some(place) => {
-                self.move_to(now_us, (place, floors), recorder);
+                let home = floors.home(place.floor)?;
+                let ready = self.home_of(under_way, (place.floor, home))?;
+                self.move_to(now_us, (place, home, ready), recorder);
                 Some(FloorNews::Found(place.floor))
             }
             None => self.new_question(asked_before),
@@ -279,7 +339,7 @@ impl Mind {
     }
 
     /// The robot stands on a dock at rest.
-    fn know_dock(&mut self, floors: &Floors) -> Option<FloorNews> {
+    fn know_dock(&mut self, floors: &Floors, under_way: Option<FloorOnItsWay>) -> Option<FloorNews> {
         let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
         if self.floor.is_some() && self.carried == Carried::Yes && docks > 1 {
             self.forget_floor(None);
@@ -288,11 +348,22 @@ impl Mind {
             return None;
         }
         let number = self.quest.get_or_insert_default().by_dock(floors)?;
-        self.take_up(floors.home(number)?);
+        let home = self.home_of(under_way, (number, floors.home(number)?))?;
+        self.begin_with(Brain::with_home(self.config, self.seed, home));
         self.floor = Some(number);
         self.quest = None;
         self.carried = Carried::No;
         Some(FloorNews::Docked(number))
+    }
+
+    /// The home of a floor; it takes some steps until it is ready.
+    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<ReadyHome> {
+        let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
+        let ready = floor.go_on();
+        if ready.is_none() {
+            self.on_its_way = Some(floor);
+        }
+        ready
     }
 
     fn watch_hands(&mut self, now_us: u64) {
@@ -307,14 +378,19 @@ impl Mind {
     }
 
     /// The robot is at a place of a floor: what it does goes on there.
-    fn move_to(&mut self, now_us: u64, (place, floors): (FloorPlace, &Floors), recorder: &mut Recorder<'_>) {
+    fn move_to(
+        &mut self,
+        now_us: u64,
+        (place, home, ready): (FloorPlace, &StoredMap, ReadyHome),
+        recorder: &mut Recorder<'_>,
+    ) {
         let checkpoint = Checkpoint {
             pose: place.pose,
-            home: floors.home(place.floor).cloned(),
+            home: Some(home.clone()),
             tracking: Some(place.tracking),
             ..self.without_place()
         };
-        self.go_on_with(now_us, checkpoint, recorder);
+        self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
         self.floor = Some(place.floor);
         self.quest = None;
         self.carried = Carried::No;
@@ -322,7 +398,7 @@ impl Mind {
 
     /// What the brain is doing, without any map.
     fn without_place(&self) -> Checkpoint {
-        let present = self.brain.checkpoint();
+        let present = self.brain.checkpoint_without_home();
         Checkpoint {
             random_state: present.random_state,
             backed_m: present.backed_m,
@@ -332,20 +408,26 @@ impl Mind {
         }
     }
 
-    fn go_on_with(&mut self, now_us: u64, checkpoint: Checkpoint, recorder: &mut Recorder<'_>) {
+    fn go_on_with(
+        &mut self,
+        now_us: u64,
+        (checkpoint, ready): (Checkpoint, Option<ReadyHome>),
+        recorder: &mut Recorder<'_>,
+    ) {
         if self.run.is_some() {
             self.end_run(now_us, RunEnd::Finished, recorder);
-            self.begin_run(now_us, (RunCause::FloorFound, checkpoint), recorder);
+            self.begin_run(now_us, (RunCause::FloorFound, checkpoint, ready), recorder);
+            self.prepare_anew();
         } else {
             self.map_base = self.map_number();
-            self.brain = Brain::new(self.config, self.seed);
+            self.begin_with(Brain::new(self.config, self.seed));
         }
     }
 
     /// The floor is not known any more, and what is known of it is not worth keeping; a person may have said which it is.
     fn forget_floor(&mut self, chosen: Option<u16>) {
         self.map_base = self.map_number();
-        self.brain = Brain::new(self.config, self.seed);
+        self.begin_with(Brain::new(self.config, self.seed));
         self.floor = None;
         self.quest = Some(chosen.map_or_else(Quest::default, Quest::for_floor));
     }
@@ -365,7 +447,7 @@ impl Mind {
     /// the map of this floor.
     pub(crate) fn begin_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         if self.floor.is_some() {
-            self.go_on_with(now_us, self.without_place(), recorder);
+            self.go_on_with(now_us, (self.without_place(), None), recorder);
         }
         self.floor = Some(number);
         self.quest = None;
@@ -410,12 +492,20 @@ impl Mind {
 
     /// One step with the present observation.
     pub(crate) fn step(&mut self, recorder: &mut Recorder<'_>) -> Actions {
-        let commands = core::mem::take(&mut self.waiting);
+        let commands = if self.holds_commands() {
+            Vec::new()
+        } else {
+            core::mem::take(&mut self.waiting)
+        };
         let actions = self.step_once(&commands, recorder);
         self.observer.seen();
-        self.waiting = commands;
-        self.waiting.clear();
-        self.watch_rest(recorder);
+        if self.holds_commands() {
+            self.prepare_run(recorder);
+        } else {
+            self.waiting = commands;
+            self.waiting.clear();
+            self.watch_rest(recorder);
+        }
         actions
     }
 

@@ -751,7 +751,11 @@ fn an_estimate_is_made_at_rest_and_a_part_is_cleaned() {
     );
     pair.records.clear();
     assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(vec![zone()], 2))), None);
-    pair.run_ms(200);
+    for _ in 0..10 {
+        // The gyro on the board goes on to say that nothing turns.
+        pair.handle(Input::BoardHeading { heading_urad: 0 });
+        pair.run_ms(50);
+    }
     assert_eq!(pair.core.status().state, "starting");
     let refused = pair.ask(ANNA, RequestBody::Estimate(clean(vec![], 1)));
     assert_eq!(refused.as_deref(), Some("job-runs"));
@@ -769,6 +773,36 @@ fn an_estimate_is_made_at_rest_and_a_part_is_cleaned() {
     assert!(matches!(commands[0], brain::Command::CleanParts { order } if order.passes() == 2));
     assert!(matches!(commands[1], brain::Command::AddNoGo { .. }));
     assert_eq!(pair.edits.len(), 1);
+}
+
+#[test]
+fn what_is_said_while_the_home_of_a_run_is_made_ready_comes_after_the_order_and_none_is_done_before() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(vec![], 1))), None);
+    assert_eq!(pair.ask(BERT, wall([3.2, 1.0], [3.2, 2.0])), None);
+    pair.run_ms(20);
+    let now = pair.core.status().state;
+    assert!(now == "docked" && pair.edits.is_empty(), "{now}, {} edits", pair.edits.len());
+    assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+    pair.run_ms(1000);
+    assert_eq!(pair.core.status().state, "docked");
+    let edit = pair.edits.first().expect("is kept with the map that has it");
+    assert_eq!(edit.home.home.annotations().no_go().count(), 1);
+    let said: Vec<_> = pair
+        .records
+        .iter()
+        .filter_map(|record| match record {
+            Record::RunStarted(_) => Some("run"),
+            Record::Command { command, .. } => Some(match command {
+                brain::Command::CleanParts { .. } | brain::Command::Clean { .. } => "clean",
+                brain::Command::AddNoGo { .. } => "wall",
+                brain::Command::Stop => "stop",
+                _ => "other",
+            }),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(said, ["run", "clean", "wall", "stop"]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What clients are told, and how often.
 
-use brain::{BehaviorState, MapCursor};
+use brain::{BehaviorState, CheckpointWork, MapCursor};
 use rvac_api::{
     API_VERSION, DeviceTable, Estimate, FloorsView, LinkReading, PlannedWay, Pose, Status, Topic, Update,
     Versions,
@@ -59,7 +59,26 @@ pub(super) struct Feed {
     way: PlannedWay,
     checkpoint_us: u64,
     checkpoint_had_job: bool,
+    checkpoint: Option<CheckpointOnItsWay>,
     state_changed_us: Option<u64>,
+}
+
+/// A checkpoint of which the home is still being written down.
+#[derive(Debug)]
+struct CheckpointOnItsWay {
+    /// All but the brain.
+    rest: Checkpoint,
+    brain: CheckpointWork,
+}
+
+impl CheckpointOnItsWay {
+    fn go_on(&mut self) -> Option<Checkpoint> {
+        let brain = self.brain.go_on()?;
+        Some(Checkpoint {
+            brain,
+            ..self.rest.clone()
+        })
+    }
 }
 
 impl Feed {
@@ -228,17 +247,30 @@ impl Core {
     fn feed_checkpoint(&mut self, now_us: u64, outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
         let off = self.config.checkpoints == Checkpoints::Off;
-        if off || self.ended || now_us < self.feed.checkpoint_us {
+        if off || self.ended {
+            return;
+        }
+        if let Some(work) = &mut self.feed.checkpoint {
+            if let Some(checkpoint) = work.go_on() {
+                self.feed.checkpoint = None;
+                outputs.checkpoint = Some(checkpoint);
+            }
+            return;
+        }
+        if now_us < self.feed.checkpoint_us {
             return;
         }
         let has_job = works(mind);
         if has_job || self.feed.checkpoint_had_job {
             self.feed.checkpoint_had_job = has_job;
-            outputs.checkpoint = Some(Checkpoint {
-                device: mind.device().to_owned(),
-                floor: mind.floor(),
-                brain: mind.brain().checkpoint(),
-                run: self.runs.so_far(now_us).map(Box::new),
+            self.feed.checkpoint = Some(CheckpointOnItsWay {
+                rest: Checkpoint {
+                    device: mind.device().to_owned(),
+                    floor: mind.floor(),
+                    brain: brain::Checkpoint::default(),
+                    run: self.runs.so_far(now_us).map(Box::new),
+                },
+                brain: mind.brain().begin_checkpoint(),
             });
         }
         let map = mind.brain().map().snapshot();

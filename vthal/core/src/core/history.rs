@@ -58,6 +58,7 @@ impl Core {
             charge: mind.observer.observation().battery_charge,
             decisions,
             recorded: mind.recorded_run(),
+            commands_wait: self.commands_wait,
         });
         if let Some(run) = step.done
             && self.records()

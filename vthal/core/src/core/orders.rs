@@ -144,7 +144,7 @@ impl Core {
 
     /// After the step in which the brain took them up: the map goes to the disk with all changes.
     pub(super) fn keep_edits(&mut self, outputs: &mut Outputs) {
-        if self.edits.is_empty() {
+        if self.edits.is_empty() || self.commands_wait {
             return;
         }
         self.feed.tell_home_now();

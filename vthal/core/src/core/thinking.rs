@@ -51,6 +51,7 @@ impl Core {
         let news = mind.look_for_floor(now_us, &self.floors, &mut recorder(recording, outputs));
         let before = mind.brain().status().state;
         let was_recorded = mind.is_recorded();
+        self.commands_wait = mind.holds_commands();
         let actions = mind.step(&mut recorder(recording, outputs));
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();

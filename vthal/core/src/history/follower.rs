@@ -26,6 +26,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) decisions: &'a [Decision],
     /// Number of the recording that goes on.
     pub(crate) recorded: Option<u32>,
+    /// What was commanded is not carried out yet: the run's home is made ready first.
+    pub(crate) commands_wait: bool,
 }
 
 /// What a step brought.
@@ -114,7 +116,11 @@ impl RunFollower {
     /// Takes in a step of the brain.
     pub(crate) fn step(&mut self, moment: &Moment<'_>) -> Step {
         let mut step = Step::default();
-        let (asked, hand) = (self.asked.take(), self.hand.take());
+        let (asked, hand) = if moment.commands_wait {
+            (None, None)
+        } else {
+            (self.asked.take(), self.hand.take())
+        };
         let has_begun =
             |decision: &Decision| decision.what == "state-starting" && decision.reason == "command";
         let begins = moment.decisions.iter().any(has_begun);

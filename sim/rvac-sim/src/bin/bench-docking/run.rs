@@ -52,8 +52,8 @@ pub(crate) struct Run {
     log: Vec<LogEntry>,
 }
 
-/// Time after which the run is ended whatever the robot does: its own limit is 30 minutes.
-const LONGEST_MS: u64 = 1_950_000;
+/// Time after which the run is ended whatever the robot does: its own limit is 60 minutes.
+const LONGEST_MS: u64 = 3_750_000;
 /// How long a robot works before it is lifted, and how long it is in the air.
 const WORK_MS: u64 = 90_000;
 const AIR_MS: u64 = 3_000;

@@ -1,0 +1,84 @@
+//! What is made ready in steps before a brain can begin with it: the home of the next run, and the home of a floor.
+//!
+//! A home takes a small board seconds to write down and to take up. Meanwhile the brain that is there goes on; whatever is
+//! commanded waits for the next one, in its order.
+
+use brain::config::BrainConfig;
+use brain::{Brain, CheckpointWork, ReadyHome, StoredMap, TakingUp};
+
+use crate::RunCause;
+
+/// A run that is about to begin.
+#[derive(Debug)]
+pub(super) struct NextRun {
+    pub(super) cause: RunCause,
+    stage: Stage,
+}
+
+#[derive(Debug)]
+enum Stage {
+    WritingDown(CheckpointWork),
+    TakingUp { written: StoredMap, home: TakingUp },
+}
+
+/// A home for the next brain: as it is recorded, and as it is used.
+pub(super) struct NextHome {
+    pub(super) written: StoredMap,
+    pub(super) ready: ReadyHome,
+}
+
+impl NextRun {
+    /// A run with what `brain` knows of the home.
+    pub(super) fn after(brain: &Brain, cause: RunCause) -> Self {
+        Self {
+            cause,
+            stage: Stage::WritingDown(brain.begin_checkpoint()),
+        }
+    }
+
+    /// Does the next step.
+    pub(super) fn go_on(&mut self, config: &BrainConfig) -> Option<NextHome> {
+        match &mut self.stage {
+            Stage::WritingDown(work) => {
+                let written = work.go_on()?.home.unwrap_or_default();
+                self.stage = Stage::TakingUp {
+                    home: TakingUp::new(config, written.clone()),
+                    written,
+                };
+                None
+            }
+            Stage::TakingUp { written, home } => Some(NextHome {
+                ready: home.go_on()?,
+                written: core::mem::take(written),
+            }),
+        }
+    }
+}
+
+/// The home of a floor that is being taken up.
+#[derive(Debug)]
+pub(super) struct FloorOnItsWay {
+    number: u16,
+    home: TakingUp,
+}
+
+impl FloorOnItsWay {
+    /// Goes on with the home of floor `number`, or begins with it; what was under way for another one is given up.
+    pub(super) fn for_floor(
+        under_way: Option<Self>,
+        (number, stored): (u16, &StoredMap),
+        config: &BrainConfig,
+    ) -> Self {
+        under_way
+            .filter(|floor| floor.number == number)
+            .unwrap_or_else(|| Self {
+                number,
+                home: TakingUp::new(config, stored.clone()),
+            })
+    }
+
+    /// Does the next step.
+    pub(super) fn go_on(&mut self) -> Option<ReadyHome> {
+        self.home.go_on()
+    }
+}
