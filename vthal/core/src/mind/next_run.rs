@@ -17,7 +17,7 @@ pub(super) struct NextRun {
 
 #[derive(Debug)]
 enum Stage {
-    WritingDown(CheckpointWork),
+    WritingDown(Box<CheckpointWork>),
     TakingUp { written: StoredMap, home: TakingUp },
 }
 
@@ -32,7 +32,7 @@ impl NextRun {
     pub(super) fn after(brain: &Brain, cause: RunCause) -> Self {
         Self {
             cause,
-            stage: Stage::WritingDown(brain.begin_checkpoint()),
+            stage: Stage::WritingDown(Box::new(brain.begin_checkpoint())),
         }
     }
 
