@@ -58,8 +58,7 @@ pub struct SweptRun {
 impl SweptRun {
     /// Whether `cell` is the one to the right of its last.
     fn ends_before(&self, cell: Cell) -> bool {
-        self.start.y == cell.y
-            && i64::from(self.start.x) + i64::from(self.length) == i64::from(cell.x)
+        self.start.y == cell.y && i64::from(self.start.x) + i64::from(self.length) == i64::from(cell.x)
     }
 }
 
@@ -105,7 +104,10 @@ impl SweptLayer {
             for row in 0..TILE_CELLS {
                 let y = tile_row * TILE_CELLS + row;
                 for (column, tile) in &tiles {
-                    let start = Cell { x: column * TILE_CELLS, y };
+                    let start = Cell {
+                        x: column * TILE_CELLS,
+                        y,
+                    };
                     add_runs(&mut runs, start, tile[row as usize]);
                 }
             }
@@ -355,7 +357,10 @@ mod tests {
         for cell in cells {
             match expected.last_mut() {
                 Some(run) if run.ends_before(cell) => run.length += 1,
-                _ => expected.push(SweptRun { start: cell, length: 1 }),
+                _ => expected.push(SweptRun {
+                    start: cell,
+                    length: 1,
+                }),
             }
         }
         assert_eq!(layer.runs(), expected);

@@ -240,7 +240,11 @@ impl Mind {
         recorder: &mut Recorder<'_>,
     ) {
         self.floor = floor;
-        self.begin_run(now_us, (RunCause::ResumedAfterRestart, checkpoint, None), recorder);
+        self.begin_run(
+            now_us,
+            (RunCause::ResumedAfterRestart, checkpoint, None),
+            recorder,
+        );
     }
 
     fn begin_run(

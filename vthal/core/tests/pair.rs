@@ -782,7 +782,11 @@ fn what_is_said_while_the_home_of_a_run_is_made_ready_comes_after_the_order_and_
     assert_eq!(pair.ask(BERT, wall([3.2, 1.0], [3.2, 2.0])), None);
     pair.run_ms(20);
     let now = pair.core.status().state;
-    assert!(now == "docked" && pair.edits.is_empty(), "{now}, {} edits", pair.edits.len());
+    assert!(
+        now == "docked" && pair.edits.is_empty(),
+        "{now}, {} edits",
+        pair.edits.len()
+    );
     assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
     pair.run_ms(1000);
     assert_eq!(pair.core.status().state, "docked");
