@@ -1,4 +1,6 @@
-//! Which part of the map is seen, and how large.
+//! Which part of the map is seen, how large, and from where: from straight above, or from an orbit around the middle.
+
+use crate::orbit::{Orbit, Projection};
 
 /// Pixels per metre, smallest and largest: a house of 150 m on a phone, and a cell of 5 cm as large as a thumb.
 const SCALE_MIN: f64 = 2.0;
@@ -6,6 +8,9 @@ const SCALE_MAX: f64 = 1000.0;
 
 /// Share of the view that [`Camera::fit`] leaves free on each side.
 const FIT_MARGIN: f64 = 0.06;
+
+/// Steps after which a picture from an orbit fits to a pixel or two.
+const FIT_STEPS: usize = 12;
 
 /// A rectangle on the map in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +58,19 @@ pub struct View {
     pub height: f64,
 }
 
+/// Sides of the screen that something covers, CSS pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScreenBox {
+    /// Leftmost pixel.
+    pub left: f64,
+    /// Uppermost pixel.
+    pub top: f64,
+    /// Rightmost pixel.
+    pub right: f64,
+    /// Lowest pixel.
+    pub bottom: f64,
+}
+
 /// The camera. Map y points up, screen y points down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -60,6 +78,7 @@ pub struct Camera {
     x: f64,
     y: f64,
     scale: f64,
+    orbit: Option<Orbit>,
 }
 
 impl Default for Camera {
@@ -72,6 +91,7 @@ impl Default for Camera {
             x: 0.0,
             y: 0.0,
             scale: 80.0,
+            orbit: None,
         }
     }
 }
@@ -83,7 +103,7 @@ impl Camera {
         self.view
     }
 
-    /// Pixels per metre.
+    /// Pixels per metre; seen from an orbit, those in the middle of the canvas.
     #[must_use]
     pub const fn scale(&self) -> f64 {
         self.scale
@@ -95,6 +115,28 @@ impl Camera {
         (self.x, self.y)
     }
 
+    /// From where the map is seen; none for straight above.
+    #[must_use]
+    pub const fn orbit(&self) -> Option<Orbit> {
+        self.orbit
+    }
+
+    /// Looks from there; the middle and its size stay.
+    pub const fn look_from(&mut self, orbit: Option<Orbit>) {
+        self.orbit = orbit;
+    }
+
+    /// Turns around the middle as a hand does that moves by these pixels. Nothing happens straight above.
+    pub fn turn(&mut self, dx: f64, dy: f64) {
+        self.orbit = self.orbit.map(|orbit| orbit.turned(dx, dy));
+    }
+
+    /// How the map gets to the screen at this moment.
+    #[must_use]
+    pub fn projection(&self) -> Projection {
+        Projection::of(self.view, (self.x, self.y), self.scale, self.orbit)
+    }
+
     /// Takes a new size of the canvas; the middle stays.
     pub fn resize(&mut self, view: View) {
         self.view = View {
@@ -103,20 +145,37 @@ impl Camera {
         };
     }
 
-    /// The point of the map under a pixel.
+    /// The point of the floor under a pixel.
     #[must_use]
     pub fn map_from_screen(&self, px: f64, py: f64) -> (f64, f64) {
-        let x = self.x + (px - self.view.width / 2.0) / self.scale;
-        let y = self.y - (py - self.view.height / 2.0) / self.scale;
-        (x, y)
+        self.projection().floor_under((px, py))
     }
 
-    /// The pixel that shows a point of the map.
+    /// The pixel that shows a point of the floor.
     #[must_use]
     pub fn screen_from_map(&self, x: f64, y: f64) -> (f64, f64) {
-        let px = self.view.width / 2.0 + (x - self.x) * self.scale;
-        let py = self.view.height / 2.0 - (y - self.y) * self.scale;
-        (px, py)
+        self.projection().pixel_of([x, y, 0.0])
+    }
+
+    /// What of the screen things cover that stand in `bounds` and are `height_m` high.
+    #[must_use]
+    pub fn screen_box(&self, bounds: Bounds, height_m: f64) -> ScreenBox {
+        let projection = self.projection();
+        let whole = ScreenBox {
+            left: f64::INFINITY,
+            top: f64::INFINITY,
+            right: f64::NEG_INFINITY,
+            bottom: f64::NEG_INFINITY,
+        };
+        corners(bounds, height_m).fold(whole, |covered, corner| {
+            let (px, py) = projection.pixel_of(corner);
+            ScreenBox {
+                left: covered.left.min(px),
+                top: covered.top.min(py),
+                right: covered.right.max(px),
+                bottom: covered.bottom.max(py),
+            }
+        })
     }
 
     /// Zooms by `factor`; the point under the pixel stays there.
@@ -135,8 +194,9 @@ impl Camera {
 
     /// Moves the map by pixels, as a finger drags it.
     pub fn drag(&mut self, dx: f64, dy: f64) {
-        self.x -= dx / self.scale;
-        self.y += dy / self.scale;
+        let (x, y) = self.projection().floor_shift(dx, dy);
+        self.x -= x;
+        self.y -= y;
     }
 
     /// Shows all of `bounds` with a margin.
@@ -148,6 +208,27 @@ impl Camera {
         self.scale = scale.clamp(SCALE_MIN, SCALE_MAX);
         self.x = f64::midpoint(bounds.x_min, bounds.x_max);
         self.y = f64::midpoint(bounds.y_min, bounds.y_max);
+        if self.orbit.is_some() {
+            // What is near looks larger, so neither size nor middle follow from the bounds at once.
+            for _ in 0..FIT_STEPS {
+                self.fit_nearer(bounds);
+            }
+        }
+    }
+
+    fn fit_nearer(&mut self, bounds: Bounds) {
+        let seen = self.screen_box(bounds, 0.0);
+        let free = 1.0 - 2.0 * FIT_MARGIN;
+        let factor =
+            (self.view.width * free / (seen.right - seen.left)).min(self.view.height * free / (seen.bottom - seen.top));
+        let off = |low: f64, high: f64, size: f64| size / 2.0 - f64::midpoint(low, high);
+        self.drag(
+            off(seen.left, seen.right, self.view.width),
+            off(seen.top, seen.bottom, self.view.height),
+        );
+        if factor.is_finite() {
+            self.scale = (self.scale * factor.clamp(0.3, 3.0)).clamp(SCALE_MIN, SCALE_MAX);
+        }
     }
 
     /// Comes nearer to having a point in the middle: all the way in about half a second of calls with `elapsed_s` each.
@@ -158,9 +239,23 @@ impl Camera {
     }
 }
 
+/// The corners of a box that stands on the floor.
+fn corners(bounds: Bounds, height_m: f64) -> impl Iterator<Item = [f64; 3]> {
+    let sides = [
+        (bounds.x_min, bounds.y_min),
+        (bounds.x_max, bounds.y_min),
+        (bounds.x_max, bounds.y_max),
+        (bounds.x_min, bounds.y_max),
+    ];
+    sides
+        .into_iter()
+        .flat_map(move |(x, y)| [[x, y, 0.0], [x, y, height_m]])
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Bounds, Camera, SCALE_MAX, View};
+    use crate::Orbit;
 
     fn camera() -> Camera {
         let mut camera = Camera::default();
@@ -229,5 +324,28 @@ mod tests {
         }
         let (x, y) = camera.middle();
         assert!((x - 5.0).abs() < 0.01 && (y + 2.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn from_an_orbit_the_picture_fits_and_the_pointer_holds_what_it_grabbed() {
+        let mut camera = camera();
+        let bounds = Bounds {
+            x_min: -4.0,
+            y_min: 1.0,
+            x_max: 9.0,
+            y_max: 21.0,
+        };
+        for (turn, tilt) in [(0.0, 0.0), (130.0, -500.0), (-700.0, 40.0)] {
+            camera.look_from(Some(Orbit::default()));
+            camera.turn(turn, tilt);
+            camera.fit(bounds);
+            let seen = camera.screen_box(bounds, 0.0);
+            assert!(seen.left >= 30.0 && seen.right <= 770.0, "{seen:?}");
+            assert!(seen.top >= 20.0 && seen.bottom <= 580.0, "{seen:?}");
+            assert!(seen.right - seen.left > 650.0 || seen.bottom - seen.top > 450.0, "{seen:?}");
+            let before = camera.map_from_screen(200.0, 400.0);
+            camera.zoom_at((200.0, 400.0), 1.7);
+            near(camera.map_from_screen(200.0, 400.0), before);
+        }
     }
 }

@@ -33,15 +33,19 @@ impl FrameMeter {
         (span >= 0.5).then(|| (self.frames_s.len() - 1) as f64 / span)
     }
 
-    /// The longest time between two frames in ms.
+    /// Half of the frames take at most this long, ms; and so do 95 of a hundred.
     #[must_use]
-    pub fn longest_ms(&self) -> f64 {
-        let gaps = self
+    pub fn median_and_p95_ms(&self) -> Option<(f64, f64)> {
+        let next = self.frames_s.iter().skip(1);
+        let mut gaps: Vec<f64> = self
             .frames_s
             .iter()
-            .zip(self.frames_s.iter().skip(1))
-            .map(|(a, b)| (b - a) * 1000.0);
-        gaps.fold(0.0, f64::max)
+            .zip(next)
+            .map(|(a, b)| (b - a) * 1000.0)
+            .collect();
+        gaps.sort_by(f64::total_cmp);
+        let at = |share: f64| gaps.get((share * gaps.len() as f64) as usize).copied();
+        at(0.5).zip(at(0.95))
     }
 }
 
@@ -60,6 +64,12 @@ mod tests {
             meter.frame(100.0 + f64::from(frame) / 60.0);
         }
         assert!((meter.per_second().unwrap() - 60.0).abs() < 0.1);
-        assert!((meter.longest_ms() - 16.7).abs() < 0.1);
+        let (median, p95) = meter.median_and_p95_ms().unwrap();
+        assert!((median - 16.7).abs() < 0.1 && (p95 - 16.7).abs() < 0.1);
+        for slow in 1..=9 {
+            meter.frame(105.0 + f64::from(slow) / 10.0);
+        }
+        let (median, p95) = meter.median_and_p95_ms().unwrap();
+        assert!((median - 16.7).abs() < 0.1 && (p95 - 100.0).abs() < 0.1, "{median} {p95}");
     }
 }

@@ -18,6 +18,7 @@ mod latency;
 mod log_book;
 mod mixes;
 mod offers;
+mod orbit;
 mod plan;
 mod playout;
 mod room_choice;
@@ -27,8 +28,9 @@ mod sketch;
 mod swept_grid;
 mod thoughts;
 mod tilt;
+mod wall_blocks;
 
-pub use camera::{Bounds, Camera, View};
+pub use camera::{Bounds, Camera, ScreenBox, View};
 pub use catalogue::{Explanation, explain, state_title};
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
@@ -45,6 +47,7 @@ pub use mixes::{
     CalibrationRun, Field, FieldKind, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart,
 };
 pub use offers::{Offer, Offers, PauseKind};
+pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
 pub use room_choice::{PASSES_MAX, RoomChoice, job_estimate_text, room_at};
@@ -54,3 +57,4 @@ pub use sketch::{NoGoRow, Sketch, Tool, no_go_rows};
 pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};
 pub use tilt::Tilt;
+pub use wall_blocks::{BLOCK_NUMBERS, WallBlocks};

@@ -120,6 +120,20 @@ fn wall_cells(cells: &[u32], width: usize) -> Vec<usize> {
         .collect()
 }
 
+/// The kind of each cell, row by row from the lowest y; none when the plan is too large to be shown.
+pub(crate) fn kinds(plan: &SimulatedPlan) -> Option<Vec<u32>> {
+    if plan.width == 0 || plan.height == 0 || plan.width > SIDE_MAX || plan.height > SIDE_MAX {
+        return None;
+    }
+    let mut cells = vec![0; plan.width as usize * plan.height as usize];
+    runs(plan, |first, length, kind| {
+        if let Some(run) = cells.get_mut(first..first + length) {
+            run.fill(kind);
+        }
+    });
+    Some(cells)
+}
+
 /// Four bytes a cell, row by row from the lowest y; none when the plan is too large to be shown.
 #[must_use]
 pub fn plan_pixels(plan: &SimulatedPlan, palette: PlanPalette) -> Option<Vec<u8>> {
