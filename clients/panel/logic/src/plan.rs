@@ -8,6 +8,11 @@ use crate::home::{CHOSEN, NO_GO, ROOM, ROOM_TINTS};
 /// Cells that a plan may have: 4096 by 4096, which every WebGL2 takes as a texture.
 const SIDE_MAX: u32 = 4096;
 
+/// Not known, and beside known floor.
+const UNSURE: u32 = 7;
+/// How far such cells are marked.
+const UNSURE_CELLS: usize = 3;
+
 /// Colours of the kinds of cells, red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanPalette {
@@ -19,6 +24,8 @@ pub struct PlanPalette {
     pub cliff: [u8; 3],
     /// A rug.
     pub rug: [u8; 3],
+    /// What is not known, where it begins beside floor that is.
+    pub unsure: [u8; 3],
     /// Floor that must not be entered.
     pub no_go: [u8; 3],
     /// Floor of rooms that a person has chosen.
@@ -31,6 +38,7 @@ impl PlanPalette {
     /// Red, green, blue and opacity of a kind of cell; what is outside or unknown is transparent.
     fn pixel(self, kind: u32) -> [u8; 4] {
         let [red, green, blue] = match kind {
+            UNSURE => self.unsure,
             1 => self.floor,
             2 => self.obstacle,
             3 => self.cliff,
@@ -134,22 +142,39 @@ pub(crate) fn kinds(plan: &SimulatedPlan) -> Option<Vec<u32>> {
     Some(cells)
 }
 
+/// Cells that are not known and touch known floor become [`UNSURE`], as far as [`UNSURE_CELLS`] go along row or column: there the
+/// robot does not know how the home goes on. The true plan of a home has a wall everywhere, and no such cells.
+fn mark_unsure(cells: &mut [u32], width: usize) {
+    let is_floor = |kind: u32| kind == 1 || kind == CHOSEN || kind >= ROOM;
+    let places: Vec<usize> = (0..cells.len())
+        .filter(|place| cells.get(*place).is_some_and(|kind| is_floor(*kind)))
+        .collect();
+    for place in places {
+        let column = place % width;
+        let reach = |steps: usize, step: isize| (1..=steps).map(move |n| place.checked_add_signed(step * n as isize));
+        let aside = [
+            (column.min(UNSURE_CELLS), -1),
+            ((width - 1 - column).min(UNSURE_CELLS), 1),
+            (UNSURE_CELLS, -(width as isize)),
+            (UNSURE_CELLS, width as isize),
+        ];
+        for (steps, step) in aside {
+            for beside in reach(steps, step).map_while(|beside| beside) {
+                match cells.get_mut(beside) {
+                    Some(kind) if *kind == 0 || *kind == UNSURE => *kind = UNSURE,
+                    _ => break,
+                }
+            }
+        }
+    }
+}
+
 /// Four bytes a cell, row by row from the lowest y; none when the plan is too large to be shown.
 #[must_use]
 pub fn plan_pixels(plan: &SimulatedPlan, palette: PlanPalette) -> Option<Vec<u8>> {
-    if plan.width == 0 || plan.height == 0 || plan.width > SIDE_MAX || plan.height > SIDE_MAX {
-        return None;
-    }
-    let mut pixels = vec![0; plan.width as usize * plan.height as usize * 4];
-    runs(plan, |first, length, kind| {
-        let pixel = palette.pixel(kind);
-        if let Some(cells) = pixels.get_mut(first * 4..(first + length) * 4) {
-            cells
-                .chunks_exact_mut(4)
-                .for_each(|cell| cell.copy_from_slice(&pixel));
-        }
-    });
-    Some(pixels)
+    let mut cells = kinds(plan)?;
+    mark_unsure(&mut cells, plan.width as usize);
+    Some(cells.into_iter().flat_map(|kind| palette.pixel(kind)).collect())
 }
 
 /// The smallest rectangle of the map that holds all cells which are not outside.
@@ -212,6 +237,7 @@ mod tests {
         rug: [4, 4, 4],
         no_go: [5, 5, 5],
         chosen: [7, 7, 7],
+        unsure: [8, 8, 8],
         rooms: [[6, 6, 6]; 6],
     };
 
@@ -234,10 +260,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_known_is_marked_where_it_touches_floor() {
+        // Not known, not known, floor, obstacle; obstacle, three not known; four not known.
+        let pixels = plan_pixels(&plan(vec![0, 2, 1, 1, 2, 1, 2, 1, 0, 7]), PALETTE).unwrap();
+        let reds: Vec<u8> = pixels.chunks_exact(4).map(|pixel| pixel[0]).collect();
+        assert_eq!(reds, [8, 8, 1, 2, 2, 0, 8, 0, 0, 0, 8, 0]);
+    }
+
+    #[test]
     fn cells_become_pixels() {
         let pixels = plan_pixels(&plan(vec![0, 5, 1, 2, 2, 1, 9, 4]), PALETTE).unwrap();
         let reds: Vec<u8> = pixels.chunks_exact(4).map(|pixel| pixel[0]).collect();
-        assert_eq!(reds, [0, 0, 0, 0, 0, 1, 1, 2, 0, 0, 0, 0]);
+        assert_eq!(reds, [0, 8, 8, 0, 8, 1, 1, 2, 0, 0, 0, 0]);
         assert_eq!(pixels[5 * 4 + 3], 255);
         assert_eq!(pixels[3], 0);
         let pixels = plan_pixels(&plan(vec![5, 1, 16, 1, 21, 1, 22, 9]), PALETTE).unwrap();

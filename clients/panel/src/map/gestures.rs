@@ -1,4 +1,4 @@
-//! Fingers and mouse on the map: one drags, two zoom.
+//! Fingers and mouse on the map: one drags, two zoom and turn.
 
 /// A finger or a mouse button that is down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +15,13 @@ pub(crate) enum Movement {
     Nothing,
     /// The map is dragged by these pixels.
     Drag { dx: f64, dy: f64 },
-    /// The map is zoomed about a pixel and dragged along.
+    /// The map is zoomed about a pixel, dragged along, and turned.
     Pinch {
         at: (f64, f64),
         factor: f64,
         dx: f64,
         dy: f64,
+        turn_rad: f64,
     },
 }
 
@@ -57,12 +58,16 @@ impl Gestures {
             ([_], [_]) => Movement::Drag { dx, dy },
             ([a0, b0, ..], [a1, b1, ..]) => {
                 let spread = |a: &Touch, b: &Touch| (a.x - b.x).hypot(a.y - b.y).max(1.0);
+                let angle = |a: &Touch, b: &Touch| (b.y - a.y).atan2(b.x - a.x);
+                let turn_rad = angle(a1, b1) - angle(a0, b0);
                 let at = (f64::midpoint(a1.x, b1.x), f64::midpoint(a1.y, b1.y));
                 Movement::Pinch {
                     at,
                     factor: spread(a1, b1) / spread(a0, b0),
                     dx: dx / 2.0,
                     dy: dy / 2.0,
+                    // Across the jump from one side to the other.
+                    turn_rad: turn_rad.sin().atan2(turn_rad.cos()),
                 }
             }
             _ => Movement::Nothing,

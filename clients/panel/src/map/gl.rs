@@ -1,7 +1,10 @@
 //! The few wrappers around WebGL2 that the renderer needs.
 
 use js_sys::Float32Array;
-use web_sys::{WebGl2RenderingContext as Gl, WebGlBuffer, WebGlProgram, WebGlTexture, WebGlUniformLocation};
+use web_sys::{
+    WebGl2RenderingContext as Gl, WebGlBuffer, WebGlProgram, WebGlTexture, WebGlUniformLocation,
+    WebGlVertexArrayObject,
+};
 
 /// Why the map cannot be drawn, in the words of the graphics driver.
 #[derive(Clone, Debug)]
@@ -62,11 +65,7 @@ impl Program {
 
     /// Sets a uniform of one to four components; a name that the compiler optimised away is ignored.
     pub(crate) fn set(&self, name: &str, value: &[f32]) {
-        let place = self
-            .uniforms
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map(|(_, place)| place);
+        let place = self.place(name);
         match value {
             [x] => self.gl.uniform1f(place, *x),
             [x, y] => self.gl.uniform2f(place, *x, *y),
@@ -76,13 +75,28 @@ impl Program {
         }
     }
 
-    /// Says which texture unit a sampler reads.
-    pub(crate) fn set_sampler(&self, name: &str, unit: i32) {
-        let place = self
-            .uniforms
+    /// Sets a matrix of three or four columns.
+    pub(crate) fn set_matrix(&self, name: &str, columns: &[f32]) {
+        let place = self.place(name);
+        if columns.len() == 9 {
+            self.gl
+                .uniform_matrix3fv_with_f32_array(place, false, columns);
+        } else {
+            self.gl
+                .uniform_matrix4fv_with_f32_array(place, false, columns);
+        }
+    }
+
+    fn place(&self, name: &str) -> Option<&WebGlUniformLocation> {
+        self.uniforms
             .iter()
             .find(|(known, _)| *known == name)
-            .map(|(_, place)| place);
+            .map(|(_, place)| place)
+    }
+
+    /// Says which texture unit a sampler reads.
+    pub(crate) fn set_sampler(&self, name: &str, unit: i32) {
+        let place = self.place(name);
         self.gl.uniform1i(place, unit);
     }
 }
@@ -137,6 +151,12 @@ impl GrowingBuffer {
             self.filled = all.len();
         }
     }
+}
+
+/// An empty description of what attributes are read from where.
+pub(crate) fn layout(gl: &Gl) -> Result<WebGlVertexArrayObject, GlError> {
+    gl.create_vertex_array()
+        .ok_or_else(|| GlError("no vertex array".to_owned()))
 }
 
 /// How a texture looks when it is drawn larger or smaller than it is.

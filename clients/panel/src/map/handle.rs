@@ -147,10 +147,9 @@ impl MapHandle {
         }
     }
 
-    /// Frames per second and the longest frame in ms while the robot moves.
-    pub(crate) fn smoothness(&self) -> Option<(f64, f64)> {
-        let meter = self.shared.meter.borrow();
-        meter.per_second().map(|rate| (rate, meter.longest_ms()))
+    /// Frames per second while the picture moves.
+    pub(crate) fn frames_per_second(&self) -> Option<f64> {
+        self.shared.meter.borrow().per_second()
     }
 
     /// Writes what tests and curious people read from the canvas.
@@ -165,10 +164,19 @@ impl MapHandle {
             "data-way-dashes",
             self.with(|scene| (scene.way.len() / 4).to_string()),
         );
-        if let Some((rate, longest)) = self.smoothness() {
+        if let Some(rate) = self.frames_per_second() {
             set("data-frames-per-second", format!("{rate:.1}"));
-            set("data-longest-frame-ms", format!("{longest:.1}"));
         }
+        if let Some((median, p95)) = self.shared.meter.borrow().median_and_p95_ms() {
+            set("data-frame-ms", format!("{median:.1} {p95:.1}"));
+        }
+        let path_points = self.with(|scene| scene.path.len() / 2);
+        set("data-path-points", path_points.to_string());
+        let in_relief = self.with(|scene| scene.camera.orbit().is_some());
+        set("data-view", if in_relief { "3d" } else { "2d" }.to_owned());
+        let blocks = self.shared.renderer.borrow();
+        let blocks = blocks.as_ref().map_or(0, Renderer::blocks);
+        set("data-blocks", blocks.to_string());
         set(
             "data-swept-cells",
             self.with(|scene| scene.swept_cells.to_string()),
@@ -208,7 +216,7 @@ impl MapHandle {
 fn context(canvas: &HtmlCanvasElement) -> Result<WebGl2RenderingContext, GlError> {
     let attributes = WebGlContextAttributes::new();
     attributes.set_alpha(false);
-    attributes.set_depth(false);
+    attributes.set_depth(true);
     attributes.set_antialias(false);
     // Frames draw only what changed on top of the frame before.
     attributes.set_preserve_drawing_buffer(true);

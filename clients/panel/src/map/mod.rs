@@ -1,17 +1,23 @@
 //! The live map: the scene is what is to be seen, the renderer draws it with WebGL2, the view puts it on the page.
 
+mod canvas;
 mod gestures;
 mod gl;
 mod handle;
 mod labels;
+mod marks;
 mod order_bar;
 mod orders;
 mod palette;
+mod relief;
+mod relief_shaders;
 mod renderer;
 mod scene;
 mod shaders;
 mod sketch_view;
+mod uploads;
 mod view;
+mod view_memory;
 
 pub(crate) use handle::MapHandle;
 pub(crate) use orders::Orders;

@@ -20,6 +20,9 @@ pub(crate) struct Palette {
     pub(crate) halo: Rgb,
     /// Walls that the robot is sure of.
     pub(crate) wall: Rgb,
+    /// Where raised walls are cut off, and their sides.
+    pub(crate) wall_top: Rgb,
+    pub(crate) wall_side: Rgb,
     /// The way it means to drive, and how far it may be from where it believes to be.
     pub(crate) thought: Rgb,
     pub(crate) plan: PlanPalette,
@@ -45,12 +48,15 @@ const LIGHT: Palette = Palette {
     front: rgb(0x4c_c9_ad),
     halo: rgb(0xff_ff_ff),
     wall: rgb(0x14_21_3a),
+    wall_top: rgb(0x6b_79_8d),
+    wall_side: rgb(0xd5_dc_e5),
     thought: rgb(0x6d_4a_c9),
     plan: PlanPalette {
         floor: bytes(0xff_ff_ff),
         obstacle: bytes(0x8a_96_a6),
         cliff: bytes(0xf0_cf_c2),
         rug: bytes(0xf1_ec_e1),
+        unsure: bytes(0xd9_cd_f3),
         no_go: bytes(0xf0_b9_b9),
         chosen: bytes(0xa8_cf_fb),
         rooms: [
@@ -74,12 +80,15 @@ const DARK: Palette = Palette {
     front: rgb(0x0f_9d_8a),
     halo: rgb(0x0e_13_1a),
     wall: rgb(0xc9_d4_e0),
+    wall_top: rgb(0x8b_9c_b2),
+    wall_side: rgb(0x46_55_69),
     thought: rgb(0xb7_9c_ff),
     plan: PlanPalette {
         floor: bytes(0x1f_29_36),
         obstacle: bytes(0x59_68_7b),
         cliff: bytes(0x53_34_2c),
         rug: bytes(0x28_31_3b),
+        unsure: bytes(0x3c_33_63),
         no_go: bytes(0x6b_30_38),
         chosen: bytes(0x2a_56_8c),
         rooms: [

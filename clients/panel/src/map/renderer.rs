@@ -1,79 +1,94 @@
-//! Draws the scene: one pass for the ground, one each for walls, path and planned way, one for
-//! bumps, one for doors, dock and robot.
+//! Draws the scene: one pass for the ground, from an orbit one for what stands on it, one each for walls, path and planned way, one
+//! for what lies on the floor, one for the robot, one for bumps.
 
-use panel_logic::{Bounds, Camera, plan_pixels};
-use rvac_api::Pose;
+use panel_logic::{Bounds, Camera};
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, WebGlVertexArrayObject};
 
-use super::gl::{GlError, GrowingBuffer, Look, Program, texture};
+use super::gl::{GlError, GrowingBuffer, Look, Program, layout, texture};
+use super::marks::{MARK_NUMBERS, bump_marks, floor_marks, robot_marks};
 use super::palette::Palette;
+use super::relief::{ROBOT_M, Relief};
 use super::scene::{Ground, Places, Redraw, Scene};
 use super::shaders;
-
-/// Numbers an instance of a mark has: place, heading, size, kind.
-const MARK_NUMBERS: i32 = 5;
-
-/// Kinds of marks as the shader knows them.
-const BUMP: f32 = 0.0;
-const CLIFF: f32 = 1.0;
-const ROBOT: f32 = 2.0;
-const TRUE_PLACE: f32 = 3.0;
-const DOCK: f32 = 4.0;
-const DOOR: f32 = 5.0;
-const UNCERTAINTY: f32 = 6.0;
 
 /// Marks and lines reach this far beyond their place, in CSS pixels.
 const MARGIN_PX: f64 = 12.0;
 
-/// Radius of a bump mark in CSS pixels.
-const BUMP_RADIUS_PX: f64 = 4.5;
+/// How much of the robot is seen through a wall that stands before it.
+const BEHIND_WALL: f32 = 0.35;
 
 /// Everything that lives in graphics memory.
 #[derive(Debug)]
 pub(crate) struct Renderer {
-    gl: Gl,
+    pub(super) gl: Gl,
     ground: Program,
     line: Program,
     mark: Program,
-    plan: WebGlTexture,
-    swept: WebGlTexture,
-    path: GrowingBuffer,
-    path_layout: WebGlVertexArrayObject,
-    walls: GrowingBuffer,
-    walls_layout: WebGlVertexArrayObject,
-    way: GrowingBuffer,
-    way_layout: WebGlVertexArrayObject,
-    bumps: GrowingBuffer,
-    bumps_layout: WebGlVertexArrayObject,
-    bodies: GrowingBuffer,
-    bodies_layout: WebGlVertexArrayObject,
+    pub(super) plan: WebGlTexture,
+    pub(super) swept: WebGlTexture,
+    path: Layer,
+    walls: Layer,
+    way: Layer,
+    bumps: Layer,
+    lying: Layer,
+    robot: Layer,
     empty_layout: WebGlVertexArrayObject,
+    /// What stands on the floor; made when it is first seen.
+    pub(super) relief: Option<Relief>,
+}
+
+/// Numbers of instances that are drawn together, and how they are read.
+#[derive(Debug)]
+struct Layer {
+    buffer: GrowingBuffer,
+    layout: WebGlVertexArrayObject,
+}
+
+impl Layer {
+    fn new(gl: &Gl) -> Result<Self, GlError> {
+        Ok(Self {
+            buffer: GrowingBuffer::new(gl)?,
+            layout: layout(gl)?,
+        })
+    }
+
+    fn replace(&mut self, numbers: &[f32]) {
+        self.buffer.restart();
+        self.buffer.catch_up(numbers);
+    }
+
+    fn draw(&self, gl: &Gl, instances: usize) {
+        if instances > 0 {
+            gl.bind_vertex_array(Some(&self.layout));
+            gl.draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, instances as i32);
+        }
+    }
 }
 
 /// The camera as the shaders want it.
 #[derive(Clone, Copy, Debug)]
 struct Eye {
-    view: [f32; 4],
+    clip: [f32; 16],
+    floor: [f32; 9],
     pixel: [f32; 2],
-    scale: f32,
     ratio: f64,
+    /// Seen from an orbit.
+    in_relief: bool,
 }
 
 impl Eye {
     fn of(camera: &Camera, gl: &Gl) -> Self {
-        let view = camera.view();
-        let (x, y) = camera.middle();
         let (width, height) = (
             f64::from(gl.drawing_buffer_width()),
             f64::from(gl.drawing_buffer_height()),
         );
-        let ratio = width / view.width;
-        let clip = |pixels: f64| (2.0 * camera.scale() / pixels) as f32;
+        let projection = camera.projection();
         Self {
-            view: [x as f32, y as f32, clip(view.width), clip(view.height)],
+            clip: projection.clip_matrix(),
+            floor: projection.floor_matrix(),
             pixel: [(2.0 / width) as f32, (2.0 / height) as f32],
-            scale: (camera.scale() * ratio) as f32,
-            ratio,
+            ratio: width / camera.view().width,
+            in_relief: camera.orbit().is_some(),
         }
     }
 }
@@ -81,7 +96,7 @@ impl Eye {
 impl Renderer {
     pub(crate) fn new(gl: &Gl) -> Result<Self, GlError> {
         let ground_uniforms = [
-            "view",
+            "floor_from_clip",
             "plan",
             "swept",
             "plan_pose",
@@ -90,22 +105,19 @@ impl Renderer {
             "outside_colour",
             "grid_colour",
             "swept_colour",
-            "scale",
         ];
         let mark_uniforms = [
-            "view",
-            "scale",
+            "eye",
+            "pixel",
+            "lift",
+            "fade",
             "mark_colour",
             "body_colour",
             "front_colour",
             "halo_colour",
             "thought_colour",
         ];
-        let line_uniforms = ["view", "pixel", "half_width", "line_colour"];
-        let layout = || {
-            gl.create_vertex_array()
-                .ok_or_else(|| GlError("no vertex array".to_owned()))
-        };
+        let line_uniforms = ["eye", "pixel", "half_width", "line_colour"];
         let renderer = Self {
             gl: gl.clone(),
             ground: Program::new(
@@ -117,17 +129,14 @@ impl Renderer {
             mark: Program::new(gl, [shaders::MARK_VERTEX, shaders::MARK_FRAGMENT], &mark_uniforms)?,
             plan: texture(gl, Look::Cells)?,
             swept: texture(gl, Look::Smooth)?,
-            path: GrowingBuffer::new(gl)?,
-            path_layout: layout()?,
-            walls: GrowingBuffer::new(gl)?,
-            walls_layout: layout()?,
-            way: GrowingBuffer::new(gl)?,
-            way_layout: layout()?,
-            bumps: GrowingBuffer::new(gl)?,
-            bumps_layout: layout()?,
-            bodies: GrowingBuffer::new(gl)?,
-            bodies_layout: layout()?,
-            empty_layout: layout()?,
+            path: Layer::new(gl)?,
+            walls: Layer::new(gl)?,
+            way: Layer::new(gl)?,
+            bumps: Layer::new(gl)?,
+            lying: Layer::new(gl)?,
+            robot: Layer::new(gl)?,
+            empty_layout: layout(gl)?,
+            relief: None,
         };
         renderer.describe_layouts();
         Ok(renderer)
@@ -142,24 +151,18 @@ impl Renderer {
             gl.vertex_attrib_pointer_with_i32(place, size, Gl::FLOAT, false, stride, offset);
             gl.vertex_attrib_divisor(place, 1);
         };
-        gl.bind_vertex_array(Some(&self.path_layout));
-        self.path.bind();
-        attribute(0, 2, [8, 0]);
-        attribute(1, 2, [8, 8]);
-        for (layout, buffer) in [(&self.walls_layout, &self.walls), (&self.way_layout, &self.way)] {
-            gl.bind_vertex_array(Some(layout));
-            buffer.bind();
-            attribute(0, 2, [16, 0]);
-            attribute(1, 2, [16, 8]);
+        for (layer, stride) in [(&self.path, 8), (&self.walls, 16), (&self.way, 16)] {
+            gl.bind_vertex_array(Some(&layer.layout));
+            layer.buffer.bind();
+            attribute(0, 2, [stride, 0]);
+            attribute(1, 2, [stride, 8]);
         }
-        for (layout, buffer) in [
-            (&self.bumps_layout, &self.bumps),
-            (&self.bodies_layout, &self.bodies),
-        ] {
-            gl.bind_vertex_array(Some(layout));
-            buffer.bind();
-            attribute(0, 4, [MARK_NUMBERS * 4, 0]);
-            attribute(1, 1, [MARK_NUMBERS * 4, 16]);
+        let mark_bytes = MARK_NUMBERS as i32 * 4;
+        for layer in [&self.bumps, &self.lying, &self.robot] {
+            gl.bind_vertex_array(Some(&layer.layout));
+            layer.buffer.bind();
+            attribute(0, 4, [mark_bytes, 0]);
+            attribute(1, 1, [mark_bytes, 16]);
         }
         gl.bind_vertex_array(None);
     }
@@ -168,6 +171,7 @@ impl Renderer {
     pub(crate) fn draw(&mut self, scene: &mut Scene, places: Places, redraw: Redraw) {
         let resized = self.fit_canvas(&scene.camera);
         let palette = Palette::of(scene.theme);
+        self.prepare_relief(scene);
         let eye = Eye::of(&scene.camera, &self.gl);
         self.upload_plan(scene, &palette);
         self.upload_swept(scene);
@@ -179,34 +183,55 @@ impl Renderer {
         );
         match redraw {
             Redraw::Nothing => return,
-            Redraw::Area(bounds) if !resized => self.limit_to(bounds, &scene.camera, eye),
+            Redraw::Area(bounds) if !resized => self.limit_to(bounds, &scene.camera, &eye),
             Redraw::Area(_) | Redraw::All => self.gl.disable(Gl::SCISSOR_TEST),
         }
+        self.gl.disable(Gl::DEPTH_TEST);
         self.gl.disable(Gl::BLEND);
-        self.draw_ground(scene, &palette, eye);
+        self.draw_ground(scene, (&palette, &eye));
+        if let Some(relief) = self.relief.as_mut().filter(|_| eye.in_relief) {
+            self.gl.depth_mask(true);
+            self.gl.clear(Gl::DEPTH_BUFFER_BIT);
+            relief.draw_standing(scene, &palette, &eye.clip);
+        }
         self.gl.enable(Gl::BLEND);
         self.gl.blend_func(Gl::ONE, Gl::ONE_MINUS_SRC_ALPHA);
-        self.draw_lines(scene, &palette, eye);
-        self.draw_marks(scene, places, (&palette, eye));
+        self.draw_lines(scene, (&palette, &eye));
+        self.draw_marks(scene, places, (&palette, &eye));
         self.gl.bind_vertex_array(None);
     }
 
+    /// How many blocks stand on the floor.
+    pub(crate) fn blocks(&self) -> usize {
+        self.relief.as_ref().map_or(0, Relief::blocks)
+    }
+
+    /// Makes what is needed to see the map from an orbit. Where that cannot be made the map stays flat.
+    fn prepare_relief(&mut self, scene: &mut Scene) {
+        if scene.camera.orbit().is_none() || self.relief.is_some() {
+            return;
+        }
+        match Relief::new(&self.gl) {
+            Ok(relief) => self.relief = Some(relief),
+            Err(GlError(why)) => scene.refuse_relief(why),
+        }
+    }
+
     /// Leaves everything as it is but these bounds and a margin for marks of a fixed size.
-    fn limit_to(&self, bounds: Bounds, camera: &Camera, eye: Eye) {
-        let (left, top) = camera.screen_from_map(bounds.x_min, bounds.y_max);
-        let (right, bottom) = camera.screen_from_map(bounds.x_max, bounds.y_min);
+    fn limit_to(&self, bounds: Bounds, camera: &Camera, eye: &Eye) {
+        let seen = camera.screen_box(bounds, if eye.in_relief { ROBOT_M } else { 0.0 });
         let device = |pixels: f64| (pixels * eye.ratio) as i32;
         let margin = MARGIN_PX;
         let (x, y) = (
-            device(left - margin),
-            self.gl.drawing_buffer_height() - device(bottom + margin),
+            device(seen.left - margin),
+            self.gl.drawing_buffer_height() - device(seen.bottom + margin),
         );
         self.gl.enable(Gl::SCISSOR_TEST);
         self.gl.scissor(
             x,
             y,
-            device(right - left + 2.0 * margin),
-            device(bottom - top + 2.0 * margin),
+            device(seen.right - seen.left + 2.0 * margin),
+            device(seen.bottom - seen.top + 2.0 * margin),
         );
     }
 
@@ -234,74 +259,7 @@ impl Renderer {
         resized
     }
 
-    fn upload_plan(&self, scene: &mut Scene, palette: &Palette) {
-        if !std::mem::take(&mut scene.plan_changed) {
-            return;
-        }
-        self.gl.bind_texture(Gl::TEXTURE_2D, Some(&self.plan));
-        let drawn = scene.plan().and_then(|plan| {
-            let pixels = plan_pixels(plan, palette.plan)?;
-            Some((plan.width as i32, plan.height as i32, pixels))
-        });
-        let (width, height, pixels) = drawn.unwrap_or_else(|| (1, 1, vec![0; 4]));
-        let rgba = Gl::RGBA8 as i32;
-        self.gl
-            .tex_image_2d_with_i32_and_i32_and_i32_and_format_and_type_and_opt_u8_array(
-                Gl::TEXTURE_2D,
-                0,
-                rgba,
-                width,
-                height,
-                0,
-                Gl::RGBA,
-                Gl::UNSIGNED_BYTE,
-                Some(&pixels),
-            )
-            .ok(); // It only fails for pixels of the wrong number.
-        self.gl.generate_mipmap(Gl::TEXTURE_2D);
-    }
-
-    fn upload_swept(&self, scene: &mut Scene) {
-        self.gl.bind_texture(Gl::TEXTURE_2D, Some(&self.swept));
-        let (width, height) = scene.swept.size();
-        if scene.swept.take_resized() || width == 0 {
-            let cells = if width == 0 { &[0][..] } else { scene.swept.bytes() };
-            self.gl.pixel_storei(Gl::UNPACK_ALIGNMENT, 1);
-            self.gl
-                .tex_image_2d_with_i32_and_i32_and_i32_and_format_and_type_and_opt_u8_array(
-                    Gl::TEXTURE_2D,
-                    0,
-                    Gl::R8 as i32,
-                    width.max(1),
-                    height.max(1),
-                    0,
-                    Gl::RED,
-                    Gl::UNSIGNED_BYTE,
-                    Some(cells),
-                )
-                .ok(); // It only fails for cells of the wrong number.
-            return;
-        }
-        let Some(rows) = scene.swept.take_dirty() else {
-            return;
-        };
-        let cells = scene.swept.rows(rows);
-        self.gl
-            .tex_sub_image_2d_with_i32_and_i32_and_u32_and_type_and_opt_u8_array(
-                Gl::TEXTURE_2D,
-                0,
-                0,
-                rows.first as i32,
-                width,
-                (rows.end - rows.first) as i32,
-                Gl::RED,
-                Gl::UNSIGNED_BYTE,
-                Some(cells),
-            )
-            .ok(); // It only fails for cells of the wrong number.
-    }
-
-    fn draw_ground(&self, scene: &Scene, palette: &Palette, eye: Eye) {
+    fn draw_ground(&self, scene: &Scene, (palette, eye): (&Palette, &Eye)) {
         let program = &self.ground;
         program.select();
         self.gl.active_texture(Gl::TEXTURE1);
@@ -310,8 +268,7 @@ impl Renderer {
         self.gl.bind_texture(Gl::TEXTURE_2D, Some(&self.plan));
         program.set_sampler("plan", 0);
         program.set_sampler("swept", 1);
-        program.set("view", &eye.view);
-        program.set("scale", &[eye.scale]);
+        program.set_matrix("floor_from_clip", &eye.floor);
         program.set("outside_colour", &palette.outside);
         program.set("grid_colour", &palette.grid);
         program.set("swept_colour", &palette.swept);
@@ -343,112 +300,80 @@ impl Renderer {
         self.gl.draw_arrays(Gl::TRIANGLE_STRIP, 0, 4);
     }
 
-    fn draw_lines(&mut self, scene: &mut Scene, palette: &Palette, eye: Eye) {
+    fn draw_lines(&mut self, scene: &mut Scene, (palette, eye): (&Palette, &Eye)) {
         if std::mem::take(&mut scene.path_restarted) {
-            self.path.restart();
+            self.path.buffer.restart();
         }
-        self.path.catch_up(&scene.path);
+        self.path.buffer.catch_up(&scene.path);
         if std::mem::take(&mut scene.strokes_changed) {
-            self.walls.restart();
-            self.walls.catch_up(&scene.walls);
-            self.way.restart();
-            self.way.catch_up(&scene.way);
+            self.walls.replace(&scene.walls);
+            self.way.replace(&scene.way);
         }
         self.line.select();
-        self.line.set("view", &eye.view);
+        self.line.set_matrix("eye", &eye.clip);
         self.line.set("pixel", &eye.pixel);
-        let walls = if scene.ground() == Ground::Known {
-            scene.walls.len() / 4
-        } else {
-            0
-        };
+        // Walls that stand need no stroke.
+        let has_strokes = scene.ground() == Ground::Known && !eye.in_relief;
+        let walls = if has_strokes { scene.walls.len() / 4 } else { 0 };
         let segments = (scene.path.len() / 2).saturating_sub(1);
-        for (layout, segments, (half_width_px, colour)) in [
-            (&self.walls_layout, walls, (1.0, &palette.wall)),
-            (&self.path_layout, segments, (0.8, &palette.path)),
-            (&self.way_layout, scene.way.len() / 4, (1.0, &palette.thought)),
+        for (layer, segments, (half_width_px, colour)) in [
+            (&self.walls, walls, (1.0, &palette.wall)),
+            (&self.path, segments, (0.8, &palette.path)),
+            (&self.way, scene.way.len() / 4, (1.0, &palette.thought)),
         ] {
-            if segments > 0 {
-                self.line.set("half_width", &[(half_width_px * eye.ratio) as f32]);
-                self.line.set("line_colour", colour);
-                self.gl.bind_vertex_array(Some(layout));
-                self.gl
-                    .draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, segments as i32);
-            }
+            self.line.set("half_width", &[(half_width_px * eye.ratio) as f32]);
+            self.line.set("line_colour", colour);
+            layer.draw(&self.gl, segments);
         }
     }
 
-    fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&Palette, Eye)) {
-        self.mark.select();
-        self.mark.set("view", &eye.view);
-        self.mark.set("scale", &[eye.scale]);
-        self.mark.set("mark_colour", &palette.mark);
-        self.mark.set("body_colour", &palette.body);
-        self.mark.set("front_colour", &palette.front);
-        self.mark.set("halo_colour", &palette.halo);
-        self.mark.set("thought_colour", &palette.thought);
+    fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&Palette, &Eye)) {
         let bumps = bump_marks(scene, eye.ratio);
-        let bodies = body_marks(scene, places);
-        self.bumps.restart();
-        self.bumps.catch_up(&bumps);
-        self.bodies.restart();
-        self.bodies.catch_up(&bodies);
-        for (layout, numbers) in [
-            (&self.bumps_layout, bumps.len()),
-            (&self.bodies_layout, bodies.len()),
+        let lying = floor_marks(scene, places, eye.in_relief);
+        let robot = robot_marks(scene, places);
+        for (layer, numbers) in [
+            (&mut self.bumps, &bumps),
+            (&mut self.lying, &lying),
+            (&mut self.robot, &robot),
         ] {
-            let instances = numbers as i32 / MARK_NUMBERS;
-            if instances > 0 {
-                self.gl.bind_vertex_array(Some(layout));
-                self.gl.draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, instances);
-            }
+            layer.replace(numbers);
         }
+        let instances = |numbers: &[f32]| numbers.len() / MARK_NUMBERS;
+        // A robot that is drawn larger than it is, to be seen at all, is as much higher.
+        let height_m = ROBOT_M * scene.body_radius_m() / scene.radius_m;
+        let lift_m = if eye.in_relief { height_m } else { 0.0 };
+        self.begin_marks((palette, eye), lift_m);
+        // What touches the robot is seen before all else; in the flat picture bumps lie below it.
+        if !eye.in_relief {
+            self.bumps.draw(&self.gl, instances(&bumps));
+        }
+        self.lying.draw(&self.gl, instances(&lying));
+        if let Some(relief) = self.relief.as_ref().filter(|_| eye.in_relief) {
+            self.gl.disable(Gl::DEPTH_TEST);
+            self.mark.set("fade", &[BEHIND_WALL]);
+            self.robot.draw(&self.gl, instances(&robot));
+            self.bumps.draw(&self.gl, instances(&bumps));
+            self.gl.enable(Gl::DEPTH_TEST);
+            let marks = (&self.robot.layout, instances(&robot) as i32);
+            relief.draw_robot(marks, palette, (&eye.clip, height_m));
+            self.mark.select();
+            self.mark.set("fade", &[1.0]);
+            self.bumps.draw(&self.gl, instances(&bumps));
+        }
+        self.robot.draw(&self.gl, instances(&robot));
     }
-}
 
-/// Radius of the mark in a door, of its width: a hint, and no obstacle to the eye.
-const DOOR_SHARE: f64 = 0.25;
-
-/// A negative size is one in device pixels.
-fn bump_marks(scene: &Scene, ratio: f64) -> Vec<f32> {
-    let size = -(BUMP_RADIUS_PX * ratio) as f32;
-    let mark = |bump: &rvac_api::BumpMark| {
-        let kind = if bump.contact { BUMP } else { CLIFF };
-        [bump.x as f32, bump.y as f32, 0.0, size, kind]
-    };
-    scene.bumps.iter().flat_map(mark).collect()
-}
-
-fn body_marks(scene: &Scene, places: Places) -> Vec<f32> {
-    let radius = scene.body_radius_m();
-    let mark = |pose: Pose, size: f64, kind: f32| {
-        [
-            pose.x as f32,
-            pose.y as f32,
-            pose.heading as f32,
-            size as f32,
-            kind,
-        ]
-    };
-    let dock = scene
-        .plan()
-        .and_then(|plan| plan.dock)
-        .map(|pose| mark(pose, radius * 0.8, DOCK));
-    let doors = scene.doors().map(|door| {
-        let at = Pose {
-            x: door.x,
-            y: door.y,
-            ..Pose::default()
-        };
-        mark(at, DOOR_SHARE * door.width_m, DOOR)
-    });
-    let spread = scene.uncertainty_m();
-    let spread = places
-        .believed
-        .filter(|_| spread > 0.0)
-        .map(|pose| mark(pose, spread, UNCERTAINTY));
-    let truth = places.truth.map(|pose| mark(pose, radius, TRUE_PLACE));
-    let robot = places.believed.map(|pose| mark(pose, radius, ROBOT));
-    let bodies = [dock, spread, robot, truth].into_iter().flatten();
-    doors.chain(bodies).flatten().collect()
+    fn begin_marks(&self, (palette, eye): (&Palette, &Eye), lift_m: f64) {
+        let mark = &self.mark;
+        mark.select();
+        mark.set_matrix("eye", &eye.clip);
+        mark.set("pixel", &eye.pixel);
+        mark.set("lift", &[lift_m as f32]);
+        mark.set("fade", &[1.0]);
+        mark.set("mark_colour", &palette.mark);
+        mark.set("body_colour", &palette.body);
+        mark.set("front_colour", &palette.front);
+        mark.set("halo_colour", &palette.halo);
+        mark.set("thought_colour", &palette.thought);
+    }
 }

@@ -1,7 +1,7 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, room_at,
+    Bounds, Camera, ITEMS_MAX, Orbit, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, room_at,
     wall_strokes, way_dashes,
 };
 use rvac_api::{
@@ -93,6 +93,7 @@ pub(crate) struct Scene {
     bodies: Option<Bounds>,
     newest: [Option<Pose>; 2],
     drawn_s: f64,
+    relief_failure: Option<String>,
 }
 
 impl Default for Scene {
@@ -126,6 +127,7 @@ impl Default for Scene {
             bodies: None,
             newest: [None; 2],
             drawn_s: 0.0,
+            relief_failure: None,
         }
     }
 }
@@ -308,6 +310,24 @@ impl Scene {
             self.truth.push(pose, now_s);
         }
         moved
+    }
+
+    /// Looks at the map from an orbit, or from straight above.
+    pub(crate) fn look_from(&mut self, orbit: Option<Orbit>) {
+        let orbit = orbit.filter(|_| self.relief_failure.is_none());
+        self.camera.look_from(orbit);
+        self.refit();
+    }
+
+    /// What stands on the floor cannot be drawn here.
+    pub(crate) fn refuse_relief(&mut self, why: String) {
+        self.relief_failure = Some(why);
+        self.look_from(None);
+    }
+
+    /// Why the map stays flat, if it must.
+    pub(crate) fn relief_failure(&self) -> Option<&str> {
+        self.relief_failure.as_deref()
     }
 
     /// Shows everything again if that is what the camera does.

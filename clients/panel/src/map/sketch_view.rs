@@ -10,25 +10,25 @@ use crate::store::Store;
 pub(crate) fn SketchView(store: Store) -> impl IntoView {
     let orders = store.orders;
     let draws = move || orders.sketch.with(|sketch| sketch.tool() != Tool::Choose);
-    let ends = move || {
-        let first = orders.sketch.with(|sketch| sketch.first())?;
-        let last = orders.pointer.get().unwrap_or(first);
-        let on_screen = |(x, y): (f64, f64)| {
-            store
-                .map
-                .with_value(|map| map.with(|scene| scene.camera.screen_from_map(x, y)))
-        };
-        Some((on_screen(first), on_screen(last)))
-    };
     let path = move || {
-        let Some(((x, y), (far_x, far_y))) = ends() else {
+        let Some((x, y)) = orders.sketch.with(|sketch| sketch.first()) else {
             return String::new();
         };
-        if orders.sketch.with(|sketch| sketch.tool() == Tool::Wall) {
-            format!("M{x:.1} {y:.1}L{far_x:.1} {far_y:.1}")
+        let (far_x, far_y) = orders.pointer.get().unwrap_or((x, y));
+        let is_wall = orders.sketch.with(|sketch| sketch.tool() == Tool::Wall);
+        let corners = if is_wall {
+            vec![(x, y), (far_x, far_y)]
         } else {
-            format!("M{x:.1} {y:.1}H{far_x:.1}V{far_y:.1}H{x:.1}Z")
-        }
+            vec![(x, y), (far_x, y), (far_x, far_y), (x, far_y), (x, y)]
+        };
+        let on_screen = |(x, y): (f64, f64)| {
+            let (px, py) = store
+                .map
+                .with_value(|map| map.with(|scene| scene.camera.screen_from_map(x, y)));
+            format!("{px:.1} {py:.1}")
+        };
+        let places: Vec<String> = corners.into_iter().map(on_screen).collect();
+        format!("M{}", places.join("L"))
     };
     view! {
         <Show when=draws>
