@@ -147,6 +147,26 @@ impl Browser {
         rates[rates.len() / 2]
     }
 
+    /// Median and 95th percentile of the times between two pictures in ms, as the page measures them: the medians of what it
+    /// tells over `span`.
+    pub(crate) async fn frame_times_ms(&self, span: Duration) -> [f64; 2] {
+        let end = Instant::now() + span;
+        let mut seen = [Vec::new(), Vec::new()];
+        while Instant::now() < end {
+            let told = self
+                .text("return document.getElementById('map').dataset.frameMs ?? ''")
+                .await;
+            for (list, word) in seen.iter_mut().zip(told.split(' ')) {
+                list.extend(word.parse::<f64>());
+            }
+            sleep(Duration::from_millis(250)).await;
+        }
+        seen.map(|mut list| {
+            list.sort_by(f64::total_cmp);
+            list[list.len() / 2]
+        })
+    }
+
     /// Holds a key down while an element has the focus.
     pub(crate) async fn hold_key_in(&self, selector: &str, key: char) {
         self.client
@@ -184,7 +204,7 @@ impl Browser {
         self.press(Key::Enter.into()).await;
     }
 
-    async fn press(&self, key: char) {
+    pub(crate) async fn press(&self, key: char) {
         let keys = KeyActions::new("keyboard".to_owned());
         let keys = keys
             .then(KeyAction::Down { value: key })

@@ -7,10 +7,13 @@
 
 mod browser;
 mod history;
+mod large_home;
 mod mixes;
 mod pairing;
+mod relief;
 mod robot;
 mod schedules;
+mod wire_tap;
 #[path = "../stack/mod.rs"]
 mod stack;
 

@@ -18,6 +18,8 @@ pub(crate) struct Stack {
     folder: PathBuf,
     processes: Vec<Process>,
     vthal: Option<Process>,
+    /// Description of the simulated home.
+    home: PathBuf,
     pub(crate) address: String,
 }
 
@@ -133,16 +135,46 @@ impl Stack {
         String::from_utf8(output.stdout).unwrap()
     }
 
+    /// In a home of the test's own whose map was kept, with the server not started yet.
+    pub(crate) fn start_in(home: &str) -> Self {
+        let folder = Self::new_folder();
+        let description = folder.join("home.toml");
+        std::fs::write(&description, home).unwrap();
+        Self::without_server_in(folder, description, (Home::Kept, None))
+    }
+
+    /// Starts the server in front of this socket, behind which the daemon must be found.
+    pub(crate) fn serve_from(&mut self, daemon: &Path) {
+        self.start_server_at(daemon, &packed_panel(), &[]);
+    }
+
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     fn new(home: Home, firmware: Option<&Path>, panel: &Path) -> Self {
         let mut stack = Self::without_server(home, firmware);
         stack.start_server(panel, &[]);
         stack
     }
 
-    fn without_server(home: Home, firmware: Option<&Path>) -> Self {
+    fn new_folder() -> PathBuf {
         let number = STACKS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
+        folder
+    }
+
+    fn without_server(home: Home, firmware: Option<&Path>) -> Self {
+        let description = PathBuf::from("homes/two-room-flat.toml");
+        Self::without_server_in(Self::new_folder(), description, (home, firmware))
+    }
+
+    fn without_server_in(
+        folder: PathBuf,
+        description_of_home: PathBuf,
+        (home, firmware): (Home, Option<&Path>),
+    ) -> Self {
         let description = root().join("robots/samsung-sr8730/robot.toml");
         let configuration = format!("[robot]\ndescription = {:?}\n", description.display().to_string());
         std::fs::write(folder.join("vthal.toml"), configuration).unwrap();
@@ -150,6 +182,7 @@ impl Stack {
             folder,
             processes: Vec::new(),
             vthal: None,
+            home: description_of_home,
             address: String::new(),
         };
         if home == Home::Kept {
@@ -194,9 +227,8 @@ impl Stack {
             "sr8730",
             "--seed",
             "7",
-            "--home",
-            "homes/two-room-flat.toml",
         ]);
+        command.arg("--home").arg(&self.home);
         command.args([
             "--known-map",
             "--minutes",
@@ -219,9 +251,8 @@ impl Stack {
             "sr8730",
             "--seed",
             "7",
-            "--home",
-            "homes/two-room-flat.toml",
         ]);
+        command.arg("--home").arg(&self.home);
         command.arg("--link").arg(self.folder.join("serial"));
         command.arg("--socket").arg(self.simulator_socket());
         if let Some(firmware) = firmware {
@@ -231,9 +262,13 @@ impl Stack {
     }
 
     fn start_server(&mut self, panel: &Path, more: &[&OsStr]) {
+        self.start_server_at(&self.daemon_socket(), panel, more);
+    }
+
+    fn start_server_at(&mut self, daemon: &Path, panel: &Path, more: &[&OsStr]) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
         command.args(["--port", "0", "--assets"]).arg(panel).args(more);
-        command.arg("--vthal").arg(self.daemon_socket());
+        command.arg("--vthal").arg(daemon);
         command.arg("--simulator").arg(self.simulator_socket());
         let (process, line) = Process::start(&mut command);
         self.processes.push(process);
