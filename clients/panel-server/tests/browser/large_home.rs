@@ -57,7 +57,7 @@ fn home() -> String {
         )
         .unwrap();
     }
-    text.push_str("\n[dock]\nx-m = 0.0\ny-m = 1.0\nheading-deg = 0.0\n");
+    text.push_str("\n[dock]\nposition = [0.0, 1.0]\nheading-deg = 0.0\n");
     text
 }
 
@@ -124,5 +124,8 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
         parts[parts.len() / 2]
     );
     let smallest_whole = costs.whole.iter().min().expect("whole maps were sent");
-    assert!(largest * 10 < *smallest_whole, "a part of the map is as large as the map");
+    assert!(
+        largest * 10 < *smallest_whole,
+        "a part of the map is as large as the map"
+    );
 }

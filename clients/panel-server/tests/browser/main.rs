@@ -13,9 +13,9 @@ mod pairing;
 mod relief;
 mod robot;
 mod schedules;
-mod wire_tap;
 #[path = "../stack/mod.rs"]
 mod stack;
+mod wire_tap;
 
 use std::time::{Duration, Instant};
 

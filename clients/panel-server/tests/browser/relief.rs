@@ -1,7 +1,7 @@
 //! The map in 3D.
 
-use crate::browser::Screen;
 use crate::Visit;
+use crate::browser::Screen;
 
 fn shown(view: &str) -> String {
     format!("return document.getElementById('map').dataset.view === '{view}'")
@@ -46,8 +46,14 @@ async fn the_map_is_seen_in_3d_turned_and_kept_so() {
         let turned = browser.text(kept).await;
         browser.reload().await;
         browser.until(&shown("3d")).await;
-        assert_eq!(browser.text(kept).await, turned, "the view is another one after a reload");
-        browser.text("document.getElementById('map').focus(); return ''").await;
+        assert_eq!(
+            browser.text(kept).await,
+            turned,
+            "the view is another one after a reload"
+        );
+        browser
+            .text("document.getElementById('map').focus(); return ''")
+            .await;
         browser.press('3').await;
         browser.until(&shown("2d")).await;
         browser.click("#stop").await;

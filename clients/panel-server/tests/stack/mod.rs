@@ -221,13 +221,7 @@ impl Stack {
         std::fs::create_dir_all(&maps).unwrap();
         let mut command = Command::new(binary("rvac-sim"));
         command.current_dir(root()).stdout(Stdio::null());
-        command.args([
-            "run",
-            "--robot",
-            "sr8730",
-            "--seed",
-            "7",
-        ]);
+        command.args(["run", "--robot", "sr8730", "--seed", "7"]);
         command.arg("--home").arg(&self.home);
         command.args([
             "--known-map",
@@ -245,13 +239,7 @@ impl Stack {
     fn start_simulator(&mut self, firmware: Option<&Path>) {
         let mut command = Command::new(binary("rvac-sim"));
         command.current_dir(root());
-        command.args([
-            "serve",
-            "--robot",
-            "sr8730",
-            "--seed",
-            "7",
-        ]);
+        command.args(["serve", "--robot", "sr8730", "--seed", "7"]);
         command.arg("--home").arg(&self.home);
         command.arg("--link").arg(self.folder.join("serial"));
         command.arg("--socket").arg(self.simulator_socket());

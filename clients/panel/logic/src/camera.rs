@@ -219,8 +219,8 @@ impl Camera {
     fn fit_nearer(&mut self, bounds: Bounds) {
         let seen = self.screen_box(bounds, 0.0);
         let free = 1.0 - 2.0 * FIT_MARGIN;
-        let factor =
-            (self.view.width * free / (seen.right - seen.left)).min(self.view.height * free / (seen.bottom - seen.top));
+        let factor = (self.view.width * free / (seen.right - seen.left))
+            .min(self.view.height * free / (seen.bottom - seen.top));
         let off = |low: f64, high: f64, size: f64| size / 2.0 - f64::midpoint(low, high);
         self.drag(
             off(seen.left, seen.right, self.view.width),
@@ -342,7 +342,10 @@ mod tests {
             let seen = camera.screen_box(bounds, 0.0);
             assert!(seen.left >= 30.0 && seen.right <= 770.0, "{seen:?}");
             assert!(seen.top >= 20.0 && seen.bottom <= 580.0, "{seen:?}");
-            assert!(seen.right - seen.left > 650.0 || seen.bottom - seen.top > 450.0, "{seen:?}");
+            assert!(
+                seen.right - seen.left > 650.0 || seen.bottom - seen.top > 450.0,
+                "{seen:?}"
+            );
             let before = camera.map_from_screen(200.0, 400.0);
             camera.zoom_at((200.0, 400.0), 1.7);
             near(camera.map_from_screen(200.0, 400.0), before);

@@ -70,6 +70,9 @@ mod tests {
             meter.frame(105.0 + f64::from(slow) / 10.0);
         }
         let (median, p95) = meter.median_and_p95_ms().unwrap();
-        assert!((median - 16.7).abs() < 0.1 && (p95 - 100.0).abs() < 0.1, "{median} {p95}");
+        assert!(
+            (median - 16.7).abs() < 0.1 && (p95 - 100.0).abs() < 0.1,
+            "{median} {p95}"
+        );
     }
 }

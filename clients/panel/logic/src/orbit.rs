@@ -240,11 +240,7 @@ impl Projection {
         let ahead = half_height * reach;
         let columns = [
             [aside * right_x, aside * right_y, 0.0],
-            [
-                -ahead * right_y - x * slope,
-                ahead * right_x - y * slope,
-                -slope,
-            ],
+            [-ahead * right_y - x * slope, ahead * right_x - y * slope, -slope],
             [x * fall, y * fall, fall],
         ];
         let mut matrix = [0.0; 9];
@@ -310,9 +306,14 @@ mod tests {
             let floor = projection.floor_matrix();
             let (clip_x, clip_y) = (0.4, -0.7);
             let [x, y, w] = core::array::from_fn(|row| {
-                clip_x * f64::from(floor[row]) + clip_y * f64::from(floor[3 + row]) + f64::from(floor[6 + row])
+                clip_x * f64::from(floor[row])
+                    + clip_y * f64::from(floor[3 + row])
+                    + f64::from(floor[6 + row])
             });
-            let pixel = ((clip_x + 1.0) / 2.0 * VIEW.width, (1.0 - clip_y) / 2.0 * VIEW.height);
+            let pixel = (
+                (clip_x + 1.0) / 2.0 * VIEW.width,
+                (1.0 - clip_y) / 2.0 * VIEW.height,
+            );
             let (map_x, map_y) = projection.floor_under(pixel);
             assert!((x / w - map_x).abs() < 1e-4 && (y / w - map_y).abs() < 1e-4);
         }
@@ -335,7 +336,10 @@ mod tests {
         let turned = Orbit::default().turned(40.0, -10.0);
         let back = Orbit::from_text(&turned.to_text()).unwrap();
         assert!((back.yaw_rad - turned.yaw_rad).abs() < 1e-3);
-        assert_eq!(Orbit::from_text("0.1 99").unwrap().pitch_rad, super::PITCH_MAX_RAD);
+        assert_eq!(
+            Orbit::from_text("0.1 99").unwrap().pitch_rad,
+            super::PITCH_MAX_RAD
+        );
         for wrong in ["", "1", "a b", "NaN 1", "flat"] {
             assert_eq!(Orbit::from_text(wrong), None);
         }

@@ -151,7 +151,8 @@ fn mark_unsure(cells: &mut [u32], width: usize) {
         .collect();
     for place in places {
         let column = place % width;
-        let reach = |steps: usize, step: isize| (1..=steps).map(move |n| place.checked_add_signed(step * n as isize));
+        let reach =
+            |steps: usize, step: isize| (1..=steps).map(move |n| place.checked_add_signed(step * n as isize));
         let aside = [
             (column.min(UNSURE_CELLS), -1),
             ((width - 1 - column).min(UNSURE_CELLS), 1),

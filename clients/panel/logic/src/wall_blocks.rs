@@ -87,7 +87,12 @@ impl WallBlocks {
         (x..(x + TILE).min(self.width), y..(y + TILE).min(self.height))
     }
 
-    fn row<'cells>(&self, cells: &'cells [bool], columns: &core::ops::Range<usize>, y: usize) -> &'cells [bool] {
+    fn row<'cells>(
+        &self,
+        cells: &'cells [bool],
+        columns: &core::ops::Range<usize>,
+        y: usize,
+    ) -> &'cells [bool] {
         let first = y * self.width;
         cells
             .get(first + columns.start..first + columns.end)
@@ -108,9 +113,7 @@ impl WallBlocks {
             let mut above = Vec::new();
             for (x, x_end) in stretches(self.row(&self.raised, &columns, y)) {
                 let (x, x_end) = (columns.start + x, columns.start + x_end);
-                let below = open
-                    .iter()
-                    .position(|block| (block.x, block.x_end) == (x, x_end));
+                let below = open.iter().position(|block| (block.x, block.x_end) == (x, x_end));
                 let from = below.map_or(y, |place| open.swap_remove(place).y);
                 above.push(Block {
                     x,
@@ -176,7 +179,18 @@ mod tests {
 
     #[test]
     fn blocks_cover_what_is_raised_once_and_nothing_else() {
-        let shape = [(2, 2), (3, 2), (4, 2), (2, 3), (3, 3), (4, 3), (3, 4), (63, 10), (64, 10), (9, 2)];
+        let shape = [
+            (2, 2),
+            (3, 2),
+            (4, 2),
+            (2, 3),
+            (3, 3),
+            (4, 3),
+            (3, 4),
+            (63, 10),
+            (64, 10),
+            (9, 2),
+        ];
         let mut blocks = WallBlocks::default();
         blocks.renew(Some(&plan(&shape)));
         let mut covered: Vec<(u32, u32)> = Vec::new();
@@ -190,7 +204,11 @@ mod tests {
         let mut wanted = shape.to_vec();
         wanted.sort_unstable();
         assert_eq!(covered, wanted);
-        assert_eq!(blocks.numbers().len() / BLOCK_NUMBERS, 5, "a wall is one block in its tile");
+        assert_eq!(
+            blocks.numbers().len() / BLOCK_NUMBERS,
+            5,
+            "a wall is one block in its tile"
+        );
     }
 
     #[test]

@@ -66,7 +66,11 @@ pub(super) fn apply(store: Store, mode: RwSignal<CameraMode>, change: impl FnOnc
 }
 
 #[component]
-pub(super) fn MapCanvas(store: Store, mode: RwSignal<CameraMode>, failure: RwSignal<Option<String>>) -> impl IntoView {
+pub(super) fn MapCanvas(
+    store: Store,
+    mode: RwSignal<CameraMode>,
+    failure: RwSignal<Option<String>>,
+) -> impl IntoView {
     let canvas = NodeRef::<html::Canvas>::new();
     let gestures = StoredValue::new(Gestures::default());
     Effect::new(move |_| {

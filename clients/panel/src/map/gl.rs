@@ -79,11 +79,9 @@ impl Program {
     pub(crate) fn set_matrix(&self, name: &str, columns: &[f32]) {
         let place = self.place(name);
         if columns.len() == 9 {
-            self.gl
-                .uniform_matrix3fv_with_f32_array(place, false, columns);
+            self.gl.uniform_matrix3fv_with_f32_array(place, false, columns);
         } else {
-            self.gl
-                .uniform_matrix4fv_with_f32_array(place, false, columns);
+            self.gl.uniform_matrix4fv_with_f32_array(place, false, columns);
         }
     }
 

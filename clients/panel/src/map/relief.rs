@@ -123,17 +123,14 @@ impl Relief {
             };
             self.place(dock, height, paint);
             self.gl.bind_vertex_array(Some(&self.dock_layout));
-            self.gl
-                .draw_arrays_instanced(Gl::TRIANGLES, 0, BLOCK_CORNERS, 1);
+            self.gl.draw_arrays_instanced(Gl::TRIANGLES, 0, BLOCK_CORNERS, 1);
         }
     }
 
     fn place(&self, pose: Pose, height: f32, paint: Paint) {
         let (sin, cos) = pose.heading.sin_cos();
-        self.block.set(
-            "pose",
-            &[pose.x as f32, pose.y as f32, cos as f32, sin as f32],
-        );
+        self.block
+            .set("pose", &[pose.x as f32, pose.y as f32, cos as f32, sin as f32]);
         self.block.set("height", &[height]);
         self.block.set("top_colour", &paint.top);
         self.block.set("side_colour", &paint.side);

@@ -193,11 +193,7 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
 }
 
 /// What the buttons show of the scene.
-type Shown = (
-    RwSignal<CameraMode>,
-    RwSignal<Ground>,
-    RwSignal<Option<Orbit>>,
-);
+type Shown = (RwSignal<CameraMode>, RwSignal<Ground>, RwSignal<Option<Orbit>>);
 
 /// Keeps the figures beside the map up to date, four times a second.
 fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>) {
