@@ -1,23 +1,27 @@
-//! Which rooms a person has chosen, in which order, and what cleaning them takes.
+//! Which rooms and zones a person has chosen, in which order, and what cleaning them takes.
 
-use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart};
+use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape};
 
 use crate::figures::{area_text, percent_text};
+use crate::home::RoomRow;
+use crate::sketch::extent;
 
 /// Most passes over a room.
 pub const PASSES_MAX: u8 = 3;
 
-/// Rooms in the order in which they were chosen, and how often each is cleaned.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Rooms and zones in the order in which they were chosen, how often each is cleaned, and where the robot keeps out meanwhile.
+#[derive(Clone, Debug, PartialEq)]
 pub struct RoomChoice {
-    rooms: Vec<u16>,
+    parts: Vec<JobPart>,
+    avoid: Vec<NoGoShape>,
     passes: u8,
 }
 
 impl Default for RoomChoice {
     fn default() -> Self {
         Self {
-            rooms: Vec::new(),
+            parts: Vec::new(),
+            avoid: Vec::new(),
             passes: 1,
         }
     }
@@ -27,57 +31,113 @@ impl RoomChoice {
     /// Chooses a room as the last one, or takes it out.
     pub fn toggle(&mut self, room: u16) {
         if self.place(room).is_some() {
-            self.rooms.retain(|chosen| *chosen != room);
+            self.parts.retain(|part| *part != JobPart::Room(room));
         } else {
-            self.rooms.push(room);
+            self.parts.push(JobPart::Room(room));
         }
+    }
+
+    /// Chooses a zone as the last part.
+    pub fn add_zone(&mut self, corners: Vec<[f64; 2]>) {
+        self.parts.push(JobPart::Zone(corners));
+    }
+
+    /// Keeps the robot out of a place, for this job.
+    pub fn keep_out_of(&mut self, shape: NoGoShape) {
+        self.avoid.push(shape);
     }
 
     /// Place of a room in the order, from 1; none if it is not chosen.
     #[must_use]
     pub fn place(&self, room: u16) -> Option<usize> {
-        let index = self.rooms.iter().position(|chosen| *chosen == room)?;
-        Some(index + 1)
+        let is_it = |part: &JobPart| *part == JobPart::Room(room);
+        Some(self.parts.iter().position(is_it)? + 1)
     }
 
     /// The chosen rooms in their order.
     #[must_use]
-    pub fn rooms(&self) -> &[u16] {
-        &self.rooms
+    pub fn rooms(&self) -> Vec<u16> {
+        let room = |part: &JobPart| match part {
+            JobPart::Room(room) => Some(*room),
+            JobPart::Zone(_) => None,
+        };
+        self.parts.iter().filter_map(room).collect()
+    }
+
+    /// The chosen zones in their order.
+    pub fn zones(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        self.parts.iter().filter_map(|part| match part {
+            JobPart::Zone(corners) => Some(corners.as_slice()),
+            JobPart::Room(_) => None,
+        })
+    }
+
+    /// Where the robot keeps out.
+    #[must_use]
+    pub fn avoid(&self) -> &[NoGoShape] {
+        &self.avoid
+    }
+
+    /// Nothing is chosen.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty() && self.avoid.is_empty()
+    }
+
+    /// `Kitchen, zone of 1.5 x 0.8 m; not 2 places`
+    #[must_use]
+    pub fn words(&self, rows: &[RoomRow]) -> String {
+        let word = |part: &JobPart| match part {
+            JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
+            JobPart::Zone(corners) => Some(format!("zone of {}", extent(corners))),
+        };
+        let parts: Vec<String> = self.parts.iter().filter_map(word).collect();
+        let parts = if self.parts.is_empty() {
+            "The whole home".to_owned()
+        } else {
+            parts.join(", ")
+        };
+        match self.avoid.len() {
+            0 => parts,
+            1 => format!("{parts}; not 1 place"),
+            count => format!("{parts}; not {count} places"),
+        }
     }
 
     /// Drops rooms that the home does not have any more. `true` when there were any.
     pub fn retain_known(&mut self, home: &HomeView) -> bool {
-        let before = self.rooms.len();
-        self.rooms
-            .retain(|chosen| home.rooms.iter().any(|room| room.id == *chosen));
-        self.rooms.len() != before
+        let before = self.parts.len();
+        self.parts.retain(|part| match part {
+            JobPart::Room(chosen) => home.rooms.iter().any(|room| room.id == *chosen),
+            JobPart::Zone(_) => true,
+        });
+        self.parts.len() != before
     }
 
     /// Chooses nothing.
     pub fn clear(&mut self) {
-        self.rooms.clear();
+        self.parts.clear();
+        self.avoid.clear();
     }
 
-    /// How often each room is cleaned.
+    /// How often each part is cleaned.
     #[must_use]
     pub fn passes(&self) -> u8 {
         self.passes
     }
 
-    /// Cleans each room so often, within what a robot takes.
+    /// Cleans each part so often, within what a robot takes.
     pub fn set_passes(&mut self, passes: u8) {
         self.passes = passes.clamp(1, PASSES_MAX);
     }
 
-    /// The job; none while no room is chosen.
+    /// The job; none while nothing is chosen.
     #[must_use]
     pub fn order(&self) -> Option<JobOrder> {
-        let parts: Vec<JobPart> = self.rooms.iter().copied().map(JobPart::Room).collect();
-        (!parts.is_empty()).then_some(JobOrder {
-            parts,
+        (!self.is_empty()).then(|| JobOrder {
+            parts: self.parts.clone(),
             passes: self.passes,
-            ..JobOrder::default()
+            avoid: self.avoid.clone(),
         })
     }
 }
@@ -127,7 +187,30 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 #[cfg(test)]
 mod tests {
     use super::{RoomChoice, job_estimate_text, room_at};
-    use rvac_api::{HomeView, JobEstimate, JobPart};
+    use rvac_api::{HomeView, JobEstimate, JobPart, NoGoShape};
+
+    #[test]
+    fn zones_stand_among_the_rooms_and_the_job_keeps_out_of_places() {
+        let mut choice = RoomChoice::default();
+        choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
+        assert_eq!(choice.words(&[]), "The whole home; not 1 place");
+        let corners = vec![[0.0, 0.0], [1.5, 0.0], [1.5, 0.8], [0.0, 0.8]];
+        choice.toggle(3);
+        choice.add_zone(corners.clone());
+        choice.toggle(4);
+        let order = choice.order().expect("something is chosen");
+        assert_eq!(
+            order.parts,
+            [JobPart::Room(3), JobPart::Zone(corners), JobPart::Room(4)]
+        );
+        assert_eq!(order.avoid.len(), 1);
+        assert_eq!((choice.rooms(), choice.zones().count(), choice.place(4)), (vec![3, 4], 1, Some(3)));
+        assert!(choice.words(&[]).starts_with("zone of 1.5 x 0.8 m"));
+        choice.retain_known(&HomeView::default());
+        assert_eq!((choice.rooms().len(), choice.zones().count()), (0, 1));
+        choice.clear();
+        assert!(choice.is_empty() && choice.order().is_none());
+    }
 
     #[test]
     fn rooms_are_cleaned_in_the_order_in_which_they_were_chosen() {

@@ -1,4 +1,4 @@
-//! Drawing no-go zones and virtual walls by two places.
+//! Drawing zones and virtual walls by two places.
 
 use rvac_api::{HomeView, NoGoShape};
 
@@ -15,6 +15,21 @@ pub enum Tool {
     Wall,
     /// Draw a no-go zone between two opposite corners.
     Zone,
+    /// Draw a zone to be cleaned.
+    CleanZone,
+    /// Draw a zone out of which the robot keeps for one job.
+    AvoidZone,
+}
+
+/// What was drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drawn {
+    /// Floor that is forbidden for good.
+    Forbidden(NoGoShape),
+    /// A zone to be cleaned, by its corners.
+    Clean(Vec<[f64; 2]>),
+    /// Floor that is forbidden for one job.
+    Avoid(NoGoShape),
 }
 
 /// What is being drawn.
@@ -43,7 +58,7 @@ impl Sketch {
     }
 
     /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down.
-    pub fn point(&mut self, place: (f64, f64)) -> Option<NoGoShape> {
+    pub fn point(&mut self, place: (f64, f64)) -> Option<Drawn> {
         let Some(first) = self.first else {
             self.first = (self.tool != Tool::Choose).then_some(place);
             return None;
@@ -53,16 +68,20 @@ impl Sketch {
         Some(shape)
     }
 
-    fn shape_to(self, (x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> Option<NoGoShape> {
+    fn shape_to(self, (x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> Option<Drawn> {
         let (wide, high) = ((far_x - x).abs(), (far_y - y).abs());
-        match self.tool {
-            Tool::Choose => None,
+        let corners = || vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]];
+        let drawn = match self.tool {
+            Tool::Choose => return None,
             Tool::Wall => {
-                (wide.hypot(high) >= APART_MIN_M).then_some(NoGoShape::Wall([[x, y], [far_x, far_y]]))
+                let wall = NoGoShape::Wall([[x, y], [far_x, far_y]]);
+                return (wide.hypot(high) >= APART_MIN_M).then_some(Drawn::Forbidden(wall));
             }
-            Tool::Zone => (wide.min(high) >= APART_MIN_M)
-                .then(|| NoGoShape::Zone(vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]])),
-        }
+            Tool::Zone => Drawn::Forbidden(NoGoShape::Zone(corners())),
+            Tool::CleanZone => Drawn::Clean(corners()),
+            Tool::AvoidZone => Drawn::Avoid(NoGoShape::Zone(corners())),
+        };
+        (wide.min(high) >= APART_MIN_M).then_some(drawn)
     }
 
     /// What to do next, for people; nothing while nothing is drawn.
@@ -72,11 +91,28 @@ impl Sketch {
             (Tool::Choose, _) => None,
             (Tool::Wall, None) => Some("Tap one end of the wall, or move it to the cross and press Enter."),
             (Tool::Wall, Some(_)) => Some("Now the other end."),
-            (Tool::Zone, None) => {
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => {
                 Some("Tap one corner of the zone, or move it to the cross and press Enter.")
             }
-            (Tool::Zone, Some(_)) => Some("Now the opposite corner."),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some("Now the opposite corner."),
         }
+    }
+}
+
+/// The border of a zone as strokes `[x0,y0,x1,y1,...]` in metres.
+#[must_use]
+pub fn zone_strokes(corners: &[[f64; 2]]) -> Vec<f32> {
+    let next = corners.iter().cycle().skip(1);
+    let ends = corners.iter().zip(next).flat_map(|(from, to)| [*from, *to]);
+    ends.flatten().map(|metres| metres as f32).collect()
+}
+
+/// The same of what is forbidden.
+#[must_use]
+pub fn no_go_strokes(shape: &NoGoShape) -> Vec<f32> {
+    match shape {
+        NoGoShape::Wall(ends) => ends.iter().flatten().map(|metres| *metres as f32).collect(),
+        NoGoShape::Zone(corners) => zone_strokes(corners),
     }
 }
 
@@ -110,7 +146,7 @@ pub fn no_go_rows(home: &HomeView) -> Vec<NoGoRow> {
 }
 
 /// `1.5 x 0.8 m`
-fn extent(corners: &[[f64; 2]]) -> String {
+pub(crate) fn extent(corners: &[[f64; 2]]) -> String {
     let span = |axis: usize| {
         let values = corners.iter().filter_map(|corner| corner.get(axis).copied());
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -123,7 +159,7 @@ fn extent(corners: &[[f64; 2]]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Sketch, Tool, no_go_rows};
+    use super::{Drawn, Sketch, Tool, no_go_rows, no_go_strokes};
     use rvac_api::{HomeView, NoGoShape, NoGoView};
 
     #[test]
@@ -135,7 +171,9 @@ mod tests {
         assert_eq!(sketch.point((1.0, 1.0)), None);
         assert_eq!(sketch.point((1.0, 1.01)), None, "the same place again");
         let wall = sketch.point((1.0, 2.0));
-        assert_eq!(wall, Some(NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]])));
+        let drawn = NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]]);
+        assert_eq!(no_go_strokes(&drawn), [1.0, 1.0, 1.0, 2.0]);
+        assert_eq!(wall, Some(Drawn::Forbidden(drawn)));
         assert_eq!(sketch, Sketch::default());
     }
 
@@ -149,7 +187,16 @@ mod tests {
         assert_eq!(sketch.point((0.0, 3.01)), None);
         let zone = sketch.point((0.0, 1.0));
         let corners = vec![[2.0, 3.0], [0.0, 3.0], [0.0, 1.0], [2.0, 1.0]];
-        assert_eq!(zone, Some(NoGoShape::Zone(corners)));
+        assert_eq!(no_go_strokes(&NoGoShape::Zone(corners.clone())).len(), 16);
+        assert_eq!(zone, Some(Drawn::Forbidden(NoGoShape::Zone(corners.clone()))));
+        for (tool, drawn) in [
+            (Tool::CleanZone, Drawn::Clean(corners.clone())),
+            (Tool::AvoidZone, Drawn::Avoid(NoGoShape::Zone(corners.clone()))),
+        ] {
+            sketch.take(tool);
+            sketch.point((2.0, 3.0));
+            assert_eq!(sketch.point((0.0, 1.0)), Some(drawn));
+        }
     }
 
     #[test]

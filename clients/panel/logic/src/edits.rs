@@ -1,0 +1,356 @@
+//! Edits of the map that can be taken back and done again.
+//!
+//! An edit is known by what it changed, not by the number under which the robot keeps it: what is brought back gets a new number,
+//! and another client may have been there in between. Nothing counts before the robot has confirmed it.
+
+use rvac_api::{HomeView, NoGoShape, Request, RequestBody, RoomNaming};
+
+/// Most edits that can be taken back.
+const KEPT_MAX: usize = 100;
+/// Numbers of requests that are edits, so that their answers are known from all others.
+const FIRST_ID: u32 = 500;
+const LAST_ID: u32 = 999;
+/// Places that differ by less are the same: the robot may round them, metres.
+const SAME_M: f64 = 0.005;
+
+/// A change of the map.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Floor was forbidden.
+    Forbid(NoGoShape),
+    /// It was allowed again.
+    Allow(NoGoShape),
+    /// A room got another name, or none.
+    Name {
+        /// Its identity.
+        room: u16,
+        /// What it was called.
+        before: Option<String>,
+        /// What it shall be called.
+        after: Option<String>,
+    },
+}
+
+/// Why an edit cannot be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EditError {
+    /// What it changes is not there any more, or was changed by somebody else.
+    ChangedMeanwhile,
+    /// The robot has confirmed what it changes, but not told of it yet.
+    NotToldYet,
+}
+
+impl EditError {
+    /// What it is and what to do, for people.
+    #[must_use]
+    pub const fn sentence(self) -> &'static str {
+        match self {
+            Self::ChangedMeanwhile => {
+                "That edit cannot be taken back or done again: the map was changed there meanwhile. The edits before it can."
+            }
+            Self::NotToldYet => "The robot has not told of that edit yet. Try again in a few seconds.",
+        }
+    }
+}
+
+impl Edit {
+    /// The edit that takes this one back.
+    #[must_use]
+    fn inverse(&self) -> Self {
+        match self.clone() {
+            Self::Forbid(shape) => Self::Allow(shape),
+            Self::Allow(shape) => Self::Forbid(shape),
+            Self::Name {
+                room,
+                before,
+                after,
+            } => Self::Name {
+                room,
+                before: after,
+                after: before,
+            },
+        }
+    }
+
+    /// What a person changed.
+    #[must_use]
+    pub const fn what(&self) -> &'static str {
+        match self {
+            Self::Forbid(NoGoShape::Wall(_)) => "virtual wall",
+            Self::Forbid(NoGoShape::Zone(_)) => "no-go zone",
+            Self::Allow(NoGoShape::Wall(_)) => "removal of a virtual wall",
+            Self::Allow(NoGoShape::Zone(_)) => "removal of a no-go zone",
+            Self::Name { .. } => "name of a room",
+        }
+    }
+
+    /// What asks the robot for it.
+    fn request(&self, home: &HomeView) -> Result<RequestBody, EditError> {
+        match self {
+            Self::Forbid(shape) => Ok(RequestBody::AddNoGo {
+                shape: shape.clone(),
+            }),
+            Self::Allow(shape) => {
+                let found = home.no_go.iter().rev().find(|kept| is_same(&kept.shape, shape));
+                let number = found.ok_or(EditError::ChangedMeanwhile)?.number;
+                Ok(RequestBody::RemoveNoGo { number })
+            }
+            Self::Name {
+                room,
+                before,
+                after,
+            } => {
+                let named = home.rooms.iter().find(|known| known.id == *room);
+                if named.is_none_or(|known| known.name != *before) {
+                    return Err(EditError::ChangedMeanwhile);
+                }
+                Ok(RequestBody::NameRoom(RoomNaming {
+                    room: *room,
+                    name: after.clone(),
+                }))
+            }
+        }
+    }
+}
+
+fn is_same(one: &NoGoShape, other: &NoGoShape) -> bool {
+    let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_M;
+    match (one, other) {
+        (NoGoShape::Wall(one), NoGoShape::Wall(other)) => one.iter().zip(other).all(|(a, b)| near(a, b)),
+        (NoGoShape::Zone(one), NoGoShape::Zone(other)) => {
+            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| near(a, b))
+        }
+        _ => false,
+    }
+}
+
+/// Which way an edit goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Course {
+    Anew,
+    Back,
+    Again,
+}
+
+/// What was edited on this page.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EditLog {
+    done: Vec<Edit>,
+    undone: Vec<Edit>,
+    asked: Vec<(u32, Course, Edit)>,
+    /// Revision of the home when the robot confirmed the last edit.
+    confirmed_at: Option<u32>,
+    count: u32,
+}
+
+impl EditLog {
+    /// What would be taken back.
+    #[must_use]
+    pub fn last(&self) -> Option<&Edit> {
+        self.done.last()
+    }
+
+    /// What would be done again.
+    #[must_use]
+    pub fn next(&self) -> Option<&Edit> {
+        self.undone.last()
+    }
+
+    /// Forgets everything: another floor has another map.
+    pub fn clear(&mut self) {
+        *self = Self {
+            count: self.count,
+            ..Self::default()
+        };
+    }
+
+    /// Asks for a new edit.
+    ///
+    /// # Errors
+    /// When there is nothing that it could change.
+    pub fn begin(&mut self, edit: Edit, home: &HomeView) -> Result<Request, EditError> {
+        let body = edit.request(home)?;
+        Ok(self.ask((Course::Anew, edit), body))
+    }
+
+    /// Asks to take the last edit back; none when there is none.
+    pub fn undo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
+        let edit = self.done.pop()?;
+        let request = edit.inverse().request(home);
+        Some(self.go(Course::Back, edit, (request, home.revision)))
+    }
+
+    /// Asks to do again what was taken back last; none when nothing was.
+    pub fn redo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
+        let edit = self.undone.pop()?;
+        let request = edit.request(home);
+        Some(self.go(Course::Again, edit, (request, home.revision)))
+    }
+
+    fn go(
+        &mut self,
+        course: Course,
+        edit: Edit,
+        (body, revision): (Result<RequestBody, EditError>, u32),
+    ) -> Result<Request, EditError> {
+        match body {
+            Ok(body) => Ok(self.ask((course, edit), body)),
+            Err(EditError::ChangedMeanwhile) if self.confirmed_at == Some(revision) => {
+                self.put_back(course, edit);
+                Err(EditError::NotToldYet)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn ask(&mut self, (course, edit): (Course, Edit), body: RequestBody) -> Request {
+        let id = FIRST_ID + self.count % (LAST_ID - FIRST_ID + 1);
+        self.count = self.count.wrapping_add(1);
+        self.asked.push((id, course, edit));
+        Request { id: Some(id), body }
+    }
+
+    fn take_asked(&mut self, id: u32) -> Option<(Course, Edit)> {
+        let place = self.asked.iter().position(|(asked, ..)| *asked == id)?;
+        let (_, course, edit) = self.asked.remove(place);
+        Some((course, edit))
+    }
+
+    fn put_back(&mut self, course: Course, edit: Edit) {
+        match course {
+            Course::Anew => {}
+            Course::Back => self.done.push(edit),
+            Course::Again => self.undone.push(edit),
+        }
+    }
+
+    /// The robot has done what was asked under this number; `revision` is that of the home as it was told last.
+    pub fn on_done(&mut self, id: u32, revision: u32) {
+        let Some((course, edit)) = self.take_asked(id) else {
+            return;
+        };
+        self.confirmed_at = Some(revision);
+        match course {
+            Course::Anew => {
+                self.undone.clear();
+                self.done.push(edit);
+            }
+            Course::Back => self.undone.push(edit),
+            Course::Again => self.done.push(edit),
+        }
+        if self.done.len() > KEPT_MAX {
+            self.done.remove(0);
+        }
+    }
+
+    /// The robot has refused it: nothing has changed.
+    pub fn on_failed(&mut self, id: u32) {
+        if let Some((course, edit)) = self.take_asked(id) {
+            self.put_back(course, edit);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Edit, EditError, EditLog};
+    use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody, RoomView};
+
+    fn wall(x: f64) -> NoGoShape {
+        NoGoShape::Wall([[x, 0.0], [x, 1.0]])
+    }
+
+    fn home(revision: u32, walls: &[(u16, f64)], name: Option<&str>) -> HomeView {
+        HomeView {
+            revision,
+            no_go: walls
+                .iter()
+                .map(|(number, x)| NoGoView {
+                    number: *number,
+                    shape: wall(*x),
+                })
+                .collect(),
+            rooms: vec![RoomView {
+                id: 3,
+                area_m2: 9.0,
+                x: 0.0,
+                y: 0.0,
+                name: name.map(str::to_owned),
+            }],
+            ..HomeView::default()
+        }
+    }
+
+    fn number(request: &rvac_api::Request) -> u32 {
+        request.id.expect("edits are numbered")
+    }
+
+    #[test]
+    fn a_wall_goes_and_comes_back_under_whatever_number_it_has() {
+        let mut log = EditLog::default();
+        let asked = log.begin(Edit::Forbid(wall(1.0)), &home(1, &[], None)).unwrap();
+        assert_eq!(log.last(), None, "nothing counts before it is confirmed");
+        log.on_done(number(&asked), 1);
+        let kept = home(2, &[(6, 4.0), (7, 1.001)], None);
+        let asked = log.undo(&kept).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
+        log.on_done(number(&asked), 2);
+        let asked = log.redo(&home(3, &[(6, 4.0)], None)).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::AddNoGo { shape: wall(1.0) });
+        log.on_done(number(&asked), 3);
+        let asked = log.undo(&home(4, &[(6, 4.0), (8, 1.0)], None)).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 8 });
+    }
+
+    #[test]
+    fn what_is_refused_has_not_happened() {
+        let mut log = EditLog::default();
+        let empty = home(1, &[], None);
+        let asked = log.begin(Edit::Forbid(wall(1.0)), &empty).unwrap();
+        log.on_failed(number(&asked));
+        assert!(log.undo(&empty).is_none());
+        let asked = log.begin(Edit::Forbid(wall(2.0)), &empty).unwrap();
+        log.on_done(number(&asked), 1);
+        let asked = log.undo(&home(2, &[(1, 2.0)], None)).unwrap().unwrap();
+        log.on_failed(number(&asked));
+        assert_eq!(log.last(), Some(&Edit::Forbid(wall(2.0))));
+        assert_eq!(log.next(), None);
+    }
+
+    #[test]
+    fn a_name_goes_back_unless_somebody_else_has_changed_it() {
+        let mut log = EditLog::default();
+        let edit = Edit::Name {
+            room: 3,
+            before: None,
+            after: Some("Hall".to_owned()),
+        };
+        let asked = log.begin(edit, &home(1, &[], None)).unwrap();
+        log.on_done(number(&asked), 1);
+        assert_eq!(
+            log.undo(&home(1, &[], None)),
+            Some(Err(EditError::NotToldYet)),
+            "the robot has not told of the name"
+        );
+        let asked = log.undo(&home(2, &[], Some("Hall"))).unwrap().unwrap();
+        log.on_done(number(&asked), 2);
+        let changed = home(3, &[], Some("Den"));
+        assert_eq!(log.redo(&changed), Some(Err(EditError::ChangedMeanwhile)));
+        assert_eq!(log.redo(&changed), None, "it is dropped");
+    }
+
+    #[test]
+    fn a_new_edit_ends_what_could_be_done_again() {
+        let mut log = EditLog::default();
+        let none = home(1, &[], None);
+        let asked = log.begin(Edit::Forbid(wall(1.0)), &none).unwrap();
+        log.on_done(number(&asked), 1);
+        let asked = log.undo(&home(2, &[(1, 1.0)], None)).unwrap().unwrap();
+        log.on_done(number(&asked), 2);
+        let asked = log.begin(Edit::Forbid(wall(5.0)), &none).unwrap();
+        log.on_done(number(&asked), 3);
+        assert_eq!(log.next(), None);
+        log.clear();
+        assert_eq!(log.last(), None);
+    }
+}
