@@ -19,6 +19,8 @@ pub(crate) enum Icon {
     Moon,
     Close,
     Warning,
+    Undo,
+    Redo,
 }
 
 impl Icon {
@@ -39,6 +41,8 @@ impl Icon {
             }
             Self::Moon => "M19.5 14.5A8 8 0 0 1 9.5 4.5a8 8 0 1 0 10 10z",
             Self::Close => "M6 6l12 12M18 6L6 18",
+            Self::Undo => "M8.5 5L4.5 9l4 4M5 9h9a5 5 0 0 1 0 10h-4",
+            Self::Redo => "M15.5 5l4 4-4 4M19 9h-9a5 5 0 0 0 0 10h4",
             Self::Warning => "M12 4l9 15.5H3zM12 10v4.5M12 17v.5",
         }
     }

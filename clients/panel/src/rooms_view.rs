@@ -2,8 +2,7 @@
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
-use panel_logic::{NoGoRow, RoomRow, Tool};
-use rvac_api::{RequestBody, RoomNaming};
+use panel_logic::{Edit, NoGoRow, RoomRow, Tool};
 
 use crate::store::Store;
 
@@ -29,6 +28,14 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
         </Show>
         <Show when=move || store.rooms.with(|rooms| !rooms.is_empty())>
             <p class="hint">"Press a room here or tap it on the map to choose it for cleaning."</p>
+            <div class="draw-tools">
+                <button type="button" class="small" id="draw-clean" on:click=move |_| store.take_tool(Tool::CleanZone)>
+                    "Draw a zone to clean"
+                </button>
+                <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
+                    "Keep out for one job"
+                </button>
+            </div>
         </Show>
     }
 }
@@ -76,7 +83,13 @@ fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>
     let save = move |event: SubmitEvent| {
         event.prevent_default();
         let name = Some(text.get_untracked()).filter(|name| !name.trim().is_empty());
-        store.ask(RequestBody::NameRoom(RoomNaming { room: id, name }));
+        let home = store.known_home();
+        let before = home.rooms.iter().find(|room| room.id == id).and_then(|room| room.name.clone());
+        store.edit(Edit::Name {
+            room: id,
+            before,
+            after: name,
+        });
         renamed.set(None);
     };
     view! {
@@ -127,6 +140,12 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
 fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
     let NoGoRow { number, name, words } = row;
     let label = format!("Remove {name}");
+    let remove = move |_| {
+        let home = store.known_home();
+        if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
+            store.edit(Edit::Allow(kept.shape));
+        }
+    };
     view! {
         <li>
             <span class="name">{name}</span>
@@ -135,7 +154,7 @@ fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
                 type="button"
                 class="small"
                 aria-label=label
-                on:click=move |_| store.ask(RequestBody::RemoveNoGo { number })
+                on:click=remove
             >
                 "Remove"
             </button>

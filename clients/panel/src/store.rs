@@ -14,7 +14,7 @@ use crate::access::{Entrance, Newcomer};
 use crate::drive::Seat;
 use crate::history::HistoryDesk;
 use crate::link::Link;
-use crate::map::{MapHandle, Orders};
+use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
 use crate::schedules::ScheduleDesk;
 
@@ -62,6 +62,8 @@ pub(crate) struct Store {
     pub(crate) maps_floor: RwSignal<Option<u16>>,
     /// What a person wants of the home.
     pub(crate) orders: Orders,
+    /// What was edited in the map.
+    pub(crate) edits: Edits,
     /// What starts by itself.
     pub(crate) schedules: ScheduleDesk,
     /// Runs that are over.
@@ -98,6 +100,7 @@ impl Store {
             maps: RwSignal::new(Vec::new()),
             maps_floor: RwSignal::new(None),
             orders: Orders::new(),
+            edits: Edits::new(),
             schedules: ScheduleDesk::new(),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
@@ -168,6 +171,7 @@ impl Store {
     }
 
     fn on_done(self, id: u32) {
+        self.edits.on_done(id, &self.known_home());
         self.schedules.on_done(id);
         if id == MIX_ID
             && let Some(name) = self.bench.on_kept()
@@ -274,7 +278,10 @@ impl Store {
                 self.maps_floor.set(floor);
                 self.maps.set(maps);
             }
-            Message::Floors(floors) => self.floors.set(floors),
+            Message::Floors(floors) => {
+                self.edits.on_floor(floors.here);
+                self.floors.set(floors);
+            }
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
@@ -299,6 +306,7 @@ impl Store {
     }
 
     fn on_failed(self, failure: Failure) {
+        self.edits.on_failed(&failure);
         if self.orders.on_failed(&failure)
             || self.schedules.on_failed(&failure)
             || self.history.on_failed(&failure)

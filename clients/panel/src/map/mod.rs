@@ -1,6 +1,7 @@
 //! The live map: the scene is what is to be seen, the renderer draws it with WebGL2, the view puts it on the page.
 
 mod canvas;
+mod edit_bar;
 mod gestures;
 mod gl;
 mod handle;
@@ -19,6 +20,7 @@ mod uploads;
 mod view;
 mod view_memory;
 
+pub(crate) use edit_bar::Edits;
 pub(crate) use handle::MapHandle;
 pub(crate) use orders::Orders;
 pub(crate) use view::MapView;

@@ -1,4 +1,4 @@
-//! Over the map: the chosen rooms with what cleaning them takes, and what to do next while something is drawn.
+//! Over the map: the chosen rooms and zones with what cleaning them takes, and what to do next while something is drawn.
 
 use leptos::prelude::*;
 use panel_logic::{Offer, PASSES_MAX, Tool};
@@ -9,7 +9,7 @@ use crate::store::Store;
 #[component]
 pub(crate) fn OrderBar(store: Store) -> impl IntoView {
     let orders = store.orders;
-    let has_choice = Memo::new(move |_| orders.choice.with(|choice| !choice.rooms().is_empty()));
+    let has_choice = Memo::new(move |_| orders.choice.with(|choice| !choice.is_empty()));
     let state = Memo::new(move |_| {
         store.status.with(|status| {
             status
@@ -52,15 +52,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     let orders = store.orders;
     let names = move || {
         let rooms = store.rooms.get();
-        let name = |id: &u16| rooms.iter().find(|row| row.id == *id).map(|row| row.name.clone());
-        orders.choice.with(|choice| {
-            choice
-                .rooms()
-                .iter()
-                .filter_map(name)
-                .collect::<Vec<_>>()
-                .join(", ")
-        })
+        orders.choice.with(|choice| choice.words(&rooms))
     };
     let prospect = move || {
         orders
@@ -80,13 +72,16 @@ fn ChosenRooms(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <div class="order-bar" id="order-bar" role="group" aria-label="Chosen rooms">
+        <div class="order-bar" id="order-bar" role="group" aria-label="Chosen rooms and zones">
             <p><strong id="chosen-rooms">{names}</strong></p>
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
             <div class="order-tools">
                 <Passes store />
                 <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
                     "Choose none"
+                </button>
+                <button type="button" class="small" id="keep-out" on:click=move |_| store.take_tool(Tool::AvoidZone)>
+                    "Keep out, this time"
                 </button>
                 <button
                     type="button"
@@ -126,7 +121,7 @@ fn Passes(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <div class="passes" role="group" aria-label="How often each room is cleaned">
+        <div class="passes" role="group" aria-label="How often each of them is cleaned">
             {(1..=PASSES_MAX).map(button).collect_view()}
         </div>
     }

@@ -1,7 +1,7 @@
-//! What a person wants of the home: rooms to be cleaned, floor that is forbidden.
+//! What a person wants of the home: rooms and zones to be cleaned, floor that is forbidden.
 
 use leptos::prelude::*;
-use panel_logic::{NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows};
+use panel_logic::{Drawn, Edit, NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows};
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
 use super::scene::Ground;
@@ -13,7 +13,7 @@ const FIRST_ESTIMATE: u32 = 1_000;
 /// Handles on all of it; cheap to copy.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Orders {
-    /// Rooms that are chosen.
+    /// Rooms and zones that are chosen.
     pub(crate) choice: RwSignal<RoomChoice>,
     /// What cleaning them takes, or why nobody knows; nothing while the robot reckons.
     pub(crate) prospect: RwSignal<Option<String>>,
@@ -106,10 +106,14 @@ impl Store {
             .sketch
             .try_update(|sketch| sketch.point(place))
             .flatten();
-        if let Some(shape) = drawn {
-            self.orders.pointer.set(None);
-            self.ask(RequestBody::AddNoGo { shape });
+        let choice = self.orders.choice;
+        match drawn {
+            None => return,
+            Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(shape)),
+            Some(Drawn::Clean(corners)) => choice.update(|choice| choice.add_zone(corners)),
+            Some(Drawn::Avoid(shape)) => choice.update(|choice| choice.keep_out_of(shape)),
         }
+        self.orders.pointer.set(None);
     }
 
     /// Asks what cleaning the chosen rooms takes.

@@ -25,6 +25,9 @@ pub(crate) struct Palette {
     pub(crate) wall_side: Rgb,
     /// The way it means to drive, and how far it may be from where it believes to be.
     pub(crate) thought: Rgb,
+    /// Borders of what a person wants cleaned, and of where the robot must not go.
+    pub(crate) wanted: Rgb,
+    pub(crate) forbidden: Rgb,
     pub(crate) plan: PlanPalette,
 }
 
@@ -51,6 +54,8 @@ const LIGHT: Palette = Palette {
     wall_top: rgb(0x6b_79_8d),
     wall_side: rgb(0xd5_dc_e5),
     thought: rgb(0x6d_4a_c9),
+    wanted: rgb(0x1d_4e_d8),
+    forbidden: rgb(0xb4_23_18),
     plan: PlanPalette {
         floor: bytes(0xff_ff_ff),
         obstacle: bytes(0x8a_96_a6),
@@ -83,6 +88,8 @@ const DARK: Palette = Palette {
     wall_top: rgb(0x8b_9c_b2),
     wall_side: rgb(0x46_55_69),
     thought: rgb(0xb7_9c_ff),
+    wanted: rgb(0x7c_b4_ff),
+    forbidden: rgb(0xff_8f_85),
     plan: PlanPalette {
         floor: bytes(0x1f_29_36),
         obstacle: bytes(0x59_68_7b),

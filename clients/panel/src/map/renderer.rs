@@ -29,6 +29,8 @@ pub(crate) struct Renderer {
     path: Layer,
     walls: Layer,
     way: Layer,
+    wanted: Layer,
+    forbidden: Layer,
     bumps: Layer,
     lying: Layer,
     robot: Layer,
@@ -132,6 +134,8 @@ impl Renderer {
             path: Layer::new(gl)?,
             walls: Layer::new(gl)?,
             way: Layer::new(gl)?,
+            wanted: Layer::new(gl)?,
+            forbidden: Layer::new(gl)?,
             bumps: Layer::new(gl)?,
             lying: Layer::new(gl)?,
             robot: Layer::new(gl)?,
@@ -151,7 +155,8 @@ impl Renderer {
             gl.vertex_attrib_pointer_with_i32(place, size, Gl::FLOAT, false, stride, offset);
             gl.vertex_attrib_divisor(place, 1);
         };
-        for (layer, stride) in [(&self.path, 8), (&self.walls, 16), (&self.way, 16)] {
+        let strokes = [&self.walls, &self.way, &self.wanted, &self.forbidden].map(|layer| (layer, 16));
+        for (layer, stride) in strokes.into_iter().chain([(&self.path, 8)]) {
             gl.bind_vertex_array(Some(&layer.layout));
             layer.buffer.bind();
             attribute(0, 2, [stride, 0]);
@@ -308,6 +313,9 @@ impl Renderer {
         if std::mem::take(&mut scene.strokes_changed) {
             self.walls.replace(&scene.walls);
             self.way.replace(&scene.way);
+            self.wanted.replace(&scene.wanted);
+            self.forbidden
+                .replace(&[scene.forbidden.as_slice(), &scene.avoided].concat());
         }
         self.line.select();
         self.line.set_matrix("eye", &eye.clip);
@@ -315,11 +323,14 @@ impl Renderer {
         // Walls that stand need no stroke.
         let has_strokes = scene.ground() == Ground::Known && !eye.in_relief;
         let walls = if has_strokes { scene.walls.len() / 4 } else { 0 };
+        let forbidden = (scene.forbidden.len() + scene.avoided.len()) / 4;
         let segments = (scene.path.len() / 2).saturating_sub(1);
         for (layer, segments, (half_width_px, colour)) in [
             (&self.walls, walls, (1.0, &palette.wall)),
             (&self.path, segments, (0.8, &palette.path)),
             (&self.way, scene.way.len() / 4, (1.0, &palette.thought)),
+            (&self.forbidden, forbidden, (1.5, &palette.forbidden)),
+            (&self.wanted, scene.wanted.len() / 4, (1.5, &palette.wanted)),
         ] {
             self.line.set("half_width", &[(half_width_px * eye.ratio) as f32]);
             self.line.set("line_colour", colour);

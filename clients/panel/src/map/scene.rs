@@ -1,8 +1,8 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, Orbit, Playout, SweptGrid, View, home_plan, outlined, plan_bounds, room_at,
-    wall_strokes, way_dashes,
+    Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes, outlined,
+    plan_bounds, room_at, wall_strokes, way_dashes, zone_strokes,
 };
 use rvac_api::{
     BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
@@ -80,6 +80,10 @@ pub(crate) struct Scene {
     /// Walls as strokes, and the planned way as dashes.
     pub(crate) walls: Vec<f32>,
     pub(crate) way: Vec<f32>,
+    /// Borders of zones that are to be cleaned, of what is forbidden for the next job, and of what is for good.
+    pub(crate) wanted: Vec<f32>,
+    pub(crate) avoided: Vec<f32>,
+    pub(crate) forbidden: Vec<f32>,
     pub(crate) strokes_changed: bool,
     uncertainty_m: f64,
     pub(crate) swept: SweptGrid,
@@ -114,6 +118,9 @@ impl Default for Scene {
             doors: Vec::new(),
             walls: Vec::new(),
             way: Vec::new(),
+            wanted: Vec::new(),
+            avoided: Vec::new(),
+            forbidden: Vec::new(),
             strokes_changed: true,
             uncertainty_m: 0.0,
             swept: SweptGrid::default(),
@@ -152,19 +159,30 @@ impl Scene {
         self.draw_home();
         self.doors = home.doors.iter().take(ITEMS_MAX).copied().collect();
         self.walls = wall_strokes(home);
+        let no_go = home.no_go.iter().take(ITEMS_MAX);
+        self.forbidden = no_go.flat_map(|kept| no_go_strokes(&kept.shape)).collect();
         self.strokes_changed = true;
         if self.ground == Ground::Known {
             self.show(Ground::Known);
         }
     }
 
-    /// Takes the rooms that a person has chosen.
-    pub(crate) fn choose(&mut self, rooms: &[u16]) {
+    /// Takes what a person has chosen.
+    pub(crate) fn choose(&mut self, choice: &RoomChoice) {
+        let rooms = choice.rooms();
         if self.chosen != rooms {
-            self.chosen = rooms.to_vec();
+            self.chosen = rooms;
             self.draw_home();
             self.plan_changed = true;
         }
+        self.wanted = choice.zones().flat_map(zone_strokes).collect();
+        self.avoided = choice.avoid().iter().flat_map(no_go_strokes).collect();
+        self.strokes_changed = true;
+    }
+
+    /// The home as the robot told it last.
+    pub(crate) fn home(&self) -> Option<&HomeView> {
+        self.home.as_ref()
     }
 
     /// The room under a place of the map.

@@ -7,6 +7,7 @@ use leptos::prelude::*;
 use panel_logic::{Orbit, scale_bar};
 
 use super::canvas::{MapCanvas, STEP, apply, fit, toggle_relief, zoom};
+use super::edit_bar::EditBar;
 use super::order_bar::OrderBar;
 use super::scene::{CameraMode, Ground, Scene};
 use super::sketch_view::SketchView;
@@ -28,7 +29,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
         store.orders.choice.with(|choice| {
             store
                 .map
-                .with_value(|map| map.change(|scene| scene.choose(choice.rooms())));
+                .with_value(|map| map.change(|scene| scene.choose(choice)));
         });
     });
     let follow = {
@@ -96,6 +97,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
                 >
                     "3D"
                 </button>
+                <EditBar store />
             </div>
             <OrderBar store />
             <MapFooter store footer />
