@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod browser;
+mod edits;
 mod history;
 mod large_home;
 mod mixes;
@@ -346,45 +347,6 @@ async fn one_room_is_chosen_in_the_list_and_cleaned() {
         };
         clean_one_room(&visit.browser, shots).await;
     }
-}
-
-#[tokio::test]
-async fn a_wall_is_drawn_with_keys_and_removed_and_a_room_gets_a_name() {
-    let Some(visit) = Visit::begin_at_home(Screen::Desktop).await else {
-        return;
-    };
-    let browser = &visit.browser;
-    browser.click("#tab-home").await;
-    browser
-        .until("return document.querySelectorAll('#rooms .choose').length > 1")
-        .await;
-    browser.click("#draw-wall").await;
-    browser
-        .text("document.getElementById('map').focus(); return ''")
-        .await;
-    for key in ["Enter", "ArrowLeft", "ArrowLeft", "Enter"] {
-        let press = format!(
-            "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', {{key: '{key}', bubbles: true}})); return ''"
-        );
-        browser.text(&press).await;
-    }
-    browser
-        .until("return document.querySelectorAll('#no-go li').length === 1")
-        .await;
-    browser.shot("desktop-virtual-wall").await;
-    browser.click("#no-go button").await;
-    browser
-        .until("return document.querySelectorAll('#no-go li').length === 0")
-        .await;
-
-    browser.click("#rooms li button[aria-expanded]").await;
-    let typed = "const field = document.getElementById('room-name'); field.value = 'Kitchen'; \
-                 field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
-    browser.text(typed).await;
-    browser.click("#save-name").await;
-    browser
-        .until("return document.querySelector('#rooms .choose')?.textContent.includes('Kitchen')")
-        .await;
 }
 
 #[tokio::test]

@@ -1,0 +1,156 @@
+//! What people draw on the map and say of rooms, taken back and done again; and zones for one job.
+
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+
+use rvac_api::{HomeView, SEPARATOR, Update};
+
+use crate::Visit;
+use crate::browser::{Browser, Screen};
+
+/// Another client, which follows the home.
+struct Onlooker {
+    updates: BufReader<UnixStream>,
+}
+
+impl Onlooker {
+    fn watch(socket: &Path) -> Self {
+        let mut stream = UnixStream::connect(socket).unwrap();
+        stream
+            .set_read_timeout(Some(std::time::Duration::from_secs(40)))
+            .unwrap();
+        let mut watch = br#"{"c":"watch","topics":["home"]}"#.to_vec();
+        watch.push(SEPARATOR);
+        stream.write_all(&watch).unwrap();
+        Self {
+            updates: BufReader::new(stream),
+        }
+    }
+
+    /// Waits until it is told of such a home.
+    fn sees(&mut self, is_it: impl Fn(&HomeView) -> bool) {
+        loop {
+            let mut message = Vec::new();
+            self.updates.read_until(SEPARATOR, &mut message).unwrap();
+            message.pop();
+            if let Ok(Update::Home(home)) = serde_json::from_slice(&message)
+                && is_it(&home)
+            {
+                return;
+            }
+        }
+    }
+}
+
+/// Presses keys on the map.
+async fn keys(browser: &Browser, keys: &[&str]) {
+    browser
+        .text("document.getElementById('map').focus(); return ''")
+        .await;
+    for key in keys {
+        let press = format!(
+            "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', {{key: '{key}', bubbles: true}})); return ''"
+        );
+        browser.text(&press).await;
+    }
+}
+
+/// `Ctrl+Z`, or with Shift.
+async fn undo(browser: &Browser, shift: bool) {
+    let press = format!(
+        "window.dispatchEvent(new KeyboardEvent('keydown', {{key: 'z', ctrlKey: true, shiftKey: {shift}, bubbles: true}})); return ''"
+    );
+    browser.text(&press).await;
+}
+
+async fn forbidden(browser: &Browser, count: usize) {
+    browser
+        .until(&format!(
+            "return document.querySelectorAll('#no-go li').length === {count}"
+        ))
+        .await;
+}
+
+async fn at_home() -> Option<Visit> {
+    let visit = Visit::begin_at_home(Screen::Desktop).await?;
+    visit.browser.click("#tab-home").await;
+    visit
+        .browser
+        .until("return document.querySelectorAll('#rooms .choose').length > 1")
+        .await;
+    Some(visit)
+}
+
+#[tokio::test]
+async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
+    let Some(visit) = at_home().await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let mut onlooker = Onlooker::watch(&visit.stack.daemon_socket());
+    browser.click("#draw-wall").await;
+    keys(browser, &["Enter", "ArrowLeft", "ArrowLeft", "Enter"]).await;
+    forbidden(browser, 1).await;
+    onlooker.sees(|home| home.no_go.len() == 1);
+    browser.shot("desktop-virtual-wall").await;
+    undo(browser, false).await;
+    forbidden(browser, 0).await;
+    onlooker.sees(|home| home.no_go.is_empty());
+    undo(browser, true).await;
+    forbidden(browser, 1).await;
+    onlooker.sees(|home| home.no_go.len() == 1);
+    browser.click("#no-go button").await;
+    forbidden(browser, 0).await;
+    browser.click("#undo").await;
+    forbidden(browser, 1).await;
+
+    browser.click("#rooms li button[aria-expanded]").await;
+    let typed = "const field = document.getElementById('room-name'); field.value = 'Kitchen'; \
+                 field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
+    browser.text(typed).await;
+    browser.click("#save-name").await;
+    let is_kitchen = "document.querySelector('#rooms .choose')?.textContent.includes('Kitchen')";
+    browser.until(&format!("return {is_kitchen}")).await;
+    browser.click("#undo").await;
+    browser.until(&format!("return !{is_kitchen}")).await;
+    browser.click("#redo").await;
+    browser.until(&format!("return {is_kitchen}")).await;
+    onlooker.sees(|home| {
+        home.rooms
+            .iter()
+            .any(|room| room.name.as_deref() == Some("Kitchen"))
+    });
+}
+
+#[tokio::test]
+async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
+    let Some(visit) = at_home().await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#draw-clean").await;
+    let corner = ["Enter", "ArrowLeft", "ArrowLeft", "ArrowUp", "ArrowUp", "Enter"];
+    keys(browser, &corner).await;
+    let words = |text: &str| {
+        format!("return document.getElementById('chosen-rooms')?.textContent.includes('{text}') === true")
+    };
+    browser.until(&words("zone of")).await;
+    browser.click("#keep-out").await;
+    keys(browser, &["Enter", "ArrowRight", "ArrowDown", "Enter"]).await;
+    browser.until(&words("not 1 place")).await;
+    browser
+        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
+        .await;
+    browser.shot("desktop-zone").await;
+    browser.click("#view-3d").await;
+    browser.shot("desktop-zone-3d").await;
+    browser.click("#clean-chosen").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return document.getElementById('order-bar') === null")
+        .await;
+    forbidden(browser, 0).await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+}
