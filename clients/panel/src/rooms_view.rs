@@ -84,7 +84,11 @@ fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>
         event.prevent_default();
         let name = Some(text.get_untracked()).filter(|name| !name.trim().is_empty());
         let home = store.known_home();
-        let before = home.rooms.iter().find(|room| room.id == id).and_then(|room| room.name.clone());
+        let before = home
+            .rooms
+            .iter()
+            .find(|room| room.id == id)
+            .and_then(|room| room.name.clone());
         store.edit(Edit::Name {
             room: id,
             before,

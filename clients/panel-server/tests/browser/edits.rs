@@ -138,7 +138,7 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     browser.until(&words("zone of")).await;
     browser.click("#keep-out").await;
     keys(browser, &["Enter", "ArrowRight", "ArrowDown", "Enter"]).await;
-    browser.until(&words("not 1 place")).await;
+    browser.until(&words("out of 1 place")).await;
     browser
         .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
         .await;

@@ -60,11 +60,7 @@ impl Edit {
         match self.clone() {
             Self::Forbid(shape) => Self::Allow(shape),
             Self::Allow(shape) => Self::Forbid(shape),
-            Self::Name {
-                room,
-                before,
-                after,
-            } => Self::Name {
+            Self::Name { room, before, after } => Self::Name {
                 room,
                 before: after,
                 after: before,
@@ -87,19 +83,13 @@ impl Edit {
     /// What asks the robot for it.
     fn request(&self, home: &HomeView) -> Result<RequestBody, EditError> {
         match self {
-            Self::Forbid(shape) => Ok(RequestBody::AddNoGo {
-                shape: shape.clone(),
-            }),
+            Self::Forbid(shape) => Ok(RequestBody::AddNoGo { shape: shape.clone() }),
             Self::Allow(shape) => {
                 let found = home.no_go.iter().rev().find(|kept| is_same(&kept.shape, shape));
                 let number = found.ok_or(EditError::ChangedMeanwhile)?.number;
                 Ok(RequestBody::RemoveNoGo { number })
             }
-            Self::Name {
-                room,
-                before,
-                after,
-            } => {
+            Self::Name { room, before, after } => {
                 let named = home.rooms.iter().find(|known| known.id == *room);
                 if named.is_none_or(|known| known.name != *before) {
                     return Err(EditError::ChangedMeanwhile);

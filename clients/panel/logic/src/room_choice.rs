@@ -84,7 +84,7 @@ impl RoomChoice {
         self.parts.is_empty() && self.avoid.is_empty()
     }
 
-    /// `Kitchen, zone of 1.5 x 0.8 m; not 2 places`
+    /// `Kitchen, zone of 1.5 x 0.8 m, keeping out of 2 places`
     #[must_use]
     pub fn words(&self, rows: &[RoomRow]) -> String {
         let word = |part: &JobPart| match part {
@@ -99,8 +99,8 @@ impl RoomChoice {
         };
         match self.avoid.len() {
             0 => parts,
-            1 => format!("{parts}; not 1 place"),
-            count => format!("{parts}; not {count} places"),
+            1 => format!("{parts}, keeping out of 1 place"),
+            count => format!("{parts}, keeping out of {count} places"),
         }
     }
 
@@ -193,7 +193,7 @@ mod tests {
     fn zones_stand_among_the_rooms_and_the_job_keeps_out_of_places() {
         let mut choice = RoomChoice::default();
         choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
-        assert_eq!(choice.words(&[]), "The whole home; not 1 place");
+        assert_eq!(choice.words(&[]), "The whole home, keeping out of 1 place");
         let corners = vec![[0.0, 0.0], [1.5, 0.0], [1.5, 0.8], [0.0, 0.8]];
         choice.toggle(3);
         choice.add_zone(corners.clone());
@@ -204,7 +204,10 @@ mod tests {
             [JobPart::Room(3), JobPart::Zone(corners), JobPart::Room(4)]
         );
         assert_eq!(order.avoid.len(), 1);
-        assert_eq!((choice.rooms(), choice.zones().count(), choice.place(4)), (vec![3, 4], 1, Some(3)));
+        assert_eq!(
+            (choice.rooms(), choice.zones().count(), choice.place(4)),
+            (vec![3, 4], 1, Some(3))
+        );
         assert!(choice.words(&[]).starts_with("zone of 1.5 x 0.8 m"));
         choice.retain_known(&HomeView::default());
         assert_eq!((choice.rooms().len(), choice.zones().count()), (0, 1));

@@ -48,10 +48,7 @@ impl Store {
     /// Asks for an edit of the map that can be taken back.
     pub(crate) fn edit(self, edit: Edit) {
         let home = self.known_home();
-        let asked = self
-            .edits
-            .log
-            .try_update(|log| log.begin(edit, &home));
+        let asked = self.edits.log.try_update(|log| log.begin(edit, &home));
         self.ask_edit(asked);
     }
 

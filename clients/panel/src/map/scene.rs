@@ -1,8 +1,8 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes, outlined,
-    plan_bounds, room_at, wall_strokes, way_dashes, zone_strokes,
+    Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes,
+    outlined, plan_bounds, room_at, wall_strokes, way_dashes, zone_strokes,
 };
 use rvac_api::{
     BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
