@@ -103,7 +103,7 @@ const DARK: Palette = Palette {
             bytes(0x35_2d_28),
             bytes(0x2b_29_42),
             bytes(0x32_30_25),
-            bytes(0x36_29_32),
+            bytes(0x36_29_33),
             bytes(0x24_32_2c),
         ],
     },

@@ -32,17 +32,31 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
                 .with_value(|map| map.change(|scene| scene.choose(choice)));
         });
     });
-    let follow = {
-        let map = StoredValue::new_local(map.clone());
-        move |_| {
-            let next = if mode.get_untracked() == CameraMode::Following {
-                CameraMode::Free
-            } else {
-                CameraMode::Following
-            };
-            mode.set(next);
-            map.with_value(|map| map.change(|scene| scene.mode = next));
-        }
+    view! {
+        <section class="map" aria-label="Map">
+            <MapCanvas store mode failure />
+            <RoomNames store />
+            <SketchView store />
+            <GroundSwitch store shown=ground />
+            <Failures failure footer />
+            <MapTools store mode orbit />
+            <OrderBar store />
+            <MapFooter store footer />
+        </section>
+    }
+}
+
+/// Buttons for the view, and for edits.
+#[component]
+fn MapTools(store: Store, mode: RwSignal<CameraMode>, orbit: RwSignal<Option<Orbit>>) -> impl IntoView {
+    let follow = move |_| {
+        let next = if mode.get_untracked() == CameraMode::Following {
+            CameraMode::Free
+        } else {
+            CameraMode::Following
+        };
+        mode.set(next);
+        store.map.with_value(|map| map.change(|scene| scene.mode = next));
     };
     let button = move |label: &'static str, shape: Icon, change: fn(&mut Scene)| {
         view! {
@@ -52,56 +66,55 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <section class="map" aria-label="Map">
-            <MapCanvas store mode failure />
-            <RoomNames store />
-            <SketchView store />
-            <GroundSwitch store shown=ground />
-            <Show when=move || failure.get().is_some()>
-                <p class="map-failure" role="alert">
-                    {move || failure.get()} " The map cannot be drawn; everything else works."
-                </p>
-            </Show>
-            <Show when=move || footer.with(|footer| footer.relief_failure.is_some())>
-                <p class="map-failure" role="alert">
-                    "This browser cannot draw the map in 3D, so it stays flat: "
-                    {move || footer.with(|footer| footer.relief_failure.clone())}
-                </p>
-            </Show>
-            <div class="map-tools" role="group" aria-label="View of the map">
-                {button("Zoom in", Icon::Plus, |scene| zoom(scene, STEP))}
-                {button("Zoom out", Icon::Minus, |scene| zoom(scene, 1.0 / STEP))}
-                {button("Show everything", Icon::Fit, fit)}
-                <button
-                    type="button"
-                    class="round"
-                    id="follow"
-                    aria-label="Follow the robot"
-                    title="Follow the robot"
-                    aria-pressed=move || if mode.get() == CameraMode::Following { "true" } else { "false" }
-                    on:click=follow
-                >
-                    {icon(Icon::Follow)}
-                </button>
-                <button
-                    type="button"
-                    class="round words"
-                    id="view-3d"
-                    aria-label="Seen in 3D"
-                    title="Seen in 3D (key 3)"
-                    aria-pressed=move || if orbit.get().is_some() { "true" } else { "false" }
-                    on:click=move |_| {
-                        apply(store, mode, toggle_relief);
-                        orbit.set(store.map.with_value(|map| map.with(|scene| scene.camera.orbit())));
-                    }
-                >
-                    "3D"
-                </button>
-                <EditBar store />
-            </div>
-            <OrderBar store />
-            <MapFooter store footer />
-        </section>
+        <div class="map-tools" role="group" aria-label="View of the map">
+            {button("Zoom in", Icon::Plus, |scene| zoom(scene, STEP))}
+            {button("Zoom out", Icon::Minus, |scene| zoom(scene, 1.0 / STEP))}
+            {button("Show everything", Icon::Fit, fit)}
+            <button
+                type="button"
+                class="round"
+                id="follow"
+                aria-label="Follow the robot"
+                title="Follow the robot"
+                aria-pressed=move || if mode.get() == CameraMode::Following { "true" } else { "false" }
+                on:click=follow
+            >
+                {icon(Icon::Follow)}
+            </button>
+            <button
+                type="button"
+                class="round words"
+                id="view-3d"
+                aria-label="Seen in 3D"
+                title="Seen in 3D (key 3)"
+                aria-pressed=move || if orbit.get().is_some() { "true" } else { "false" }
+                on:click=move |_| {
+                    apply(store, mode, toggle_relief);
+                    orbit.set(store.map.with_value(|map| map.with(|scene| scene.camera.orbit())));
+                }
+            >
+                "3D"
+            </button>
+            <EditBar store />
+        </div>
+    }
+}
+
+/// Why there is no map, or no view of it in 3D.
+#[component]
+fn Failures(failure: RwSignal<Option<String>>, footer: RwSignal<Footer>) -> impl IntoView {
+    view! {
+        <Show when=move || failure.get().is_some()>
+            <p class="map-failure" role="alert">
+                {move || failure.get()} " The map cannot be drawn; everything else works."
+            </p>
+        </Show>
+        <Show when=move || footer.with(|footer| footer.relief_failure.is_some())>
+            <p class="map-failure" role="alert">
+                "This browser cannot draw the map in 3D, so it stays flat: "
+                {move || footer.with(|footer| footer.relief_failure.clone())}
+            </p>
+        </Show>
     }
 }
 
