@@ -1,0 +1,230 @@
+//! On which floor the robot is: found out, said by a person, or lost.
+
+use brain::mapping::StoredMap;
+use brain::{Brain, Checkpoint, FloorPlace, ReadyHome};
+
+use super::next_run::FloorOnItsWay;
+use super::{Mind, Recorder};
+use crate::floors::Floors;
+use crate::quest::{Quest, Question};
+use crate::{RunCause, RunEnd};
+
+/// Whether hands had the robot since its floor was known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Carried {
+    #[default]
+    No,
+    /// A wheel hangs since then, microseconds.
+    Hangs(u64),
+    Yes,
+}
+
+/// A wheel that hangs for so long hangs because somebody holds the robot.
+const LIFTED_US: u64 = 1_000_000;
+
+/// What has become known of the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FloorNews {
+    /// The robot stands on the dock of this floor, whose map is taken up.
+    Docked(u16),
+    /// The robot has found itself on this floor, whose map is taken up.
+    Found(u16),
+    /// A person is asked.
+    Asked(Question),
+}
+
+impl Mind {
+    /// The floor on which the robot is, as far as that is known.
+    pub(crate) fn floor(&self) -> Option<u16> {
+        self.floor
+    }
+
+    /// Why a person should say which floor it is; `None` while nobody need.
+    pub(crate) fn asked(&self) -> Option<Question> {
+        self.quest.as_ref().and_then(|quest| quest.asked)
+    }
+
+    /// Whether the floor is being looked for.
+    pub(crate) fn seeks_floor(&self) -> bool {
+        self.floor.is_none() || self.quest.is_some()
+    }
+
+    /// Finds out on which floor the robot is: from the dock, where it stands at rest, or from its way. What it has drawn
+    /// since, not knowing, is forgotten. To be called before each step.
+    pub(crate) fn look_for_floor(
+        &mut self,
+        now_us: u64,
+        floors: &Floors,
+        recorder: &mut Recorder<'_>,
+    ) -> Option<FloorNews> {
+        let asked_before = self.asked();
+        let under_way = self.on_its_way.take();
+        let observation = self.observer.observation();
+        if self.run.is_none() && observation.docked && observation.link_up {
+            let news = self.know_dock(floors, under_way);
+            return news.or_else(|| self.new_question(asked_before));
+        }
+        self.watch_hands(now_us);
+        self.run?;
+        let is_lost_among_several = self.brain.estimate().lost && floors.homes().nth(1).is_some();
+        if self.floor.is_some() && !is_lost_among_several {
+            self.quest = None;
+            return None;
+        }
+        let quest = self.quest.get_or_insert_default();
+        let seed = self.seed;
+        match quest.follow(self.observer.observation(), (floors, &self.config, seed)) {
+            // It has its map, and will find itself in it as well.
+            Some(place) if self.floor == Some(place.floor) => None,
+            Some(place) => {
+                let home = floors.home(place.floor)?;
+                let ready = self.home_of(under_way, (place.floor, home))?;
+                self.move_to(now_us, (place, home, ready), recorder);
+                Some(FloorNews::Found(place.floor))
+            }
+            None => self.new_question(asked_before),
+        }
+    }
+
+    fn new_question(&self, before: Option<Question>) -> Option<FloorNews> {
+        self.asked()
+            .filter(|asked| before != Some(*asked))
+            .map(FloorNews::Asked)
+    }
+
+    /// The robot stands on a dock at rest.
+    fn know_dock(&mut self, floors: &Floors, under_way: Option<FloorOnItsWay>) -> Option<FloorNews> {
+        let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
+        if self.floor.is_some() && self.carried == Carried::Yes && docks > 1 {
+            self.forget_floor(None);
+        }
+        if self.floor.is_some() {
+            return None;
+        }
+        let number = self.quest.get_or_insert_default().by_dock(floors)?;
+        let home = self.home_of(under_way, (number, floors.home(number)?))?;
+        self.begin_with(Brain::with_home(self.config, self.seed, home));
+        self.floor = Some(number);
+        self.quest = None;
+        self.carried = Carried::No;
+        Some(FloorNews::Docked(number))
+    }
+
+    /// The home of a floor; it takes some steps until it is ready.
+    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<ReadyHome> {
+        let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
+        let ready = floor.go_on();
+        if ready.is_none() {
+            self.on_its_way = Some(floor);
+        }
+        ready
+    }
+
+    fn watch_hands(&mut self, now_us: u64) {
+        let hangs = self.observer.observation().wheel_drop;
+        self.carried = match (self.carried, hangs) {
+            (Carried::Yes, _) => Carried::Yes,
+            (_, false) => Carried::No,
+            (Carried::No, true) => Carried::Hangs(now_us),
+            (Carried::Hangs(since_us), true) if now_us >= since_us + LIFTED_US => Carried::Yes,
+            (hanging @ Carried::Hangs(_), true) => hanging,
+        };
+    }
+
+    /// The robot is at a place of a floor: what it does goes on there.
+    fn move_to(
+        &mut self,
+        now_us: u64,
+        (place, home, ready): (FloorPlace, &StoredMap, ReadyHome),
+        recorder: &mut Recorder<'_>,
+    ) {
+        let checkpoint = Checkpoint {
+            pose: place.pose,
+            home: Some(home.clone()),
+            tracking: Some(place.tracking),
+            ..self.without_place()
+        };
+        self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
+        self.floor = Some(place.floor);
+        self.quest = None;
+        self.carried = Carried::No;
+    }
+
+    /// What the brain is doing, without any map.
+    fn without_place(&self) -> Checkpoint {
+        let present = self.brain.checkpoint_without_home();
+        Checkpoint {
+            random_state: present.random_state,
+            backed_m: present.backed_m,
+            job: present.job,
+            energy: present.energy,
+            ..Checkpoint::default()
+        }
+    }
+
+    fn go_on_with(
+        &mut self,
+        now_us: u64,
+        (checkpoint, ready): (Checkpoint, Option<ReadyHome>),
+        recorder: &mut Recorder<'_>,
+    ) {
+        if self.run.is_some() {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.begin_run(now_us, (RunCause::FloorFound, checkpoint, ready), recorder);
+            self.prepare_anew();
+        } else {
+            self.map_base = self.map_number();
+            self.begin_with(Brain::new(self.config, self.seed));
+        }
+    }
+
+    /// The floor is not known any more, and what is known of it is not worth keeping; a person may have said which it is.
+    fn forget_floor(&mut self, chosen: Option<u16>) {
+        self.map_base = self.map_number();
+        self.begin_with(Brain::new(self.config, self.seed));
+        self.floor = None;
+        self.quest = Some(chosen.map_or_else(Quest::default, Quest::for_floor));
+    }
+
+    /// A person says on which floor the robot is. It is taken up on the dock, or when the robot has found its place on it. A
+    /// run that has nothing left to do ends before.
+    pub(crate) fn choose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_none() && self.run.is_some() {
+            self.quest = Some(Quest::for_floor(number));
+        } else {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.forget_floor(Some(number));
+        }
+    }
+
+    /// A person says that the robot is on a floor of which nothing is kept. What it has drawn, not knowing where it was, is
+    /// the map of this floor.
+    pub(crate) fn begin_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_some() {
+            self.go_on_with(now_us, (self.without_place(), None), recorder);
+        }
+        self.floor = Some(number);
+        self.quest = None;
+        self.carried = Carried::No;
+    }
+
+    /// The map of a floor is another one now. If the robot is there, it is taken up when it stands on its dock; a run that has nothing
+    /// left to do ends before.
+    pub(crate) fn offer(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        if self.floor.is_none_or(|floor| floor == number) {
+            self.choose_floor(now_us, number, recorder);
+        }
+    }
+
+    /// A floor is not there any more.
+    pub(crate) fn lose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
+        let is_sought = self
+            .quest
+            .as_ref()
+            .is_some_and(|quest| quest.chosen == Some(number));
+        if self.floor == Some(number) || is_sought {
+            self.end_run(now_us, RunEnd::Finished, recorder);
+            self.forget_floor(None);
+        }
+    }
+}
