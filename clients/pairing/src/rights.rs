@@ -73,10 +73,11 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 40] = [
+pub const VERBS: [(&str, Role); 41] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
+    ("evidence",        Role::View),
     ("maps",            Role::View),
     ("mixes",           Role::View),
     ("runs",            Role::View),

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{BumpMark, HomeView, Pose, RoomHere};
+use crate::{BumpMark, Evidence, HomeView, Pose, RoomHere};
 
 /// Piece of a recording that [`crate::RequestBody::RunFile`] gives at once, in bytes before they are spelled in base 64.
 pub const RUN_PIECE_BYTES: u64 = 48 << 10;
@@ -165,6 +165,9 @@ pub struct RunStop {
     pub by: Option<String>,
     /// Where; its time is that of the daemon's clock.
     pub place: Pose,
+    /// What the robot felt and tried before, unless somebody wanted it to stop.
+    #[serde(flatten)]
+    pub evidence: Evidence,
 }
 
 /// What a run drew, in the frame of the map.

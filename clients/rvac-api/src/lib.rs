@@ -14,6 +14,7 @@ mod home;
 mod order;
 mod request;
 mod schedule;
+mod stop;
 mod thought;
 mod update;
 
@@ -29,6 +30,7 @@ pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
     ScheduledJob, Schedules, Weekday,
 };
+pub use stop::{Evidence, Felt, Standstill};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,

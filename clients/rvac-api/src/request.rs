@@ -47,6 +47,8 @@ pub enum Topic {
     Runs,
     /// [`crate::Update::Floors`] at once, then when it changes.
     Floors,
+    /// [`crate::Update::Standstill`]: the last ten at once, then each new one.
+    Standstills,
 }
 
 /// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
@@ -97,6 +99,9 @@ pub enum RequestBody {
     },
     /// Names a room. Answered when the map with the name is on the disk.
     NameRoom(RoomNaming),
+    /// Asks what the robot has felt and tried up to now, for example after it refused something; answered by
+    /// [`crate::Update::Evidence`].
+    Evidence,
     /// Cleans a small disc around the present place.
     Spot,
     /// Stands still, keeps the job.

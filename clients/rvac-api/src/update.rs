@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Decision, Estimate, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord, RunTrack,
-    Schedules,
+    Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord,
+    RunTrack, Schedules, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -53,6 +53,17 @@ pub enum Update {
     Way(PlannedWay),
     /// Something that it decided.
     Decision(Decision),
+    /// The robot stands and waits, or gave up, and nobody told it to.
+    Standstill(Box<Standstill>),
+    /// What the robot has felt and tried up to now.
+    Evidence {
+        /// Number of the request.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        id: Option<u32>,
+        /// Up to the request.
+        #[serde(flatten)]
+        evidence: Evidence,
+    },
     /// The versions of the map of a floor that are kept.
     Maps {
         /// Number of the floor.

@@ -6,13 +6,13 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Failure,
-    FloorQuestion, FloorView, FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
+    Felt, FloorQuestion, FloorView, FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
     LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun, PlannedWay,
     Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView, Run, RunAsker,
     RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision,
     ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth,
-    Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -51,10 +51,11 @@ fn requests() {
         Topic::Schedules,
         Topic::Runs,
         Topic::Floors,
+        Topic::Standstills,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -538,6 +539,7 @@ fn what_the_robot_thinks() {
         &Update::Decision(decision),
         r#"{"e":"decision","number":3,"t":1.5,"what":"back-off","reason":"bump-left","value":0.0,"text":"Backed off."}"#,
     );
+    standstill();
     let maps = vec![KeptMap {
         number: 2,
         kept_s: 1_700_000_000,
@@ -874,6 +876,7 @@ fn a_run_in_full() {
             heading: 0.5,
             t: 64.0,
         },
+        evidence: Evidence::default(),
     };
     let record = RunRecord {
         run: run(),
@@ -925,5 +928,47 @@ fn a_new_device() {
             from: "192.168.1.7".to_owned(),
         },
         r#"{"e":"new-device","name":"Mari's phone","role":"drive","from":"192.168.1.7"}"#,
+    );
+}
+
+fn standstill() {
+    let felt = Felt {
+        at_s: -0.2,
+        v: 0.25,
+        w: -0.1,
+        signs: vec!["bumper-left".to_owned(), "not-moving".to_owned()],
+        echo: Some(0.5),
+        currents_a: Some([0.5, 0.25, 0.0]),
+    };
+    let evidence = Evidence {
+        felt: vec![felt, Felt::default()],
+        tried: Vec::new(),
+    };
+    check(
+        &Update::Evidence {
+            id: Some(4),
+            evidence: evidence.clone(),
+        },
+        r#"{"e":"evidence","id":4,"felt":[{"at_s":-0.2,"v":0.25,"w":-0.1,"signs":["bumper-left","not-moving"],"echo":0.5,"currents_a":[0.5,0.25,0.0]},{"at_s":0.0,"v":0.0,"w":0.0}]}"#,
+    );
+    request(RequestBody::Evidence, r#"{"c":"evidence"}"#);
+    let told = Standstill {
+        number: 2,
+        t: 61.5,
+        state: "stuck".to_owned(),
+        reason: "boxed-in".to_owned(),
+        text: "Gave up.".to_owned(),
+        place: Pose {
+            t: 61.5,
+            x: 1.0,
+            y: 2.0,
+            heading: 0.5,
+        },
+        lost: false,
+        evidence: Evidence::default(),
+    };
+    check(
+        &Update::Standstill(Box::new(told)),
+        r#"{"e":"standstill","number":2,"t":61.5,"state":"stuck","reason":"boxed-in","text":"Gave up.","place":{"x":1.0,"y":2.0,"heading":0.5,"t":61.5}}"#,
     );
 }

@@ -279,6 +279,12 @@ pub(crate) struct WhyOptions {
     /// How many, the newest last.
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub(crate) lines: usize,
+    /// Instead: what the robot has felt in the last ten seconds, and tried in the last half minute.
+    #[arg(long, conflicts_with = "stop")]
+    pub(crate) felt: bool,
+    /// Instead: why it stood still by itself the last time, with what it felt and tried before.
+    #[arg(long)]
+    pub(crate) stop: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,7 @@
 //! `rvac why`: what the robot decided lately, and why.
 
+mod evidence;
+
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -13,9 +15,21 @@ use crate::socket::Connection;
 /// The daemon answers at once; this covers a machine under load.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Prints the newest decisions, the newest last.
+/// Prints what was asked for.
 pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&options.daemon.socket)?;
+    let connection = Connection::open(&options.daemon.socket)?;
+    if options.stop {
+        evidence::print_stop(connection, options.json)?;
+    } else if options.felt {
+        evidence::print_felt(connection, options.json)?;
+    } else {
+        print_decisions(connection, options)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints the newest decisions, the newest last.
+fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::Result<()> {
     // Decisions first, then the pose, whose time is the present one.
     connection.watch(vec![Topic::Decisions, Topic::Pose])?;
     let deadline = Instant::now() + PATIENCE;
@@ -42,10 +56,10 @@ pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
             writeln!(stdout(), "{:>12}  {}", ago(now_s - decision.t), decision.text)?;
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
-fn ago(seconds: f64) -> String {
+pub(crate) fn ago(seconds: f64) -> String {
     if seconds < 120.0 {
         format!("{:.0} s ago", seconds.max(0.0))
     } else {

@@ -21,6 +21,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Schedules => 1024,
         Topic::Runs => 2048,
         Topic::Floors => 4096,
+        Topic::Standstills => 8192,
     }
 }
 

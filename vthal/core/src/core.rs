@@ -11,6 +11,7 @@ mod orders;
 mod refusal;
 mod requests;
 mod schedules;
+mod standstill;
 mod thinking;
 
 use rvac_api::{Pose, RoomHere, Schedules, Status, Topic, Update};
@@ -19,6 +20,7 @@ use crate::arbiter::Arbiter;
 use crate::clients::Clients;
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
+use crate::evidence::Evidence;
 use crate::floors::Floors;
 use crate::history::RunFollower;
 use crate::journal::{Journal, Part};
@@ -31,6 +33,7 @@ use feed::Feed;
 use history::UnkeptRuns;
 use link_facts::LinkFacts;
 use rvac_api::LogLevel;
+use standstill::Standstills;
 
 /// The brain is called at least this often while there is one.
 const STEP_MAX_US: u64 = 100_000;
@@ -45,6 +48,8 @@ pub struct Core {
     driver_power: CleanerPower,
     journal: Journal,
     diary: Diary,
+    felt: Evidence,
+    standstills: Standstills,
     /// The robot's link, while it is open.
     device: Option<Device>,
     mind: Option<Mind>,
@@ -88,6 +93,8 @@ impl Core {
             driver_power: CleanerPower::FULL,
             journal,
             diary: Diary::default(),
+            felt: Evidence::default(),
+            standstills: Standstills::default(),
             device: None,
             mind: None,
             facts: LinkFacts::default(),

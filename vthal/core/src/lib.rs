@@ -19,6 +19,7 @@ mod config;
 mod core;
 pub mod device;
 mod diary;
+mod evidence;
 mod floors;
 mod history;
 mod home_view;

@@ -902,6 +902,67 @@ fn decisions_and_estimates_are_told_to_who_follows_them() {
     assert!(stopped, "{:?}", &pair.updates[before..]);
 }
 
+#[test]
+fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does_not() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Standstills];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    pair.ask(ANNA, RequestBody::Start { strategy: None });
+    pair.run_ms(6_000);
+    pair.ask(ANNA, RequestBody::Pause);
+    pair.run_ms(200);
+    let told = |pair: &Pair| -> Vec<_> {
+        let told = pair.updates.iter().filter_map(|update| match update {
+            Update::Standstill(told) => Some((**told).clone()),
+            _ => None,
+        });
+        told.collect()
+    };
+    assert_eq!(told(&pair), [], "somebody told it to");
+    pair.ask(ANNA, RequestBody::Resume);
+    pair.run_ms(6_000);
+    pair.state.wheel_drops = WheelDrops {
+        left: true,
+        right: false,
+    };
+    pair.run_ms(500);
+    let stops = told(&pair);
+    assert_eq!(stops.len(), 1, "{stops:?}");
+    let stop = &stops[0];
+    assert_eq!(
+        (stop.state.as_str(), stop.reason.as_str()),
+        ("paused", "wheel-drop")
+    );
+    let newest = stop.evidence.felt.last().expect("it felt something");
+    assert!(newest.signs.iter().any(|sign| sign == "wheel-drop"), "{newest:?}");
+    let earlier = &stop.evidence.felt[stop.evidence.felt.len() - 3];
+    assert!(
+        earlier.signs.iter().all(|sign| sign != "wheel-drop"),
+        "{earlier:?}"
+    );
+    assert!((45..=51).contains(&stop.evidence.felt.len()));
+    // Whoever comes later is told, too, and the record of the run has it.
+    let before = pair.updates.len();
+    let topics = vec![Topic::Standstills];
+    pair.ask(ANNA, RequestBody::Watch { topics });
+    let again = &pair.updates[before..];
+    assert!(matches!(&again[0], Update::Standstill(told) if told.number == 1));
+    assert_eq!(pair.ask(ANNA, RequestBody::Evidence), None);
+    let Some(Update::Evidence {
+        id: Some(1),
+        evidence,
+    }) = pair.updates.last()
+    else {
+        panic!("{:?}", pair.updates.last());
+    };
+    assert!(
+        evidence
+            .felt
+            .iter()
+            .any(|felt| felt.signs.contains(&"wheel-drop".to_owned()))
+    );
+}
+
 /// A floor with a dock at x.
 fn floor_with_dock(number: u16, x_m: f64) -> KeptFloor {
     let floor = Raster::filled(Cell { x: 0, y: 0 }, 160, 120, CellKnowledge::Free);

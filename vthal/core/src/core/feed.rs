@@ -337,6 +337,12 @@ impl Core {
             }
             Topic::Schedules => outputs.deliveries.push(one(Update::Schedules(self.schedules()))),
             Topic::Floors => outputs.deliveries.push(one(Update::Floors(self.floors_view()))),
+            Topic::Standstills => {
+                let all = self.standstills.entries().cloned();
+                outputs
+                    .deliveries
+                    .extend(all.map(|told| one(Update::Standstill(Box::new(told)))));
+            }
             Topic::Packets | Topic::Runs => {}
         }
     }
@@ -355,7 +361,7 @@ impl Core {
         }
     }
 
-    fn description(&self) -> Option<&Description> {
+    pub(super) fn description(&self) -> Option<&Description> {
         self.device.as_ref().and_then(Device::description)
     }
 
@@ -424,17 +430,22 @@ fn fill_from_state(table: &mut DeviceTable, state: &State, description: &Descrip
         .take(usize::from(description.sensors.proximity))
         .map(|raw| f32::from(*raw) / 255.0)
         .collect();
-    table.currents_a = description.has(Part::Currents).then(|| {
-        [
-            state.currents.wheel_left,
-            state.currents.wheel_right,
-            state.currents.brush_main,
-        ]
-        .map(|current| current.as_a() as f32)
-    });
+    table.currents_a = currents_a(state, description);
     table.cleaners = [0, 1, 2].map(|bit| state.cleaners & 1 << bit != 0);
     table.dust_box = state.dust_box;
     table.docked = state.docked;
+}
+
+/// Motor currents in amperes, of a robot that measures them.
+pub(super) fn currents_a(state: &State, description: &Description) -> Option<[f32; 3]> {
+    let currents = [
+        state.currents.wheel_left,
+        state.currents.wheel_right,
+        state.currents.brush_main,
+    ];
+    description
+        .has(Part::Currents)
+        .then(|| currents.map(|current| current.as_a() as f32))
 }
 
 fn followers(topic: Topic, update: Update, outputs: &mut Outputs) {

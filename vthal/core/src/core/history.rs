@@ -4,10 +4,11 @@ use std::collections::VecDeque;
 
 use brain::action::Decision;
 use brain::{Brain, Command, HomePart};
-use rvac_api::{LogLevel, RequestBody, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Update};
+use rvac_api::{Evidence, LogLevel, RequestBody, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Update};
 
 use super::Core;
 use super::refusal::Refusal;
+use super::standstill::is_standstill;
 use crate::history::{Asked, Moment};
 use crate::journal::Part;
 use crate::mind::Mind;
@@ -52,11 +53,17 @@ impl Core {
     /// After a step of the brain.
     pub(super) fn follow_run(&mut self, now_us: u64, decisions: &[Decision], outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
+        let evidence = if decisions.iter().any(is_standstill) {
+            self.evidence(now_us)
+        } else {
+            Evidence::default()
+        };
         let step = self.runs.step(&Moment {
             now_us,
             brain: mind.brain(),
             charge: mind.observer.observation().battery_charge,
             decisions,
+            evidence: &evidence,
             recorded: mind.recorded_run(),
             commands_wait: self.commands_wait,
         });

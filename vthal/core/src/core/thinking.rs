@@ -6,6 +6,7 @@ use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{LogLevel, RunAsker, Topic, Update};
 use rvac_protocol::quality::Verdict;
 
+use super::standstill::is_standstill;
 use super::{Core, recorder};
 use crate::arbiter::Source;
 use crate::device::{CleanerDrive, CleanerPower, Device, DeviceCommand, LeaveDock};
@@ -52,6 +53,8 @@ impl Core {
         let before = mind.brain().status().state;
         let was_recorded = mind.is_recorded();
         self.commands_wait = mind.holds_commands();
+        self.feel();
+        let Some(mind) = &mut self.mind else { return };
         let actions = mind.step(&mut recorder(recording, outputs));
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();
@@ -76,6 +79,9 @@ impl Core {
     fn perform(&mut self, now_us: u64, actions: Actions, outputs: &mut Outputs) {
         for decision in &actions.decisions {
             self.log_decision(now_us, decision, outputs);
+            if is_standstill(decision) {
+                self.tell_standstill(now_us, decision, outputs);
+            }
         }
         if let Some(arm) = actions.arm {
             let leave_dock = if arm.undock {

@@ -2,7 +2,7 @@
 
 use brain::action::Decision;
 use brain::{BehaviorState, Brain, JobKind};
-use rvac_api::{RunAsker, RunJob, RunRecord, RunResult};
+use rvac_api::{Evidence, RunAsker, RunJob, RunRecord, RunResult};
 
 use super::ending::Ending;
 use super::open_run::OpenRun;
@@ -24,6 +24,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) brain: &'a Brain,
     pub(crate) charge: Option<f32>,
     pub(crate) decisions: &'a [Decision],
+    /// What it felt and tried, if it stopped by itself.
+    pub(crate) evidence: &'a Evidence,
     /// Number of the recording that goes on.
     pub(crate) recorded: Option<u32>,
     /// What was commanded is not carried out yet: the run's home is made ready first.

@@ -2,7 +2,7 @@
 
 use brain::action::Decision;
 use brain::{Brain, JobFigures, JobKind};
-use rvac_api::{Run, RunJob, RunPicture, RunRecord, RunRecording, RunStop};
+use rvac_api::{Evidence, Run, RunJob, RunPicture, RunRecord, RunRecording, RunStop};
 
 use super::ending::{Ending, LastWords};
 use super::follower::{Asked, Moment};
@@ -109,7 +109,7 @@ impl OpenRun {
             reason: "restored",
             value: 0.0,
         };
-        self.stop((now_us, brain), &decision, None);
+        self.stop((now_us, brain), (&decision, &Evidence::default()), None);
         if let Some(stop) = self.record.stops.last_mut() {
             stop.text = "vthal stopped without notice, and began anew.".to_owned();
         }
@@ -184,10 +184,14 @@ impl OpenRun {
         let is_job_for_dock = self.record.run.job == RunJob::Dock;
         match decision.what {
             "state-paused" | "state-stuck" | "state-error" | "state-disconnected" | "state-manual" => {
-                self.stop((moment.now_us, moment.brain), decision, hand);
+                let told = (decision, moment.evidence);
+                self.stop((moment.now_us, moment.brain), told, hand);
             }
             // It waits for charge.
-            "state-docked" if kind.is_some() => self.stop((moment.now_us, moment.brain), decision, hand),
+            "state-docked" if kind.is_some() => {
+                let told = (decision, &Evidence::default());
+                self.stop((moment.now_us, moment.brain), told, hand);
+            }
             "state-starting" | "state-cleaning" | "state-spot" => self.go_on(moment.now_us),
             "state-docking" => {
                 self.go_on(moment.now_us);
@@ -200,7 +204,12 @@ impl OpenRun {
         }
     }
 
-    fn stop(&mut self, (now_us, brain): (u64, &Brain), decision: &Decision, hand: Option<&str>) {
+    fn stop(
+        &mut self,
+        (now_us, brain): (u64, &Brain),
+        (decision, evidence): (&Decision, &Evidence),
+        hand: Option<&str>,
+    ) {
         self.go_on(now_us);
         let state = decision.what.strip_prefix("state-").unwrap_or(decision.what);
         self.record.run.stop_count += 1;
@@ -219,6 +228,7 @@ impl OpenRun {
                 text: sentence(decision),
                 by: hand.filter(|_| decision.reason == "command").map(str::to_owned),
                 place: to_api::pose(brain.pose(), now_us),
+                evidence: evidence.clone(),
             };
             self.record.stops.push(stop);
         }

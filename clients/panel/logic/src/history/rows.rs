@@ -191,6 +191,7 @@ mod tests {
                 text: "Paused: somebody asked for it.".to_owned(),
                 by: Some("panel".to_owned()),
                 place: rvac_api::Pose::default(),
+                evidence: rvac_api::Evidence::default(),
             }],
             picture: None,
         }

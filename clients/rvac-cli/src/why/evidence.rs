@@ -1,0 +1,151 @@
+//! What the robot felt and tried, as a table.
+
+use std::fmt::Write as _;
+use std::io::{Write as _, stdout};
+use std::time::Instant;
+
+use anyhow::bail;
+use rvac_api::{Evidence, Felt, RequestBody, Standstill, Topic, Update};
+
+use super::{PATIENCE, ago};
+use crate::control;
+use crate::socket::Connection;
+
+/// Prints what the robot felt and tried up to now.
+pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Result<()> {
+    let request = (RequestBody::Evidence, PATIENCE);
+    let (evidence, text) = control::answer(&mut connection, request, |update, text| match update {
+        Update::Evidence { evidence, .. } => Some((evidence, text)),
+        _ => None,
+    })?;
+    if json {
+        writeln!(stdout(), "{text}")?;
+    } else if evidence.is_empty() {
+        bail!("nothing was heard of the robot in the last ten seconds");
+    } else {
+        write!(stdout(), "{}", table(&evidence, 0.0))?;
+    }
+    Ok(())
+}
+
+/// Prints why the robot stood still by itself the last time.
+pub(super) fn print_stop(mut connection: Connection, json: bool) -> anyhow::Result<()> {
+    // Standstills first, then the pose, whose time is the present one.
+    connection.watch(vec![Topic::Standstills, Topic::Pose])?;
+    let deadline = Instant::now() + PATIENCE;
+    let mut newest = None;
+    let now_s = loop {
+        let Some(message) = connection.receive_until(deadline)? else {
+            bail!("vthal told nothing within {} s", PATIENCE.as_secs());
+        };
+        match message.update {
+            Some(Update::Standstill(told)) => newest = Some((told, message.text)),
+            Some(Update::Pose(pose)) => break pose.t,
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            _ => {}
+        }
+    };
+    match newest {
+        None => bail!("the robot has not stood still by itself since the daemon's start"),
+        Some((_, text)) if json => writeln!(stdout(), "{text}")?,
+        Some((told, _)) => write!(stdout(), "{}", in_words(&told, now_s))?,
+    }
+    Ok(())
+}
+
+fn in_words(told: &Standstill, now_s: f64) -> String {
+    let place = if told.lost {
+        "it did not know where it was".to_owned()
+    } else {
+        format!("at x {:.2} m, y {:.2} m", told.place.x, told.place.y)
+    };
+    format!(
+        "{} ({}, {}, {place})\n{}",
+        told.text,
+        told.reason,
+        ago(now_s - told.t),
+        table(&told.evidence, told.t)
+    )
+}
+
+/// Tried and felt; decisions are told in seconds before `moment_s`, or without a time when that is 0.
+fn table(evidence: &Evidence, moment_s: f64) -> String {
+    let mut text = String::new();
+    for decision in &evidence.tried {
+        let when = if moment_s > 0.0 {
+            format!("{:>7.1} s  ", decision.t - moment_s)
+        } else {
+            "  tried  ".to_owned()
+        };
+        let _ = writeln!(text, "{when}{}", decision.text);
+    }
+    if !evidence.felt.is_empty() {
+        let _ = writeln!(
+            text,
+            "{:>9}  {:>6}  {:>6}  {:>5}  felt",
+            "", "m/s", "rad/s", "echo"
+        );
+    }
+    for felt in &evidence.felt {
+        let _ = writeln!(text, "{}", row(felt));
+    }
+    text
+}
+
+fn row(felt: &Felt) -> String {
+    let echo = felt.echo.map_or_else(String::new, |echo| format!("{echo:.2}"));
+    let mut signs = felt.signs.join(", ");
+    if let Some([left, right, brush]) = felt.currents_a {
+        let between = if signs.is_empty() { "" } else { "; " };
+        let _ = write!(signs, "{between}{left:.2} A, {right:.2} A, brush {brush:.2} A");
+    }
+    let row = format!(
+        "{:>7.1} s  {:>6.2}  {:>6.2}  {echo:>5}  {signs}",
+        felt.at_s, felt.v, felt.w
+    );
+    row.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::{Decision, Evidence, Felt};
+
+    use super::table;
+
+    #[test]
+    fn what_was_felt_stands_below_what_was_tried() {
+        let evidence = Evidence {
+            felt: vec![
+                Felt {
+                    at_s: -0.2,
+                    v: 0.25,
+                    echo: Some(0.8),
+                    ..Felt::default()
+                },
+                Felt {
+                    signs: vec!["bumper-left".to_owned()],
+                    currents_a: Some([0.5, 0.25, 0.0]),
+                    ..Felt::default()
+                },
+            ],
+            tried: vec![Decision {
+                number: 3,
+                t: 97.5,
+                what: "back-off".to_owned(),
+                reason: "bump-left".to_owned(),
+                value: 1.0,
+                text: "Backed off.".to_owned(),
+            }],
+        };
+        let lines: Vec<String> = table(&evidence, 100.0).lines().map(str::to_owned).collect();
+        assert_eq!(
+            lines,
+            [
+                "   -2.5 s  Backed off.",
+                "              m/s   rad/s   echo  felt",
+                "   -0.2 s    0.25    0.00   0.80",
+                "    0.0 s    0.00    0.00         bumper-left; 0.50 A, 0.25 A, brush 0.00 A",
+            ]
+        );
+    }
+}

@@ -1,0 +1,281 @@
+//! What the robot has felt lately, for whoever asks why it stands.
+
+use std::collections::VecDeque;
+
+use brain::Observation;
+use rvac_api::Felt;
+
+/// Length of a sample, and how many are kept: ten seconds.
+const SAMPLE_US: u64 = 200_000;
+const SAMPLES: usize = 50;
+
+/// The newest samples.
+#[derive(Debug, Default)]
+pub(crate) struct Evidence {
+    samples: VecDeque<Sample>,
+    open: Option<Open>,
+}
+
+/// A sample that is complete.
+#[derive(Clone, Debug)]
+struct Sample {
+    end_us: u64,
+    felt: Felt,
+}
+
+/// The sample that goes on.
+#[derive(Debug)]
+struct Open {
+    since: Standing,
+    signs: Vec<&'static str>,
+    echo: Option<f32>,
+    currents_a: Option<[f32; 3]>,
+}
+
+/// What changes of way and heading are counted from.
+#[derive(Clone, Copy, Debug)]
+struct Standing {
+    time_us: u64,
+    left_m: f64,
+    right_m: f64,
+    heading_rad: Option<f64>,
+}
+
+impl Standing {
+    const fn of(observation: &Observation) -> Self {
+        Self {
+            time_us: observation.time_us,
+            left_m: observation.travel_left_m,
+            right_m: observation.travel_right_m,
+            heading_rad: observation.gyro_heading_rad,
+        }
+    }
+
+    /// Speed and turn rate until `now`; wheels tell the heading of a robot without gyro.
+    fn rates(self, now: Self, track_m: f64) -> (f64, f64) {
+        let time_s = now.time_us.saturating_sub(self.time_us) as f64 * 1e-6;
+        if time_s <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (left_m, right_m) = (now.left_m - self.left_m, now.right_m - self.right_m);
+        let by_wheels_rad = (right_m - left_m) / track_m;
+        let turned_rad = match (self.heading_rad, now.heading_rad) {
+            (Some(before_rad), Some(after_rad)) => after_rad - before_rad,
+            _ => by_wheels_rad,
+        };
+        (0.5 * (left_m + right_m) / time_s, turned_rad / time_s)
+    }
+}
+
+impl Evidence {
+    /// Takes in a step: what the brain saw, and currents as far as the robot measures them.
+    pub(crate) fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>, track_m: f64) {
+        let now = Standing::of(observation);
+        let open = self.open.get_or_insert_with(|| Open::from(now));
+        open.take(observation, currents_a);
+        if now.time_us >= open.since.time_us + SAMPLE_US {
+            let felt = open.closed(now, track_m);
+            self.open = Some(Open::from(now));
+            if self.samples.len() == SAMPLES {
+                self.samples.pop_front();
+            }
+            self.samples.push_back(Sample {
+                end_us: now.time_us,
+                felt,
+            });
+        }
+    }
+
+    /// The last ten seconds before `now_us`, oldest first, with what has been felt since the last sample.
+    pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<Felt> {
+        let earliest_us = now_us.saturating_sub(SAMPLES as u64 * SAMPLE_US);
+        let at_s = |end_us: u64| -(now_us.saturating_sub(end_us) as f64) * 1e-6;
+        let complete = self.samples.iter().filter(|sample| sample.end_us > earliest_us);
+        let newest = self.open.as_ref().filter(|open| open.has_news());
+        complete
+            .map(|sample| Felt {
+                at_s: rounded(at_s(sample.end_us)),
+                ..sample.felt.clone()
+            })
+            .chain(newest.map(|open| open.closed(open.since, track_m)))
+            .collect()
+    }
+}
+
+impl Open {
+    const fn from(since: Standing) -> Self {
+        Self {
+            since,
+            signs: Vec::new(),
+            echo: None,
+            currents_a: None,
+        }
+    }
+
+    fn has_news(&self) -> bool {
+        !self.signs.is_empty()
+    }
+
+    fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>) {
+        for sign in signs(observation) {
+            if !self.signs.contains(&sign) {
+                self.signs.push(sign);
+            }
+        }
+        let strongest = observation.proximity.iter().copied().reduce(f32::max);
+        self.echo = self.echo.max_of(strongest);
+        self.currents_a = match (self.currents_a, currents_a) {
+            (Some(before), Some(now)) => Some([0, 1, 2].map(|motor| larger(before[motor], now[motor]))),
+            (before, now) => now.or(before),
+        };
+    }
+
+    fn closed(&self, now: Standing, track_m: f64) -> Felt {
+        let (v, w) = self.since.rates(now, track_m);
+        Felt {
+            at_s: 0.0,
+            v: rounded(v),
+            w: rounded(w),
+            signs: self.signs.iter().map(|sign| (*sign).to_owned()).collect(),
+            echo: self.echo,
+            currents_a: self.currents_a,
+        }
+    }
+}
+
+/// The larger of two that may be absent.
+trait MaxOf {
+    fn max_of(self, other: Self) -> Self;
+}
+
+impl MaxOf for Option<f32> {
+    fn max_of(self, other: Self) -> Self {
+        match (self, other) {
+            (Some(one), Some(other)) => Some(one.max(other)),
+            (one, other) => one.or(other),
+        }
+    }
+}
+
+/// That of the larger amount, with its sign.
+fn larger(one: f32, other: f32) -> f32 {
+    if other.abs() > one.abs() { other } else { one }
+}
+
+/// To a thousandth: nobody sees more, and it is sent and stored.
+fn rounded(value: f64) -> f64 {
+    if value.is_finite() {
+        (1e3 * value).round() / 1e3
+    } else {
+        0.0
+    }
+}
+
+fn signs(observation: &Observation) -> impl Iterator<Item = &'static str> + '_ {
+    let (contacts, cliffs) = (observation.contacts, observation.cliffs);
+    let named = [
+        (contacts.left, "bumper-left"),
+        (contacts.right, "bumper-right"),
+        (cliffs.left, "cliff-left"),
+        (cliffs.middle, "cliff-front"),
+        (cliffs.right, "cliff-right"),
+        (observation.wheel_drop, "wheel-drop"),
+        (observation.docked, "docked"),
+        (!observation.link_up, "link-lost"),
+    ];
+    let spoke = named
+        .into_iter()
+        .filter_map(|(speaks, name)| speaks.then_some(name));
+    spoke.chain(observation.inhibits.iter().copied())
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::Observation;
+    use brain::observation::Contacts;
+
+    use super::Evidence;
+
+    const TRACK_M: f64 = 0.25;
+
+    /// Drives straight ahead with 0.2 m/s and 50 reports a second.
+    fn drive(evidence: &mut Evidence, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
+        for step in steps {
+            let way_m = 0.004 * step as f64;
+            let mut observation = Observation {
+                time_us: step * 20_000,
+                travel_left_m: way_m,
+                travel_right_m: way_m,
+                link_up: true,
+                ..Observation::default()
+            };
+            change(&mut observation);
+            evidence.take(&observation, Some([0.1, -0.3, 0.0]), TRACK_M);
+        }
+    }
+
+    #[test]
+    fn ten_seconds_are_kept_with_speeds_and_no_more() {
+        let mut evidence = Evidence::default();
+        drive(&mut evidence, 0..2_001, |_| {});
+        let felt = evidence.before(40_000_000, TRACK_M);
+        assert_eq!(felt.len(), 50);
+        assert!(felt[0].at_s > -10.0 && felt[49].at_s <= 0.0, "{felt:?}");
+        assert!(
+            felt.iter()
+                .all(|felt| (felt.v - 0.2).abs() < 1e-3 && felt.w == 0.0)
+        );
+        assert_eq!(felt[7].currents_a, Some([0.1, -0.3, 0.0]));
+    }
+
+    #[test]
+    fn a_contact_of_one_report_is_not_lost_and_what_just_came_is_told_at_once() {
+        let mut evidence = Evidence::default();
+        let touch = |observation: &mut Observation| {
+            let touches = matches!(observation.time_us, 2_020_000 | 4_040_000);
+            observation.contacts = Contacts {
+                left: touches,
+                right: false,
+            };
+        };
+        drive(&mut evidence, 0..203, touch);
+        let felt = evidence.before(4_040_000, TRACK_M);
+        let touched: Vec<f64> = felt
+            .iter()
+            .filter(|felt| felt.signs == ["bumper-left"])
+            .map(|felt| felt.at_s)
+            .collect();
+        assert_eq!(touched.len(), 2, "{felt:?}");
+        assert!(
+            (-2.1..-1.8).contains(&touched[0]) && touched[1] == 0.0,
+            "{touched:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_older_than_ten_seconds_does_not_explain_anything() {
+        let mut evidence = Evidence::default();
+        drive(&mut evidence, 0..101, |_| {});
+        assert!(evidence.before(60_000_000, TRACK_M).is_empty());
+    }
+
+    #[test]
+    fn a_turn_is_told_by_the_gyro_or_else_by_the_wheels() {
+        let turned = |gyro: bool| {
+            let mut evidence = Evidence::default();
+            for step in 0..30_u64 {
+                let turn_rad = 0.02 * step as f64;
+                let observation = Observation {
+                    time_us: step * 20_000,
+                    travel_right_m: 0.5 * TRACK_M * turn_rad,
+                    travel_left_m: -0.5 * TRACK_M * turn_rad,
+                    gyro_heading_rad: gyro.then_some(0.5 * turn_rad),
+                    ..Observation::default()
+                };
+                evidence.take(&observation, None, TRACK_M);
+            }
+            evidence.before(400_000, TRACK_M)[1].w
+        };
+        assert_eq!((turned(false), turned(true)), (1.0, 0.5));
+    }
+}
