@@ -1,5 +1,6 @@
 //! The one entry point: inputs come in, the parts are asked in turn.
 
+mod checkpoints;
 mod explain;
 mod feed;
 mod firmware;
@@ -29,6 +30,7 @@ use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Scheduler;
 use crate::tap::Tap;
 use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
+use checkpoints::CheckpointClock;
 use feed::Feed;
 use history::UnkeptRuns;
 use link_facts::LinkFacts;
@@ -55,6 +57,7 @@ pub struct Core {
     mind: Option<Mind>,
     facts: LinkFacts,
     feed: Feed,
+    checkpoints: CheckpointClock,
     tap: Tap,
     events: Vec<FirmwareEvent>,
     stepped_us: u64,
@@ -99,6 +102,7 @@ impl Core {
             mind: None,
             facts: LinkFacts::default(),
             feed: Feed::default(),
+            checkpoints: CheckpointClock::default(),
             tap: Tap::default(),
             events: Vec::new(),
             stepped_us: 0,
@@ -275,7 +279,7 @@ impl Core {
         let recording = self.config.recording;
         if let Some(mind) = &mut self.mind {
             if self.config.checkpoints == Checkpoints::On {
-                outputs.checkpoint = Some(feed::checkpoint_without_job(mind));
+                outputs.checkpoint = Some(checkpoints::checkpoint_without_job(mind));
             }
             outputs.home = mind.home_to_keep();
             mind.end_run(now_us, RunEnd::Shutdown, &mut recorder(recording, outputs));

@@ -1,6 +1,6 @@
 //! What clients are told, and how often.
 
-use brain::{BehaviorState, CheckpointWork, MapCursor};
+use brain::MapCursor;
 use rvac_api::{
     API_VERSION, DeviceTable, Estimate, FloorsView, LinkReading, PlannedWay, Pose, Status, Topic, Update,
     Versions,
@@ -13,7 +13,7 @@ use crate::device::{Description, Device, Part};
 use crate::home_view::home_view;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
-use crate::{Checkpoint, Checkpoints, ClientId, ExpertAccess, Outputs, Record, to_api};
+use crate::{ClientId, ExpertAccess, Outputs, Record, to_api};
 
 /// Poses go out at most this often.
 const POSE_US: u64 = 50_000;
@@ -33,10 +33,6 @@ const ESTIMATE_US: u64 = 500_000;
 const UNSEEN: f64 = 0.002;
 /// Planned ways go out at most this often.
 const WAY_US: u64 = 2_000_000;
-/// Pause between two checkpoints of a small map.
-const CHECKPOINT_US: u64 = 1_000_000;
-/// Each entry of the map lengthens that pause by this much, so that a large one does not wear out the disk.
-const CHECKPOINT_US_PER_ENTRY: u64 = 100;
 
 /// When each kind of update last went out.
 #[derive(Debug, Default)]
@@ -57,28 +53,7 @@ pub(super) struct Feed {
     floors: Option<FloorsView>,
     way_us: u64,
     way: PlannedWay,
-    checkpoint_us: u64,
-    checkpoint_had_job: bool,
-    checkpoint: Option<CheckpointOnItsWay>,
     state_changed_us: Option<u64>,
-}
-
-/// A checkpoint of which the home is still being written down.
-#[derive(Debug)]
-struct CheckpointOnItsWay {
-    /// All but the brain.
-    rest: Checkpoint,
-    brain: CheckpointWork,
-}
-
-impl CheckpointOnItsWay {
-    fn go_on(&mut self) -> Option<Checkpoint> {
-        let brain = self.brain.go_on()?;
-        Some(Checkpoint {
-            brain,
-            ..self.rest.clone()
-        })
-    }
 }
 
 impl Feed {
@@ -142,7 +117,7 @@ impl Core {
         if self.clients.any(Topic::Floors) {
             self.feed_floors(outputs);
         }
-        self.feed_checkpoint(now_us, outputs);
+        self.follow_checkpoint(now_us, outputs);
     }
 
     fn feed_estimate(&mut self, outputs: &mut Outputs) {
@@ -242,41 +217,6 @@ impl Core {
             None => Update::Map(to_api::map_snapshot(number, &mind.brain().map().snapshot())),
         };
         followers(Topic::Map, update, outputs);
-    }
-
-    fn feed_checkpoint(&mut self, now_us: u64, outputs: &mut Outputs) {
-        let Some(mind) = &self.mind else { return };
-        let off = self.config.checkpoints == Checkpoints::Off;
-        if off || self.ended {
-            return;
-        }
-        if let Some(work) = &mut self.feed.checkpoint {
-            if let Some(checkpoint) = work.go_on() {
-                self.feed.checkpoint = None;
-                outputs.checkpoint = Some(checkpoint);
-            }
-            return;
-        }
-        if now_us < self.feed.checkpoint_us {
-            return;
-        }
-        let has_job = works(mind);
-        if has_job || self.feed.checkpoint_had_job {
-            self.feed.checkpoint_had_job = has_job;
-            self.feed.checkpoint = Some(CheckpointOnItsWay {
-                rest: Checkpoint {
-                    device: mind.device().to_owned(),
-                    floor: mind.floor(),
-                    brain: brain::Checkpoint::default(),
-                    run: self.runs.so_far(now_us).map(Box::new),
-                },
-                brain: mind.brain().begin_checkpoint(),
-            });
-        }
-        let map = mind.brain().map().snapshot();
-        let home_cells = mind.brain().map().knowledge().values().len();
-        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len() + home_cells / 8) as u64;
-        self.feed.checkpoint_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
     }
 
     /// What a new follower of a topic gets at once.
@@ -477,28 +417,4 @@ fn is_same_situation(old: &Status, new: &Status) -> bool {
         && old.inhibits == new.inhibits
         && old.driver == new.driver
         && old.bumps == new.bumps
-}
-
-/// Whether a job runs or waits.
-pub(super) fn works(mind: &Mind) -> bool {
-    let status = mind.brain().status();
-    let active = matches!(
-        status.state,
-        BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
-    );
-    active || status.resumable
-}
-
-/// Pose and map without a job: an orderly end is not an interruption.
-pub(super) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
-    let brain = brain::Checkpoint {
-        job: None,
-        ..mind.brain().checkpoint()
-    };
-    Checkpoint {
-        device: mind.device().to_owned(),
-        floor: mind.floor(),
-        brain,
-        run: None,
-    }
 }

@@ -90,10 +90,7 @@ impl Core {
             }
             RequestBody::Clean(order) => self.clean(now_us, (client, &order), outputs),
             RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
-            RequestBody::Evidence => {
-                self.tell_evidence(now_us, (client, id), outputs);
-                Ok(())
-            }
+            RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
             RequestBody::AddNoGo { shape } => self.add_no_go(now_us, ((client, id), &shape), outputs),
             RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, ((client, id), number), outputs),
             RequestBody::NameRoom(naming) => self.name_room(now_us, ((client, id), &naming), outputs),

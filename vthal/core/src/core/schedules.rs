@@ -3,7 +3,7 @@
 use brain::Command;
 use rvac_api::{Failure, LogLevel, RequestBody, RunAsker, ScheduledJob, Schedules, Topic, Update};
 
-use super::feed::works;
+use super::checkpoints::works;
 use super::refusal::Refusal;
 use super::requests::denied;
 use super::{Core, orders};

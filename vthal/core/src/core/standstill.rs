@@ -5,6 +5,7 @@ use rvac_api::{Evidence, Standstill, Topic, Update};
 
 use super::Core;
 use super::feed::currents_a;
+use super::refusal::Refusal;
 use crate::diary::sentence;
 use crate::newest::Newest;
 use crate::outputs::{Delivery, Recipients};
@@ -95,7 +96,13 @@ impl Core {
     }
 
     /// A client asks what the robot has felt.
-    pub(super) fn tell_evidence(&self, now_us: u64, (client, id): Asker, outputs: &mut Outputs) {
+    pub(super) fn tell_evidence(
+        &self,
+        now_us: u64,
+        (client, id): Asker,
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        self.require_robot()?;
         outputs.deliveries.push(Delivery {
             to: Recipients::One(client),
             update: Update::Evidence {
@@ -103,6 +110,7 @@ impl Core {
                 evidence: self.evidence(now_us),
             },
         });
+        Ok(())
     }
 
     fn track_m(&self) -> Option<f64> {

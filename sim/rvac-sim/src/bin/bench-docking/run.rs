@@ -146,9 +146,15 @@ impl Run {
                 docked_ms = Some(now_ms);
                 break;
             }
+            // One that slips off its contacts at once believes for a moment that it is there.
             let waits = !matches!(
                 state,
-                Some(BehaviorState::Docking | BehaviorState::Starting | BehaviorState::Disconnected)
+                Some(
+                    BehaviorState::Docking
+                        | BehaviorState::Docked
+                        | BehaviorState::Starting
+                        | BehaviorState::Disconnected
+                )
             );
             if waits && now_ms > begun_ms + 10_000 {
                 break;
