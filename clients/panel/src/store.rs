@@ -290,7 +290,10 @@ impl Store {
             Message::Run(record) => self.history.on_record(*record),
             Message::RunKept(run) => self.history.on_kept(*run),
             Message::RunTrack(track) => self.history.on_track(*track),
-            Message::Packet { .. } | Message::RunFile { .. } => {}
+            Message::Packet { .. }
+            | Message::RunFile { .. }
+            | Message::Standstill(_)
+            | Message::Evidence { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
             }
