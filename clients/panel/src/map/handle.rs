@@ -13,8 +13,9 @@ use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebGlConte
 
 use super::gl::GlError;
 use super::labels::Labels;
+use super::plain::PlainRenderer;
 use super::renderer::Renderer;
-use super::scene::{Redraw, Scene};
+use super::scene::{Places, Redraw, Scene};
 use crate::theme::Theme;
 
 /// A shared handle on the map; cheap to clone.
@@ -26,11 +27,50 @@ pub(crate) struct MapHandle {
 #[derive(Default)]
 struct Shared {
     scene: RefCell<Scene>,
-    renderer: RefCell<Option<Renderer>>,
+    painter: RefCell<Option<Painter>>,
     canvas: RefCell<Option<HtmlCanvasElement>>,
     labels: RefCell<Labels>,
     meter: RefCell<FrameMeter>,
     scheduled: Cell<bool>,
+}
+
+/// Who draws.
+#[derive(Debug)]
+enum Painter {
+    Gl(Box<Renderer>),
+    /// Where there is no WebGL 2.
+    Plain(PlainRenderer),
+}
+
+impl Painter {
+    fn new(canvas: &HtmlCanvasElement) -> Result<Self, GlError> {
+        match context(canvas) {
+            Ok(gl) => Ok(Self::Gl(Box::new(Renderer::new(&gl)?))),
+            Err(error) => PlainRenderer::new(canvas).map(Self::Plain).ok_or(error),
+        }
+    }
+
+    fn draw(&mut self, scene: &mut Scene, places: Places, redraw: Redraw) {
+        match self {
+            Self::Gl(renderer) => renderer.draw(scene, places, redraw),
+            Self::Plain(renderer) => renderer.draw(scene, places, redraw),
+        }
+    }
+
+    /// How many blocks stand on the floor.
+    fn blocks(&self) -> usize {
+        match self {
+            Self::Gl(renderer) => renderer.blocks(),
+            Self::Plain(_) => 0,
+        }
+    }
+
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Gl(_) => "webgl",
+            Self::Plain(_) => "plain",
+        }
+    }
 }
 
 /// Seconds of the browser's clock.
@@ -51,8 +91,7 @@ impl MapHandle {
     pub(crate) fn restart(&self) -> Result<(), GlError> {
         let canvas = self.shared.canvas.borrow();
         let canvas = canvas.as_ref().ok_or_else(|| GlError("no canvas".to_owned()))?;
-        let renderer = Renderer::new(&context(canvas)?)?;
-        *self.shared.renderer.borrow_mut() = Some(renderer);
+        *self.shared.painter.borrow_mut() = Some(Painter::new(canvas)?);
         self.change(|scene| {
             scene.plan_changed = true;
             scene.path_restarted = true;
@@ -63,7 +102,7 @@ impl MapHandle {
 
     /// The browser took the graphics memory away.
     pub(crate) fn on_context_lost(&self) {
-        *self.shared.renderer.borrow_mut() = None;
+        *self.shared.painter.borrow_mut() = None;
     }
 
     pub(crate) fn set_robot(&self, robot: Option<&RobotDescription>) {
@@ -174,9 +213,10 @@ impl MapHandle {
         set("data-path-points", path_points.to_string());
         let in_relief = self.with(|scene| scene.camera.orbit().is_some());
         set("data-view", if in_relief { "3d" } else { "2d" }.to_owned());
-        let blocks = self.shared.renderer.borrow();
-        let blocks = blocks.as_ref().map_or(0, Renderer::blocks);
-        set("data-blocks", blocks.to_string());
+        if let Some(painter) = self.shared.painter.borrow().as_ref() {
+            set("data-blocks", painter.blocks().to_string());
+            set("data-painter", painter.name().to_owned());
+        }
         set(
             "data-swept-cells",
             self.with(|scene| scene.swept_cells.to_string()),
@@ -184,7 +224,7 @@ impl MapHandle {
     }
 
     fn schedule(&self) {
-        if self.shared.renderer.borrow().is_none() || self.shared.scheduled.replace(true) {
+        if self.shared.painter.borrow().is_none() || self.shared.scheduled.replace(true) {
             return;
         }
         let map = self.clone();
@@ -199,8 +239,8 @@ impl MapHandle {
         let mut scene = self.shared.scene.borrow_mut();
         let moving = scene.is_moving(now);
         let (places, redraw) = scene.advance(now);
-        if let Some(renderer) = self.shared.renderer.borrow_mut().as_mut() {
-            renderer.draw(&mut scene, places, redraw);
+        if let Some(painter) = self.shared.painter.borrow_mut().as_mut() {
+            painter.draw(&mut scene, places, redraw);
         }
         if redraw == Redraw::All {
             self.shared.labels.borrow().place(&scene);

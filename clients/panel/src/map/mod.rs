@@ -1,6 +1,7 @@
 //! The live map: the scene is what is to be seen, the renderer draws it with WebGL2, the view puts it on the page.
 
 mod canvas;
+mod canvas_size;
 mod edit_bar;
 mod gestures;
 mod gl;
@@ -10,6 +11,7 @@ mod marks;
 mod order_bar;
 mod orders;
 mod palette;
+mod plain;
 mod relief;
 mod relief_shaders;
 mod renderer;

@@ -2,8 +2,10 @@
 //! for what lies on the floor, one for the robot, one for bumps.
 
 use panel_logic::{Bounds, Camera};
+use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, WebGlVertexArrayObject};
 
+use super::canvas_size::fit_canvas;
 use super::gl::{GlError, GrowingBuffer, Look, Program, layout, texture};
 use super::marks::{MARK_NUMBERS, bump_marks, floor_marks, robot_marks};
 use super::palette::Palette;
@@ -174,7 +176,9 @@ impl Renderer {
 
     /// Draws one frame, or as much of it as changed.
     pub(crate) fn draw(&mut self, scene: &mut Scene, places: Places, redraw: Redraw) {
-        let resized = self.fit_canvas(&scene.camera);
+        let canvas = self.gl.canvas();
+        let canvas = canvas.and_then(|canvas| canvas.dyn_into::<HtmlCanvasElement>().ok());
+        let resized = canvas.is_some_and(|canvas| fit_canvas(&canvas, &scene.camera));
         let palette = Palette::of(scene.theme);
         self.prepare_relief(scene);
         let eye = Eye::of(&scene.camera, &self.gl);
@@ -238,30 +242,6 @@ impl Renderer {
             device(seen.right - seen.left + 2.0 * margin),
             device(seen.bottom - seen.top + 2.0 * margin),
         );
-    }
-
-    /// Gives the canvas as many pixels as it covers on the screen, at most four a CSS pixel. True when that emptied it.
-    fn fit_canvas(&self, camera: &Camera) -> bool {
-        use wasm_bindgen::JsCast;
-        let Some(canvas) = self
-            .gl
-            .canvas()
-            .and_then(|canvas| canvas.dyn_into::<HtmlCanvasElement>().ok())
-        else {
-            return false;
-        };
-        let ratio = leptos::prelude::window().device_pixel_ratio().clamp(1.0, 2.0);
-        let view = camera.view();
-        let (width, height) = (
-            (view.width * ratio).round() as u32,
-            (view.height * ratio).round() as u32,
-        );
-        let resized = canvas.width() != width || canvas.height() != height;
-        if resized {
-            canvas.set_width(width);
-            canvas.set_height(height);
-        }
-        resized
     }
 
     fn draw_ground(&self, scene: &Scene, (palette, eye): (&Palette, &Eye)) {

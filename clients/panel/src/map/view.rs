@@ -110,7 +110,7 @@ fn Failures(failure: RwSignal<Option<String>>, footer: RwSignal<Footer>) -> impl
             </p>
         </Show>
         <Show when=move || footer.with(|footer| footer.relief_failure.is_some())>
-            <p class="map-failure" role="alert">
+            <p class="map-note" id="no-relief" role="status">
                 "This browser cannot draw the map in 3D, so it stays flat: "
                 {move || footer.with(|footer| footer.relief_failure.clone())}
             </p>
