@@ -27,6 +27,8 @@ pub(crate) enum Screen {
     Desktop,
     /// 390 by 844, two device pixels a pixel, touch.
     Phone,
+    /// The first, in a browser without WebGL.
+    WithoutWebGl,
 }
 
 /// A browser that shows the panel.
@@ -260,6 +262,9 @@ fn capabilities(screen: Screen) -> Value {
     if matches!(screen, Screen::Phone) {
         options["mobileEmulation"] =
             json!({ "deviceMetrics": { "width": 390, "height": 844, "pixelRatio": 2.0 } });
+    }
+    if let (Screen::WithoutWebGl, Some(list)) = (screen, options["args"].as_array_mut()) {
+        list.push(json!("--disable-3d-apis"));
     }
     // As somebody who goes past the warning before a robot's own certificate.
     json!({ "browserName": "chrome", "acceptInsecureCerts": true, "goog:chromeOptions": options })

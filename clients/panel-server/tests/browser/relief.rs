@@ -60,3 +60,40 @@ async fn the_map_is_seen_in_3d_turned_and_kept_so() {
         browser.until_state(&["idle", "docked"]).await;
     }
 }
+
+/// Number of colours in the picture.
+const COLOURS: &str = "
+    const map = document.getElementById('map');
+    const bytes = map.getContext('2d').getImageData(0, 0, map.width, map.height).data;
+    const seen = new Set();
+    for (let at = 0; at < bytes.length; at += 4) seen.add(bytes[at] << 16 | bytes[at + 1] << 8 | bytes[at + 2]);
+    return seen.size";
+
+#[tokio::test]
+async fn without_webgl_the_map_is_flat_and_says_why() {
+    let Some(visit) = Visit::begin_at_home(Screen::WithoutWebGl).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser
+        .until("return document.getElementById('map').dataset.painter === 'plain'")
+        .await;
+    browser.click("#start").await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 300")
+        .await;
+    let colours: u32 = browser.text(COLOURS).await.parse().unwrap();
+    assert!(colours > 5, "{colours} colours are no map");
+    browser.click("#view-3d").await;
+    browser
+        .until("return document.getElementById('no-relief')?.textContent.includes('WebGL') === true")
+        .await;
+    browser.until(&shown("2d")).await;
+    browser.click("#ground-known").await;
+    browser
+        .until("return document.getElementById('map').dataset.ground === 'Known'")
+        .await;
+    browser.shot("desktop-without-webgl").await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+}
