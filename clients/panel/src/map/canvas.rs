@@ -78,24 +78,6 @@ pub(super) fn MapCanvas(
             begin(&store.map.get_value(), canvas, failure);
         }
     });
-    let on_wheel = move |event: WheelEvent| {
-        event.prevent_default();
-        // Line-wise wheels report lines of about 16 pixels.
-        let pixels = if event.delta_mode() == WheelEvent::DOM_DELTA_PIXEL {
-            event.delta_y()
-        } else {
-            event.delta_y() * 16.0
-        };
-        let at = (f64::from(event.offset_x()), f64::from(event.offset_y()));
-        apply(store, mode, |scene| {
-            scene
-                .camera
-                .zoom_at(at, (-pixels * 0.0018).clamp(-0.7, 0.7).exp());
-            if scene.mode == CameraMode::Fitted {
-                scene.mode = CameraMode::Free;
-            }
-        });
-    };
     let press = StoredValue::new(None::<Press>);
     let on_down = move |event: PointerEvent| {
         gestures.update_value(|gestures| gestures.down(event.pointer_id(), place(&event)));
@@ -133,7 +115,7 @@ pub(super) fn MapCanvas(
             tabindex="0"
             role="img"
             aria-label="Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot, 3 changes between flat and 3D, where Shift with arrow keys turns it. Enter points at the middle."
-            on:wheel=on_wheel
+            on:wheel=move |event| on_wheel(store, mode, &event)
             on:pointerdown=on_down
             on:pointermove=on_move
             on:pointerup=on_up
@@ -142,6 +124,25 @@ pub(super) fn MapCanvas(
             on:keydown=move |event| on_key(store, mode, &event)
         ></canvas>
     }
+}
+
+fn on_wheel(store: Store, mode: RwSignal<CameraMode>, event: &WheelEvent) {
+    event.prevent_default();
+    // Line-wise wheels report lines of about 16 pixels.
+    let pixels = if event.delta_mode() == WheelEvent::DOM_DELTA_PIXEL {
+        event.delta_y()
+    } else {
+        event.delta_y() * 16.0
+    };
+    let at = (f64::from(event.offset_x()), f64::from(event.offset_y()));
+    apply(store, mode, |scene| {
+        scene
+            .camera
+            .zoom_at(at, (-pixels * 0.0018).clamp(-0.7, 0.7).exp());
+        if scene.mode == CameraMode::Fitted {
+            scene.mode = CameraMode::Free;
+        }
+    });
 }
 
 fn place(event: &PointerEvent) -> (f64, f64) {
