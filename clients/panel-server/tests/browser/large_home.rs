@@ -13,6 +13,7 @@ const SIDE_M: f64 = 20.0;
 const ROOM_M: [f64; 2] = [5.0, 4.0];
 /// Points of the way, each 2 cm from the one before or more.
 const POINTS: usize = 10_000;
+const LONG_WAY: &str = "return Number(document.getElementById('map').dataset.pathPoints) >= 10000";
 /// How long each view is watched.
 const WATCHED: Duration = Duration::from_secs(5);
 
@@ -86,13 +87,13 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
     for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
         let browser = Browser::open(&stack, screen).await;
         browser.until_state(&["idle", "docked", "cleaning"]).await;
+        // Nothing on the page moves any more when the map is there, and Start is where it is pressed.
+        browser.until(LONG_WAY).await;
         if name == "desktop" {
             browser.click("#start").await;
         }
         browser.until_state(&["cleaning"]).await;
-        browser
-            .until("return Number(document.getElementById('map').dataset.pathPoints) >= 10000")
-            .await;
+        browser.until(LONG_WAY).await;
         browser.click("#ground-known").await;
         for view in ["2d", "3d"] {
             if view == "3d" {
