@@ -109,7 +109,12 @@ impl Browser {
 
     /// Waits until a script gives true.
     pub(crate) async fn until(&self, script: &str) {
-        let deadline = Instant::now() + PATIENCE;
+        self.until_within(PATIENCE, script).await;
+    }
+
+    /// The same, for what may take longer on a busy machine.
+    pub(crate) async fn until_within(&self, patience: Duration, script: &str) {
+        let deadline = Instant::now() + patience;
         while !matches!(
             self.client.execute(script, Vec::new()).await,
             Ok(Value::Bool(true))

@@ -1,7 +1,12 @@
 //! A home of 400 square metres with a way of 10,000 points: how long a picture takes, and what the map costs on the wire.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::os::unix::net::UnixStream;
+use std::path::Path;
 use std::time::Duration;
+
+use rvac_api::SEPARATOR;
 
 use crate::browser::Screen;
 use crate::stack::Stack;
@@ -14,6 +19,9 @@ const ROOM_M: [f64; 2] = [5.0, 4.0];
 /// Points of the way, each 2 cm from the one before or more.
 const POINTS: usize = 10_000;
 const LONG_WAY: &str = "return Number(document.getElementById('map').dataset.pathPoints) >= 10000";
+/// A daemon on a busy machine plans for so large a home for a while before the robot moves.
+const START_MAX: Duration = Duration::from_secs(150);
+const CLEANS: &str = "return document.getElementById('now')?.dataset.state === 'cleaning'";
 /// How long each view is watched.
 const WATCHED: Duration = Duration::from_secs(5);
 
@@ -74,6 +82,13 @@ fn way_mm() -> Vec<i32> {
     (0..POINTS).flat_map(place).collect()
 }
 
+/// Starts a job as another client.
+fn start(daemon: &Path) {
+    let mut request = br#"{"c":"start"}"#.to_vec();
+    request.push(SEPARATOR);
+    UnixStream::connect(daemon).unwrap().write_all(&request).unwrap();
+}
+
 #[tokio::test]
 async fn four_hundred_square_metres_and_ten_thousand_points() {
     if std::env::var_os("RVAC_BROWSER_TESTS").is_none() {
@@ -87,12 +102,10 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
     for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
         let browser = Browser::open(&stack, screen).await;
         browser.until_state(&["idle", "docked", "cleaning"]).await;
-        // Nothing on the page moves any more when the map is there, and Start is where it is pressed.
-        browser.until(LONG_WAY).await;
         if name == "desktop" {
-            browser.click("#start").await;
+            start(&stack.daemon_socket());
         }
-        browser.until_state(&["cleaning"]).await;
+        browser.until_within(START_MAX, CLEANS).await;
         browser.until(LONG_WAY).await;
         browser.click("#ground-known").await;
         for view in ["2d", "3d"] {
