@@ -82,11 +82,17 @@ fn way_mm() -> Vec<i32> {
     (0..POINTS).flat_map(place).collect()
 }
 
-/// Starts a job as another client.
+/// Asks for a job as another client that stays, and again every few seconds: a robot whose home is not taken up yet refuses.
 fn start(daemon: &Path) {
     let mut request = br#"{"c":"start"}"#.to_vec();
     request.push(SEPARATOR);
-    UnixStream::connect(daemon).unwrap().write_all(&request).unwrap();
+    let mut client = UnixStream::connect(daemon).unwrap();
+    std::thread::spawn(move || {
+        // Ends with the daemon.
+        while client.write_all(&request).is_ok() {
+            std::thread::sleep(Duration::from_secs(3));
+        }
+    });
 }
 
 #[tokio::test]
