@@ -111,8 +111,8 @@ fn table(found: &BTreeMap<String, Bytes>) -> BTreeMap<String, File> {
             continue;
         };
         let page = name == "index.html";
-        // All names but the page's carry a hash of their content.
-        let cache = if page {
+        // All other names carry a hash of their content.
+        let cache = if page || name == "sw.js" {
             "no-cache"
         } else {
             "public, max-age=31536000, immutable"
@@ -139,6 +139,8 @@ fn media_type(name: &str) -> Option<&'static str> {
         "js" => Some("text/javascript; charset=utf-8"),
         "wasm" => Some("application/wasm"),
         "svg" => Some("image/svg+xml"),
+        "png" => Some("image/png"),
+        "webmanifest" => Some("application/manifest+json"),
         _ => None,
     }
 }

@@ -5,6 +5,7 @@ use panel_logic::{Offer, PauseKind};
 use rvac_api::RequestBody;
 
 use crate::icons::{Icon, icon};
+use crate::language::words;
 use crate::store::Store;
 
 /// How a button looks and what it is called.
@@ -49,26 +50,26 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
     };
     let start = move || RequestBody::Start { strategy: chosen() };
     view! {
-        <section class="actions" id="actions" tabindex="-1" aria-label="Controls">
-            {action(store, face("start", "primary", "Start", Icon::Play), move || store.offers().start, start)}
-            {action(store, face("stop", "strong", "Stop", Icon::Stop), move || store.offers().stop, || RequestBody::Stop)}
+        <section class="actions" id="actions" tabindex="-1" aria-label=words().action.controls>
+            {action(store, face("start", "primary", words().action.start, Icon::Play), move || store.offers().start, start)}
+            {action(store, face("stop", "strong", words().action.stop, Icon::Stop), move || store.offers().stop, || RequestBody::Stop)}
             {move || {
                 let pause_face = if resumes.get() {
-                    face("pause", "plain", "Resume", Icon::Play)
+                    face("pause", "plain", words().action.resume, Icon::Play)
                 } else {
-                    face("pause", "plain", "Pause", Icon::Pause)
+                    face("pause", "plain", words().action.pause, Icon::Pause)
                 };
                 action(store, pause_face, move || store.offers().pause, pause)
             }}
-            {action(store, face("spot", "plain", "Spot", Icon::Spot), move || store.offers().spot, || RequestBody::Spot)}
-            {action(store, face("dock", "plain", "Dock", Icon::Dock), move || store.offers().dock, || RequestBody::Dock)}
-            {action(store, face("locate", "plain", "Find", Icon::Bell), move || store.offers().locate, || RequestBody::Locate)}
-            {action(store, face("clear", "primary", "Clear the fault", Icon::Warning), move || store.offers().clear, clear)}
+            {action(store, face("spot", "plain", words().action.spot, Icon::Spot), move || store.offers().spot, || RequestBody::Spot)}
+            {action(store, face("dock", "plain", words().action.dock, Icon::Dock), move || store.offers().dock, || RequestBody::Dock)}
+            {action(store, face("locate", "plain", words().action.find, Icon::Bell), move || store.offers().locate, || RequestBody::Locate)}
+            {action(store, face("clear", "primary", words().action.clear, Icon::Warning), move || store.offers().clear, clear)}
             <Show when=move || store.strategies.with(|strategies| strategies.len() > 1)>
                 <label class="field">
-                    "Way of cleaning"
+                    {words().action.way_of_cleaning}
                     <select id="strategy" on:change=move |event| strategy.set(event_target_value(&event))>
-                        <option value="">"The robot chooses"</option>
+                        <option value="">{words().action.robot_chooses}</option>
                         <For each=move || store.strategies.get() key=String::clone let:name>
                             <option value=name.clone()>{name.clone()}</option>
                         </For>
@@ -88,7 +89,7 @@ fn action(
 ) -> impl IntoView {
     let offer = Memo::new(move |_| offer());
     let waits = move || match offer.get() {
-        Offer::NotNow(why) => Some(why),
+        Offer::NotNow(why) => Some(why.text(words())),
         Offer::Ready | Offer::Absent => None,
     };
     let press = move |_| {
@@ -108,7 +109,7 @@ fn action(
             >
                 {icon(face.icon)}
                 <span>{face.label}</span>
-                <span class="visually-hidden">{move || waits().map(|why| format!(", not now: {why}"))}</span>
+                <span class="visually-hidden">{move || waits().map(|why| words().frame.not_now.fill([&why]))}</span>
             </button>
         </Show>
     }

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use crate::access::{Access, NewcomerView, PairView};
 use crate::actions::Actions;
 use crate::header::Header;
+use crate::language::words;
 use crate::map::MapView;
 use crate::status_view::{RefusalView, StatusView};
 use crate::store::Store;
@@ -19,7 +20,7 @@ pub(crate) fn App() -> impl IntoView {
     store.connect();
     let is_stranger = Memo::new(move |_| store.entrance.access.with(|access| *access == Access::Stranger));
     view! {
-        <a class="skip" href="#actions">"Skip to the controls"</a>
+        <a class="skip" href="#actions">{words().frame.skip}</a>
         <Header store theme />
         <Show when=move || is_stranger.get()>
             <PairView store />

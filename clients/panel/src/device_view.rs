@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::{Row, Section, device_sections};
 
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -12,7 +13,7 @@ pub(crate) fn DeviceView(store: Store) -> impl IntoView {
             let robot = store.robot.get();
             table
                 .as_ref()
-                .map(|table| device_sections(table, robot.as_ref()))
+                .map(|table| device_sections(words(), table, robot.as_ref()))
                 .unwrap_or_default()
         })
     };
@@ -27,11 +28,11 @@ pub(crate) fn DeviceView(store: Store) -> impl IntoView {
     view! {
         <div class="device" id="device-table">
             <Show when=move || store.device.with(Option::is_none)>
-                <p class="hint">"The readings appear as soon as the robot is connected."</p>
+                <p class="hint">{words().device.none}</p>
             </Show>
             {move || sections().into_iter().map(section).collect_view()}
             <Show when=move || !bars().is_empty()>
-                <h3 id="proximity">"Proximity, from the right side to the left"</h3>
+                <h3 id="proximity">{words().device.proximity}</h3>
                 <ol class="bars" aria-labelledby="proximity">
                     {move || bars().into_iter().map(bar).collect_view()}
                 </ol>
@@ -63,7 +64,7 @@ fn bar(nearness: f32) -> impl IntoView {
     view! {
         <li>
             <span class="bar" style:height=format!("{percent}%")></span>
-            <span class="visually-hidden">{format!("{percent} percent")}</span>
+            <span class="visually-hidden">{words().unit.percent_said.fill([&percent])}</span>
         </li>
     }
 }

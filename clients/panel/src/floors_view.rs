@@ -2,9 +2,11 @@
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
-use panel_logic::area_text;
+use panel_logic::{area_text, question_text};
 use rvac_api::{FloorView, RequestBody};
 
+use crate::home_view::rooms_text;
+use crate::language::words;
 use crate::store::Store;
 
 /// Longest name of a floor, in characters.
@@ -14,9 +16,11 @@ const NAME_MAX: &str = "40";
 pub(crate) fn FloorList(store: Store) -> impl IntoView {
     let renamed = RwSignal::new(None::<u16>);
     let question = move || {
-        store
-            .floors
-            .with(|view| view.question.as_ref().map(|question| question.text.clone()))
+        store.floors.with(|view| {
+            view.question
+                .as_ref()
+                .map(|question| question_text(words(), question))
+        })
     };
     let is_open = move || {
         store
@@ -25,10 +29,10 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
     };
     let begin = move |_| store.ask(RequestBody::NewFloor { name: None });
     view! {
-        <h3 id="floors-title">"Floors"</h3>
+        <h3 id="floors-title">{words().home.floors}</h3>
         {move || question().map(|text| view! { <p class="hint" id="floor-question" role="status">{text}</p> })}
         <Show when=is_open>
-            <p class="hint">"The robot finds out on which floor it is on its dock, or while it cleans."</p>
+            <p class="hint">{words().home.floor_open}</p>
         </Show>
         <ul id="floors" class="rows" aria-labelledby="floors-title">
             {move || {
@@ -39,7 +43,7 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
         </ul>
         <div class="draw-tools">
             <button type="button" class="small" id="new-floor" on:click=begin>
-                "It is on a new floor"
+                {words().home.new_floor}
             </button>
         </div>
     }
@@ -50,17 +54,20 @@ fn row(
     (floor, here): (FloorView, Option<u16>),
     renamed: RwSignal<Option<u16>>,
 ) -> impl IntoView {
-    let (number, title) = (floor.number, floor.title());
+    let (number, title) = (floor.number, title_of(&floor));
     let is_here = here == Some(number);
-    let words = words(&floor);
-    let (named, rename_label) = (floor.name.clone().unwrap_or_default(), format!("Rename {title}"));
+    let extent = extent_text(&floor);
+    let (named, rename_label) = (
+        floor.name.clone().unwrap_or_default(),
+        words().home.rename_named.fill([&title]),
+    );
     let choose = (!floor.removed && !is_here).then(|| {
         action(
             (
                 format!("choose-floor-{number}"),
-                format!("The robot is on {title}"),
+                words().home.is_on.fill([&title]),
             ),
-            "It is here",
+            words().home.it_is_here,
             move || {
                 store.ask(RequestBody::ChooseFloor { floor: number });
             },
@@ -68,8 +75,11 @@ fn row(
     });
     let remove = (!floor.removed).then(|| {
         action(
-            (format!("remove-floor-{number}"), format!("Remove {title}")),
-            "Remove",
+            (
+                format!("remove-floor-{number}"),
+                words().home.remove_named.fill([&title]),
+            ),
+            words().frame.remove,
             move || {
                 store.ask(RequestBody::RemoveFloor { floor: number });
             },
@@ -77,8 +87,11 @@ fn row(
     });
     let restore = floor.removed.then(|| {
         action(
-            (format!("restore-floor-{number}"), format!("Bring {title} back")),
-            "Bring back",
+            (
+                format!("restore-floor-{number}"),
+                words().home.bring_back_named.fill([&title]),
+            ),
+            words().home.bring_back,
             move || {
                 store.ask(RequestBody::RestoreFloor { floor: number });
             },
@@ -87,7 +100,7 @@ fn row(
     let rename = (!floor.removed).then(|| {
         action(
             (format!("rename-floor-{number}"), rename_label),
-            "Rename",
+            words().frame.rename,
             move || {
                 renamed.update(|renamed| *renamed = (*renamed != Some(number)).then_some(number));
             },
@@ -96,8 +109,8 @@ fn row(
     view! {
         <li>
             <span class="name">{title}</span>
-            <span class="words">{words}</span>
-            {is_here.then(|| view! { <span class="newest">"the robot is here"</span> })}
+            <span class="words">{extent}</span>
+            {is_here.then(|| view! { <span class="newest">{words().home.is_here}</span> })}
             {choose} {rename} {remove} {restore}
         </li>
         <Show when=move || renamed.get() == Some(number)>
@@ -114,13 +127,24 @@ fn action((id, label): (String, String), text: &'static str, press: impl Fn() + 
     }
 }
 
-fn words(floor: &FloorView) -> String {
-    let rooms = if floor.rooms == 1 { "room" } else { "rooms" };
-    let removed = if floor.removed { ", removed" } else { "" };
+/// What people call a floor, else its number.
+fn title_of(floor: &FloorView) -> String {
+    floor
+        .name
+        .clone()
+        .unwrap_or_else(|| words().home.floor.fill([&floor.number]))
+}
+
+fn extent_text(floor: &FloorView) -> String {
+    let removed = if floor.removed { words().home.removed } else { "" };
     if floor.area_m2 == 0.0 {
-        return format!("no map yet{removed}");
+        return format!("{}{removed}", words().home.no_map);
     }
-    format!("{}, {} {rooms}{removed}", area_text(floor.area_m2), floor.rooms)
+    format!(
+        "{}, {}{removed}",
+        area_text(words(), floor.area_m2),
+        rooms_text(floor.rooms)
+    )
 }
 
 #[component]
@@ -136,7 +160,7 @@ fn RenameForm(store: Store, number: u16, named: String, renamed: RwSignal<Option
         <li>
             <form class="rename" on:submit=save>
                 <label class="field grow">
-                    {format!("New name of floor {number}; empty for its number")}
+                    {words().home.floor_name.fill([&number])}
                     <input
                         id="floor-name"
                         maxlength=NAME_MAX
@@ -145,7 +169,7 @@ fn RenameForm(store: Store, number: u16, named: String, renamed: RwSignal<Option
                         on:input=move |event| text.set(event_target_value(&event))
                     />
                 </label>
-                <button type="submit" class="small" id="save-floor-name">"Save"</button>
+                <button type="submit" class="small" id="save-floor-name">{words().frame.save}</button>
             </form>
         </li>
     }

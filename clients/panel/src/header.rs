@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::percent_text;
 
 use crate::icons::{Icon, icon};
+use crate::language::{LanguageChoice, words};
 use crate::store::Store;
 use crate::theme::Theme;
 
@@ -14,7 +15,7 @@ pub(crate) fn Header(store: Store, theme: RwSignal<Theme>) -> impl IntoView {
             .robot
             .with(|robot| robot.as_ref().map(|robot| robot.device.to_uppercase()))
     };
-    let home = move || store.home.get().map(|home| format!("Simulated: {home}"));
+    let home = move || store.home.get().map(|home| words().frame.simulated.fill([&home]));
     let toggle = move |_| {
         theme.update(|theme| *theme = theme.other());
         theme.get_untracked().choose();
@@ -39,11 +40,12 @@ pub(crate) fn Header(store: Store, theme: RwSignal<Theme>) -> impl IntoView {
             <span class="spring"></span>
             <Charge store />
             <Presence store />
+            <LanguageChoice />
             <button
                 type="button"
                 class="round"
                 id="theme"
-                aria-label=move || if theme.get() == Theme::Dark { "Use the light look" } else { "Use the dark look" }
+                aria-label=move || if theme.get() == Theme::Dark { words().frame.use_light } else { words().frame.use_dark }
                 on:click=toggle
             >
                 {move || icon(if theme.get() == Theme::Dark { Icon::Sun } else { Icon::Moon })}
@@ -69,8 +71,8 @@ fn Charge(store: Store) -> impl IntoView {
                     <rect x="23.5" y="4.5" width="2" height="5" rx="1" class="pole" />
                     <rect x="3" y="3" height="8" rx="1.5" class="fill" width=move || (charge.get().unwrap_or(0.0) * 17.0).max(1.0) />
                 </svg>
-                <span class="visually-hidden">"Battery "</span>
-                {move || percent_text(charge.get().unwrap_or(0.0))}
+                <span class="visually-hidden">{words().frame.battery} " "</span>
+                {move || percent_text(words(), charge.get().unwrap_or(0.0))}
             </span>
         </Show>
     }
@@ -89,7 +91,7 @@ fn Presence(store: Store) -> impl IntoView {
     view! {
         <span class="presence" id="presence" class:up=move || connected.get()>
             <span class="dot" aria-hidden="true"></span>
-            {move || if connected.get() { "Connected" } else { "Not connected" }}
+            {move || if connected.get() { words().frame.connected } else { words().frame.not_connected }}
         </span>
     }
 }

@@ -7,6 +7,7 @@ use panel_logic::{area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
 use crate::floors_view::FloorList;
+use crate::language::words;
 use crate::rooms_view::{NoGoList, RoomList};
 use crate::store::Store;
 
@@ -21,9 +22,12 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
         on_cleanup(move || renewal.clear());
     }
     let sentences = move || {
-        store
-            .estimate
-            .with(|estimate| estimate.as_ref().map(estimate_sentences).unwrap_or_default())
+        store.estimate.with(|estimate| {
+            estimate
+                .as_ref()
+                .map(|estimate| estimate_sentences(words(), estimate))
+                .unwrap_or_default()
+        })
     };
     view! {
         <div class="home" id="home-sheet">
@@ -33,7 +37,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <FloorList store />
             <RoomList store />
             <NoGoList store />
-            <h3 id="maps-title">"Kept maps"</h3>
+            <h3 id="maps-title">{words().home.maps}</h3>
             <ul id="maps" class="rows" aria-labelledby="maps-title">
                 {move || {
                     let maps = store.maps.get();
@@ -41,7 +45,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
                 }}
             </ul>
             <Show when=move || store.maps.with(Vec::is_empty)>
-                <p class="hint">"None yet: a map is kept when a run ends."</p>
+                <p class="hint">{words().home.no_maps}</p>
             </Show>
         </div>
     }
@@ -52,9 +56,17 @@ fn ask_for_maps(store: Store) {
     store.ask_quietly(RequestBody::Maps { floor });
 }
 
+/// How many rooms.
+pub(crate) fn rooms_text(count: u32) -> String {
+    match count {
+        1 => words().home.room_one.to_owned(),
+        _ => words().home.room_many.fill([&count]),
+    }
+}
+
 fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
-    let rooms = if map.rooms == 1 { "room" } else { "rooms" };
-    let words = format!("{}, {} {rooms}", area_text(map.area_m2), map.rooms);
+    let told = &words().home;
+    let extent = format!("{}, {}", area_text(words(), map.area_m2), rooms_text(map.rooms));
     let restore = move |_| {
         let floor = store.maps_floor.get_untracked();
         store.ask(RequestBody::RestoreMap {
@@ -66,19 +78,19 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
     };
     view! {
         <li>
-            <span class="name">{format!("Map {}", map.number)}</span>
-            <span class="words">{words}</span>
+            <span class="name">{told.map.fill([&map.number])}</span>
+            <span class="words">{extent}</span>
             {if place == 0 {
-                view! { <span class="newest">"in use"</span> }.into_any()
+                view! { <span class="newest">{told.in_use}</span> }.into_any()
             } else {
                 view! {
                     <button
                         type="button"
                         class="small"
-                        aria-label=format!("Take map {} up again", map.number)
+                        aria-label=told.take_up_map.fill([&map.number])
                         on:click=restore
                     >
-                        "Take up again"
+                        {told.take_up}
                     </button>
                 }
                 .into_any()

@@ -47,7 +47,10 @@ impl Link {
                 Some(Access::Known(session)) => link.open(store, session.nonce),
                 // Whoever pairs it connects then.
                 Some(Access::Stranger) => {}
-                Some(Access::Asked) | None => link.retry(store),
+                Some(Access::Asked) | None => {
+                    store.on_close();
+                    link.retry(store);
+                }
             }
         });
     }

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{LogFilter, clock_text};
 use rvac_api::{LogEntry, LogLevel};
 
+use crate::language::words;
 use crate::store::Store;
 
 /// Entries that are shown at most: more would only make the page slow.
@@ -26,16 +27,16 @@ pub(crate) fn LogView(store: Store) -> impl IntoView {
         <div class="log">
             <div class="log-tools">
                 <label class="field">
-                    "Level"
+                    {words().log.level}
                     <select id="log-level" on:change=choose_level>
-                        <option value="debug">"Everything"</option>
-                        <option value="info" selected>"Information"</option>
-                        <option value="warn">"Warnings"</option>
-                        <option value="error">"Errors"</option>
+                        <option value="debug">{words().log.everything}</option>
+                        <option value="info" selected>{words().log.information}</option>
+                        <option value="warn">{words().log.warnings}</option>
+                        <option value="error">{words().log.errors}</option>
                     </select>
                 </label>
                 <label class="field grow">
-                    "Search"
+                    {words().log.search}
                     <input
                         type="search"
                         id="log-search"
@@ -47,13 +48,13 @@ pub(crate) fn LogView(store: Store) -> impl IntoView {
                     />
                 </label>
             </div>
-            <ol class="entries" id="log-entries" tabindex="0" aria-label="Log, newest first">
+            <ol class="entries" id="log-entries" tabindex="0" aria-label=words().log.entries>
                 <For each=entries key=|entry| entry.number let:entry>
                     {line(entry)}
                 </For>
             </ol>
             <Show when=move || entries().is_empty()>
-                <p class="hint">"No entry fits."</p>
+                <p class="hint">{words().log.none_fits}</p>
             </Show>
         </div>
     }
@@ -70,17 +71,17 @@ fn level_named(name: &str) -> LogLevel {
 
 fn line(entry: LogEntry) -> impl IntoView {
     let (class, level) = match entry.level {
-        LogLevel::Debug => ("debug", "Debug"),
-        LogLevel::Info => ("info", "Info"),
-        LogLevel::Warn => ("warn", "Warning"),
-        LogLevel::Error => ("error", "Error"),
+        LogLevel::Debug => ("debug", words().log.debug),
+        LogLevel::Info => ("info", words().log.info),
+        LogLevel::Warn => ("warn", words().log.warn),
+        LogLevel::Error => ("error", words().log.error),
     };
     view! {
         <li class=class>
             <span class="when">{clock_text(entry.t)}</span>
             <span class="level">{level}</span>
             <span class="part">{entry.part}</span>
-            <span class="what">{entry.text}</span>
+            <span class="what" lang="en">{entry.text}</span>
         </li>
     }
 }

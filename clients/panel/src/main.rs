@@ -11,6 +11,7 @@ mod header;
 mod history;
 mod home_view;
 mod icons;
+mod language;
 mod link;
 mod log_view;
 mod map;
@@ -24,5 +25,6 @@ mod theme;
 mod why_view;
 
 fn main() {
+    language::begin();
     leptos::mount::mount_to_body(app::App);
 }

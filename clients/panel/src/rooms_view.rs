@@ -4,6 +4,7 @@ use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 use panel_logic::{Edit, NoGoRow, RoomRow, Tool};
 
+use crate::language::words;
 use crate::store::Store;
 
 /// Longest name of a room, in characters.
@@ -13,7 +14,7 @@ const NAME_MAX: &str = "40";
 pub(crate) fn RoomList(store: Store) -> impl IntoView {
     let renamed = RwSignal::new(None::<u16>);
     view! {
-        <h3 id="rooms-title">"Rooms"</h3>
+        <h3 id="rooms-title">{words().home.rooms}</h3>
         <ul id="rooms" class="rows" aria-labelledby="rooms-title">
             <For
                 each=move || store.rooms.get()
@@ -24,16 +25,16 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
             </For>
         </ul>
         <Show when=move || store.rooms.with(Vec::is_empty)>
-            <p class="hint">"No room is known yet: the robot finds them while it cleans."</p>
+            <p class="hint">{words().home.no_rooms}</p>
         </Show>
         <Show when=move || store.rooms.with(|rooms| !rooms.is_empty())>
-            <p class="hint">"Press a room here or tap it on the map to choose it for cleaning."</p>
+            <p class="hint">{words().home.choose_rooms}</p>
             <div class="draw-tools">
                 <button type="button" class="small" id="draw-clean" on:click=move |_| store.take_tool(Tool::CleanZone)>
-                    "Draw a zone to clean"
+                    {words().home.draw_clean}
                 </button>
                 <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
-                    "Keep out for one job"
+                    {words().home.draw_avoid}
                 </button>
             </div>
         </Show>
@@ -42,11 +43,15 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
 
 #[component]
 fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
-    let RoomRow { id, name, words } = row;
+    let RoomRow {
+        id,
+        name,
+        words: extent,
+    } = row;
     let choice = store.orders.choice;
     let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
     let is_renamed = move || renamed.get() == Some(id);
-    let rename_label = format!("Rename {name}");
+    let rename_label = words().home.rename_named.fill([&name]);
     let shown = name.clone();
     view! {
         <li>
@@ -60,7 +65,7 @@ fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl Into
                 {move || place.get().map(|place| format!("{place}. "))}
                 {shown}
             </button>
-            <span class="words">{words}</span>
+            <span class="words">{extent}</span>
             <button
                 type="button"
                 class="small"
@@ -68,7 +73,7 @@ fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl Into
                 aria-expanded=move || if is_renamed() { "true" } else { "false" }
                 on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
             >
-                "Rename"
+                {words().frame.rename}
             </button>
         </li>
         <Show when=is_renamed>
@@ -100,7 +105,7 @@ fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>
         <li>
             <form class="rename" on:submit=save>
                 <label class="field grow">
-                    {format!("New name of {name}; empty for its number")}
+                    {words().home.room_name.fill([&name])}
                     <input
                         id="room-name"
                         maxlength=NAME_MAX
@@ -109,7 +114,7 @@ fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>
                         on:input=move |event| text.set(event_target_value(&event))
                     />
                 </label>
-                <button type="submit" class="small" id="save-name">"Save"</button>
+                <button type="submit" class="small" id="save-name">{words().frame.save}</button>
             </form>
         </li>
     }
@@ -125,25 +130,29 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <h3 id="no-go-title">"Not to be entered"</h3>
+        <h3 id="no-go-title">{words().home.no_go}</h3>
         <ul id="no-go" class="rows" aria-labelledby="no-go-title">
             <For each=move || store.orders.no_go.get() key=|row| (row.number, row.words.clone()) let:row>
                 {no_go(store, row)}
             </For>
         </ul>
         <Show when=move || store.orders.no_go.with(Vec::is_empty)>
-            <p class="hint">"Nothing is forbidden."</p>
+            <p class="hint">{words().home.nothing_forbidden}</p>
         </Show>
         <div class="draw-tools">
-            {tool(Tool::Wall, "draw-wall", "Draw a virtual wall")}
-            {tool(Tool::Zone, "draw-zone", "Draw a no-go zone")}
+            {tool(Tool::Wall, "draw-wall", words().home.draw_wall)}
+            {tool(Tool::Zone, "draw-zone", words().home.draw_zone)}
         </div>
     }
 }
 
 fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
-    let NoGoRow { number, name, words } = row;
-    let label = format!("Remove {name}");
+    let NoGoRow {
+        number,
+        name,
+        words: extent,
+    } = row;
+    let label = words().home.remove_named.fill([&name]);
     let remove = move |_| {
         let home = store.known_home();
         if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
@@ -153,14 +162,14 @@ fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
     view! {
         <li>
             <span class="name">{name}</span>
-            <span class="words">{words}</span>
+            <span class="words">{extent}</span>
             <button
                 type="button"
                 class="small"
                 aria-label=label
                 on:click=remove
             >
-                "Remove"
+                {words().frame.remove}
             </button>
         </li>
     }

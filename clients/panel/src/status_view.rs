@@ -1,10 +1,14 @@
 //! What the robot is doing and why, in words, and the figures of the job.
 
 use leptos::prelude::*;
-use panel_logic::{area_text, clock_text, distance_text, explain, percent_text, place_text, state_title};
+use panel_logic::{
+    Explanation, area_text, clock_text, decision_text, distance_text, explain, failure_text, percent_text,
+    place_text, room_here_text, state_title,
+};
 use rvac_api::Status;
 
 use crate::icons::{Icon, icon};
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -24,7 +28,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
     view! {
         <section class="card now" aria-labelledby="state" data-state=move || state.get() id="now">
             <div role="status" aria-live="polite">
-                <h2 id="state">{move || state_title(&state.get())}</h2>
+                <h2 id="state">{move || state_title(words(), &state.get())}</h2>
                 <p id="reason">{move || reason.get()}</p>
             </div>
             <Inhibits store />
@@ -41,13 +45,13 @@ fn reason_text(status: &Status) -> String {
         "" | "command" | "start-up" | "link-restored" | "released" | "docked"
     );
     match (plain, status.state.as_str()) {
-        (true, "idle" | "docked") => "Press Start and it cleans the floor.".to_owned(),
-        (true, "starting") => "It beeps before its wheels turn.".to_owned(),
-        (true, "paused") => "The job waits until you resume it.".to_owned(),
+        (true, "idle" | "docked") => words().status.press_start.to_owned(),
+        (true, "starting") => words().status.beeps.to_owned(),
+        (true, "paused") => words().status.waits_for_resume.to_owned(),
         (true, "manual") => status
             .driver
             .as_ref()
-            .map_or_else(String::new, |driver| format!("In the driver's seat: {driver}.")),
+            .map_or_else(String::new, |driver| words().status.in_seat.fill([driver])),
         (true, "cleaning") => cleaning_text(status),
         (true, _) => String::new(),
         (false, _) => code_text(&status.reason),
@@ -59,11 +63,11 @@ fn cleaning_text(status: &Status) -> String {
     let strategy = status
         .strategy
         .as_ref()
-        .map(|name| format!("Way of cleaning: {name}."));
+        .map(|name| words().status.strategy.fill([name]));
     let room = status
         .room
         .as_ref()
-        .map(|room| format!("Now in {}.", room.title()));
+        .map(|room| words().status.now_in.fill([&room_here_text(words(), room)]));
     [room, strategy]
         .into_iter()
         .flatten()
@@ -73,14 +77,7 @@ fn cleaning_text(status: &Status) -> String {
 
 /// The sentences for a code; a code without any is shown as it is.
 fn code_text(code: &str) -> String {
-    explain(code).map_or_else(
-        || format!("Reason: {code}."),
-        |explanation| {
-            format!("{} {}", explanation.what, explanation.remedy)
-                .trim_end()
-                .to_owned()
-        },
-    )
+    explain(words(), code).map_or_else(|| words().status.reason.fill([&code]), Explanation::text)
 }
 
 /// What the firmware says against moving, as far as it is not the reason already.
@@ -124,7 +121,7 @@ fn Lately(store: Store) -> impl IntoView {
         store.decisions.with(|book| {
             book.newest_first()
                 .next()
-                .map(|entry| entry.text.clone())
+                .map(|entry| decision_text(words(), entry))
                 .unwrap_or_default()
         })
     });
@@ -144,16 +141,20 @@ fn Figures(store: Store) -> impl IntoView {
                 .with(|status| status.as_ref().map_or_else(|| "–".to_owned(), text))
         })
     };
-    let swept = figure(|status| area_text(status.swept_m2));
+    let swept = figure(|status| area_text(words(), status.swept_m2));
     let time = figure(|status| clock_text(status.job_s));
-    let path = figure(|status| distance_text(status.path_m));
+    let path = figure(|status| distance_text(words(), status.path_m));
     let bumps = figure(|status| status.bumps.to_string());
     let covered = Memo::new(move |_| {
         store
             .truth
-            .with(|truth| truth.map(|truth| percent_text(truth.covered)))
+            .with(|truth| truth.map(|truth| percent_text(words(), truth.covered)))
     });
-    let place = Memo::new(move |_| store.estimate.with(|estimate| estimate.as_ref().map(place_text)));
+    let place = Memo::new(move |_| {
+        store
+            .estimate
+            .with(|estimate| estimate.as_ref().map(|estimate| place_text(words(), estimate)))
+    });
     let is_lost = move || {
         store
             .estimate
@@ -161,17 +162,17 @@ fn Figures(store: Store) -> impl IntoView {
     };
     view! {
         <dl class="figures">
-            <div><dt>"Swept"</dt><dd id="swept">{move || swept.get()}</dd></div>
-            <div><dt>"Time"</dt><dd>{move || time.get()}</dd></div>
-            <div><dt>"Way"</dt><dd>{move || path.get()}</dd></div>
-            <div><dt>"Bumps"</dt><dd>{move || bumps.get()}</dd></div>
+            <div><dt>{words().status.swept}</dt><dd id="swept">{move || swept.get()}</dd></div>
+            <div><dt>{words().status.time}</dt><dd>{move || time.get()}</dd></div>
+            <div><dt>{words().status.way}</dt><dd>{move || path.get()}</dd></div>
+            <div><dt>{words().status.bumps}</dt><dd>{move || bumps.get()}</dd></div>
             <Show when=move || covered.get().is_some()>
-                <div><dt>"Truly covered"</dt><dd title="True share of the reachable floor of the simulated home">{move || covered.get()}</dd></div>
+                <div><dt>{words().status.truly_covered}</dt><dd title=words().status.truly_covered_long>{move || covered.get()}</dd></div>
             </Show>
             <Show when=move || place.get().is_some()>
                 <div class:alarming=is_lost>
-                    <dt>"Its place"</dt>
-                    <dd id="place" title="Standard deviation of where the robot believes to be">{move || place.get()}</dd>
+                    <dt>{words().status.place}</dt>
+                    <dd id="place" title=words().status.place_long>{move || place.get()}</dd>
                 </div>
             </Show>
         </dl>
@@ -181,27 +182,22 @@ fn Figures(store: Store) -> impl IntoView {
 /// The last refusal, in words.
 #[component]
 pub(crate) fn RefusalView(store: Store) -> impl IntoView {
-    let text = move || store.refusal.with(|refusal| refusal.as_ref().map(refusal_text));
+    let text = move || {
+        store
+            .refusal
+            .with(|refusal| refusal.as_ref().map(|refusal| failure_text(words(), refusal)))
+    };
     view! {
         <div role="alert" class="alert-place">
             <Show when=move || text().is_some()>
                 <div class="alert" id="refusal">
                     {icon(Icon::Warning)}
                     <p>{text}</p>
-                    <button type="button" class="round" aria-label="Dismiss" on:click=move |_| store.refusal.set(None)>
+                    <button type="button" class="round" aria-label=words().frame.dismiss on:click=move |_| store.refusal.set(None)>
                         {icon(Icon::Close)}
                     </button>
                 </div>
             </Show>
         </div>
-    }
-}
-
-fn refusal_text(refusal: &rvac_api::Failure) -> String {
-    match explain(&refusal.reason) {
-        Some(explanation) => format!("{} {}", explanation.what, explanation.remedy)
-            .trim_end()
-            .to_owned(),
-        None => refusal.text.clone(),
     }
 }

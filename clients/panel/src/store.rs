@@ -13,6 +13,7 @@ use rvac_api::Update as Message;
 use crate::access::{Entrance, Newcomer};
 use crate::drive::Seat;
 use crate::history::HistoryDesk;
+use crate::language::words;
 use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
@@ -261,7 +262,7 @@ impl Store {
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
             Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
             Message::Home(home) => {
-                let rows = room_rows(&home);
+                let rows = room_rows(words(), &home);
                 if self.rooms.with_untracked(|rooms| *rooms != rows) {
                     self.rooms.set(rows);
                 }

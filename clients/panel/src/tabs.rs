@@ -9,20 +9,27 @@ use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::history::HistorySheet;
 use crate::home_view::HomeSheet;
+use crate::language::words;
 use crate::log_view::LogView;
 use crate::schedules::ScheduleSheet;
 use crate::store::Store;
 use crate::why_view::WhyView;
 
-const TABS: [(&str, &str); 7] = [
-    ("drive", "Drive"),
-    ("home", "Home"),
-    ("schedules", "Schedules"),
-    ("history", "History"),
-    ("why", "Why"),
-    ("device", "Device"),
-    ("log", "Log"),
-];
+const TABS: [&str; 7] = ["drive", "home", "schedules", "history", "why", "device", "log"];
+
+/// What the tabs are called, in the same order.
+fn titles() -> [&'static str; 7] {
+    let told = &words().frame;
+    [
+        told.drive,
+        told.home,
+        told.schedules,
+        told.history,
+        told.why,
+        told.device,
+        told.log,
+    ]
+}
 
 #[component]
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
@@ -39,10 +46,10 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
         };
         event.prevent_default();
         open.set(next);
-        focus(&format!("tab-{}", TABS[next].0));
+        focus(&format!("tab-{}", TABS[next]));
     };
     let tab = move |index: usize| {
-        let (id, label) = TABS[index];
+        let (id, label) = (TABS[index], titles()[index]);
         view! {
             <button
                 type="button"
@@ -58,8 +65,8 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <section class="card tabs" aria-label="Details">
-            <div role="tablist" aria-label="Details" on:keydown=on_key>
+        <section class="card tabs" aria-label=words().frame.details>
+            <div role="tablist" aria-label=words().frame.details on:keydown=on_key>
                 {(0..TABS.len()).map(tab).collect_view()}
             </div>
             <div role="tabpanel" id="sheet-drive" aria-labelledby="tab-drive" hidden=move || open.get() != 0>

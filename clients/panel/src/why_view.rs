@@ -1,9 +1,10 @@
 //! What the robot decided lately, and why.
 
 use leptos::prelude::*;
-use panel_logic::clock_text;
+use panel_logic::{clock_text, decision_text};
 use rvac_api::Decision;
 
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -14,13 +15,13 @@ pub(crate) fn WhyView(store: Store) -> impl IntoView {
             .with(|book| book.newest_first().cloned().collect::<Vec<_>>())
     };
     view! {
-        <ol class="entries why" id="decisions" tabindex="0" aria-label="Decisions, newest first">
+        <ol class="entries why" id="decisions" tabindex="0" aria-label=words().frame.decisions>
             <For each=decisions key=|entry| entry.number let:entry>
                 {line(entry)}
             </For>
         </ol>
         <Show when=move || decisions().is_empty()>
-            <p class="hint">"It has decided nothing yet."</p>
+            <p class="hint">{words().frame.no_decisions}</p>
         </Show>
     }
 }
@@ -29,7 +30,7 @@ fn line(entry: Decision) -> impl IntoView {
     view! {
         <li>
             <span class="when">{clock_text(entry.t)}</span>
-            <span class="told">{entry.text}</span>
+            <span class="told">{decision_text(words(), &entry)}</span>
         </li>
     }
 }

@@ -1,12 +1,36 @@
 // Starts the panel; says so in plain words when that fails.
 import init from './{{panel.js}}';
 
+const texts = {
+  en: {
+    loading: 'Loading the panel …',
+    failed: (error) => `The panel could not start in this browser: ${error}. Reload the page, or try a newer browser.`,
+  },
+  et: {
+    loading: 'Paneel laadib …',
+    failed: (error) => `Paneel ei käivitunud selles veebilehitsejas: ${error}. Laadi leht uuesti või proovi uuemat veebilehitsejat.`,
+  },
+};
+
+function kept(name) {
+  try { return localStorage.getItem(name); } catch { return null; /* Without storage nothing is chosen. */ }
+}
+
+const root = document.documentElement;
+const theme = kept('theme');
+if (theme === 'light' || theme === 'dark') root.dataset.theme = theme;
+const wanted = [kept('language'), ...navigator.languages].map((tag) => (tag ?? '').split('-')[0].toLowerCase());
+root.lang = wanted.find((language) => language in texts) ?? 'en';
+const text = texts[root.lang];
+
 const note = document.getElementById('boot');
-try {
-  const theme = localStorage.getItem('theme');
-  if (theme === 'light' || theme === 'dark') document.documentElement.dataset.theme = theme;
-} catch { /* Without storage the theme follows the system. */ }
+note.textContent = text.loading;
 init({ module_or_path: './{{panel.wasm}}' }).then(() => note.remove()).catch((error) => {
   note.setAttribute('role', 'alert');
-  note.textContent = `The panel could not start in this browser: ${error}. Reload the page, or try a newer browser.`;
+  note.textContent = text.failed(error);
 });
+
+// Browsers keep the page only where nobody can have put another one in its place.
+if (isSecureContext && 'serviceWorker' in navigator) {
+  navigator.serviceWorker.register('/sw.js').catch((error) => console.warn(`the page is not kept: ${error}`));
+}

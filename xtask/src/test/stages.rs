@@ -4,7 +4,8 @@ use super::count::Count;
 use super::robot;
 use super::runner::{Result, all, check, checks, tests};
 use crate::workspace::{self, Profile, program};
-use crate::{codegen, firmware, panel, system, tidy};
+use crate::{codegen, firmware, panel, process, system, tidy};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// One stage.
@@ -326,11 +327,33 @@ fn browser(_long: bool) -> Result {
     workspace::build(&["rvac-sim", "vthal", "panel-server"], Profile::Dev)?;
     let screenshots = workspace::target().join("screenshots");
     std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
+    let axe = axe()?;
     let mut command = cargo(&["test", "--locked", "--test", "browser", "--", "--nocapture"]);
     command
+        .env("RVAC_AXE", axe)
         .env("RVAC_BROWSER_TESTS", "1")
         .env("RVAC_PANEL", assets)
         .env("RVAC_FIRMWARE", elf)
         .env("RVAC_SCREENSHOTS", screenshots);
     tests(&mut command)
+}
+
+/// Fetches axe-core, which looks for faults of accessibility; the lock file beside its manifest names version and checksum.
+fn axe() -> anyhow::Result<PathBuf> {
+    system::need("npm", &["npm"])?;
+    let folder = workspace::target().join("axe");
+    let script = folder.join("node_modules/axe-core/axe.min.js");
+    std::fs::create_dir_all(&folder)?;
+    let lists = workspace::root().join("clients/panel-server/tests/axe");
+    for list in ["package.json", "package-lock.json"] {
+        std::fs::copy(lists.join(list), folder.join(list))?;
+    }
+    let mut npm = Command::new("npm");
+    npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"])
+        .current_dir(&folder);
+    process::run("fetch axe-core", &mut npm)?;
+    if !script.is_file() {
+        anyhow::bail!("npm has fetched axe-core but {} is missing", script.display());
+    }
+    Ok(script)
 }

@@ -30,9 +30,15 @@ impl Bundle {
         named
     }
 
-    /// Adds the page, which keeps its name.
-    pub(crate) fn add_page(&mut self, content: Vec<u8>) {
-        self.push("index.html".to_owned(), content);
+    /// Adds a file that keeps its name.
+    pub(crate) fn add_named(&mut self, name: &str, content: Vec<u8>) {
+        self.push(name.to_owned(), content);
+    }
+
+    /// Tells these files from all others.
+    pub(crate) fn version(&self) -> String {
+        let all: Vec<u8> = self.files.iter().flat_map(|file| file.plain.clone()).collect();
+        format!("{:016x}", fnv1a_64(&all))
     }
 
     /// Name, bytes and packed bytes of each file.

@@ -1,8 +1,8 @@
 //! Packs the panel: `uipack IN.wasm OUTDIR`.
 //!
-//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen; the result, the page, the style sheet and the icon
+//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen; the result, the page, the style sheet and the icons
 //! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip twin. The page
-//! alone keeps its name: it is what a browser asks for first. OUTDIR is replaced as a whole.
+//! and the service worker alone keep their names: they are what a browser asks for first. OUTDIR is replaced as a whole.
 #![forbid(unsafe_code)]
 
 mod bundle;
@@ -17,6 +17,9 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use bundle::Bundle;
 use wasm_bindgen_cli_support::{Bindgen, Output};
+
+/// Pictures of the panel, the one for the page first and that for the home screens of phones second.
+const ICONS: [&str; 4] = ["icon.svg", "icon-192.png", "icon-512.png", "icon-maskable.png"];
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = env::args_os().skip(1).collect();
@@ -36,10 +39,12 @@ fn main() -> ExitCode {
 fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     let (script, module) = bind(wasm)?;
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../clients/panel/static");
-    let read = |name: &str| {
+    let read_bytes = |name: &str| {
         let path = sources.join(name);
-        fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))
+        fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
     };
+    let read =
+        |name: &str| String::from_utf8(read_bytes(name)?).with_context(|| format!("{name} is not UTF-8"));
     let mut bundle = Bundle::default();
     let module_name = bundle.add("panel.wasm", module);
     let script_name = bundle.add("panel.js", script.into_bytes());
@@ -49,23 +54,47 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     )?;
     let boot_name = bundle.add("boot.js", boot.into_bytes());
     let style_name = bundle.add("panel.css", read("panel.css")?.into_bytes());
-    let icon_name = bundle.add("icon.svg", read("icon.svg")?.into_bytes());
+    let mut icons = Vec::new();
+    for icon in ICONS {
+        icons.push((icon, bundle.add(icon, read_bytes(icon)?)));
+    }
+    let icons: Vec<(&str, &String)> = icons.iter().map(|(icon, name)| (*icon, name)).collect();
+    let manifest = filled(&read("manifest.webmanifest")?, &icons)?;
+    let manifest_name = bundle.add("manifest.webmanifest", manifest.into_bytes());
+    let [icon, touch_icon, ..] = icons.as_slice() else {
+        bail!("the page needs two icons");
+    };
     let names = [
         ("boot.js", &boot_name),
         ("panel.css", &style_name),
-        ("icon.svg", &icon_name),
+        ("manifest.webmanifest", &manifest_name),
+        *icon,
+        *touch_icon,
     ];
     let preloads = [("panel.js", &script_name), ("panel.wasm", &module_name)];
     let page = filled(
         &read("index.html")?,
         &[names.as_slice(), preloads.as_slice()].concat(),
     )?;
-    bundle.add_page(page.into_bytes());
+    bundle.add_named("index.html", page.into_bytes());
+    let worker = service_worker(&read("sw.js")?, &bundle)?;
+    bundle.add_named("sw.js", worker.into_bytes());
     replace(folder, &bundle)?;
     for (name, plain, packed) in bundle.sizes() {
         writeln!(std::io::stdout(), "{name} {plain} bytes, {packed} gzip").ok(); // Nobody may be listening.
     }
     Ok(())
+}
+
+/// The script that keeps the files of this version, and whose text is another one for every other version.
+fn service_worker(template: &str, bundle: &Bundle) -> Result<String> {
+    let name = |name: &str| match name {
+        "index.html" => "'/'".to_owned(),
+        name => format!("'/{name}'"),
+    };
+    let files: Vec<String> = bundle.sizes().map(|(file, ..)| name(file)).collect();
+    let values = [("version", &bundle.version()), ("files", &files.join(", "))];
+    filled(template, &values)
 }
 
 /// The JavaScript side and the module that belongs to it.

@@ -101,7 +101,7 @@ impl Browser {
             .unwrap();
     }
 
-    /// The text that a script gives.
+    /// The text that a script gives, or promises.
     pub(crate) async fn text(&self, script: &str) -> String {
         let value = self.client.execute(script, Vec::new()).await.unwrap();
         value.as_str().map_or_else(|| value.to_string(), str::to_owned)

@@ -2,14 +2,17 @@
 //!
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
-//! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`.
+//! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+mod accessibility;
 mod browser;
 mod edits;
 mod history;
+mod language;
 mod large_home;
 mod mixes;
+mod offline;
 mod pairing;
 mod relief;
 mod robot;

@@ -35,7 +35,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
         .until("return document.getElementById('schedule-wrong').innerText === ''")
         .await;
     fill(browser, "schedule-at", "07:30").await;
-    browser.click("#day-sat").await;
+    browser.click("#day-sa").await;
     browser.click("#schedule-form .rooms input").await;
     browser.shot("phone-schedule-form").await;
     browser.click("#save-schedule").await;

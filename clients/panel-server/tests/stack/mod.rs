@@ -249,13 +249,30 @@ impl Stack {
         self.processes.push(Process::start(&mut command).0);
     }
 
-    fn start_server(&mut self, panel: &Path, more: &[&OsStr]) {
-        self.start_server_at(&self.daemon_socket(), panel, more);
+    /// Ends the server, as if its computer were switched off.
+    pub(crate) fn stop_server(&mut self) {
+        self.processes.pop();
     }
 
-    fn start_server_at(&mut self, daemon: &Path, panel: &Path, more: &[&OsStr]) {
+    /// Serves this panel at the same address again.
+    pub(crate) fn serve_again(&mut self, panel: &Path) {
+        let port = self
+            .address
+            .trim_end_matches('/')
+            .rsplit(':')
+            .next()
+            .unwrap()
+            .to_owned();
+        self.serve((&self.daemon_socket(), &port), panel, &[]);
+    }
+
+    fn start_server(&mut self, panel: &Path, more: &[&OsStr]) {
+        self.serve((&self.daemon_socket(), "0"), panel, more);
+    }
+
+    fn serve(&mut self, (daemon, port): (&Path, &str), panel: &Path, more: &[&OsStr]) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
-        command.args(["--port", "0", "--assets"]).arg(panel).args(more);
+        command.args(["--port", port, "--assets"]).arg(panel).args(more);
         command.arg("--vthal").arg(daemon);
         command.arg("--simulator").arg(self.simulator_socket());
         let (process, line) = Process::start(&mut command);

@@ -2,7 +2,9 @@
 
 use rvac_api::{DeviceTable, LinkReading, RobotDescription, Versions};
 
+use crate::codes::reading_text;
 use crate::percent_text;
+use crate::words::{Told, Words};
 
 /// One row.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,74 +43,81 @@ fn alarm(label: &str, value: impl Into<String>, alarming: bool) -> Row {
 
 /// The sections for what is measured. What the robot lacks has no row.
 #[must_use]
-pub fn device_sections(table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Section> {
+pub fn device_sections(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Section> {
+    let told = &words.device;
     let mut sections = vec![
         Section {
-            title: "Battery",
-            rows: battery(table),
+            title: told.battery,
+            rows: battery(words, table),
         },
         Section {
-            title: "Link to the robot",
-            rows: link(table),
+            title: told.link,
+            rows: link(words, table),
         },
         Section {
-            title: "Wheels and brushes",
-            rows: motion(table, robot),
+            title: told.motion,
+            rows: motion(words, table, robot),
         },
         Section {
-            title: "Sensors",
-            rows: sensors(table),
+            title: told.sensors,
+            rows: sensors(words, table),
         },
         Section {
-            title: "Versions",
-            rows: versions(&table.versions, robot),
+            title: told.versions,
+            rows: versions(words, &table.versions, robot),
         },
     ];
     sections.retain(|section| !section.rows.is_empty());
     sections
 }
 
-fn battery(table: &DeviceTable) -> Vec<Row> {
+/// A number with its unit.
+fn with_unit(words: &Words, unit: Told<1>, (value, decimals): (f64, usize)) -> String {
+    unit.fill([&words.number(value, decimals)])
+}
+
+fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
+    let told = &words.device;
     let Some(battery) = &table.battery else {
         return Vec::new();
     };
     let state = match battery.state.as_str() {
-        "discharging" => "In use",
-        "charging" => "Charging",
-        "full" => "Full",
-        "fault" => "Charging fault",
+        "discharging" => told.discharging,
+        "charging" => told.charging,
+        "full" => told.full,
+        "fault" => told.fault,
         other => other,
     };
     let temperature = match battery.temperature_c {
-        Some(celsius) => format!("{celsius:.1} °C"),
-        None => "not measured".to_owned(),
+        Some(celsius) => with_unit(words, told.celsius, (celsius, 1)),
+        None => told.not_measured.to_owned(),
     };
     let mut rows = vec![
-        alarm("Charge", percent_text(battery.charge), battery.charge < 0.15),
-        alarm("State", state, battery.state == "fault"),
-        row("Voltage", format!("{:.2} V", battery.voltage_v)),
-        row("Current", format!("{:.2} A", battery.current_a)),
-        alarm("Temperature", temperature, battery.temperature_c.is_none()),
+        alarm(
+            told.charge,
+            percent_text(words, battery.charge),
+            battery.charge < 0.15,
+        ),
+        alarm(told.state, state, battery.state == "fault"),
+        row(told.voltage, with_unit(words, told.volts, (battery.voltage_v, 2))),
+        row(
+            told.current,
+            with_unit(words, told.amperes, (battery.current_a, 2)),
+        ),
+        alarm(told.temperature, temperature, battery.temperature_c.is_none()),
     ];
     if let Some(charger) = &battery.charger {
-        rows.push(row("Charger", charger.phase.as_str()));
-        rows.extend(
-            charger
-                .end
-                .iter()
-                .map(|end| row("Last charge ended by", end.as_str())),
-        );
-        rows.extend(
-            charger
-                .fault
-                .iter()
-                .map(|fault| alarm("Charger fault", fault.as_str(), true)),
-        );
+        let code = |code: &str| reading_text(words, code).to_owned();
+        rows.push(row(told.charger, code(&charger.phase)));
+        rows.extend(charger.end.iter().map(|end| row(told.charge_end, code(end))));
+        let faults = charger.fault.iter();
+        rows.extend(faults.map(|fault| alarm(told.charger_fault, code(fault), true)));
     }
     rows
 }
 
-fn link(table: &DeviceTable) -> Vec<Row> {
+fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
+    let told = &words.device;
     let LinkReading {
         up,
         age_ms,
@@ -119,71 +128,77 @@ fn link(table: &DeviceTable) -> Vec<Row> {
         reconnects,
         binary,
     } = &table.link;
-    let mut rows = vec![alarm("Connection", if *up { "Up" } else { "Lost" }, !up)];
+    let bandwidth = |bytes_per_s: f64| with_unit(words, told.kilobytes_per_s, (bytes_per_s / 1000.0, 2));
+    let mut rows = vec![alarm(told.connection, if *up { told.up } else { told.lost }, !up)];
     if let Some(frequency) = table.main_loop_hz {
-        rows.push(row("Main loop", format!("{frequency} Hz")));
+        rows.push(row(told.main_loop, told.hertz.fill([&frequency])));
     }
-    rows.push(row("To the robot", bandwidth(table.bytes_out_per_s)));
-    rows.push(row("From the robot", bandwidth(table.bytes_in_per_s)));
+    rows.push(row(told.to_robot, bandwidth(table.bytes_out_per_s)));
+    rows.push(row(told.from_robot, bandwidth(table.bytes_in_per_s)));
     rows.push(alarm(
-        "Bad packets, last 5 s",
-        format!("{:.2} %", bad_share * 100.0),
+        told.bad_packets,
+        with_unit(words, words.unit.percent, (bad_share * 100.0, 2)),
         *bad_share > 0.02,
     ));
     if let Some(round_trip) = round_trip_ms {
-        rows.push(row("Round trip", format!("{round_trip:.1} ms")));
+        rows.push(row(
+            told.round_trip,
+            with_unit(words, told.milliseconds, (*round_trip, 1)),
+        ));
     }
-    rows.push(row("Age of the newest reading", format!("{age_ms} ms")));
-    rows.push(row("Telemetry", if *binary { "Binary" } else { "Text" }));
+    rows.push(row(told.age, told.milliseconds.fill([age_ms])));
+    rows.push(row(told.telemetry, if *binary { told.binary } else { told.text }));
     let resets_text = match reset_cause {
-        Some(cause) => format!("{resets}, last: {cause}"),
+        Some(cause) => told.resets_last.fill([resets, &reading_text(words, cause)]),
         None => resets.to_string(),
     };
-    rows.push(row("Resets of the robot", resets_text));
-    rows.push(row("Reconnects", reconnects.to_string()));
+    rows.push(row(told.resets, resets_text));
+    rows.push(row(told.reconnects, reconnects.to_string()));
     rows
 }
 
-fn bandwidth(bytes_per_s: f64) -> String {
-    format!("{:.2} kB/s", bytes_per_s / 1000.0)
-}
-
-fn motion(table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Row> {
+fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Row> {
+    let told = &words.device;
     let has = |part: &str| robot.is_some_and(|robot| robot.parts.iter().any(|known| known == part));
     let current = |index: usize| table.currents_a.and_then(|currents| currents.get(index).copied());
     let with_current = |text: String, index: usize| match current(index) {
-        Some(current) => format!("{text}, {current:.2} A"),
+        Some(current) => told.with_current.fill([&text, &words.number(current.into(), 2)]),
         None => text,
     };
-    let [main, sides, suction] = table.cleaners.map(|runs| if runs { "Running" } else { "Off" });
+    let speed = |m_per_s: f64| with_unit(words, told.metres_per_s, (m_per_s, 2));
+    let [main, sides, suction] = table
+        .cleaners
+        .map(|runs| if runs { told.running } else { told.off });
     let mut rows = vec![
+        row(told.left_wheel, with_current(speed(table.wheel_left_m_per_s), 0)),
         row(
-            "Left wheel",
-            with_current(format!("{:.2} m/s", table.wheel_left_m_per_s), 0),
-        ),
-        row(
-            "Right wheel",
-            with_current(format!("{:.2} m/s", table.wheel_right_m_per_s), 1),
+            told.right_wheel,
+            with_current(speed(table.wheel_right_m_per_s), 1),
         ),
     ];
     if has("brush-main") {
-        rows.push(row("Main brush", with_current(main.to_owned(), 2)));
+        rows.push(row(told.main_brush, with_current(main.to_owned(), 2)));
     }
     if has("brush-sides") {
-        rows.push(row("Side brushes", sides));
+        rows.push(row(told.side_brushes, sides));
     }
     if has("vacuum") {
-        rows.push(row("Suction", suction));
+        rows.push(row(told.suction, suction));
         rows.push(alarm(
-            "Dust box",
-            if table.dust_box { "In place" } else { "Missing" },
+            told.dust_box,
+            if table.dust_box {
+                told.in_place
+            } else {
+                told.missing
+            },
             !table.dust_box,
         ));
     }
     rows
 }
 
-fn sensors(table: &DeviceTable) -> Vec<Row> {
+fn sensors(words: &Words, table: &DeviceTable) -> Vec<Row> {
+    let told = &words.device;
     let list = |names: &[&str], states: &[bool], none: &str| {
         let active: Vec<&str> = names
             .iter()
@@ -198,53 +213,61 @@ fn sensors(table: &DeviceTable) -> Vec<Row> {
         }
     };
     let any = |states: &[bool]| states.contains(&true);
+    let sides = [told.left, told.right];
     vec![
         alarm(
-            "Bumper",
-            list(&["left", "right"], &table.bumpers, "Free"),
+            told.bumper,
+            list(&sides, &table.bumpers, told.free),
             any(&table.bumpers),
         ),
         alarm(
-            "No floor",
-            list(&["left", "middle", "right"], &table.cliffs, "Nowhere"),
+            told.no_floor,
+            list(&[told.left, told.middle, told.right], &table.cliffs, told.nowhere),
             any(&table.cliffs),
         ),
         alarm(
-            "Hanging wheel",
-            list(&["left", "right"], &table.wheel_drops, "None"),
+            told.hanging,
+            list(&sides, &table.wheel_drops, told.none_hangs),
             any(&table.wheel_drops),
         ),
-        row("Dock contacts", if table.docked { "Closed" } else { "Open" }),
+        row(told.dock, if table.docked { told.closed } else { told.open }),
     ]
 }
 
-fn versions(versions: &Versions, robot: Option<&RobotDescription>) -> Vec<Row> {
+fn versions(words: &Words, versions: &Versions, robot: Option<&RobotDescription>) -> Vec<Row> {
+    let told = &words.device;
     let mut rows = Vec::new();
     if let Some(robot) = robot {
-        rows.push(row("Robot", robot.device.clone()));
+        rows.push(row(told.robot, robot.device.clone()));
     }
-    let optional = [("Firmware", &versions.firmware), ("cordlib", &versions.cordlib)];
+    let optional = [
+        (told.firmware, &versions.firmware),
+        ("cordlib", &versions.cordlib),
+    ];
     for (label, version) in optional {
         if let Some(version) = version {
             rows.push(row(label, version.clone()));
         }
     }
     if let Some(protocol) = versions.protocol {
-        rows.push(row("Wire protocol", protocol.to_string()));
+        rows.push(row(told.protocol, protocol.to_string()));
     }
     rows.push(row("vthal", versions.vthal.clone()));
-    rows.push(row("Brain", versions.brain.clone()));
-    rows.push(row("Panel", env!("CARGO_PKG_VERSION")));
+    rows.push(row(told.brain, versions.brain.clone()));
+    rows.push(row(told.panel, env!("CARGO_PKG_VERSION")));
     rows
 }
 
 #[cfg(test)]
 mod tests {
     use super::device_sections;
+    use crate::words::{Language, Words};
     use rvac_api::{BatteryReading, DeviceTable, RobotDescription};
 
+    const ENGLISH: &Words = Language::English.words();
+
     fn labels(table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<String> {
-        device_sections(table, robot)
+        device_sections(ENGLISH, table, robot)
             .into_iter()
             .flat_map(|section| section.rows)
             .map(|row| row.label)
@@ -284,7 +307,7 @@ mod tests {
         table.bytes_in_per_s = 920.0;
         table.versions.firmware = Some("0.0.1".to_owned());
         table.versions.cordlib = Some("0.0.1".to_owned());
-        let rows: Vec<_> = device_sections(&table, None)
+        let rows: Vec<_> = device_sections(ENGLISH, &table, None)
             .into_iter()
             .flat_map(|section| section.rows)
             .collect();
@@ -312,7 +335,7 @@ mod tests {
             bumpers: [false, true],
             ..DeviceTable::default()
         };
-        let rows: Vec<_> = device_sections(&table, None)
+        let rows: Vec<_> = device_sections(ENGLISH, &table, None)
             .into_iter()
             .flat_map(|section| section.rows)
             .collect();

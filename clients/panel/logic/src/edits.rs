@@ -5,6 +5,8 @@
 
 use rvac_api::{HomeView, NoGoShape, Request, RequestBody, RoomNaming};
 
+use crate::words::Words;
+
 /// Most edits that can be taken back.
 const KEPT_MAX: usize = 100;
 /// Numbers of requests that are edits, so that their answers are known from all others.
@@ -43,12 +45,10 @@ pub enum EditError {
 impl EditError {
     /// What it is and what to do, for people.
     #[must_use]
-    pub const fn sentence(self) -> &'static str {
+    pub const fn text(self, words: &Words) -> &'static str {
         match self {
-            Self::ChangedMeanwhile => {
-                "That edit cannot be taken back or done again: the map was changed there meanwhile. The edits before it can."
-            }
-            Self::NotToldYet => "The robot has not told of that edit yet. Try again in a few seconds.",
+            Self::ChangedMeanwhile => words.map.changed_meanwhile,
+            Self::NotToldYet => words.map.not_told_yet,
         }
     }
 }
@@ -70,13 +70,14 @@ impl Edit {
 
     /// What a person changed.
     #[must_use]
-    pub const fn what(&self) -> &'static str {
+    pub const fn what(&self, words: &Words) -> &'static str {
+        let told = &words.map;
         match self {
-            Self::Forbid(NoGoShape::Wall(_)) => "virtual wall",
-            Self::Forbid(NoGoShape::Zone(_)) => "no-go zone",
-            Self::Allow(NoGoShape::Wall(_)) => "removal of a virtual wall",
-            Self::Allow(NoGoShape::Zone(_)) => "removal of a no-go zone",
-            Self::Name { .. } => "name of a room",
+            Self::Forbid(NoGoShape::Wall(_)) => told.edit_wall,
+            Self::Forbid(NoGoShape::Zone(_)) => told.edit_zone,
+            Self::Allow(NoGoShape::Wall(_)) => told.edit_no_wall,
+            Self::Allow(NoGoShape::Zone(_)) => told.edit_no_zone,
+            Self::Name { .. } => told.edit_name,
         }
     }
 

@@ -1,5 +1,7 @@
 //! Figures as people read them.
 
+use crate::words::Words;
+
 /// `4:05` or `1:04:05`.
 #[must_use]
 pub fn clock_text(seconds: f64) -> String {
@@ -14,44 +16,44 @@ pub fn clock_text(seconds: f64) -> String {
 
 /// Square metres with one decimal.
 #[must_use]
-pub fn area_text(area_m2: f64) -> String {
-    format!("{area_m2:.1} m²")
+pub fn area_text(words: &Words, area_m2: f64) -> String {
+    words.unit.square_metres.fill([&words.number(area_m2, 1)])
 }
 
 /// Metres, or kilometres from 1000 m on.
 #[must_use]
-pub fn distance_text(metres: f64) -> String {
+pub fn distance_text(words: &Words, metres: f64) -> String {
     if metres >= 1000.0 {
-        format!("{:.2} km", metres / 1000.0)
+        words.unit.kilometres.fill([&words.number(metres / 1000.0, 2)])
     } else {
-        format!("{metres:.0} m")
+        words.unit.metres.fill([&words.number(metres, 0)])
     }
 }
 
 /// Percent without decimals; 100 only when it is whole.
 #[must_use]
-pub fn percent_text(share: f64) -> String {
+pub fn percent_text(words: &Words, share: f64) -> String {
     let percent = share.clamp(0.0, 1.0) * 100.0;
     let shown = if percent < 100.0 {
         percent.min(99.0)
     } else {
         percent
     };
-    format!("{shown:.0} %")
+    words.unit.percent.fill([&words.number(shown, 0)])
 }
 
 /// A round length whose bar is at most 120 pixels wide at `scale` pixels per metre: its name and its width in pixels.
 #[must_use]
-pub fn scale_bar(scale: f64) -> (String, f64) {
+pub fn scale_bar(words: &Words, scale: f64) -> (String, f64) {
     const LENGTHS_M: [f64; 10] = [50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05];
     let length = LENGTHS_M
         .into_iter()
         .find(|length| length * scale <= 120.0)
         .unwrap_or(0.05);
     let name = if length >= 1.0 {
-        format!("{length:.0} m")
+        words.unit.metres.fill([&words.number(length, 0)])
     } else {
-        format!("{:.0} cm", length * 100.0)
+        words.unit.centimetres.fill([&words.number(length * 100.0, 0)])
     };
     (name, length * scale)
 }
@@ -59,25 +61,29 @@ pub fn scale_bar(scale: f64) -> (String, f64) {
 #[cfg(test)]
 mod tests {
     use super::{area_text, clock_text, distance_text, percent_text, scale_bar};
+    use crate::words::{Language, Words};
+
+    const ENGLISH: &Words = Language::English.words();
 
     #[test]
     fn figures_read_well() {
         assert_eq!(clock_text(0.9), "0:00");
         assert_eq!(clock_text(245.0), "4:05");
         assert_eq!(clock_text(3845.0), "1:04:05");
-        assert_eq!(area_text(12.34), "12.3 m²");
-        assert_eq!(distance_text(999.4), "999 m");
-        assert_eq!(distance_text(1234.0), "1.23 km");
-        assert_eq!(percent_text(0.996), "99 %");
-        assert_eq!(percent_text(1.0), "100 %");
+        assert_eq!(area_text(ENGLISH, 12.34), "12.3 m²");
+        assert_eq!(distance_text(ENGLISH, 999.4), "999 m");
+        assert_eq!(distance_text(ENGLISH, 1234.0), "1.23 km");
+        assert_eq!(distance_text(Language::Estonian.words(), 1234.0), "1,23 km");
+        assert_eq!(percent_text(ENGLISH, 0.996), "99 %");
+        assert_eq!(percent_text(ENGLISH, 1.0), "100 %");
     }
 
     #[test]
     fn the_scale_bar_is_round_and_fits() {
-        assert_eq!(scale_bar(100.0), ("1 m".to_owned(), 100.0));
-        assert_eq!(scale_bar(130.0), ("50 cm".to_owned(), 65.0));
+        assert_eq!(scale_bar(ENGLISH, 100.0), ("1 m".to_owned(), 100.0));
+        assert_eq!(scale_bar(ENGLISH, 130.0), ("50 cm".to_owned(), 65.0));
         for scale in [2.0, 7.0, 33.0, 400.0, 1000.0] {
-            let (_, width) = scale_bar(scale);
+            let (_, width) = scale_bar(ENGLISH, scale);
             assert!((40.0..=120.0).contains(&width), "{scale} {width}");
         }
     }

@@ -3,6 +3,7 @@
 use rvac_api::{HomeView, Pose, RoomView, SimulatedPlan};
 
 use crate::figures::area_text;
+use crate::words::Words;
 
 /// Kinds of cells of a plan that only the robot's own map has, beside those of [`SimulatedPlan`]: not to be entered, and
 /// floor of a room. Rooms share the tints in turn.
@@ -108,15 +109,19 @@ pub struct RoomRow {
 
 /// The rooms by their identities.
 #[must_use]
-pub fn room_rows(home: &HomeView) -> Vec<RoomRow> {
+pub fn room_rows(words: &Words, home: &HomeView) -> Vec<RoomRow> {
     let mut rows: Vec<RoomRow> = home
         .rooms
         .iter()
         .take(ITEMS_MAX)
         .map(|room| RoomRow {
             id: room.id,
-            name: room_name(room),
-            words: format!("{}{}", area_text(room.area_m2), doors_text(home, room.id)),
+            name: room_name(words, room),
+            words: format!(
+                "{}{}",
+                area_text(words, room.area_m2),
+                doors_text(words, home, room.id)
+            ),
         })
         .collect();
     rows.sort_by_key(|row| row.id);
@@ -125,11 +130,13 @@ pub fn room_rows(home: &HomeView) -> Vec<RoomRow> {
 
 /// What people call a room, else its number.
 #[must_use]
-pub fn room_name(room: &RoomView) -> String {
-    room.name.clone().unwrap_or_else(|| format!("Room {}", room.id))
+pub fn room_name(words: &Words, room: &RoomView) -> String {
+    room.name
+        .clone()
+        .unwrap_or_else(|| words.home.room.fill([&room.id]))
 }
 
-fn doors_text(home: &HomeView, room: u16) -> String {
+fn doors_text(words: &Words, home: &HomeView, room: u16) -> String {
     let beyond = |rooms: [u16; 2]| match rooms {
         [one, other] if one == room => Some(other),
         [one, other] if other == room => Some(one),
@@ -140,14 +147,14 @@ fn doors_text(home: &HomeView, room: u16) -> String {
     others.sort_unstable();
     others.dedup();
     let name = |id: &u16| match home.rooms.iter().find(|room| room.id == *id) {
-        Some(room) => room_name(room),
-        None => format!("Room {id}"),
+        Some(room) => room_name(words, room),
+        None => words.home.room.fill([id]),
     };
     let names: Vec<String> = others.iter().map(name).collect();
     match names.as_slice() {
         [] => String::new(),
-        [only] => format!(", door to {only}"),
-        [first @ .., last] => format!(", doors to {} and {last}", first.join(", ")),
+        [only] => words.home.door_to.fill([only]),
+        [first @ .., last] => words.home.doors_to.fill([&first.join(", "), last]),
     }
 }
 
@@ -162,6 +169,7 @@ pub fn wall_strokes(home: &HomeView) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::{home_plan, merged, room_rows};
+    use crate::words::Language;
     use rvac_api::{DoorView, HomeView, RoomView};
 
     #[test]
@@ -220,7 +228,7 @@ mod tests {
             doors: vec![door([1, 3]), door([2, 1]), door([1, 2])],
             ..HomeView::default()
         };
-        let rows = room_rows(&home);
+        let rows = room_rows(Language::English.words(), &home);
         assert_eq!(rows[0].words, "12.4 m², doors to Kitchen and Room 3");
         assert_eq!(
             (rows[2].name.as_str(), rows[2].words.as_str()),

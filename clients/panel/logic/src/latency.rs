@@ -8,6 +8,8 @@ use mixer::{MixState, Mixed};
 use rvac_api::Pose;
 use std::collections::VecDeque;
 
+use crate::words::Words;
+
 /// A robot that sent no other pose for so long stands: five were due.
 const STANDS_MS: f64 = 250.0;
 /// A robot that has not moved by now will not move because of that input.
@@ -59,15 +61,13 @@ impl LatencyMeter {
 
     /// The last measurement, the median, and how many there are.
     #[must_use]
-    pub fn text(&self) -> Option<String> {
+    pub fn text(&self, words: &Words) -> Option<String> {
         let last = self.spans_ms.back()?;
         let mut sorted: Vec<f64> = self.spans_ms.iter().copied().collect();
         sorted.sort_by(f64::total_cmp);
         let median = sorted.get(sorted.len() / 2)?;
-        Some(format!(
-            "{last:.0} ms, median of {}: {median:.0} ms",
-            sorted.len()
-        ))
+        let (last, median) = (words.number(*last, 0), words.number(*median, 0));
+        Some(words.drive.latency.fill([&last, &sorted.len(), &median]))
     }
 }
 
@@ -78,8 +78,11 @@ fn same(one: Pose, other: Pose) -> bool {
 #[cfg(test)]
 mod tests {
     use super::LatencyMeter;
+    use crate::words::{Language, Words};
     use mixer::{MixState, Mixed};
     use rvac_api::Pose;
+
+    const ENGLISH: &Words = Language::English.words();
 
     fn mixed(held: bool) -> Mixed {
         Mixed {
@@ -107,15 +110,21 @@ mod tests {
         meter.on_pose(0.0, at(0.0));
         hold(&mut meter, 1000.0);
         meter.on_pose(1050.0, at(0.0005));
-        assert_eq!(meter.text(), None, "that is noise");
+        assert_eq!(meter.text(ENGLISH), None, "that is noise");
         meter.on_pose(1180.0, at(0.01));
         meter.on_pose(1230.0, at(0.03));
-        assert_eq!(meter.text().as_deref(), Some("180 ms, median of 1: 180 ms"));
+        assert_eq!(
+            meter.text(ENGLISH).as_deref(),
+            Some("From stick to wheels: 180 ms, median of 1: 180 ms")
+        );
         for (start, span) in [(3000.0, 100.0), (5000.0, 140.0)] {
             hold(&mut meter, start);
             meter.on_pose(start + span, at(start));
         }
-        assert_eq!(meter.text().as_deref(), Some("140 ms, median of 3: 140 ms"));
+        assert_eq!(
+            meter.text(ENGLISH).as_deref(),
+            Some("From stick to wheels: 140 ms, median of 3: 140 ms")
+        );
     }
 
     #[test]
@@ -123,16 +132,16 @@ mod tests {
         let mut meter = LatencyMeter::default();
         hold(&mut meter, 0.0);
         meter.on_pose(100.0, at(1.0));
-        assert_eq!(meter.text(), None, "where it stood is unknown");
+        assert_eq!(meter.text(ENGLISH), None, "where it stood is unknown");
         hold(&mut meter, 200.0);
         meter.on_pose(250.0, at(2.0));
-        assert_eq!(meter.text(), None, "it moved already");
+        assert_eq!(meter.text(ENGLISH), None, "it moved already");
         hold(&mut meter, 1000.0);
         meter.on_pose(4000.0, at(3.0));
-        assert_eq!(meter.text(), None, "that was something else");
+        assert_eq!(meter.text(ENGLISH), None, "that was something else");
         hold(&mut meter, 6000.0);
         meter.on_mixed(&mixed(false), 6050.0);
         meter.on_pose(6100.0, at(4.0));
-        assert_eq!(meter.text(), None, "it was let go before");
+        assert_eq!(meter.text(ENGLISH), None, "it was let go before");
     }
 }

@@ -2,11 +2,12 @@
 //!
 //! Words used here. The *camera* says which part of the map is seen. The *playout* turns poses that arrive now and then into
 //! motion that flows. The *driver* turns what hands do into drive requests under a lease, by a control mix. An *offer* says
-//! whether a button can be used and why not. The *catalogue* holds every sentence that explains a code.
+//! whether a button can be used and why not. The *words* are every text of the page in every language, and *codes* are what the
+//! robot says, to be put into words.
 #![forbid(unsafe_code)]
 
 mod camera;
-mod catalogue;
+mod codes;
 mod connection;
 mod device_rows;
 mod driver;
@@ -30,9 +31,12 @@ mod swept_grid;
 mod thoughts;
 mod tilt;
 mod wall_blocks;
+mod words;
 
 pub use camera::{Bounds, Camera, ScreenBox, View};
-pub use catalogue::{Explanation, explain, state_title};
+pub use codes::{
+    Explanation, decision_text, explain, failure_text, question_text, refusal_text, run_text, state_title,
+};
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
@@ -40,15 +44,17 @@ pub use edits::{Edit, EditError, EditLog};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
 pub use history::{
-    Plot, Replay, RunDrawing, RunRow, StopRow, plots, run_drawing, run_figures, run_rows, stop_rows,
+    Plot, Replay, RunDrawing, RunRow, StopRow, plots, room_here_text, run_drawing, run_figures, run_rows,
+    stop_rows,
 };
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{
-    CalibrationRun, Field, FieldKind, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart,
+    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LinePart, MixDraft, MixProblem,
+    OutputPart, SwitchPart, profile_problem_text,
 };
-pub use offers::{Offer, Offers, PauseKind};
+pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
@@ -60,3 +66,4 @@ pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};
 pub use tilt::Tilt;
 pub use wall_blocks::{BLOCK_NUMBERS, WallBlocks};
+pub use words::{Language, Told, Words};

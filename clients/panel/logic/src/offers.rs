@@ -2,15 +2,56 @@
 
 use rvac_api::{RobotDescription, Status};
 
+use crate::words::Words;
+
 /// Whether a button can be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offer {
     /// Yes.
     Ready,
     /// Not now, for this reason.
-    NotNow(&'static str),
+    NotNow(Wait),
     /// The robot lacks what it needs: it is not shown.
     Absent,
+}
+
+/// Why a button waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wait {
+    /// There is no robot.
+    Away,
+    /// A fault stands.
+    Fault,
+    /// A paused job waits.
+    Paused,
+    /// Somebody drives.
+    ByHand,
+    /// A job runs.
+    Runs,
+    /// No job runs.
+    NoJob,
+    /// It looks for the dock.
+    Docking,
+    /// It is on the dock.
+    Docked,
+}
+
+impl Wait {
+    /// For people.
+    #[must_use]
+    pub const fn text(self, words: &Words) -> &'static str {
+        let told = &words.offer;
+        match self {
+            Self::Away => told.away,
+            Self::Fault => told.fault,
+            Self::Paused => told.paused,
+            Self::ByHand => told.by_hand,
+            Self::Runs => told.runs,
+            Self::NoJob => told.no_job,
+            Self::Docking => told.docking,
+            Self::Docked => told.docked,
+        }
+    }
 }
 
 /// What the one button for pausing does now.
@@ -45,8 +86,8 @@ pub struct Offers {
     pub clear: Offer,
 }
 
-const AWAY: Offer = Offer::NotNow("The robot is not connected.");
-const FAULT: Offer = Offer::NotNow("Clear the fault first.");
+const AWAY: Offer = Offer::NotNow(Wait::Away);
+const FAULT: Offer = Offer::NotNow(Wait::Fault);
 
 impl Offers {
     /// The offers for what is known of the robot. Without a status everything waits.
@@ -83,10 +124,10 @@ fn start(state: &str) -> Offer {
     match state {
         "idle" | "docked" => Offer::Ready,
         "disconnected" => AWAY,
-        "paused" => Offer::NotNow("A paused job waits: resume or stop it."),
-        "manual" => Offer::NotNow("The robot is driven by hand."),
+        "paused" => Offer::NotNow(Wait::Paused),
+        "manual" => Offer::NotNow(Wait::ByHand),
         "stuck" | "error" => FAULT,
-        _ => Offer::NotNow("A job is running."),
+        _ => Offer::NotNow(Wait::Runs),
     }
 }
 
@@ -94,17 +135,17 @@ fn pause(state: &str) -> Offer {
     match state {
         "starting" | "cleaning" | "spot" | "docking" | "paused" => Offer::Ready,
         "disconnected" => AWAY,
-        _ => Offer::NotNow("No job is running."),
+        _ => Offer::NotNow(Wait::NoJob),
     }
 }
 
 fn dock(state: &str) -> Offer {
     match state {
         "disconnected" => AWAY,
-        "docking" => Offer::NotNow("It is looking for the dock already."),
-        "docked" => Offer::NotNow("It is on the dock."),
+        "docking" => Offer::NotNow(Wait::Docking),
+        "docked" => Offer::NotNow(Wait::Docked),
         "stuck" | "error" => FAULT,
-        "manual" => Offer::NotNow("The robot is driven by hand."),
+        "manual" => Offer::NotNow(Wait::ByHand),
         _ => Offer::Ready,
     }
 }

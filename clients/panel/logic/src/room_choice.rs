@@ -5,6 +5,7 @@ use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape};
 use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
 use crate::sketch::extent;
+use crate::words::Words;
 
 /// Most passes over a room.
 pub const PASSES_MAX: u8 = 3;
@@ -86,21 +87,22 @@ impl RoomChoice {
 
     /// `Kitchen, zone of 1.5 x 0.8 m, keeping out of 2 places`
     #[must_use]
-    pub fn words(&self, rows: &[RoomRow]) -> String {
+    pub fn text(&self, words: &Words, rows: &[RoomRow]) -> String {
+        let told = &words.map;
         let word = |part: &JobPart| match part {
             JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
-            JobPart::Zone(corners) => Some(format!("zone of {}", extent(corners))),
+            JobPart::Zone(corners) => Some(told.zone_of.fill([&extent(words, corners)])),
         };
         let parts: Vec<String> = self.parts.iter().filter_map(word).collect();
         let parts = if self.parts.is_empty() {
-            "The whole home".to_owned()
+            told.whole_home.to_owned()
         } else {
             parts.join(", ")
         };
         match self.avoid.len() {
             0 => parts,
-            1 => format!("{parts}, keeping out of 1 place"),
-            count => format!("{parts}, keeping out of {count} places"),
+            1 => told.out_of_one.fill([&parts]),
+            count => told.out_of_many.fill([&parts, &count]),
         }
     }
 
@@ -145,21 +147,21 @@ impl RoomChoice {
 /// `18.2 m², about 25 min, 41 % of a full battery; 97 % of the floor will be swept, 91 % if the robot is less sure of its
 /// place than it believes`
 #[must_use]
-pub fn job_estimate_text(estimate: &JobEstimate) -> String {
-    let charge = 100.0 * estimate.charge.max(0.0);
+pub fn job_estimate_text(words: &Words, estimate: &JobEstimate) -> String {
+    let charge = words.number(100.0 * estimate.charge.max(0.0), 0);
     let pauses = if estimate.charge > 1.0 {
-        ", with pauses to charge"
+        words.map.pauses
     } else {
         ""
     };
-    format!(
-        "{}, about {:.0} min, {charge:.0} % of a full battery{pauses}; {} of the floor will be swept, {} if the robot is \
-         less sure of its place than it believes",
-        area_text(estimate.floor_m2),
-        (estimate.time_s / 60.0).ceil(),
-        percent_text(estimate.share),
-        percent_text(estimate.share_low),
-    )
+    words.map.prospect.fill([
+        &area_text(words, estimate.floor_m2),
+        &words.number((estimate.time_s / 60.0).ceil(), 0),
+        &words.unit.percent.fill([&charge]),
+        &pauses,
+        &percent_text(words, estimate.share),
+        &percent_text(words, estimate.share_low),
+    ])
 }
 
 /// The room under a place of the map.
@@ -187,13 +189,19 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 #[cfg(test)]
 mod tests {
     use super::{RoomChoice, job_estimate_text, room_at};
+    use crate::words::{Language, Words};
     use rvac_api::{HomeView, JobEstimate, JobPart, NoGoShape};
+
+    const ENGLISH: &Words = Language::English.words();
 
     #[test]
     fn zones_stand_among_the_rooms_and_the_job_keeps_out_of_places() {
         let mut choice = RoomChoice::default();
         choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
-        assert_eq!(choice.words(&[]), "The whole home, keeping out of 1 place");
+        assert_eq!(
+            choice.text(ENGLISH, &[]),
+            "The whole home, keeping out of 1 place"
+        );
         let corners = vec![[0.0, 0.0], [1.5, 0.0], [1.5, 0.8], [0.0, 0.8]];
         choice.toggle(3);
         choice.add_zone(corners.clone());
@@ -208,7 +216,7 @@ mod tests {
             (choice.rooms(), choice.zones().count(), choice.place(4)),
             (vec![3, 4], 1, Some(3))
         );
-        assert!(choice.words(&[]).starts_with("zone of 1.5 x 0.8 m"));
+        assert!(choice.text(ENGLISH, &[]).starts_with("zone of 1.5 x 0.8 m"));
         choice.retain_known(&HomeView::default());
         assert_eq!((choice.rooms().len(), choice.zones().count()), (0, 1));
         choice.clear();
@@ -265,7 +273,7 @@ mod tests {
             share_low: 0.91,
             ..JobEstimate::default()
         };
-        let text = job_estimate_text(&estimate);
+        let text = job_estimate_text(ENGLISH, &estimate);
         assert!(
             text.starts_with("18.2 m², about 25 min, 120 % of a full battery, with pauses to charge; 97 %"),
             "{text}"

@@ -5,6 +5,7 @@ use rvac_api::{
 };
 
 use crate::room_choice::PASSES_MAX;
+use crate::words::Words;
 
 /// What stands in the fields.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,26 +103,27 @@ impl ScheduleForm {
     ///
     /// # Errors
     /// A sentence that says what is missing.
-    pub fn request(&self) -> Result<RequestBody, &'static str> {
-        let entry = self.entry()?;
+    pub fn request(&self, words: &Words) -> Result<RequestBody, &'static str> {
+        let entry = self.entry(words)?;
         Ok(match self.number {
             Some(number) => RequestBody::ChangeSchedule { number, entry },
             None => RequestBody::AddSchedule(entry),
         })
     }
 
-    fn entry(&self) -> Result<ScheduleEntry, &'static str> {
+    fn entry(&self, words: &Words) -> Result<ScheduleEntry, &'static str> {
+        let told = &words.schedule;
         if self.name.trim().is_empty() {
-            return Err("Give it a name.");
+            return Err(told.need_name);
         }
         if self.at.is_empty() {
-            return Err("Say at what time it starts.");
+            return Err(told.need_time);
         }
         // Browsers add seconds to a time that was typed with them.
         let at: String = self.at.chars().take(5).collect();
         let when = match (self.is_once, self.date.is_empty(), self.days.is_empty()) {
-            (true, true, _) => return Err("Choose the day on which it starts."),
-            (false, _, true) => return Err("Choose at least one day of the week."),
+            (true, true, _) => return Err(told.need_date),
+            (false, _, true) => return Err(told.need_days),
             (true, ..) => ScheduleTime::Once {
                 date: self.date.clone(),
                 at,
@@ -183,6 +185,9 @@ mod tests {
     };
 
     use super::ScheduleForm;
+    use crate::words::{Language, Words};
+
+    const ENGLISH: &Words = Language::English.words();
 
     fn filled() -> ScheduleForm {
         ScheduleForm {
@@ -194,7 +199,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_said() {
-        let missing = |form: ScheduleForm| form.request().expect_err("is not whole");
+        let missing = |form: ScheduleForm| form.request(ENGLISH).expect_err("is not whole");
         assert_eq!(missing(ScheduleForm::default()), "Give it a name.");
         let mut no_days = filled();
         no_days.days.clear();
@@ -215,7 +220,7 @@ mod tests {
         form.toggle_day(Weekday::Su);
         form.toggle_day(Weekday::Mo);
         form.waits = true;
-        let Ok(RequestBody::AddSchedule(entry)) = form.request() else {
+        let Ok(RequestBody::AddSchedule(entry)) = form.request(ENGLISH) else {
             panic!("is whole");
         };
         let parts = vec![JobPart::Room(2), JobPart::Room(7)];
@@ -248,7 +253,7 @@ mod tests {
         let entry = ScheduleEntry {
             job: job.clone(),
             enabled: false,
-            ..match filled().request() {
+            ..match filled().request(ENGLISH) {
                 Ok(RequestBody::AddSchedule(entry)) => entry,
                 other => panic!("{other:?}"),
             }
@@ -261,11 +266,11 @@ mod tests {
             refused_now: None,
         });
         assert_eq!(
-            form.request(),
+            form.request(ENGLISH),
             Ok(RequestBody::ChangeSchedule { number: 3, entry })
         );
         form.toggle_room(2);
-        let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request() else {
+        let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");
         };
         assert_ne!(entry.job, job);

@@ -4,8 +4,9 @@ use rvac_api::{
     JobPart, PlannedRun, ScheduleDecision, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Weekday,
 };
 
-use crate::catalogue::explain;
+use crate::codes::explain;
 use crate::home::RoomRow;
+use crate::words::Words;
 
 /// A schedule.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,29 +29,28 @@ pub struct ScheduleRow {
 
 /// The schedules, by their numbers.
 #[must_use]
-pub fn schedule_rows(schedules: &Schedules, rooms: &[RoomRow]) -> Vec<ScheduleRow> {
-    schedules.entries.iter().map(|view| row(view, rooms)).collect()
+pub fn schedule_rows(words: &Words, schedules: &Schedules, rooms: &[RoomRow]) -> Vec<ScheduleRow> {
+    let row = |view| row(words, view, rooms);
+    schedules.entries.iter().map(row).collect()
 }
 
-fn row(view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
-    let entry = &view.entry;
+fn row(words: &Words, view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
+    let (told, entry) = (&words.schedule, &view.entry);
     let next = match view.next.first() {
-        Some(run) => format!("Next: {}", planned_text(run)),
-        None if entry.enabled => "No run to come.".to_owned(),
-        None => "Switched off.".to_owned(),
+        Some(run) => told.next.fill([&planned_text(words, run)]),
+        None if entry.enabled => told.no_run.to_owned(),
+        None => told.off.to_owned(),
     };
-    let now = view
-        .refused_now
-        .as_deref()
-        .filter(|_| entry.enabled)
-        .map(|reason| {
-            let reason = explain(reason).map_or_else(|| reason.to_owned(), |found| found.what.to_owned());
-            format!("It would not start at this moment: {reason}")
-        });
+    let refused = view.refused_now.as_deref().filter(|_| entry.enabled);
+    let now = refused.map(|reason| told.would_not.fill([&what_of(words, reason)]));
     ScheduleRow {
         number: view.number,
         name: entry.name.clone(),
-        words: format!("{}, {}", time_text(&entry.when), job_text(&entry.job, rooms)),
+        words: format!(
+            "{}, {}",
+            time_text(words, &entry.when),
+            job_text(words, &entry.job, rooms)
+        ),
         next,
         now: now.unwrap_or_default(),
         enabled: entry.enabled,
@@ -58,123 +58,119 @@ fn row(view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
     }
 }
 
+/// What a code means; a code without words is shown as it is.
+fn what_of<'a>(words: &Words, code: &'a str) -> &'a str {
+    explain(words, code).map_or(code, |found| found.what)
+}
+
 /// The next runs of all, each with its name and what keeps it.
 #[must_use]
-pub fn next_rows(schedules: &Schedules) -> Vec<String> {
+pub fn next_rows(words: &Words, schedules: &Schedules) -> Vec<String> {
     let name = |run: &PlannedRun| {
         let found = schedules.entries.iter().find(|view| view.number == run.entry);
         found.map_or_else(|| run.entry.to_string(), |view| view.entry.name.clone())
     };
-    let row = |run: &PlannedRun| format!("{}: {}", name(run), planned_text(run));
+    let row = |run: &PlannedRun| format!("{}: {}", name(run), planned_text(words, run));
     schedules.next.iter().map(row).collect()
 }
 
 /// What came of the last runs, the newest first.
 #[must_use]
-pub fn past_rows(schedules: &Schedules) -> Vec<String> {
+pub fn past_rows(words: &Words, schedules: &Schedules) -> Vec<String> {
     let row = |past: &ScheduleDecision| {
-        let code = past.reason.as_deref().unwrap_or(&past.outcome);
         let what = match past.outcome.as_str() {
-            "fired" => "Started.".to_owned(),
-            _ => explain(code).map_or_else(|| code.to_owned(), |found| found.what.to_owned()),
+            "fired" => words.schedule.fired,
+            outcome => what_of(words, past.reason.as_deref().unwrap_or(outcome)),
         };
-        format!("{}, {}: {what}", instant_text(&past.at), past.name)
+        format!("{}, {}: {what}", instant_text(words, &past.at), past.name)
     };
     schedules.decisions.iter().map(row).collect()
 }
 
 /// In which zone times are told, and what its clocks show.
 #[must_use]
-pub fn zone_text(schedules: &Schedules) -> String {
-    match &schedules.clock {
-        Some(clock) => format!(
-            "All times are those of {}, where it is {}.",
-            schedules.zone,
-            instant_text(clock)
-        ),
-        None => "The robot's clock is not set, so nothing starts by itself until it is.".to_owned(),
-    }
+pub fn zone_text(words: &Words, schedules: &Schedules) -> String {
+    let told = &words.schedule;
+    schedules.clock.as_ref().map_or_else(
+        || told.no_clock.to_owned(),
+        |clock| told.zone.fill([&schedules.zone, &instant_text(words, clock)]),
+    )
 }
 
-fn planned_text(run: &PlannedRun) -> String {
-    let at = instant_text(&run.at);
+fn planned_text(words: &Words, run: &PlannedRun) -> String {
+    let (told, at) = (&words.schedule, instant_text(words, &run.at));
     match (run.kept_by.as_deref(), run.held_by.as_deref()) {
-        (Some("skipped"), _) => format!("{at}, left out"),
-        (Some("quiet-hours"), _) => format!("{at}, kept by the quiet hours"),
-        (Some(reason), _) => format!("{at}, kept: {reason}"),
-        (None, Some("quiet-hours")) => format!("{at}, after the quiet hours"),
-        (None, Some(_)) => format!("{at}, when the robot answers"),
+        (Some("skipped"), _) => told.left_out.fill([&at]),
+        (Some("quiet-hours"), _) => told.kept_by_quiet.fill([&at]),
+        (Some(reason), _) => told.kept.fill([&at, &what_of(words, reason)]),
+        (None, Some("quiet-hours")) => told.after_quiet.fill([&at]),
+        (None, Some(_)) => told.when_answers.fill([&at]),
         (None, None) => at,
     }
 }
 
-fn time_text(when: &ScheduleTime) -> String {
+fn time_text(words: &Words, when: &ScheduleTime) -> String {
+    let told = &words.schedule;
     match when {
-        ScheduleTime::Weekly { days, at } if days.len() == Weekday::ALL.len() => format!("Daily at {at}"),
+        ScheduleTime::Weekly { days, at } if days.len() == Weekday::ALL.len() => told.daily.fill([at]),
         ScheduleTime::Weekly { days, at } => {
-            let names: Vec<&str> = days.iter().map(|day| day_text(*day)).collect();
-            format!("{} at {at}", names.join(", "))
+            let names: Vec<&str> = days.iter().map(|day| day_text(words, *day)).collect();
+            told.weekly.fill([&names.join(", "), at])
         }
-        ScheduleTime::Once { date, at } => format!("Once, {}", instant_text(&format!("{date}T{at}"))),
+        ScheduleTime::Once { date, at } => told.once_at.fill([&instant_text(words, &format!("{date}T{at}"))]),
     }
 }
 
-fn job_text(job: &ScheduledJob, rooms: &[RoomRow]) -> String {
+fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow]) -> String {
+    let told = &words.schedule;
     let order = match job {
-        ScheduledJob::Start { strategy: None } => return "the whole home".to_owned(),
+        ScheduledJob::Start { strategy: None } => return told.whole_home.to_owned(),
         ScheduledJob::Start {
             strategy: Some(strategy),
-        } => return format!("the whole home, {strategy}"),
+        } => return told.whole_home_by.fill([strategy]),
         ScheduledJob::Clean(order) => order,
     };
     let part = |part: &JobPart| match part {
         JobPart::Room(id) => {
             let known = rooms.iter().find(|row| row.id == *id);
-            known.map_or_else(|| format!("room {id}"), |row| row.name.clone())
+            known.map_or_else(|| told.room.fill([id]), |row| row.name.clone())
         }
-        JobPart::Zone(_) => "a zone".to_owned(),
+        JobPart::Zone(_) => told.a_zone.to_owned(),
     };
     let mut parts: Vec<String> = order.parts.iter().map(part).collect();
     if parts.is_empty() {
-        parts.push("the whole home".to_owned());
+        parts.push(told.whole_home.to_owned());
     }
     if order.passes > 1 {
-        parts.push(format!("{} times", order.passes));
+        parts.push(told.times.fill([&order.passes]));
     }
     parts.join(", ")
 }
 
 /// Short name of a day.
 #[must_use]
-pub const fn day_text(day: Weekday) -> &'static str {
-    match day {
-        Weekday::Mo => "Mon",
-        Weekday::Tu => "Tue",
-        Weekday::We => "Wed",
-        Weekday::Th => "Thu",
-        Weekday::Fr => "Fri",
-        Weekday::Sa => "Sat",
-        Weekday::Su => "Sun",
-    }
+pub fn day_text(words: &Words, day: Weekday) -> &'static str {
+    let place = Weekday::ALL.into_iter().position(|other| other == day);
+    let mut names = words.unit.weekdays.split_whitespace();
+    place.and_then(|place| names.nth(place)).unwrap_or_default()
 }
 
 /// `Mon 23 Nov, 07:30` for `2026-11-23T07:30:00+02:00`; anything else as it is.
-fn instant_text(instant: &str) -> String {
-    told(instant).unwrap_or_else(|| instant.to_owned())
+fn instant_text(words: &Words, instant: &str) -> String {
+    told(words, instant).unwrap_or_else(|| instant.to_owned())
 }
 
-fn told(instant: &str) -> Option<String> {
-    const MONTHS: [&str; 12] = [
-        "Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec",
-    ];
+fn told(words: &Words, instant: &str) -> Option<String> {
     let (date, time) = instant.split_once('T')?;
     let at = time.get(..5)?;
     let mut parts = date.splitn(3, '-');
     let mut number = || parts.next()?.parse::<u32>().ok();
     let (year, month, day) = (number()?, number()?, number()?);
-    let name = MONTHS.get(usize::try_from(month).ok()?.checked_sub(1)?)?;
+    let mut months = words.unit.months.split_whitespace();
+    let name = months.nth(usize::try_from(month).ok()?.checked_sub(1)?)?;
     let weekday = Weekday::ALL.get(weekday_from_monday(year, month, day)?)?;
-    Some(format!("{} {day} {name}, {at}", day_text(*weekday)))
+    let weekday = day_text(words, *weekday);
+    Some(words.unit.moment.fill([&weekday, &day, &name, &at]))
 }
 
 /// Days after Monday, by Sakamoto's rule.
@@ -195,6 +191,9 @@ mod tests {
 
     use super::{instant_text, next_rows, past_rows, schedule_rows, zone_text};
     use crate::home::RoomRow;
+    use crate::words::{Language, Words};
+
+    const ENGLISH: &Words = Language::English.words();
 
     fn told() -> Schedules {
         let run = PlannedRun {
@@ -247,26 +246,31 @@ mod tests {
             name: "Kitchen".to_owned(),
             words: String::new(),
         };
-        let rows = schedule_rows(&told(), &[kitchen]);
+        let rows = schedule_rows(ENGLISH, &told(), &[kitchen]);
         assert_eq!(rows[0].words, "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
         assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, left out");
         assert_eq!(
             rows[0].now,
             "It would not start at this moment: A wheel hangs in the air."
         );
-        assert_eq!(next_rows(&told()), ["Food: Mon 23 Nov, 07:30, left out"]);
+        assert_eq!(next_rows(ENGLISH, &told()), ["Food: Mon 23 Nov, 07:30, left out"]);
         assert_eq!(
-            past_rows(&told()),
+            past_rows(ENGLISH, &told()),
             ["Fri 20 Nov, 07:30, Food: A job runs or waits."]
         );
-        assert!(zone_text(&told()).contains("Europe/Tallinn, where it is Sun 22 Nov, 16:30."));
-        assert!(zone_text(&Schedules::default()).contains("clock is not set"));
+        assert!(zone_text(ENGLISH, &told()).contains("Europe/Tallinn, where it is Sun 22 Nov, 16:30."));
+        assert!(zone_text(ENGLISH, &Schedules::default()).contains("clock is not set"));
     }
 
     #[test]
     fn instants_are_told_with_their_day_and_nonsense_as_it_is() {
-        assert_eq!(instant_text("2024-02-29T23:59:00Z"), "Thu 29 Feb, 23:59");
-        assert_eq!(instant_text("2000-01-01T00:00"), "Sat 1 Jan, 00:00");
+        assert_eq!(instant_text(ENGLISH, "2024-02-29T23:59:00Z"), "Thu 29 Feb, 23:59");
+        assert_eq!(instant_text(ENGLISH, "2000-01-01T00:00"), "Sat 1 Jan, 00:00");
+        let estonian = Language::Estonian.words();
+        assert_eq!(
+            instant_text(estonian, "2024-02-29T23:59"),
+            "N 29. veebr kell 23:59"
+        );
         for odd in [
             "",
             "T",
@@ -275,7 +279,7 @@ mod tests {
             "2026-11-23T7",
             "2026-11-23Täää",
         ] {
-            assert_eq!(instant_text(odd), odd);
+            assert_eq!(instant_text(ENGLISH, odd), odd);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use rvac_api::{HomeView, NoGoShape};
 
+use crate::words::Words;
+
 /// Corners nearer to each other than this are one place that was tapped twice, metres.
 const APART_MIN_M: f64 = 0.05;
 
@@ -86,15 +88,14 @@ impl Sketch {
 
     /// What to do next, for people; nothing while nothing is drawn.
     #[must_use]
-    pub fn hint(self) -> Option<&'static str> {
+    pub fn hint(self, words: &Words) -> Option<&'static str> {
+        let told = &words.map;
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
-            (Tool::Wall, None) => Some("Tap one end of the wall, or move it to the cross and press Enter."),
-            (Tool::Wall, Some(_)) => Some("Now the other end."),
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => {
-                Some("Tap one corner of the zone, or move it to the cross and press Enter.")
-            }
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some("Now the opposite corner."),
+            (Tool::Wall, None) => Some(told.wall_first),
+            (Tool::Wall, Some(_)) => Some(told.wall_second),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(told.zone_first),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(told.zone_second),
         }
     }
 }
@@ -129,24 +130,28 @@ pub struct NoGoRow {
 
 /// What is forbidden, by number.
 #[must_use]
-pub fn no_go_rows(home: &HomeView) -> Vec<NoGoRow> {
+pub fn no_go_rows(words: &Words, home: &HomeView) -> Vec<NoGoRow> {
     let row = |no_go: &rvac_api::NoGoView| match &no_go.shape {
         NoGoShape::Wall([from, to]) => NoGoRow {
             number: no_go.number,
-            name: format!("Virtual wall {}", no_go.number),
-            words: format!("{:.1} m", (to[0] - from[0]).hypot(to[1] - from[1])),
+            name: words.home.wall.fill([&no_go.number]),
+            words: metres(words, (to[0] - from[0]).hypot(to[1] - from[1])),
         },
         NoGoShape::Zone(corners) => NoGoRow {
             number: no_go.number,
-            name: format!("No-go zone {}", no_go.number),
-            words: extent(corners),
+            name: words.home.zone.fill([&no_go.number]),
+            words: extent(words, corners),
         },
     };
     home.no_go.iter().map(row).collect()
 }
 
+fn metres(words: &Words, length_m: f64) -> String {
+    words.unit.metres.fill([&words.number(length_m, 1)])
+}
+
 /// `1.5 x 0.8 m`
-pub(crate) fn extent(corners: &[[f64; 2]]) -> String {
+pub(crate) fn extent(words: &Words, corners: &[[f64; 2]]) -> String {
     let span = |axis: usize| {
         let values = corners.iter().filter_map(|corner| corner.get(axis).copied());
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -154,13 +159,19 @@ pub(crate) fn extent(corners: &[[f64; 2]]) -> String {
         });
         (high - low).max(0.0)
     };
-    format!("{:.1} x {:.1} m", span(0), span(1))
+    words
+        .home
+        .extent
+        .fill([&words.number(span(0), 1), &words.number(span(1), 1)])
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Drawn, Sketch, Tool, no_go_rows, no_go_strokes};
+    use crate::words::{Language, Words};
     use rvac_api::{HomeView, NoGoShape, NoGoView};
+
+    const ENGLISH: &Words = Language::English.words();
 
     #[test]
     fn two_places_make_a_wall_and_the_tool_is_laid_down() {
@@ -181,7 +192,7 @@ mod tests {
     fn a_zone_lies_between_opposite_corners_and_has_a_width() {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Zone);
-        assert!(sketch.hint().is_some_and(|hint| hint.contains("corner")));
+        assert!(sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("corner")));
         sketch.point((2.0, 3.0));
         assert_eq!(sketch.first(), Some((2.0, 3.0)));
         assert_eq!(sketch.point((0.0, 3.01)), None);
@@ -210,7 +221,7 @@ mod tests {
             ],
             ..HomeView::default()
         };
-        let words: Vec<String> = no_go_rows(&home)
+        let words: Vec<String> = no_go_rows(ENGLISH, &home)
             .iter()
             .map(|row| format!("{}, {}", row.name, row.words))
             .collect();

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use rvac_api::{Decision, Estimate, PlannedWay};
 
 use crate::figures::percent_text;
+use crate::words::Words;
 
 /// Decisions that are kept.
 const KEPT: usize = 100;
@@ -48,39 +49,33 @@ impl DecisionBook {
 
 /// How sure the robot is of its place, as a figure.
 #[must_use]
-pub fn place_text(estimate: &Estimate) -> String {
-    if estimate.lost {
-        "lost".to_owned()
+pub fn place_text(words: &Words, estimate: &Estimate) -> String {
+    let span = if estimate.lost {
+        return words.status.lost.to_owned();
     } else if estimate.sigma_m < 0.995 {
-        format!("± {:.0} cm", (100.0 * estimate.sigma_m).max(1.0))
+        let whole = words.number((100.0 * estimate.sigma_m).max(1.0), 0);
+        words.unit.centimetres.fill([&whole])
     } else {
-        format!("± {:.1} m", estimate.sigma_m)
-    }
+        words.unit.metres.fill([&words.number(estimate.sigma_m, 1)])
+    };
+    words.status.within.fill([&span])
 }
 
 /// What the robot can tell of its place and its work, a sentence each.
 #[must_use]
-pub fn estimate_sentences(estimate: &Estimate) -> Vec<String> {
+pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
+    let told = &words.status;
     let mut sentences = vec![if estimate.lost {
-        "It does not know where it is. What it sees now is not drawn into the map.".to_owned()
+        told.is_lost.to_owned()
     } else {
-        format!(
-            "It believes its place to {} and its heading to {:.0}°.",
-            place_text(estimate),
-            estimate.sigma_rad.to_degrees().max(1.0)
-        )
+        let heading = words.number(estimate.sigma_rad.to_degrees().max(1.0), 0);
+        told.believes.fill([&place_text(words, estimate), &heading])
     }];
     if let Some(agreement) = estimate.agreement {
-        sentences.push(format!(
-            "Its map explains {} of what its sensors see.",
-            percent_text(agreement)
-        ));
+        sentences.push(told.agreement.fill([&percent_text(words, agreement)]));
     }
     if let Some(covered) = estimate.covered {
-        sentences.push(format!(
-            "By its own estimate {} of the floor it can reach is swept.",
-            percent_text(covered)
-        ));
+        sentences.push(told.covered.fill([&percent_text(words, covered)]));
     }
     sentences
 }
@@ -137,7 +132,10 @@ pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::{DecisionBook, KEPT, estimate_sentences, place_text, way_dashes};
+    use crate::words::{Language, Words};
     use rvac_api::{Decision, Estimate, PlannedWay};
+
+    const ENGLISH: &Words = Language::English.words();
 
     fn decision(number: u64) -> Decision {
         Decision {
@@ -174,23 +172,26 @@ mod tests {
             sigma_rad: 0.02,
             ..Estimate::default()
         };
-        assert_eq!(place_text(&sure), "± 4 cm");
-        assert_eq!(estimate_sentences(&sure).len(), 1);
+        assert_eq!(place_text(ENGLISH, &sure), "± 4 cm");
+        assert_eq!(estimate_sentences(ENGLISH, &sure).len(), 1);
         let lost = Estimate {
             lost: true,
             agreement: Some(0.31),
             covered: Some(0.5),
             ..sure
         };
-        let told = estimate_sentences(&lost);
+        let told = estimate_sentences(ENGLISH, &lost);
         assert!(
             told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %")
         );
         assert_eq!(
-            place_text(&Estimate {
-                sigma_m: 1.26,
-                ..sure
-            }),
+            place_text(
+                ENGLISH,
+                &Estimate {
+                    sigma_m: 1.26,
+                    ..sure
+                }
+            ),
             "± 1.3 m"
         );
     }

@@ -7,6 +7,8 @@ use pairing::wire::{ClientRow, OpenWindow, Opened, Revoke, SetRole};
 use super::http::{self, Failed};
 use super::{Access, Entrance};
 
+use crate::language::words;
+
 /// What the section shows.
 #[derive(Clone, Copy)]
 struct Devices {
@@ -75,29 +77,27 @@ pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
         }
     };
     let code = move || {
-        devices.opened.get().map(|opened| {
-            format!(
-                "Type {} on the new device within {} seconds.",
-                opened.code, opened.seconds
-            )
-        })
+        devices
+            .opened
+            .get()
+            .map(|opened| words().access.type_code.fill([&opened.code, &opened.seconds]))
     };
     view! {
         <section class="devices" aria-labelledby="devices-title">
-            <h3 id="devices-title">"Paired devices"</h3>
+            <h3 id="devices-title">{words().access.devices}</h3>
             <ul id="devices" class="rows">
                 {move || devices.rows.get().into_iter().map(|row| line(entrance, devices, row)).collect_view()}
             </ul>
             <p class="wrong" role="alert">{move || devices.wrong.get()}</p>
             <div class="order-tools">
                 <label class="field grow">
-                    "A new device may"
+                    {words().access.new_may}
                     <select id="new-role" prop:value=move || role.get().name() on:change=choose>
                         {Role::ALL.map(|role| view! { <option value=role.name()>{may(role)}</option> }).collect_view()}
                     </select>
                 </label>
                 <button type="button" class="small strong" id="add-device" on:click=move |_| devices.open(role.get_untracked())>
-                    "Add a device"
+                    {words().access.add}
                 </button>
             </div>
             <p id="pairing-code" role="status" class="remark" hidden=move || code().is_none()>{code}</p>
@@ -115,12 +115,12 @@ fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
             devices.change("/api/clients/role", SetRole { id, role });
         }
     };
-    let label = format!("What {name} may do");
-    let shut_out = format!("Shut {name} out");
+    let label = words().access.may_named.fill([&name]);
+    let shut_out = words().access.shut_named.fill([&name]);
     view! {
         <li>
             <span class="name">{name}</span>
-            <span class="words">{if own { "this device" } else { "" }}</span>
+            <span class="words">{if own { words().access.this_device } else { "" }}</span>
             <select class="role" aria-label=label prop:value=row.role.name() on:change=set_role>
                 {Role::ALL
                     .map(|role| view! { <option value=role.name() selected=role == row.role>{may(role)}</option> })
@@ -132,17 +132,18 @@ fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
                 aria-label=shut_out
                 on:click=move |_| devices.change("/api/clients/revoke", Revoke { id })
             >
-                "Shut out"
+                {words().access.shut}
             </button>
         </li>
     }
 }
 
 /// What a role may, in few words.
-const fn may(role: Role) -> &'static str {
+pub(super) fn may(role: Role) -> &'static str {
+    let told = &words().access;
     match role {
-        Role::View => "look and stop",
-        Role::Drive => "drive and clean",
-        Role::Admin => "change everything",
+        Role::View => told.may_view,
+        Role::Drive => told.may_drive,
+        Role::Admin => told.may_admin,
     }
 }

@@ -2,11 +2,14 @@
 
 use leptos::prelude::window;
 use pairing::wire::Refused;
+use panel_logic::refusal_text;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast as _, JsValue};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Headers, RequestInit, Response};
+
+use crate::language::words;
 
 /// Why there is no answer that can be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,9 +26,9 @@ impl Failed {
     /// For people.
     pub(super) fn text(&self) -> String {
         match self {
-            Self::NotPaired => "This device is not paired with the robot any more.".to_owned(),
-            Self::Refused(refused) => refused.text.clone(),
-            Self::Unreachable => "The robot does not answer: try again.".to_owned(),
+            Self::NotPaired => words().access.not_paired.to_owned(),
+            Self::Refused(refused) => refusal_text(words(), &refused.reason, &refused.text),
+            Self::Unreachable => words().access.unreachable.to_owned(),
         }
     }
 }

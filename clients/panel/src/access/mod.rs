@@ -14,6 +14,8 @@ pub(crate) use pair_view::PairView;
 
 use http::Failed;
 
+use crate::language::words;
+
 /// What the server says of this device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Access {
@@ -69,22 +71,26 @@ impl Entrance {
     }
 }
 
+/// What a role may; one that this page does not know is shown as it is.
+fn role_text(role: &str) -> String {
+    role.parse()
+        .map_or_else(|_| role.to_owned(), |role| devices_view::may(role).to_owned())
+}
+
 /// What is said when another device was let in.
 #[component]
 pub(crate) fn NewcomerView(entrance: Entrance) -> impl IntoView {
     let text = move || {
         let newcomer = entrance.newcomer.get()?;
         let Newcomer { name, role, from } = newcomer;
-        Some(format!(
-            "A new device is paired with the robot: {name}, with the role {role}, from {from}."
-        ))
+        Some(words().access.newcomer.fill([&name, &role_text(&role), &from]))
     };
     view! {
         <div role="status">
             <Show when=move || entrance.newcomer.with(Option::is_some)>
                 <div class="alert calm" id="newcomer">
                     <p>{text}</p>
-                    <button type="button" class="small" on:click=move |_| entrance.newcomer.set(None)>"Good"</button>
+                    <button type="button" class="small" on:click=move |_| entrance.newcomer.set(None)>{words().frame.good}</button>
                 </div>
             </Show>
         </div>

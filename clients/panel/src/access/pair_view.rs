@@ -4,6 +4,7 @@ use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 
 use super::pairing_steps::pair;
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -28,24 +29,23 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
     view! {
         <main class="pair-page">
             <form class="card pair" id="pair" aria-labelledby="pair-title" on:submit=submit>
-                <h2 id="pair-title">"Pair this device with the robot"</h2>
+                <h2 id="pair-title">{words().access.title}</h2>
                 <p class="hint">
-                    "Run "<code>"rvac pair"</code>" on the robot, or choose “Add a device” on a device that is its administrator. "
-                    "The robot beeps and a code of eight digits is shown, which holds for two minutes."
+                    {words().access.how_before} <code>"rvac pair"</code> {words().access.how_after}
                 </p>
                 <label class="field">
-                    "Name of this device"
+                    {words().access.device_name}
                     <input
                         id="pair-name"
                         autocomplete="off"
                         maxlength="40"
-                        placeholder="Mari's phone"
+                        placeholder=words().access.example_name
                         prop:value=move || name.get()
                         on:input=move |event| name.set(event_target_value(&event))
                     />
                 </label>
                 <label class="field">
-                    "Code"
+                    {words().access.code}
                     <input
                         id="pair-code"
                         inputmode="numeric"
@@ -58,13 +58,13 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
                 </label>
                 <p class="wrong" id="pair-wrong" role="alert">{move || wrong.get()}</p>
                 <button type="submit" class="small strong" id="pair-now" aria-disabled=move || works.get().to_string()>
-                    {move || if works.get() { "Pairing …" } else { "Pair" }}
+                    {move || if works.get() { words().access.pairing } else { words().access.pair }}
                 </button>
                 <p class="hint">
-                    "No warning from the browser next time: install the "
-                    <a href="/robot.crt" download="robot.crt">"robot's certificate"</a>" ("
-                    <a href="/robot.mobileconfig">"profile for iPhones"</a>
-                    ") after comparing its fingerprint with what "<code>"rvac trust"</code>" shows on the robot."
+                    {words().access.trust_before}
+                    <a href="/robot.crt" download="robot.crt">{words().access.certificate}</a>
+                    {words().access.trust_between} <a href="/robot.mobileconfig">{words().access.profile}</a>
+                    {words().access.trust_after} <code>"rvac trust"</code> {words().access.trust_end}
                 </p>
             </form>
         </main>

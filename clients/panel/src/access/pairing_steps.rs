@@ -2,18 +2,20 @@
 
 use leptos::prelude::window;
 use pairing::wire::{Begin, Begun, Finish, Finished, Invitation};
-use pairing::{Code, DeviceName, Ends, Guest};
+use pairing::{Code, DeviceName, Ends, Guest, NameError};
 
 use super::http::{self, Failed};
+
+use crate::language::words;
 
 /// Proves the code; from then on the browser has a cookie that no script can read.
 ///
 /// # Errors
 /// A sentence for the person who typed it.
 pub(super) async fn pair(name: &str, code: &str) -> Result<(), String> {
-    let name = DeviceName::new(name).map_err(|error| error.to_string())?;
-    let code = Code::parse(code).map_err(|error| error.to_string())?;
-    let random = random().ok_or("This browser gives no random numbers: try a newer one.")?;
+    let name = DeviceName::new(name).map_err(name_problem)?;
+    let code = Code::parse(code).map_err(|_| words().access.bad_code.to_owned())?;
+    let random = random().ok_or(words().access.no_random)?;
     let invitation: Invitation = http::get("/api/pairing").await.map_err(|failed| failed.text())?;
     let ends = Ends {
         guest: &name,
@@ -25,7 +27,9 @@ pub(super) async fn pair(name: &str, code: &str) -> Result<(), String> {
         message,
     };
     let begun: Begun = ask("/api/pairing/begin", &begin).await?;
-    let (waiting, proof) = guest.hear(&begun.message).map_err(|error| error.to_string())?;
+    let (waiting, proof) = guest
+        .hear(&begun.message)
+        .map_err(|_| words().access.malformed.to_owned())?;
     let finish = Finish {
         attempt: begun.attempt,
         proof,
@@ -34,10 +38,17 @@ pub(super) async fn pair(name: &str, code: &str) -> Result<(), String> {
     if waiting.is_proven(&finished.proof) {
         return Ok(());
     }
-    Err(
-        "The answer is not that of the robot whose code this is: somebody may stand between. Do not go on."
-            .to_owned(),
-    )
+    Err(words().access.impostor.to_owned())
+}
+
+fn name_problem(error: NameError) -> String {
+    let told = &words().access;
+    match error {
+        NameError::Empty => told.name_empty,
+        NameError::Long => told.name_long,
+        NameError::Control => told.name_control,
+    }
+    .to_owned()
 }
 
 async fn ask<T: serde::de::DeserializeOwned>(path: &str, body: &impl serde::Serialize) -> Result<T, String> {

@@ -5,6 +5,8 @@ use mixer::{Name, Profile};
 
 use super::Seat;
 
+use crate::language::words;
+
 /// Under this name the browser keeps it.
 const KEY: &str = "mix";
 
@@ -36,9 +38,9 @@ pub(super) fn MixChoice(seat: Seat) -> impl IntoView {
     };
     view! {
         <label class="field mix-choice">
-            "Control mix"
+            {words().drive.mix}
             <select id="mix" on:change=choose>
-                <option value="">"Standard, built in"</option>
+                <option value="">{words().drive.standard}</option>
                 {move || seat.kept.get().into_iter().map(option).collect_view()}
             </select>
         </label>

@@ -8,6 +8,8 @@ use mixer::PadReading;
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Gamepad, GamepadButton};
 
+use crate::language::words;
+
 /// As many pads as a profile can name.
 const PADS: u32 = 4;
 /// How long a bump is felt.
@@ -36,7 +38,7 @@ pub(super) fn read() -> Pads {
             buttons: pad.buttons().iter().map(pressed).collect(),
         };
         pads.readings.insert(number, reading);
-        pads.names.push(format!("pad-{number} is {}", pad.id()));
+        pads.names.push(words().drive.gamepad.fill([&number, &pad.id()]));
         let time_ms = pad.timestamp();
         if time_ms > pads.time_ms.unwrap_or(0.0) {
             pads.time_ms = Some(time_ms);

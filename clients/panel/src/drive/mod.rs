@@ -10,6 +10,7 @@ mod tilt;
 use leptos::prelude::*;
 use panel_logic::{Driver, Offer};
 
+use crate::language::words;
 use crate::mixes::MixEditor;
 use crate::store::Store;
 use choice::MixChoice;
@@ -24,12 +25,9 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
     let seat = store.seat;
     let offer = Memo::new(move |_| store.offers().drive);
     let why = move || match offer.get() {
-        _ if store.bench.is_open_now() => "While mixes are edited nothing drives: move what you like.",
-        Offer::NotNow(why) => why,
-        Offer::Ready | Offer::Absent => {
-            "Hold the knob, move a gamepad's stick, or focus the pad and hold W\u{a0}A\u{a0}S\u{a0}D or arrow keys. \
-             Letting go stops."
-        }
+        _ if store.bench.is_open_now() => words().drive.while_edited,
+        Offer::NotNow(why) => why.text(words()),
+        Offer::Ready | Offer::Absent => words().drive.how,
     };
     view! {
         <div class="drive">
@@ -44,7 +42,7 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
                 aria-expanded=move || if store.bench.is_open_now() { "true" } else { "false" }
                 on:click=move |_| store.bench.toggle(seat)
             >
-                {move || if store.bench.is_open_now() { "Close the editor" } else { "Edit mixes" }}
+                {move || if store.bench.is_open_now() { words().drive.editor_close } else { words().drive.editor_open }}
             </button>
             <Hands seat />
         </div>
@@ -77,7 +75,7 @@ fn Cleaners(store: Store) -> impl IntoView {
         <Show when=cleans>
             <label class="check">
                 <input type="checkbox" id="clean-while-driving" on:change=choose />
-                "Clean while driving"
+                {words().drive.clean}
             </label>
         </Show>
     }
@@ -89,7 +87,7 @@ fn Hands(seat: Seat) -> impl IntoView {
     let pads = move || {
         let names = seat.pads.get();
         if names.is_empty() {
-            "No gamepad is seen: press one of its buttons.".to_owned()
+            words().drive.no_gamepad.to_owned()
         } else {
             names.join(", ")
         }
@@ -98,7 +96,7 @@ fn Hands(seat: Seat) -> impl IntoView {
         if seat.is_live.get() {
             ""
         } else {
-            "Waits until every stick and key is at rest."
+            words().drive.waits_for_rest
         }
     };
     view! {
@@ -107,14 +105,11 @@ fn Hands(seat: Seat) -> impl IntoView {
             <p class="hint" id="drive-state" role="status">{state}</p>
             <TiltButton seat />
             <Show when=move || seat.latency.get().is_some()>
-                <p class="hint" id="latency" title=LATENCY_WORDS>
-                    {move || seat.latency.get().map(|text| format!("From stick to wheels: {text}"))}
-                    <span class="visually-hidden">{LATENCY_WORDS}</span>
+                <p class="hint" id="latency" title=words().drive.latency_long>
+                    {move || seat.latency.get()}
+                    <span class="visually-hidden">{words().drive.latency_long}</span>
                 </p>
             </Show>
         </div>
     }
 }
-
-const LATENCY_WORDS: &str = "From the browser's time of the input that starts a standing robot to the first pose that shows \
-                             it moving: the way there, its start, and the way back, with up to 50 ms until the next pose.";

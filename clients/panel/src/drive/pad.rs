@@ -7,6 +7,7 @@ use mixer::KeyCode;
 use panel_logic::{Driver, knob_place};
 
 use crate::drive::Seat;
+use crate::language::words;
 
 /// Share of the pad's half width that the knob can travel.
 const TRAVEL: f64 = 0.63;
@@ -90,7 +91,7 @@ pub(crate) fn Pad(seat: Seat, ready: Signal<bool>) -> impl IntoView {
             node_ref=pad
             tabindex="0"
             role="application"
-            aria-label="Drive pad"
+            aria-label=words().drive.pad
             aria-describedby="drive-hint"
             aria-disabled=move || if ready.get() { "false" } else { "true" }
             on:pointerdown=move |event| grip.press(&event)

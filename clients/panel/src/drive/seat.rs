@@ -7,6 +7,8 @@ use rvac_api::{Pose, Status};
 
 use super::{choice, gamepads};
 
+use crate::language::words;
+
 /// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
 const FRESH_MS: f64 = 100.0;
 /// Name of the inhibit of a pressed bumper.
@@ -140,7 +142,7 @@ impl Seat {
     /// The robot is somewhere.
     pub(crate) fn on_pose(self, pose: Pose) {
         self.meter.update_value(|meter| meter.on_pose(now_ms(), pose));
-        let text = self.meter.with_value(LatencyMeter::text);
+        let text = self.meter.with_value(|meter| meter.text(words()));
         if self.latency.with_untracked(|shown| *shown != text) {
             self.latency.set(text);
         }

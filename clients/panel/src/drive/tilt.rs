@@ -10,6 +10,8 @@ use web_sys::DeviceOrientationEvent;
 
 use super::Seat;
 
+use crate::language::words;
+
 /// Browsers that do not ask give this answer when they do.
 const GRANTED: &str = "granted";
 
@@ -48,8 +50,8 @@ pub(super) fn TiltButton(seat: Seat) -> impl IntoView {
         });
     };
     let label = move || match following.get() {
-        Following::On => "Stop driving by tilt",
-        Following::Off | Following::Refused => "Drive by tilt",
+        Following::On => words().drive.tilt_stop,
+        Following::Off | Following::Refused => words().drive.tilt,
     };
     view! {
         <Show when=has_tilt>
@@ -65,7 +67,7 @@ pub(super) fn TiltButton(seat: Seat) -> impl IntoView {
         </Show>
         <Show when=move || following.get() == Following::Refused>
             <p class="hint" role="status">
-                "The browser does not tell this page how the device is held: allow motion sensors for it."
+                {words().drive.tilt_refused}
             </p>
         </Show>
     }

@@ -4,10 +4,11 @@ mod player;
 mod run_view;
 
 use leptos::prelude::*;
-use panel_logic::{RunRow, run_rows};
+use panel_logic::{RunRow, refusal_text, run_rows};
 use rvac_api::{Failure, RequestBody, Run, RunRecord, RunTrack};
 use wasm_bindgen::JsValue;
 
+use crate::language::words;
 use crate::store::{RUN_ID, Store};
 use run_view::RunView;
 
@@ -74,7 +75,8 @@ impl HistoryDesk {
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(RUN_ID);
         if is_ours {
-            self.wrong.set(Some(failure.text.clone()));
+            self.wrong
+                .set(Some(refusal_text(words(), &failure.reason, &failure.text)));
         }
         is_ours
     }
@@ -115,25 +117,25 @@ impl Store {
 pub(crate) fn HistorySheet(store: Store) -> impl IntoView {
     let desk = store.history;
     store.list_runs();
-    let rows = move || desk.runs.with(|runs| run_rows(runs));
+    let rows = move || desk.runs.with(|runs| run_rows(words(), runs));
     view! {
         <div class="home" id="history-sheet">
             <Show
                 when=move || desk.chosen.get().is_some()
                 fallback=move || view! {
-                    <h3 id="runs-title">"Runs, newest first"</h3>
+                    <h3 id="runs-title">{words().history.runs}</h3>
                     <ul id="runs" class="rows runs" aria-labelledby="runs-title">
                         <For each=rows key=|row| row.number let:row>
                             {run_button(store, row)}
                         </For>
                     </ul>
                     <Show when=move || desk.runs.with(Vec::is_empty)>
-                        <p class="hint">"No run is kept yet: one is some seconds after a job ends."</p>
+                        <p class="hint">{words().history.none}</p>
                     </Show>
                     <Show when=move || desk.more.get()>
                         <div class="draw-tools">
                             <button type="button" class="small" id="older-runs" on:click=move |_| store.list_older_runs()>
-                                "Show older ones"
+                                {words().history.older}
                             </button>
                         </div>
                     </Show>
@@ -156,7 +158,7 @@ fn run_button(store: Store, row: RunRow) -> impl IntoView {
                 class:alarming=row.is_bad
                 on:click=move |_| store.show_run(number)
             >
-                <span class="name">{format!("{number}. {}", date_text(row.start_s))}</span>
+                <span class="name">{words().history.numbered.fill([&number, &date_text(row.start_s)])}</span>
                 <span class="result">{row.words}</span>
                 <span class="words">{row.figures}</span>
             </button>
@@ -167,15 +169,14 @@ fn run_button(store: Store, row: RunRow) -> impl IntoView {
 /// A time as clocks here show it.
 fn date_text(utc_s: Option<i64>) -> String {
     let Some(utc_s) = utc_s else {
-        return "Clock not set".to_owned();
+        return words().history.no_clock.to_owned();
     };
     let date = js_sys::Date::new(&JsValue::from_f64(1000.0 * utc_s as f64));
-    format!(
-        "{}-{:02}-{:02} {:02}:{:02}",
-        date.get_full_year(),
-        date.get_month() + 1,
-        date.get_date(),
-        date.get_hours(),
-        date.get_minutes()
-    )
+    let two = |number: u32| format!("{number:02}");
+    let time = format!("{}:{}", two(date.get_hours()), two(date.get_minutes()));
+    let (month, day) = (two(date.get_month() + 1), two(date.get_date()));
+    words()
+        .unit
+        .date
+        .fill([&date.get_full_year(), &month, &day, &time])
 }

@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{Plot, Replay, clock_text, plots, run_drawing};
 use rvac_api::RunRecord;
 
+use crate::language::words;
 use crate::store::Store;
 
 /// Pause between two pictures of a replay.
@@ -55,16 +56,16 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
         {picture(store, (record, end_s), (replay, time))}
         <Show
             when=move || replay.with(Option::is_some)
-            fallback=|| view! { <p class="hint">"Without a recording the run cannot be seen again."</p> }
+            fallback=|| view! { <p class="hint">{words().history.no_replay}</p> }
         >
             <div class="replay-tools">
                 <button type="button" class="small strong" id="replay-play" on:click=press>
-                    {move || if plays.get() { "Pause" } else { "Play" }}
+                    {move || if plays.get() { words().history.pause } else { words().history.play }}
                 </button>
                 <input
                     type="range"
                     id="replay-time"
-                    aria-label="Time into the run"
+                    aria-label=words().history.time
                     min="0"
                     max=end_s
                     step="0.5"
@@ -77,7 +78,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
             </div>
         </Show>
         {move || {
-            let plots = desk.track.with(|track| track.as_ref().map(|track| plots(track, end_s)));
+            let plots = desk.track.with(|track| track.as_ref().map(|track| plots(words(), track, end_s)));
             plots.unwrap_or_default().into_iter().map(|plot| plot_view(plot, (time, end_s))).collect_view()
         }}
     }
@@ -87,7 +88,7 @@ fn speed_choice(speed: RwSignal<f64>) -> impl IntoView {
     let choose = move |event| speed.set(event_target_value(&event).parse().unwrap_or(1.0));
     view! {
         <label class="field">
-            <span class="visually-hidden">"Speed"</span>
+            <span class="visually-hidden">{words().history.speed}</span>
             <select id="replay-speed" on:change=choose>
                 {SPEEDS.map(|(name, factor)| view! {
                     <option value=name selected=factor == 32.0>{format!("{name}×")}</option>
@@ -132,11 +133,8 @@ fn picture(
             .map(|(x, y, turn)| format!("translate({x:.1} {y:.1}) rotate({turn:.0})"))
     };
     let text = record.with_value(|record| {
-        format!(
-            "Picture of the run: {} square metres swept, {} stops",
-            record.run.swept_m2.round(),
-            record.run.stop_count
-        )
+        let swept = words().number(record.run.swept_m2, 0);
+        words().history.picture.fill([&swept, &record.run.stop_count])
     });
     let radius_cm = 100.0 * radius_m;
     view! {
@@ -192,7 +190,10 @@ fn plot_view(plot: Plot, (time, end_s): (RwSignal<f64>, f64)) -> impl IntoView {
         .map(|(name, _)| *name)
         .collect::<Vec<_>>()
         .join(", ");
-    let label = format!("{}: {names}, between {} and {}", plot.title, plot.low, plot.high);
+    let label = words()
+        .history
+        .plot
+        .fill([&plot.title, &names, &plot.low, &plot.high]);
     let is_alone = plot.lines.len() == 1;
     let at = move || format!("{:.1}", 300.0 * (time.get() / end_s).clamp(0.0, 1.0));
     let line = |(index, (_, path)): (usize, &(&'static str, String))| {

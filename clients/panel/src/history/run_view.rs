@@ -1,11 +1,12 @@
 //! One run.
 
 use leptos::prelude::*;
-use panel_logic::{StopRow, run_figures, stop_rows};
+use panel_logic::{StopRow, run_figures, run_text, stop_rows};
 use rvac_api::RunRecord;
 
 use super::date_text;
 use super::player::Player;
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -14,7 +15,7 @@ pub(crate) fn RunView(store: Store) -> impl IntoView {
     let back = move |_| desk.chosen.set(None);
     view! {
         <div class="draw-tools">
-            <button type="button" class="small" id="all-runs" on:click=back>"All runs"</button>
+            <button type="button" class="small" id="all-runs" on:click=back>{words().history.all}</button>
         </div>
         <p class="wrong" id="run-wrong" role="status">{move || desk.wrong.get()}</p>
         {move || desk.record.get().map(|record| run(store, record))}
@@ -23,10 +24,10 @@ pub(crate) fn RunView(store: Store) -> impl IntoView {
 
 fn run(store: Store, record: RunRecord) -> impl IntoView {
     let kept = &record.run;
-    let (number, text) = (kept.number, kept.text.clone());
-    let heading = format!("Run {number}, {}", date_text(kept.start_s));
-    let figures = run_figures(kept);
-    let stops = stop_rows(&record);
+    let (number, text) = (kept.number, run_text(words(), kept));
+    let heading = words().history.run.fill([&number, &date_text(kept.start_s)]);
+    let figures = run_figures(words(), kept);
+    let stops = stop_rows(words(), &record);
     let left_out = (kept.stop_count as usize).saturating_sub(stops.len());
     let downloads = downloads(&record);
     let time = RwSignal::new(0.0_f64);
@@ -37,36 +38,43 @@ fn run(store: Store, record: RunRecord) -> impl IntoView {
         <p id="run-result" class="remark">{text}</p>
         <Player store record time />
         <Show when=move || has_stops>
-            <h3 id="stops-title">"Where it stood or waited"</h3>
+            <h3 id="stops-title">{words().history.stops}</h3>
         </Show>
-        <ol id="run-stops" class="sentences" aria-label="Where it stood or waited">
+        <ol id="run-stops" class="sentences" aria-label=words().history.stops>
             {stops.into_iter().map(|stop| stop_line(stop, time)).collect_view()}
         </ol>
         <Show when=move || has_more>
-            <p class="hint">{format!("And {left_out} more stops.")}</p>
+            <p class="hint">{words().history.more_stops.fill([&left_out])}</p>
         </Show>
-        <h3>"Figures"</h3>
+        <h3>{words().history.figures}</h3>
         <dl class="run-figures">
             {figures.into_iter().map(|(what, value)| view! { <dt>{what}</dt><dd>{value}</dd> }).collect_view()}
         </dl>
-        <h3>"For a bug report"</h3>
+        <h3>{words().history.report}</h3>
         <div class="draw-tools">{downloads}</div>
     }
 }
 
 /// A stop, with a button that shows the moment.
-fn stop_line(StopRow { number, at_s, words }: StopRow, time: RwSignal<f64>) -> impl IntoView {
+fn stop_line(
+    StopRow {
+        number,
+        at_s,
+        words: sentence,
+    }: StopRow,
+    time: RwSignal<f64>,
+) -> impl IntoView {
     view! {
         <li class="stop">
             <button
                 type="button"
                 class="small choose"
-                aria-label=format!("Show the moment of stop {number}")
+                aria-label=words().history.show_stop.fill([&number])
                 on:click=move |_| time.set(at_s)
             >
                 {number}
             </button>
-            <span>{words}</span>
+            <span>{sentence}</span>
         </li>
     }
 }
@@ -74,15 +82,15 @@ fn stop_line(StopRow { number, at_s, words }: StopRow, time: RwSignal<f64>) -> i
 fn downloads(record: &RunRecord) -> AnyView {
     let run = &record.run;
     if run.recordings.is_empty() {
-        return view! { <p class="hint">"This run was not recorded."</p> }.into_any();
+        return view! { <p class="hint">{words().history.not_recorded}</p> }.into_any();
     }
     let links = run.recordings.iter().enumerate().map(|(index, recording)| {
         let Some(bytes) = recording.bytes else {
-            let text = "The recording was removed because newer ones took its place.";
+            let text = words().history.recording_gone;
             return view! { <p class="hint">{text}</p> }.into_any();
         };
         let address = format!("/api/runs/{}/recording/{index}", run.number);
-        let size = format!("Save the recording ({:.1} MB)", bytes as f64 / 1e6);
+        let size = words().history.save_recording.fill([&words().number(bytes as f64 / 1e6, 1)]);
         view! {
             <a class="small link" id=format!("save-{index}") href=address download=recording.name.clone()>{size}</a>
         }

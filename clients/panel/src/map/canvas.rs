@@ -11,6 +11,7 @@ use web_sys::ResizeObserver;
 use super::MapHandle;
 use super::gestures::{Gestures, Movement};
 use super::scene::{CameraMode, Scene};
+use crate::language::words;
 use crate::store::Store;
 
 /// Zoom of one press of a button or key.
@@ -114,7 +115,7 @@ pub(super) fn MapCanvas(
             id="map"
             tabindex="0"
             role="img"
-            aria-label="Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot, 3 changes between flat and 3D, where Shift with arrow keys turns it. Enter points at the middle."
+            aria-label=words().map.canvas
             on:wheel=move |event| on_wheel(store, mode, &event)
             on:pointerdown=on_down
             on:pointermove=on_move

@@ -2,11 +2,12 @@
 
 use leptos::ev;
 use leptos::prelude::*;
-use panel_logic::{Edit, EditError, EditLog};
+use panel_logic::{Edit, EditError, EditLog, Told};
 use rvac_api::{Failure, HomeView, Request};
 use wasm_bindgen::JsCast;
 
 use crate::icons::{Icon, icon};
+use crate::language::words;
 use crate::store::Store;
 
 /// What was edited on this page; cheap to copy.
@@ -74,7 +75,7 @@ impl Store {
             Some(Err(error)) => self.refusal.set(Some(Failure {
                 id: None,
                 reason: "edit".to_owned(),
-                text: error.sentence().to_owned(),
+                text: error.text(words()).to_owned(),
             })),
         }
     }
@@ -90,9 +91,9 @@ impl Store {
 #[component]
 pub(super) fn EditBar(store: Store) -> impl IntoView {
     let log = store.edits.log;
-    let words = |way: &str, edit: Option<&Edit>| edit.map(|edit| format!("{way}: {}", edit.what()));
-    let undo = Memo::new(move |_| log.with(|log| words("Undo", log.last())));
-    let redo = Memo::new(move |_| log.with(|log| words("Redo", log.next())));
+    let label = |way: Told<1>, edit: Option<&Edit>| edit.map(|edit| way.fill([&edit.what(words())]));
+    let undo = Memo::new(move |_| log.with(|log| label(words().map.undo, log.last())));
+    let redo = Memo::new(move |_| log.with(|log| label(words().map.redo, log.next())));
     let keys = window_event_listener(ev::keydown, move |event| {
         let is_ours = (event.ctrl_key() || event.meta_key()) && !event.alt_key() && !is_typing(&event);
         if is_ours && event.key().eq_ignore_ascii_case("z") {

@@ -16,6 +16,7 @@ use super::labels::Labels;
 use super::plain::PlainRenderer;
 use super::renderer::Renderer;
 use super::scene::{Places, Redraw, Scene};
+use crate::language::words;
 use crate::theme::Theme;
 
 /// A shared handle on the map; cheap to clone.
@@ -265,5 +266,5 @@ fn context(canvas: &HtmlCanvasElement) -> Result<WebGl2RenderingContext, GlError
         .ok()
         .flatten();
     let context = context.and_then(|context| context.dyn_into::<WebGl2RenderingContext>().ok());
-    context.ok_or_else(|| GlError("This browser offers no WebGL 2.".to_owned()))
+    context.ok_or_else(|| GlError(words().map.no_webgl.to_owned()))
 }

@@ -9,6 +9,8 @@ use web_sys::HtmlElement;
 
 use super::scene::{Ground, Scene};
 
+use crate::language::words;
+
 /// Rooms smaller than this on the screen have no room for their name, CSS pixels squared.
 const SMALL_PX2: f64 = 900.0;
 
@@ -47,7 +49,7 @@ impl Labels {
             self.names.push(name);
         }
         for (name, room) in self.names.iter().zip(&self.rooms) {
-            name.set_text_content(Some(&room_name(room)));
+            name.set_text_content(Some(&room_name(words(), room)));
         }
     }
 

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{Offer, PASSES_MAX, Tool};
 use rvac_api::RequestBody;
 
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -29,14 +30,14 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
         // Read, not only tracked: a memo that nobody reads is never made, and tells of nothing.
         chosen.with(|_| state.with(|_| store.ask_prospect()));
     });
-    let hint = move || orders.sketch.with(|sketch| sketch.hint());
+    let hint = move || orders.sketch.with(|sketch| sketch.hint(words()));
     view! {
         <div class="order-place">
             <Show when=move || hint().is_some()>
                 <div class="order-bar" id="sketch-bar" role="status">
                     <p>{hint}</p>
                     <button type="button" class="small" id="sketch-cancel" on:click=move |_| store.take_tool(Tool::Choose)>
-                        "Cancel"
+                        {words().frame.cancel}
                     </button>
                 </div>
             </Show>
@@ -52,17 +53,17 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     let orders = store.orders;
     let names = move || {
         let rooms = store.rooms.get();
-        orders.choice.with(|choice| choice.words(&rooms))
+        orders.choice.with(|choice| choice.text(words(), &rooms))
     };
     let prospect = move || {
         orders
             .prospect
             .get()
-            .unwrap_or_else(|| "The robot reckons what this takes.".to_owned())
+            .unwrap_or_else(|| words().map.reckons.to_owned())
     };
     let offer = Memo::new(move |_| store.offers().start);
     let waits = move || match offer.get() {
-        Offer::NotNow(why) => Some(why),
+        Offer::NotNow(why) => Some(why.text(words())),
         Offer::Ready | Offer::Absent => None,
     };
     let clean = move |_| {
@@ -72,16 +73,16 @@ fn ChosenRooms(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <div class="order-bar" id="order-bar" role="group" aria-label="Chosen rooms and zones">
+        <div class="order-bar" id="order-bar" role="group" aria-label=words().map.chosen>
             <p><strong id="chosen-rooms">{names}</strong></p>
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
             <div class="order-tools">
                 <Passes store />
                 <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
-                    "Choose none"
+                    {words().map.choose_none}
                 </button>
                 <button type="button" class="small" id="keep-out" on:click=move |_| store.take_tool(Tool::AvoidZone)>
-                    "Keep out, this time"
+                    {words().map.keep_out}
                 </button>
                 <button
                     type="button"
@@ -91,8 +92,8 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                     title=waits
                     on:click=clean
                 >
-                    "Clean these"
-                    <span class="visually-hidden">{move || waits().map(|why| format!(", not now: {why}"))}</span>
+                    {words().map.clean_these}
+                    <span class="visually-hidden">{move || waits().map(|why| words().frame.not_now.fill([&why]))}</span>
                 </button>
             </div>
         </div>
@@ -103,25 +104,19 @@ fn ChosenRooms(store: Store) -> impl IntoView {
 fn Passes(store: Store) -> impl IntoView {
     let choice = store.orders.choice;
     let button = move |passes: u8| {
-        let label = if passes == 1 {
-            "Once".to_owned()
-        } else {
-            format!("{passes} times")
-        };
         view! {
             <button
                 type="button"
                 id=format!("passes-{passes}")
-                aria-label=label
                 aria-pressed=move || if choice.with(|choice| choice.passes() == passes) { "true" } else { "false" }
                 on:click=move |_| choice.update(|choice| choice.set_passes(passes))
             >
-                {format!("{passes}x")}
+                {words().map.times.fill([&passes])}
             </button>
         }
     };
     view! {
-        <div class="passes" role="group" aria-label="How often each of them is cleaned">
+        <div class="passes" role="group" aria-label=words().map.how_often>
             {(1..=PASSES_MAX).map(button).collect_view()}
         </div>
     }

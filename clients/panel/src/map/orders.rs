@@ -1,10 +1,13 @@
 //! What a person wants of the home: rooms and zones to be cleaned, floor that is forbidden.
 
 use leptos::prelude::*;
-use panel_logic::{Drawn, Edit, NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows};
+use panel_logic::{
+    Drawn, Edit, NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows, refusal_text,
+};
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
 use super::scene::Ground;
+use crate::language::words;
 use crate::store::Store;
 
 /// Numbers of requests for estimates begin here, so that they are known from all others.
@@ -39,7 +42,7 @@ impl Orders {
     }
 
     pub(crate) fn on_home(self, home: &HomeView) {
-        let rows = no_go_rows(home);
+        let rows = no_go_rows(words(), home);
         if self.no_go.with_untracked(|known| *known != rows) {
             self.no_go.set(rows);
         }
@@ -52,7 +55,7 @@ impl Orders {
     /// The newest estimate counts; one for another choice came too late.
     pub(crate) fn on_estimate(self, estimate: &JobEstimate) {
         if estimate.id == Some(self.asked.get_value()) {
-            self.prospect.set(Some(job_estimate_text(estimate)));
+            self.prospect.set(Some(job_estimate_text(words(), estimate)));
         }
     }
 
@@ -60,7 +63,8 @@ impl Orders {
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_newest = failure.id == Some(self.asked.get_value());
         if is_newest {
-            self.prospect.set(Some(failure.text.clone()));
+            self.prospect
+                .set(Some(refusal_text(words(), &failure.reason, &failure.text)));
         }
         is_newest || failure.id.is_some_and(|id| id >= FIRST_ESTIMATE)
     }

@@ -13,6 +13,7 @@ use super::scene::{CameraMode, Ground, Scene};
 use super::sketch_view::SketchView;
 use super::view_memory::{keep_view, kept_view};
 use crate::icons::{Icon, icon};
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -33,7 +34,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
         });
     });
     view! {
-        <section class="map" aria-label="Map">
+        <section class="map" aria-label=words().map.title>
             <MapCanvas store mode failure />
             <RoomNames store />
             <SketchView store />
@@ -66,16 +67,16 @@ fn MapTools(store: Store, mode: RwSignal<CameraMode>, orbit: RwSignal<Option<Orb
         }
     };
     view! {
-        <div class="map-tools" role="group" aria-label="View of the map">
-            {button("Zoom in", Icon::Plus, |scene| zoom(scene, STEP))}
-            {button("Zoom out", Icon::Minus, |scene| zoom(scene, 1.0 / STEP))}
-            {button("Show everything", Icon::Fit, fit)}
+        <div class="map-tools" role="group" aria-label=words().map.view>
+            {button(words().map.zoom_in, Icon::Plus, |scene| zoom(scene, STEP))}
+            {button(words().map.zoom_out, Icon::Minus, |scene| zoom(scene, 1.0 / STEP))}
+            {button(words().map.everything, Icon::Fit, fit)}
             <button
                 type="button"
                 class="round"
                 id="follow"
-                aria-label="Follow the robot"
-                title="Follow the robot"
+                aria-label=words().map.follow
+                title=words().map.follow
                 aria-pressed=move || if mode.get() == CameraMode::Following { "true" } else { "false" }
                 on:click=follow
             >
@@ -85,8 +86,8 @@ fn MapTools(store: Store, mode: RwSignal<CameraMode>, orbit: RwSignal<Option<Orb
                 type="button"
                 class="round words"
                 id="view-3d"
-                aria-label="Seen in 3D"
-                title="Seen in 3D (key 3)"
+                aria-label=words().map.relief
+                title=words().map.relief_key
                 aria-pressed=move || if orbit.get().is_some() { "true" } else { "false" }
                 on:click=move |_| {
                     apply(store, mode, toggle_relief);
@@ -106,12 +107,12 @@ fn Failures(failure: RwSignal<Option<String>>, footer: RwSignal<Footer>) -> impl
     view! {
         <Show when=move || failure.get().is_some()>
             <p class="map-failure" role="alert">
-                {move || failure.get()} " The map cannot be drawn; everything else works."
+                {move || failure.get()} " " {words().map.cannot_draw}
             </p>
         </Show>
         <Show when=move || footer.with(|footer| footer.relief_failure.is_some())>
             <p class="map-note" id="no-relief" role="status">
-                "This browser cannot draw the map in 3D, so it stays flat: "
+                {words().map.no_relief} " "
                 {move || footer.with(|footer| footer.relief_failure.clone())}
             </p>
         </Show>
@@ -152,9 +153,9 @@ fn GroundSwitch(store: Store, shown: RwSignal<Ground>) -> impl IntoView {
     };
     view! {
         <Show when=simulated>
-            <div class="ground-switch" role="group" aria-label="What the map shows">
-                {choice(Ground::True, "ground-true", "True home")}
-                {choice(Ground::Known, "ground-known", "What it knows")}
+            <div class="ground-switch" role="group" aria-label=words().map.ground>
+                {choice(Ground::True, "ground-true", words().map.ground_true)}
+                {choice(Ground::Known, "ground-known", words().map.ground_known)}
             </div>
         </Show>
     }
@@ -180,21 +181,21 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
     let simulated = move || store.home.with(Option::is_some);
     view! {
         <div class="map-footer">
-            <ul class="legend" aria-label="Legend">
-                <li><span class="key swept" aria-hidden="true"></span>"Swept"</li>
-                <li><span class="key path" aria-hidden="true"></span>"Path"</li>
-                <li><span class="key bump" aria-hidden="true"></span>"Bump"</li>
+            <ul class="legend" aria-label=words().map.legend>
+                <li><span class="key swept" aria-hidden="true"></span>{words().map.swept}</li>
+                <li><span class="key path" aria-hidden="true"></span>{words().map.path}</li>
+                <li><span class="key bump" aria-hidden="true"></span>{words().map.bump}</li>
                 <Show when=move || footer.get().unsure>
-                    <li><span class="key unsure" aria-hidden="true"></span>"Not known"</li>
+                    <li><span class="key unsure" aria-hidden="true"></span>{words().map.unsure}</li>
                 </Show>
                 <Show when=move || footer.get().plans>
-                    <li><span class="key way" aria-hidden="true"></span>"Planned"</li>
+                    <li><span class="key way" aria-hidden="true"></span>{words().map.planned}</li>
                 </Show>
                 <Show when=move || footer.get().has_doors>
-                    <li><span class="key door" aria-hidden="true"></span>"Door"</li>
+                    <li><span class="key door" aria-hidden="true"></span>{words().map.door}</li>
                 </Show>
                 <Show when=simulated>
-                    <li><span class="key truth" aria-hidden="true"></span>"True place"</li>
+                    <li><span class="key truth" aria-hidden="true"></span>{words().map.true_place}</li>
                 </Show>
             </ul>
             <span class="spring"></span>
@@ -215,10 +216,10 @@ fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>)
     let update = move || {
         store.map.with_value(|map| {
             map.publish_figures();
-            let (name, width) = scale_bar(map.with(|scene| scene.camera.scale()));
+            let (name, width) = scale_bar(words(), map.with(|scene| scene.camera.scale()));
             let frames = map
                 .frames_per_second()
-                .map(|rate| format!("{rate:.0} frames/s"))
+                .map(|rate| words().unit.frames.fill([&words().number(rate, 0)]))
                 .unwrap_or_default();
             let next = Footer {
                 scale_name: name,

@@ -2,6 +2,8 @@
 
 use leptos::prelude::*;
 
+use crate::language::words;
+
 /// A bar from -1 to 1 with its middle in the middle.
 #[component]
 pub(super) fn Bar(label: &'static str, value: Signal<Option<f64>>) -> impl IntoView {
@@ -9,9 +11,10 @@ pub(super) fn Bar(label: &'static str, value: Signal<Option<f64>>) -> impl IntoV
     let left = move || format!("{}%", 50.0 + shown.get().unwrap_or(0.0).min(0.0) / 2.0);
     let width = move || format!("{}%", shown.get().unwrap_or(0.0).abs() / 2.0);
     let text = move || {
-        shown
-            .get()
-            .map_or_else(|| "none".to_owned(), |percent| format!("{percent:.0} %"))
+        shown.get().map_or_else(
+            || words().mix.none.to_owned(),
+            |percent| words().unit.percent.fill([&words().number(percent, 0)]),
+        )
     };
     view! {
         <div

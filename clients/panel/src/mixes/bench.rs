@@ -5,6 +5,7 @@ use mixer::{KeyCode, LineStages, Mixed, MixedOutput, Mixer, Name, Profile, Readi
 use panel_logic::{CalibrationRun, Field, Group, Learning, MixDraft};
 
 use crate::drive::Seat;
+use crate::language::words;
 
 /// Bars are drawn anew at every third look at the inputs.
 const LOOKS_PER_DRAWING: u32 = 3;
@@ -81,7 +82,7 @@ impl Bench {
         let kept = seat.kept.get_untracked();
         if kept.contains(&profile) {
             self.load(MixDraft::of_kept(profile));
-        } else if let Ok(copy) = MixDraft::copy_of(&profile, &kept) {
+        } else if let Ok(copy) = MixDraft::copy_of(words(), &profile, &kept) {
             self.load(copy);
         }
     }
@@ -236,7 +237,7 @@ impl Bench {
         self.remark.set(None);
         if let Some(run) = self.run.get_untracked().filter(|run| run.place == place) {
             let mut outcome = Ok(());
-            self.rearrange(|draft| outcome = draft.calibrate(&run));
+            self.rearrange(|draft| outcome = draft.calibrate(words(), &run));
             self.remark
                 .set(outcome.err().map(|sentence| format!("{sentence}.")));
             return;
@@ -270,9 +271,7 @@ impl Bench {
     pub(crate) fn on_kept(self) -> Option<Name> {
         let sent = self.sent.try_update_value(Option::take).flatten()?;
         let name = sent.name.clone();
-        self.remark.set(Some(format!(
-            "{name} is kept by the robot, and chosen for driving."
-        )));
+        self.remark.set(Some(words().mix.kept.fill([&name])));
         self.change(|draft| draft.on_kept(sent));
         Some(name)
     }
@@ -284,5 +283,5 @@ impl Bench {
 }
 
 fn absent(input: &Source) -> String {
-    format!("{input} is not there: press a button of the gamepad, or set another input.")
+    words().mix.absent.fill([input])
 }

@@ -5,14 +5,20 @@ use panel_logic::{Field, FieldKind};
 
 use super::Bench;
 
+use crate::language::words;
+
 #[component]
 pub(super) fn FieldView(bench: Bench, field: Field) -> impl IntoView {
     let kind = Memo::new(move |_| {
         bench
             .draft
-            .with(|draft| draft.as_ref().map(|draft| field.kind(draft.profile())))
+            .with(|draft| draft.as_ref().map(|draft| field.kind(words(), draft.profile())))
     });
-    let problem = Memo::new(move |_| bench.of_draft(|draft| draft.problem_of(field)));
+    let problem = Memo::new(move |_| {
+        bench
+            .of_draft(|draft| draft.problem_of(field))
+            .map(|problem| problem.text(words()))
+    });
     let problem_id = format!("{}-problem", field.id());
     let control = move || match kind.get() {
         None => ().into_any(),
@@ -30,7 +36,7 @@ pub(super) fn FieldView(bench: Bench, field: Field) -> impl IntoView {
     };
     view! {
         <div class="mix-field" class:wrong=move || problem.with(Option::is_some)>
-            <label for=field.id()>{field.label()}</label>
+            <label for=field.id()>{field.label(words())}</label>
             {control}
             <p class="problem" id=problem_id role="alert">{move || problem.get()}</p>
         </div>
@@ -117,11 +123,11 @@ fn SetButton(bench: Bench, field: Field) -> impl IntoView {
             type="button"
             class="small"
             id=format!("{}-set", field.id())
-            aria-label="Set: take the input that is moved next"
+            aria-label=words().mix.set_long
             aria-pressed=move || if waits() { "true" } else { "false" }
             on:click=move |_| bench.toggle_learning(field)
         >
-            {move || if waits() { "Move it …" } else { "Set" }}
+            {move || if waits() { words().mix.move_it } else { words().mix.set }}
         </button>
     }
 }

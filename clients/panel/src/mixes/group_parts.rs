@@ -5,6 +5,8 @@ use panel_logic::Group;
 
 use super::Bench;
 
+use crate::language::words;
+
 /// The head of a group, which unfolds it.
 #[component]
 pub(super) fn Unfold(
@@ -36,7 +38,7 @@ pub(super) fn GroupTools(bench: Bench, group: Group, is_first: bool, remove: &'s
                 aria-disabled=if is_first { "true" } else { "false" }
                 on:click=move |_| bench.rearrange(|draft| draft.move_up(group))
             >
-                "Move up"
+                {words().mix.move_up}
             </button>
             <button type="button" class="small" on:click=move |_| bench.remove(group)>{remove}</button>
         </div>

@@ -1,12 +1,14 @@
 //! Calibrated inputs of the mix.
 
 use leptos::prelude::*;
-use panel_logic::{CalibrationRun, Field, Group, InputPart};
+use panel_logic::{Field, Group, InputPart};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
 use super::group_parts::Unfold;
 use super::{Bench, group_problem};
+
+use crate::language::words;
 
 #[component]
 pub(super) fn Inputs(bench: Bench) -> impl IntoView {
@@ -18,7 +20,7 @@ pub(super) fn Inputs(bench: Bench) -> impl IntoView {
                 <InputView bench input />
             </For>
         </ol>
-        <button type="button" class="small" id="add-input" on:click=add>"Add an input"</button>
+        <button type="button" class="small" id="add-input" on:click=add>{words().mix.add_input}</button>
     }
 }
 
@@ -47,7 +49,7 @@ fn InputView(bench: Bench, input: usize) -> impl IntoView {
             </Unfold>
             {group_problem(bench, group)}
             <Show when=move || open.get()>
-                <Bar label="Reading" value />
+                <Bar label=words().mix.reading value />
                 <CalibrateButton bench input />
                 <div class="mix-fields">
                     {InputPart::ALL
@@ -55,7 +57,7 @@ fn InputView(bench: Bench, input: usize) -> impl IntoView {
                         .collect_view()}
                 </div>
                 <button type="button" class="small" on:click=move |_| bench.remove(group)>
-                    "Read this input as it is"
+                    {words().mix.read_as_is}
                 </button>
             </Show>
         </li>
@@ -68,7 +70,7 @@ fn CalibrateButton(bench: Bench, input: usize) -> impl IntoView {
         bench.run.with(|run| {
             run.as_ref()
                 .filter(|run| run.place == input)
-                .map(CalibrationRun::text)
+                .map(|run| run.text(words()))
         })
     };
     view! {
@@ -79,7 +81,7 @@ fn CalibrateButton(bench: Bench, input: usize) -> impl IntoView {
                 id=format!("calibrate-{input}")
                 on:click=move |_| bench.toggle_calibration(input)
             >
-                {move || if own().is_some() { "Take these ends" } else { "Let go of it, then calibrate" }}
+                {move || if own().is_some() { words().mix.take_ends } else { words().mix.calibrate }}
             </button>
         </div>
         <p class="hint" role="status">{own}</p>

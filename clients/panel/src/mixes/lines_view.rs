@@ -8,6 +8,8 @@ use super::field_view::FieldView;
 use super::group_parts::{GroupTools, Unfold};
 use super::{Bench, group_problem};
 
+use crate::language::words;
+
 #[component]
 pub(super) fn Lines(bench: Bench, output: usize) -> impl IntoView {
     let count = Memo::new(move |_| {
@@ -16,14 +18,14 @@ pub(super) fn Lines(bench: Bench, output: usize) -> impl IntoView {
             outputs.get(output).map_or(0, |output| output.lines.len())
         })
     });
-    let add = move |_| bench.rearrange(|draft| draft.add_line(output).unwrap_or_default());
+    let add = move |_| bench.rearrange(|draft| draft.add_line(words(), output).unwrap_or_default());
     view! {
         <ol class="lines">
             <For each=move || 0..count.get() key=|line| *line let:line>
                 <LineView bench output line />
             </For>
         </ol>
-        <button type="button" class="small" id=format!("add-line-{output}") on:click=add>"Add a line"</button>
+        <button type="button" class="small" id=format!("add-line-{output}") on:click=add>{words().mix.add_line}</button>
     }
 }
 
@@ -45,13 +47,13 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Stages bench output line />
-                <Bar label="So far" value=total />
+                <Bar label=words().mix.so_far value=total />
                 <div class="mix-fields">
                     {LinePart::ALL
                         .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })
                         .collect_view()}
                 </div>
-                <GroupTools bench group is_first=line == 0 remove="Remove this line" />
+                <GroupTools bench group is_first=line == 0 remove=words().mix.remove_line />
             </Show>
         </li>
     }
@@ -62,9 +64,9 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
 fn Stages(bench: Bench, output: usize, line: usize) -> impl IntoView {
     let stages = move || bench.stages(output, line);
     view! {
-        <Bar label="Input" value=Signal::derive(move || stages().and_then(|stages| stages.input)) />
-        <Bar label="Shaped" value=Signal::derive(move || stages().map(|stages| stages.shaped)) />
-        <Bar label="Weighted" value=Signal::derive(move || stages().map(|stages| stages.weighted)) />
-        <Bar label="After slow" value=Signal::derive(move || stages().map(|stages| stages.slowed)) />
+        <Bar label=words().mix.input value=Signal::derive(move || stages().and_then(|stages| stages.input)) />
+        <Bar label=words().mix.shaped value=Signal::derive(move || stages().map(|stages| stages.shaped)) />
+        <Bar label=words().mix.weighted value=Signal::derive(move || stages().map(|stages| stages.weighted)) />
+        <Bar label=words().mix.after_slow value=Signal::derive(move || stages().map(|stages| stages.slowed)) />
     }
 }

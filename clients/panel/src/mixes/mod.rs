@@ -15,6 +15,7 @@ use leptos::prelude::*;
 use mixer::MixState;
 use panel_logic::{Field, Group};
 
+use crate::language::words;
 use crate::store::Store;
 use field_view::FieldView;
 use inputs_view::Inputs;
@@ -30,21 +31,19 @@ pub(crate) fn MixEditor(store: Store) -> impl IntoView {
     listen_to_keys(bench);
     let state = move || match bench.live.with(|live| live.as_ref().map(|mixed| mixed.state)) {
         Some(MixState::Live) => "",
-        Some(MixState::Failsafe) => {
-            "The mix waits until every input is at rest: outputs give their failsafe."
-        }
-        None => "The bars stand until what is wrong is corrected.",
+        Some(MixState::Failsafe) => words().mix.failsafe_state,
+        None => words().mix.stands,
     };
     view! {
-        <section class="mixes" id="mixes" aria-label="Editor of control mixes">
+        <section class="mixes" id="mixes" aria-label=words().mix.editor>
             <Tools store />
             <FieldView bench field=Field::MixName />
             <p class="hint" role="status" id="mix-state">{state}</p>
-            <h3>"Outputs"</h3>
+            <h3>{words().mix.outputs}</h3>
             <Outputs bench />
-            <h3>"Switches"</h3>
+            <h3>{words().mix.switches}</h3>
             <Switches bench />
-            <h3>"Calibrated inputs"</h3>
+            <h3>{words().mix.inputs}</h3>
             <Inputs bench />
             <SaveBar store />
         </section>
@@ -73,7 +72,11 @@ fn listen_to_keys(bench: Bench) {
 
 /// What is wrong with a group as a whole.
 fn group_problem(bench: Bench, group: Group) -> impl IntoView {
-    let problem = Memo::new(move |_| bench.of_draft(|draft| draft.problem_with(group)));
+    let problem = Memo::new(move |_| {
+        bench
+            .of_draft(|draft| draft.problem_with(group))
+            .map(|problem| problem.text(words()))
+    });
     view! {
         <Show when=move || problem.with(Option::is_some)>
             <p class="problem" role="alert">{move || problem.get()}</p>

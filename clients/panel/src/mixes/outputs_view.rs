@@ -10,6 +10,8 @@ use super::group_parts::Unfold;
 use super::lines_view::Lines;
 use super::{Bench, group_problem};
 
+use crate::language::words;
+
 #[component]
 pub(super) fn Outputs(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().outputs.len()));
@@ -21,7 +23,7 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
             bench.rearrange(|draft| draft.add_output(name));
         }
     };
-    let option = |name: OutputName| view! { <option value=name.name()>{words(name.name())}</option> };
+    let option = |name: OutputName| view! { <option value=name.name()>{output_text(name)}</option> };
     view! {
         <ol class="outputs">
             <For each=move || 0..count.get() key=|output| *output let:output>
@@ -30,9 +32,9 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
         </ol>
         <Show when=move || !free.with(Vec::is_empty)>
             <label class="field">
-                "Add an output"
+                {words().mix.add_output}
                 <select id="add-output" on:change=add>
-                    <option value="">"Which?"</option>
+                    <option value="">{words().mix.which}</option>
                     {move || free.get().into_iter().map(option).collect_view()}
                 </select>
             </label>
@@ -41,8 +43,21 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
 }
 
 /// The name of an output as people write it.
-fn words(name: &'static str) -> String {
-    name.replace('-', " ")
+fn output_text(name: OutputName) -> &'static str {
+    let told = &words().mix;
+    match name {
+        OutputName::Forward => told.forward,
+        OutputName::Turn => told.turn,
+        OutputName::LeftWheel => told.left_wheel,
+        OutputName::RightWheel => told.right_wheel,
+        OutputName::Suction => told.suction,
+        OutputName::MainBrush => told.main_brush,
+        OutputName::SideBrushes => told.side_brushes,
+        OutputName::Start => told.start,
+        OutputName::Stop => told.stop,
+        OutputName::Spot => told.spot,
+        OutputName::Dock => told.dock,
+    }
 }
 
 #[component]
@@ -51,17 +66,17 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
     let name = Memo::new(move |_| {
         bench.of_draft(|draft| {
             let outputs = &draft.profile().outputs;
-            outputs.get(output).map(|output| output.output.name())
+            outputs.get(output).map(|output| output.output)
         })
     });
     let value = Signal::derive(move || bench.mixed_output(output, |output| Some(output.value)));
     let group = Group::Output(output);
     view! {
-        <li class="output" data-output=move || name.get().unwrap_or_default()>
+        <li class="output" data-output=move || name.get().map(OutputName::name)>
             <Unfold open>
-                <span class="name">{move || name.get().map(words)}</span>
+                <span class="name">{move || name.get().map(output_text)}</span>
             </Unfold>
-            <Bar label="Output" value />
+            <Bar label=words().mix.output value />
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Lines bench output />
@@ -70,7 +85,7 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
                         .map(|part| view! { <FieldView bench field=Field::Output(output, part) /> })
                         .collect_view()}
                 </div>
-                <button type="button" class="small" on:click=move |_| bench.remove(group)>"Remove this output"</button>
+                <button type="button" class="small" on:click=move |_| bench.remove(group)>{words().mix.remove_output}</button>
             </Show>
         </li>
     }

@@ -7,17 +7,19 @@ use super::field_view::FieldView;
 use super::group_parts::GroupTools;
 use super::{Bench, group_problem};
 
+use crate::language::words;
+
 #[component]
 pub(super) fn Switches(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().switches.len()));
-    let add = move |_| bench.rearrange(|draft| draft.add_switch().unwrap_or_default());
+    let add = move |_| bench.rearrange(|draft| draft.add_switch(words()).unwrap_or_default());
     view! {
         <ol class="switches">
             <For each=move || 0..count.get() key=|switch| *switch let:switch>
                 <SwitchView bench switch />
             </For>
         </ol>
-        <button type="button" class="small" id="add-switch" on:click=add>"Add a switch"</button>
+        <button type="button" class="small" id="add-switch" on:click=add>{words().mix.add_switch}</button>
     }
 }
 
@@ -42,7 +44,7 @@ fn SwitchView(bench: Bench, switch: usize) -> impl IntoView {
     view! {
         <li>
             <p class="switch-state" class:on=move || is_on.get()>
-                {move || if is_on.get() { "On now" } else { "Off now" }}
+                {move || if is_on.get() { words().mix.on_now } else { words().mix.off_now }}
             </p>
             {group_problem(bench, group)}
             <div class="mix-fields">
@@ -50,7 +52,7 @@ fn SwitchView(bench: Bench, switch: usize) -> impl IntoView {
                     <FieldView bench field=Field::Switch(switch, part) />
                 </For>
             </div>
-            <GroupTools bench group is_first=switch == 0 remove="Remove this switch" />
+            <GroupTools bench group is_first=switch == 0 remove=words().mix.remove_switch />
         </li>
     }
 }

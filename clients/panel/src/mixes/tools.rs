@@ -2,13 +2,14 @@
 
 use leptos::prelude::*;
 use mixer::{PROFILE_BYTES_MAX, Profile, ProfileError, standard_profile};
-use panel_logic::MixDraft;
+use panel_logic::{MixDraft, profile_problem_text};
 use rvac_api::RequestBody;
 use wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{File, HtmlInputElement};
 
 use super::Bench;
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -39,24 +40,24 @@ pub(super) fn Tools(store: Store) -> impl IntoView {
         }
     };
     let new = move |_| {
-        if let Ok(draft) = MixDraft::empty(&kept.get_untracked()) {
+        if let Ok(draft) = MixDraft::empty(words(), &kept.get_untracked()) {
             bench.load(draft);
         }
     };
     view! {
         <label class="field">
-            "Mix to edit"
+            {words().mix.to_edit}
             <select id="mix-to-edit" disabled=move || is_changed.get() on:change=choose>
-                <option value="">"A copy of the standard one"</option>
+                <option value="">{words().mix.copy_of_standard}</option>
                 {move || kept.get().into_iter().map(option).collect_view()}
             </select>
         </label>
         <Show when=move || is_changed.get()>
-            <p class="hint">"Save or revert before another mix is taken."</p>
+            <p class="hint">{words().mix.save_first}</p>
         </Show>
         <div class="mix-tools">
-            <button type="button" class="small" id="mix-new" disabled=move || is_changed.get() on:click=new>"New"</button>
-            <button type="button" class="small" id="mix-copy" disabled=move || is_changed.get() on:click=copy>"Copy"</button>
+            <button type="button" class="small" id="mix-new" disabled=move || is_changed.get() on:click=new>{words().mix.new}</button>
+            <button type="button" class="small" id="mix-copy" disabled=move || is_changed.get() on:click=copy>{words().mix.copy}</button>
             <DeleteButton store />
             <ImportButton bench is_changed />
             <ExportLink bench />
@@ -68,7 +69,7 @@ pub(super) fn Tools(store: Store) -> impl IntoView {
 }
 
 fn load_copy(store: Store, profile: &Profile) {
-    if let Ok(draft) = MixDraft::copy_of(profile, &store.seat.kept.get_untracked()) {
+    if let Ok(draft) = MixDraft::copy_of(words(), profile, &store.seat.kept.get_untracked()) {
         store.bench.load(draft);
     }
 }
@@ -87,16 +88,14 @@ fn DeleteButton(store: Store) -> impl IntoView {
     });
     let remove = move |_| {
         let name = name.get_untracked();
-        bench.remark.set(Some(format!(
-            "{name} is removed from the robot; Save keeps it again."
-        )));
+        bench.remark.set(Some(words().mix.removed.fill([&name])));
         store.ask(RequestBody::RemoveMix { name });
         store.ask_quietly(RequestBody::Mixes);
         bench.change(MixDraft::on_removed);
     };
     view! {
         <Show when=move || is_kept.get()>
-            <button type="button" class="small" id="mix-delete" on:click=remove>"Delete"</button>
+            <button type="button" class="small" id="mix-delete" on:click=remove>{words().mix.delete}</button>
         </Show>
     }
 }
@@ -122,7 +121,7 @@ fn ImportButton(bench: Bench, is_changed: Memo<bool>) -> impl IntoView {
         field.set_value("");
     };
     view! {
-        <button type="button" class="small" id="mix-import" disabled=move || is_changed.get() on:click=open>"Import"</button>
+        <button type="button" class="small" id="mix-import" disabled=move || is_changed.get() on:click=open>{words().mix.import}</button>
         <input
             node_ref=field
             type="file"
@@ -130,7 +129,7 @@ fn ImportButton(bench: Bench, is_changed: Memo<bool>) -> impl IntoView {
             accept="application/json,.json"
             class="visually-hidden"
             tabindex="-1"
-            aria-label="File of a control mix"
+            aria-label=words().mix.file
             on:change=read
         />
     }
@@ -138,12 +137,14 @@ fn ImportButton(bench: Bench, is_changed: Memo<bool>) -> impl IntoView {
 
 async fn import(bench: Bench, file: &File) {
     let outcome = match read_text(file).await {
-        Ok(text) => MixDraft::import(&text).map_err(|error| error.to_string()),
+        Ok(text) => MixDraft::import(&text).map_err(|error| profile_problem_text(words(), &error)),
         Err(sentence) => Err(sentence),
     };
     match outcome {
         Ok(draft) => bench.load(draft),
-        Err(sentence) => bench.remark.set(Some(format!("{}: {sentence}.", file.name()))),
+        Err(sentence) => bench
+            .remark
+            .set(Some(words().mix.of_file.fill([&file.name(), &sentence]))),
     }
 }
 
@@ -151,11 +152,11 @@ async fn read_text(file: &File) -> Result<String, String> {
     // What is far too large is not even read.
     let bytes = file.size() as usize;
     if bytes > 8 * PROFILE_BYTES_MAX {
-        return Err(ProfileError::TooLarge { bytes }.to_string());
+        return Err(profile_problem_text(words(), &ProfileError::TooLarge { bytes }));
     }
     let text = JsFuture::from(file.text()).await;
     let text = text.ok().and_then(|text| text.as_string());
-    text.ok_or_else(|| "the browser cannot read the file: choose it again".to_owned())
+    text.ok_or_else(|| words().mix.unreadable.to_owned())
 }
 
 #[component]
@@ -166,13 +167,17 @@ fn ExportLink(bench: Bench) -> impl IntoView {
         let text: String = js_sys::encode_uri_component(&text).into();
         format!("data:application/json;charset=utf-8,{text}")
     };
-    view! { <a class="small link" id="mix-export" download=name href=address>"Export"</a> }
+    view! { <a class="small link" id="mix-export" download=name href=address>{words().mix.export}</a> }
 }
 
 #[component]
 pub(super) fn SaveBar(store: Store) -> impl IntoView {
     let bench = store.bench;
-    let problem = Memo::new(move |_| bench.of_draft(MixDraft::problem));
+    let problem = Memo::new(move |_| {
+        bench
+            .of_draft(MixDraft::problem)
+            .map(|problem| problem.text(words()))
+    });
     let can_save = Memo::new(move |_| problem.with(Option::is_none) && bench.of_draft(MixDraft::is_unsaved));
     let is_changed = Memo::new(move |_| bench.of_draft(MixDraft::is_changed));
     view! {
@@ -186,7 +191,7 @@ pub(super) fn SaveBar(store: Store) -> impl IntoView {
                     disabled=move || !can_save.get()
                     on:click=move |_| store.save_mix()
                 >
-                    "Save to the robot"
+                    {words().mix.save_to_robot}
                 </button>
                 <button
                     type="button"
@@ -195,7 +200,7 @@ pub(super) fn SaveBar(store: Store) -> impl IntoView {
                     disabled=move || !is_changed.get()
                     on:click=move |_| bench.rearrange(MixDraft::revert)
                 >
-                    "Revert"
+                    {words().mix.revert}
                 </button>
             </div>
         </div>

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use panel_logic::{PASSES_MAX, ScheduleForm, day_text};
 use rvac_api::Weekday;
 
+use crate::language::words;
 use crate::store::Store;
 
 type Form = RwSignal<Option<ScheduleForm>>;
@@ -57,9 +58,9 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
             on:input=move |_| desk.wrong.set(None)
             on:submit=save
         >
-            <h3 id="form-title">{move || if is_new.get() { "New schedule" } else { "Change the schedule" }}</h3>
+            <h3 id="form-title">{move || if is_new.get() { words().schedule.new } else { words().schedule.change }}</h3>
             <label class="field">
-                "Name"
+                {words().schedule.name}
                 <input
                     id="schedule-name"
                     maxlength="40"
@@ -69,7 +70,7 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                 />
             </label>
             <label class="field">
-                "Time"
+                {words().schedule.time}
                 <input
                     id="schedule-at"
                     type="time"
@@ -84,11 +85,11 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                     prop:checked=is_once
                     on:change=check(form, |form, checked| form.is_once = checked)
                 />
-                "On one day only"
+                {words().schedule.once}
             </label>
             <Show when=move || is_once.get() fallback=move || view! { <Days store /> }>
                 <label class="field">
-                    "Date"
+                    {words().schedule.date}
                     <input
                         id="schedule-date"
                         type="date"
@@ -101,8 +102,8 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
             <Terms store />
             <p role="alert" id="schedule-wrong" class="wrong">{move || desk.wrong.get()}</p>
             <div class="order-tools">
-                <button type="submit" class="small strong" id="save-schedule">"Save"</button>
-                <button type="button" class="small" id="cancel-schedule" on:click=move |_| form.set(None)>"Cancel"</button>
+                <button type="submit" class="small strong" id="save-schedule">{words().frame.save}</button>
+                <button type="button" class="small" id="cancel-schedule" on:click=move |_| form.set(None)>{words().frame.cancel}</button>
             </div>
         </form>
     }
@@ -116,16 +117,16 @@ fn Days(store: Store) -> impl IntoView {
         view! {
             <button
                 type="button"
-                id=format!("day-{}", day_text(day).to_lowercase())
+                id=format!("day-{day:?}").to_lowercase()
                 aria-pressed=move || if chosen() { "true" } else { "false" }
                 on:click=move |_| form.update(|form| if let Some(form) = form { form.toggle_day(day) })
             >
-                {day_text(day)}
+                {day_text(words(), day)}
             </button>
         }
     };
     view! {
-        <div class="passes days" role="group" aria-label="Days of the week">
+        <div class="passes days" role="group" aria-label=words().schedule.days>
             {Weekday::ALL.map(button).into_iter().collect_view()}
         </div>
     }
@@ -137,9 +138,9 @@ fn Rooms(store: Store) -> impl IntoView {
     let place = move |id: u16| form.with(|form| form.as_ref().is_some_and(|form| form.rooms.contains(&id)));
     view! {
         <fieldset class="rooms">
-            <legend>"Rooms; none for the whole home"</legend>
+            <legend>{words().schedule.rooms}</legend>
             <Show when=move || store.rooms.with(Vec::is_empty)>
-                <p class="hint">"No room is known yet."</p>
+                <p class="hint">{words().schedule.no_rooms}</p>
             </Show>
             <For each=move || store.rooms.get() key=|row| (row.id, row.name.clone()) let:row>
                 <label class="check">
@@ -161,7 +162,7 @@ fn Terms(store: Store) -> impl IntoView {
     let form = store.schedules.form;
     view! {
         <label class="field">
-            "Passes over each room"
+            {words().schedule.passes}
             <select id="schedule-passes" on:change=write(form, |form, typed| form.passes = typed.parse().unwrap_or(1))>
                 {(1..=PASSES_MAX).map(|passes| {
                     let chosen = move || form.with(|form| form.as_ref().is_some_and(|form| form.passes == passes));
@@ -170,7 +171,7 @@ fn Terms(store: Store) -> impl IntoView {
             </select>
         </label>
         <label class="field">
-            "Minutes that it may start late, if the robot was off at its time"
+            {words().schedule.late}
             <input
                 id="schedule-late"
                 type="number"
@@ -187,7 +188,7 @@ fn Terms(store: Store) -> impl IntoView {
                 prop:checked=is(form, |form| form.waits)
                 on:change=check(form, |form, checked| form.waits = checked)
             />
-            "In the quiet hours wait for their end"
+            {words().schedule.waits}
         </label>
     }
 }

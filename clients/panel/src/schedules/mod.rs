@@ -4,9 +4,12 @@ mod form;
 mod quiet;
 
 use leptos::prelude::*;
-use panel_logic::{ScheduleForm, ScheduleRow, next_rows, past_rows, schedule_rows, zone_text};
+use panel_logic::{
+    ScheduleForm, ScheduleRow, Told, next_rows, past_rows, refusal_text, schedule_rows, zone_text,
+};
 use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
+use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
 use form::FormView;
 use quiet::QuietView;
@@ -46,7 +49,8 @@ impl ScheduleDesk {
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(SCHEDULE_ID);
         if is_ours {
-            self.wrong.set(Some(failure.text.clone()));
+            self.wrong
+                .set(Some(refusal_text(words(), &failure.reason, &failure.text)));
         }
         is_ours
     }
@@ -73,26 +77,26 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     let rows = Memo::new(move |_| {
         store
             .rooms
-            .with(|rooms| desk.with(|known| schedule_rows(known, rooms)))
+            .with(|rooms| desk.with(|known| schedule_rows(words(), known, rooms)))
     });
     view! {
         <div class="home" id="schedule-sheet">
-            <p class="hint" id="schedule-zone">{move || desk.known.with(|known| known.as_ref().map(zone_text))}</p>
-            <h3 id="schedules-title">"Schedules"</h3>
+            <p class="hint" id="schedule-zone">{move || desk.known.with(|known| known.as_ref().map(|known| zone_text(words(), known)))}</p>
+            <h3 id="schedules-title">{words().schedule.schedules}</h3>
             <ul id="schedules" class="rows schedules" aria-labelledby="schedules-title">
                 <For each=move || rows.get() key=|row| row.number let:row>
                     <Entry store number=row.number rows />
                 </For>
             </ul>
             <Show when=move || rows.with(Vec::is_empty)>
-                <p class="hint">"Nothing starts by itself."</p>
+                <p class="hint">{words().schedule.none}</p>
             </Show>
             <Show
                 when=move || desk.form.with(Option::is_some)
                 fallback=move || view! {
                     <div class="draw-tools">
                         <button type="button" class="small strong" id="add-schedule" on:click=move |_| desk.open(ScheduleForm::default())>
-                            "Add a schedule"
+                            {words().schedule.add}
                         </button>
                     </div>
                 }
@@ -100,8 +104,8 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
                 <FormView store />
             </Show>
             <QuietView store />
-            {list(("next-runs", "Next runs", "No run is to come."), move || desk.with(next_rows))}
-            {list(("past-runs", "Past runs", "No run was decided yet."), move || desk.with(past_rows))}
+            {list(("next-runs", words().schedule.next_runs, words().schedule.no_next), move || desk.with(|known| next_rows(words(), known)))}
+            {list(("past-runs", words().schedule.past_runs, words().schedule.no_past), move || desk.with(|known| past_rows(words(), known)))}
         </div>
     }
 }
@@ -131,8 +135,7 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
     };
     let is = move |part: fn(&ScheduleRow) -> bool| move || row.with(|row| row.as_ref().is_some_and(part));
     let (enabled, skips) = (is(|row| row.enabled), is(|row| row.skips));
-    let labelled =
-        move |what: &'static str| move || format!("{what} {}", text(|row| &row.name)().unwrap_or_default());
+    let labelled = move |what: Told<1>| move || what.fill([&text(|row| &row.name)().unwrap_or_default()]);
     let skip = move |_| {
         let skip = !row.with_untracked(|row| row.as_ref().is_some_and(|row| row.skips));
         store.ask(RequestBody::SkipNext { number, skip });
@@ -161,32 +164,32 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
                     type="button"
                     class="small choose"
                     id=format!("skip-{number}")
-                    aria-label=labelled("Skip the next run of")
+                    aria-label=labelled(words().schedule.skip_named)
                     aria-pressed=move || if skips() { "true" } else { "false" }
                     on:click=skip
                 >
-                    "Skip next"
+                    {words().schedule.skip}
                 </button>
                 <button
                     type="button"
                     class="small"
                     id=format!("run-{number}")
-                    aria-label=labelled("Run now:")
+                    aria-label=labelled(words().schedule.run_named)
                     on:click=move |_| store.ask(RequestBody::RunSchedule { number })
                 >
-                    "Run now"
+                    {words().schedule.run}
                 </button>
-                <button type="button" class="small" id=format!("edit-{number}") aria-label=labelled("Edit") on:click=edit>
-                    "Edit"
+                <button type="button" class="small" id=format!("edit-{number}") aria-label=labelled(words().schedule.edit_named) on:click=edit>
+                    {words().schedule.edit}
                 </button>
                 <button
                     type="button"
                     class="small"
                     id=format!("remove-{number}")
-                    aria-label=labelled("Remove")
+                    aria-label=labelled(words().schedule.remove_named)
                     on:click=move |_| store.ask(RequestBody::RemoveSchedule { number })
                 >
-                    "Remove"
+                    {words().frame.remove}
                 </button>
             </div>
         </li>
@@ -199,7 +202,7 @@ impl Store {
         let request = self
             .schedules
             .form
-            .with_untracked(|form| form.as_ref().map(ScheduleForm::request));
+            .with_untracked(|form| form.as_ref().map(|form| form.request(words())));
         match request {
             Some(Ok(body)) => self.ask_as(SCHEDULE_ID, body),
             Some(Err(missing)) => self.schedules.wrong.set(Some(missing.to_owned())),

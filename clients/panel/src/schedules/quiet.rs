@@ -4,6 +4,7 @@ use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 use rvac_api::{QuietHours, RequestBody};
 
+use crate::language::words;
 use crate::store::Store;
 
 #[component]
@@ -20,9 +21,9 @@ pub(super) fn QuietView(store: Store) -> impl IntoView {
             to.set(quiet.to);
         }
     });
-    let words = move || match known.get() {
-        Some(QuietHours { from, to }) => format!("Nothing starts by itself from {from} to {to}."),
-        None => "There are none.".to_owned(),
+    let told = move || match known.get() {
+        Some(QuietHours { from, to }) => words().schedule.quiet_are.fill([&from, &to]),
+        None => words().schedule.quiet_none.to_owned(),
     };
     let set = move |event: SubmitEvent| {
         event.prevent_default();
@@ -46,19 +47,19 @@ pub(super) fn QuietView(store: Store) -> impl IntoView {
         }
     };
     view! {
-        <h3 id="quiet-title">"Quiet hours"</h3>
-        <p class="hint" id="quiet-words">{words}</p>
+        <h3 id="quiet-title">{words().schedule.quiet}</h3>
+        <p class="hint" id="quiet-words">{told}</p>
         <form class="order-tools quiet" aria-labelledby="quiet-title" on:submit=set>
-            {time("quiet-from", "From", from)}
-            {time("quiet-to", "To", to)}
-            <button type="submit" class="small" id="set-quiet">"Set"</button>
+            {time("quiet-from", words().schedule.from, from)}
+            {time("quiet-to", words().schedule.to, to)}
+            <button type="submit" class="small" id="set-quiet">{words().schedule.set}</button>
             <button
                 type="button"
                 class="small"
                 id="no-quiet"
                 on:click=move |_| store.ask(RequestBody::SetQuiet { quiet: None })
             >
-                "None"
+                {words().schedule.no_quiet}
             </button>
         </form>
     }

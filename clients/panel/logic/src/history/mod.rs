@@ -8,4 +8,4 @@ mod rows;
 pub use picture::{RunDrawing, run_drawing};
 pub use plots::{Plot, plots};
 pub use replay::Replay;
-pub use rows::{RunRow, StopRow, run_figures, run_rows, stop_rows};
+pub use rows::{RunRow, StopRow, room_here_text, run_figures, run_rows, stop_rows};

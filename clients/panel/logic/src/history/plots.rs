@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use rvac_api::{RunTrack, TrackReading};
 
+use crate::words::Words;
+
 /// Width and height of a plot in its own units.
 const WIDTH: f64 = 300.0;
 const HEIGHT: f64 = 60.0;
@@ -25,24 +27,28 @@ type Reading = fn(&TrackReading) -> Option<f32>;
 
 /// The plots of a run that lasted `end_s`; only of what was measured.
 #[must_use]
-pub fn plots(track: &RunTrack, end_s: f64) -> Vec<Plot> {
-    let battery: [(&str, Reading); 1] = [("Charge", |reading| reading.charge.map(|charge| 100.0 * charge))];
-    let battery_a: [(&str, Reading); 1] = [("Battery", |reading| reading.battery_a)];
+pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
+    let told = &words.history;
+    let battery: [(&str, Reading); 1] =
+        [(told.charge, |reading| reading.charge.map(|charge| 100.0 * charge))];
+    let battery_a: [(&str, Reading); 1] = [(told.battery, |reading| reading.battery_a)];
     let motors: [(&str, Reading); 3] = [
-        ("Left wheel", |reading| reading.motors_a.map(|[left, _, _]| left)),
-        ("Right wheel", |reading| {
+        (told.left_wheel, |reading| {
+            reading.motors_a.map(|[left, _, _]| left)
+        }),
+        (told.right_wheel, |reading| {
             reading.motors_a.map(|[_, right, _]| right)
         }),
-        ("Main brush", |reading| {
+        (told.main_brush, |reading| {
             reading.motors_a.map(|[_, _, brush]| brush)
         }),
     ];
-    let link: [(&str, Reading); 1] = [("Bad packets", |reading| Some(100.0 * reading.bad_share))];
+    let link: [(&str, Reading); 1] = [(told.bad_packets, |reading| Some(100.0 * reading.bad_share))];
     [
-        plot("Battery charge in %", &battery, (track, end_s)),
-        plot("Current into the battery in A", &battery_a, (track, end_s)),
-        plot("Currents of the motors in A", &motors, (track, end_s)),
-        plot("Bad packets on the cable in %", &link, (track, end_s)),
+        plot(words, (told.plot_charge, &battery), (track, end_s)),
+        plot(words, (told.plot_battery, &battery_a), (track, end_s)),
+        plot(words, (told.plot_motors, &motors), (track, end_s)),
+        plot(words, (told.plot_link, &link), (track, end_s)),
     ]
     .into_iter()
     .flatten()
@@ -50,8 +56,8 @@ pub fn plots(track: &RunTrack, end_s: f64) -> Vec<Plot> {
 }
 
 fn plot(
-    title: &'static str,
-    lines: &[(&'static str, Reading)],
+    words: &Words,
+    (title, lines): (&'static str, &[(&'static str, Reading)]),
     (track, end_s): (&RunTrack, f64),
 ) -> Option<Plot> {
     let values = |reading: Reading| {
@@ -94,8 +100,8 @@ fn plot(
             .iter()
             .map(|(name, reading)| (*name, path(*reading)))
             .collect(),
-        low: format!("{low:.1}"),
-        high: format!("{high:.1}"),
+        low: words.number(low, 1),
+        high: words.number(high, 1),
     })
 }
 
@@ -104,6 +110,9 @@ mod tests {
     use rvac_api::{RunTrack, TrackReading};
 
     use super::plots;
+    use crate::words::{Language, Words};
+
+    const ENGLISH: &Words = Language::English.words();
 
     #[test]
     fn only_what_was_measured_has_a_plot() {
@@ -121,12 +130,12 @@ mod tests {
             ],
             ..RunTrack::default()
         };
-        let plots = plots(&track, 100.0);
+        let plots = plots(ENGLISH, &track, 100.0);
         let titles: Vec<&str> = plots.iter().map(|plot| plot.title).collect();
         assert_eq!(titles, ["Battery charge in %", "Bad packets on the cable in %"]);
         assert_eq!(plots[0].lines, [("Charge", "M0.0 0.0L300.0 60.0".to_owned())]);
         assert_eq!((plots[0].low.as_str(), plots[0].high.as_str()), ("70.0", "90.0"));
         assert_eq!(plots[1].lines[0].1, "M0.0 30.0L150.0 30.0L300.0 30.0");
-        assert!(super::plots(&RunTrack::default(), 5.0).is_empty());
+        assert!(super::plots(ENGLISH, &RunTrack::default(), 5.0).is_empty());
     }
 }

@@ -1,8 +1,10 @@
 //! Runs and their stops for people who read.
 
-use rvac_api::{Run, RunAsker, RunJob, RunRecord, RunResult, RunStop};
+use rvac_api::{RoomHere, Run, RunAsker, RunJob, RunRecord, RunResult, RunStop};
 
+use crate::codes::{run_text, stop_cause_text};
 use crate::figures::{area_text, clock_text, distance_text, percent_text};
+use crate::words::Words;
 
 /// A run in a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,92 +23,91 @@ pub struct RunRow {
 
 /// The runs, newest first.
 #[must_use]
-pub fn run_rows(runs: &[Run]) -> Vec<RunRow> {
-    runs.iter().map(row).collect()
+pub fn run_rows(words: &Words, runs: &[Run]) -> Vec<RunRow> {
+    runs.iter().map(|run| row(words, run)).collect()
 }
 
-fn row(run: &Run) -> RunRow {
-    let mut figures = vec![job_text(&run.job), clock_text(run.duration_s)];
+fn row(words: &Words, run: &Run) -> RunRow {
+    let mut figures = vec![job_text(words, &run.job), clock_text(run.duration_s)];
     if run.swept_m2 > 0.0 {
-        figures.push(area_text(run.swept_m2));
+        figures.push(area_text(words, run.swept_m2));
     }
-    figures.extend(charge_text(run));
+    if let (Some(start), Some(end)) = (run.charge_start, run.charge_end) {
+        let (start, end) = (percent_text(words, start), percent_text(words, end));
+        figures.push(words.history.battery_from_to.fill([&start, &end]));
+    }
     RunRow {
         number: run.number,
         start_s: run.start_s,
-        words: run.text.clone(),
+        words: run_text(words, run),
         figures: figures.join(", "),
         is_bad: matches!(run.result, RunResult::GaveUp | RunResult::CutShort),
     }
 }
 
-fn charge_text(run: &Run) -> Option<String> {
-    let (start, end) = (run.charge_start?, run.charge_end?);
-    Some(format!(
-        "battery {} to {}",
-        percent_text(start),
-        percent_text(end)
-    ))
-}
-
-fn job_text(job: &RunJob) -> String {
-    let RunJob::Clean {
-        rooms, zones, passes, ..
-    } = job
-    else {
-        return if *job == RunJob::Spot {
-            "Spot"
-        } else {
-            "To the dock"
-        }
-        .to_owned();
+fn job_text(words: &Words, job: &RunJob) -> String {
+    let told = &words.history;
+    let (rooms, zones, passes) = match job {
+        RunJob::Clean {
+            rooms, zones, passes, ..
+        } => (rooms, zones, passes),
+        RunJob::Spot => return told.spot.to_owned(),
+        RunJob::Dock => return told.to_dock.to_owned(),
     };
-    let mut parts: Vec<String> = rooms.iter().map(rvac_api::RoomHere::title).collect();
+    let mut parts: Vec<String> = rooms.iter().map(|room| room_here_text(words, room)).collect();
     match zones {
         0 => {}
-        1 => parts.push("a zone".to_owned()),
-        count => parts.push(format!("{count} zones")),
+        1 => parts.push(told.a_zone.to_owned()),
+        count => parts.push(told.zones.fill([count])),
     }
     let place = if parts.is_empty() {
-        "All".to_owned()
+        told.everything.to_owned()
     } else {
         parts.join(", ")
     };
     match passes {
         1 => place,
-        times => format!("{place}, {times} times"),
+        times => told.times.fill([&place, times]),
     }
+}
+
+/// What people call the room in which the robot is, else its number.
+#[must_use]
+pub fn room_here_text(words: &Words, room: &RoomHere) -> String {
+    room.name
+        .clone()
+        .unwrap_or_else(|| words.schedule.room.fill([&room.id]))
 }
 
 /// All figures of a run: what they are and what they say.
 #[must_use]
-pub fn run_figures(run: &Run) -> Vec<(&'static str, String)> {
+pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
+    let told = &words.history;
     let asker = match &run.by {
         RunAsker::Client(name) => name.clone(),
-        RunAsker::Button => "Button on the robot".to_owned(),
-        RunAsker::Schedule { name, .. } => format!("Schedule {name}"),
-        RunAsker::Robot => "The robot itself".to_owned(),
+        RunAsker::Button => told.by_button.to_owned(),
+        RunAsker::Schedule { name, .. } => told.by_schedule.fill([name]),
+        RunAsker::Robot => told.by_robot.to_owned(),
     };
     let share = run.share.map_or_else(String::new, |share| {
-        format!(" ({} of that floor)", percent_text(share))
+        told.of_floor.fill([&percent_text(words, share)])
     });
+    let swept = area_text(words, run.swept_m2);
     let mut figures = vec![
-        ("Order", job_text(&run.job)),
-        ("Asked by", asker),
-        ("Time", clock_text(run.duration_s)),
-        ("In motion", clock_text(run.moving_s)),
-        ("Swept", format!("{}{share}", area_text(run.swept_m2))),
-        ("Way", distance_text(run.path_m)),
-        ("Bumps", run.bumps.to_string()),
+        (told.order, job_text(words, &run.job)),
+        (told.asked_by, asker),
+        (told.duration, clock_text(run.duration_s)),
+        (told.in_motion, clock_text(run.moving_s)),
+        (told.swept, format!("{swept}{share}")),
+        (told.way, distance_text(words, run.path_m)),
+        (told.bumps, run.bumps.to_string()),
     ];
     if let (Some(start), Some(end)) = (run.charge_start, run.charge_end) {
-        figures.push((
-            "Battery",
-            format!("{} to {}", percent_text(start), percent_text(end)),
-        ));
+        let (start, end) = (percent_text(words, start), percent_text(words, end));
+        figures.push((told.battery, told.from_to.fill([&start, &end])));
     }
     if let Some(map) = run.map {
-        figures.push(("Map", format!("version {map}")));
+        figures.push((told.map, told.version.fill([&map])));
     }
     figures
 }
@@ -124,25 +125,24 @@ pub struct StopRow {
 
 /// The stops of a run, in order.
 #[must_use]
-pub fn stop_rows(record: &RunRecord) -> Vec<StopRow> {
+pub fn stop_rows(words: &Words, record: &RunRecord) -> Vec<StopRow> {
     let row = |(index, stop): (usize, &RunStop)| StopRow {
         number: index + 1,
         at_s: stop.at_s,
-        words: stop_text(stop),
+        words: stop_text(words, stop),
     };
     record.stops.iter().enumerate().map(row).collect()
 }
 
-fn stop_text(stop: &RunStop) -> String {
+fn stop_text(words: &Words, stop: &RunStop) -> String {
+    let told = &words.history;
     let lasted = match stop.lasted_s {
-        Some(lasted_s) => format!("for {}", clock_text(lasted_s)),
-        None => "until the end".to_owned(),
+        Some(lasted_s) => told.lasted.fill([&clock_text(lasted_s)]),
+        None => told.until_end.to_owned(),
     };
-    let by = stop
-        .by
-        .as_ref()
-        .map_or_else(String::new, |by| format!(" By {by}."));
-    format!("{}{by} At {}, {lasted}.", stop.text, clock_text(stop.at_s))
+    let by = stop.by.as_ref().map_or_else(String::new, |by| told.by.fill([by]));
+    let (cause, at) = (stop_cause_text(words, stop), clock_text(stop.at_s));
+    told.stop.fill([&cause, &by, &at, &lasted])
 }
 
 #[cfg(test)]
@@ -150,6 +150,9 @@ mod tests {
     use rvac_api::RunRecord;
 
     use super::{run_figures, run_rows, stop_rows};
+    use crate::words::{Language, Words};
+
+    const ENGLISH: &Words = Language::English.words();
 
     fn kept() -> RunRecord {
         RunRecord {
@@ -200,7 +203,7 @@ mod tests {
     #[test]
     fn a_run_reads_well() {
         let record = kept();
-        let [row] = run_rows(std::slice::from_ref(&record.run))
+        let [row] = run_rows(ENGLISH, std::slice::from_ref(&record.run))
             .try_into()
             .expect("one");
         assert_eq!(
@@ -208,11 +211,20 @@ mod tests {
             "Köök, a zone, 2 times, 1:05:05, 12.3 m², battery 98 % to 71 %"
         );
         assert!(row.is_bad);
-        let figures = run_figures(&record.run);
+        let figures = run_figures(ENGLISH, &record.run);
         assert!(figures.contains(&("Swept", "12.3 m² (50 % of that floor)".to_owned())));
         assert_eq!(
-            stop_rows(&record)[0].words,
+            stop_rows(ENGLISH, &record)[0].words,
             "Paused: somebody asked for it. By panel. At 1:01, for 0:12."
+        );
+        let estonian = Language::Estonian.words();
+        assert_eq!(
+            run_rows(estonian, std::slice::from_ref(&record.run))[0].words,
+            "Robot andis alla: rattad libisevad."
+        );
+        assert_eq!(
+            stop_rows(estonian, &record)[0].words,
+            "Pausil: keegi palus seda. Andis panel. Ajal 1:01, kestis 0:12."
         );
     }
 }

@@ -7,7 +7,8 @@ use mixer::{
     VERSION,
 };
 
-use super::{CalibrationRun, Field, Group};
+use super::{CalibrationRun, Field, FieldError, Group, MixProblem};
+use crate::words::Words;
 
 /// A mix that is edited.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub struct MixDraft {
     /// The base is what the robot keeps.
     is_kept: bool,
     /// Fields whose text is none, with the reason.
-    wrong: BTreeMap<Field, String>,
+    wrong: BTreeMap<Field, FieldError>,
 }
 
 impl MixDraft {
@@ -46,11 +47,11 @@ impl MixDraft {
     ///
     /// # Errors
     /// Never: the names are names.
-    pub fn empty(kept: &[Profile]) -> Result<Self, NameError> {
+    pub fn empty(words: &Words, kept: &[Profile]) -> Result<Self, NameError> {
         let outputs = [OutputName::Forward, OutputName::Turn, OutputName::Stop];
         Ok(Self::of_new(Profile {
             version: VERSION,
-            name: free_name("New mix", kept)?,
+            name: free_name(words.mix.new_mix, kept)?,
             inputs: Vec::new(),
             switches: Vec::new(),
             outputs: outputs.map(Output::new).into(),
@@ -61,9 +62,9 @@ impl MixDraft {
     ///
     /// # Errors
     /// Never: the names are names.
-    pub fn copy_of(profile: &Profile, kept: &[Profile]) -> Result<Self, NameError> {
+    pub fn copy_of(words: &Words, profile: &Profile, kept: &[Profile]) -> Result<Self, NameError> {
         Ok(Self::of_new(Profile {
-            name: free_name("My mix", kept)?,
+            name: free_name(words.mix.my_mix, kept)?,
             ..profile.clone()
         }))
     }
@@ -115,15 +116,15 @@ impl MixDraft {
     pub fn set(&mut self, field: Field, text: &str) {
         match field.set(&mut self.profile, text) {
             Ok(()) => self.wrong.remove(&field),
-            Err(sentence) => self.wrong.insert(field, sentence),
+            Err(error) => self.wrong.insert(field, error),
         };
     }
 
-    /// What is wrong with a field, as a sentence.
+    /// What is wrong with a field.
     #[must_use]
-    pub fn problem_of(&self, field: Field) -> Option<String> {
-        if let Some(sentence) = self.wrong.get(&field) {
-            return Some(sentence.clone());
+    pub fn problem_of(&self, field: Field) -> Option<MixProblem> {
+        if let Some(error) = self.wrong.get(&field) {
+            return Some(MixProblem::Field(error.clone()));
         }
         let place = field.place(&self.profile);
         self.problem_at(&place)
@@ -131,28 +132,28 @@ impl MixDraft {
 
     /// What is wrong with a group as a whole.
     #[must_use]
-    pub fn problem_with(&self, group: Group) -> Option<String> {
+    pub fn problem_with(&self, group: Group) -> Option<MixProblem> {
         self.problem_at(&group.place(&self.profile))
     }
 
-    fn problem_at(&self, place: &str) -> Option<String> {
+    fn problem_at(&self, place: &str) -> Option<MixProblem> {
         let error = self.profile.check().err()?;
-        (!place.is_empty() && error.place() == Some(place)).then(|| error.to_string())
+        (!place.is_empty() && error.place() == Some(place)).then_some(MixProblem::Profile(error))
     }
 
     /// The first thing that is wrong; with it, nothing can be saved.
     #[must_use]
-    pub fn problem(&self) -> Option<String> {
-        let text = self.wrong.values().next().cloned();
-        text.or_else(|| self.profile.check().err().map(|error| error.to_string()))
+    pub fn problem(&self) -> Option<MixProblem> {
+        let field = self.wrong.values().next().cloned().map(MixProblem::Field);
+        field.or_else(|| self.profile.check().err().map(MixProblem::Profile))
     }
 
     /// Adds a line to an output.
     ///
     /// # Errors
     /// Never: the name is one.
-    pub fn add_line(&mut self, output: usize) -> Result<(), NameError> {
-        let name = Name::new("New line")?;
+    pub fn add_line(&mut self, words: &Words, output: usize) -> Result<(), NameError> {
+        let name = Name::new(words.mix.new_line)?;
         if let Some(output) = self.profile.outputs.get_mut(output) {
             output
                 .lines
@@ -179,9 +180,9 @@ impl MixDraft {
     ///
     /// # Errors
     /// Never: the names are names.
-    pub fn add_switch(&mut self) -> Result<(), NameError> {
+    pub fn add_switch(&mut self, words: &Words) -> Result<(), NameError> {
         let taken = |name: &Name| self.profile.switches.iter().any(|switch| switch.name == *name);
-        let name = numbered("switch", taken)?;
+        let name = numbered(words.mix.new_switch, taken)?;
         let input = Source::PadButton { pad: 0, button: 0 };
         let on = Condition::Above { input, level: 0.5 };
         self.profile.switches.push(Switch { name, on });
@@ -202,8 +203,8 @@ impl MixDraft {
     ///
     /// # Errors
     /// A sentence when the input was not moved.
-    pub fn calibrate(&mut self, run: &CalibrationRun) -> Result<(), String> {
-        let mut seen = run.finish()?;
+    pub fn calibrate(&mut self, words: &Words, run: &CalibrationRun) -> Result<(), String> {
+        let mut seen = run.finish(words)?;
         if let Some(input) = self.profile.inputs.get_mut(run.place) {
             seen.dead_band = input.dead_band;
             *input = seen;

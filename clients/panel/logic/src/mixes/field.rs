@@ -2,8 +2,10 @@
 
 use mixer::Profile;
 
+use super::FieldError;
 use super::parts::{InputPart, LinePart, OutputPart, name};
-use super::switch_part::{CONDITIONS, SwitchPart};
+use super::switch_part::{SwitchPart, conditions};
+use crate::words::Words;
 
 /// A field; outputs, lines, switches and inputs are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -51,32 +53,33 @@ pub enum FieldKind {
 impl Field {
     /// What people read.
     #[must_use]
-    pub const fn label(self) -> &'static str {
+    pub const fn label(self, words: &Words) -> &'static str {
+        let told = &words.mix;
         match self {
-            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => "Name",
+            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => told.name,
             Self::Line(_, _, LinePart::Input)
             | Self::Switch(_, SwitchPart::Input)
-            | Self::Input(_, InputPart::Input) => "Input",
-            Self::Line(_, _, LinePart::Invert) => "Inverted",
-            Self::Line(_, _, LinePart::Weight) => "Weight",
-            Self::Line(_, _, LinePart::Offset) => "Offset",
-            Self::Line(_, _, LinePart::Expo) => "Expo",
-            Self::Line(_, _, LinePart::Curve) => "Curve points",
-            Self::Line(_, _, LinePart::Mix) => "Joins by",
-            Self::Line(_, _, LinePart::When) => "Only while on",
-            Self::Line(_, _, LinePart::DelayMs) => "Delay, ms",
-            Self::Line(_, _, LinePart::SlowUp) => "Slow up, per s",
-            Self::Line(_, _, LinePart::SlowDown) => "Slow down, per s",
-            Self::Output(_, OutputPart::Low) | Self::Input(_, InputPart::Low) => "Low",
-            Self::Output(_, OutputPart::Centre) | Self::Input(_, InputPart::Centre) => "Centre",
-            Self::Output(_, OutputPart::High) | Self::Input(_, InputPart::High) => "High",
-            Self::Output(_, OutputPart::Failsafe) => "Failsafe",
-            Self::Output(_, OutputPart::Reverse) => "Reversed",
-            Self::Switch(_, SwitchPart::Kind) => "On when",
-            Self::Switch(_, SwitchPart::Level) => "Level",
-            Self::Switch(_, SwitchPart::Others) => "Switches",
-            Self::Switch(_, SwitchPart::HoldMs) => "How long, ms",
-            Self::Input(_, InputPart::DeadBand) => "Dead band",
+            | Self::Input(_, InputPart::Input) => told.input,
+            Self::Line(_, _, LinePart::Invert) => told.inverted,
+            Self::Line(_, _, LinePart::Weight) => told.weight,
+            Self::Line(_, _, LinePart::Offset) => told.offset,
+            Self::Line(_, _, LinePart::Expo) => told.expo,
+            Self::Line(_, _, LinePart::Curve) => told.curve,
+            Self::Line(_, _, LinePart::Mix) => told.joins_by,
+            Self::Line(_, _, LinePart::When) => told.only_while,
+            Self::Line(_, _, LinePart::DelayMs) => told.delay,
+            Self::Line(_, _, LinePart::SlowUp) => told.slow_up,
+            Self::Line(_, _, LinePart::SlowDown) => told.slow_down,
+            Self::Output(_, OutputPart::Low) | Self::Input(_, InputPart::Low) => told.low,
+            Self::Output(_, OutputPart::Centre) | Self::Input(_, InputPart::Centre) => told.centre,
+            Self::Output(_, OutputPart::High) | Self::Input(_, InputPart::High) => told.high,
+            Self::Output(_, OutputPart::Failsafe) => told.failsafe,
+            Self::Output(_, OutputPart::Reverse) => told.reversed,
+            Self::Switch(_, SwitchPart::Kind) => told.on_when,
+            Self::Switch(_, SwitchPart::Level) => told.level,
+            Self::Switch(_, SwitchPart::Others) => told.others,
+            Self::Switch(_, SwitchPart::HoldMs) => told.how_long,
+            Self::Input(_, InputPart::DeadBand) => told.dead_band,
         }
     }
 
@@ -95,7 +98,8 @@ impl Field {
 
     /// How it is entered.
     #[must_use]
-    pub fn kind(self, profile: &Profile) -> FieldKind {
+    pub fn kind(self, words: &Words, profile: &Profile) -> FieldKind {
+        let told = &words.mix;
         let choice = |value: &str, words: &str| (value.to_owned(), words.to_owned());
         match self {
             Self::Line(_, _, LinePart::Input)
@@ -103,19 +107,19 @@ impl Field {
             | Self::Input(_, InputPart::Input) => FieldKind::Source,
             Self::Line(_, _, LinePart::Invert) | Self::Output(_, OutputPart::Reverse) => FieldKind::Check,
             Self::Line(_, _, LinePart::Mix) => FieldKind::Choice(vec![
-                choice("add", "adding"),
-                choice("multiply", "multiplying"),
-                choice("replace", "replacing"),
+                choice("add", told.adding),
+                choice("multiply", told.multiplying),
+                choice("replace", told.replacing),
             ]),
             Self::Line(_, _, LinePart::When) => {
                 let names = profile.switches.iter().map(|switch| switch.name.to_string());
-                let names = names.map(|name| (name.clone(), format!("switch {name}")));
-                FieldKind::Choice([choice("", "always")].into_iter().chain(names).collect())
+                let names = names.map(|name| (name.clone(), told.switch.fill([&name])));
+                FieldKind::Choice([choice("", told.always)].into_iter().chain(names).collect())
             }
             Self::Switch(place, SwitchPart::Kind) => {
                 let needs_others = |kind: &str| !matches!(kind, "above" | "below");
-                let offered = CONDITIONS
-                    .iter()
+                let offered = conditions(words)
+                    .into_iter()
                     .filter(|(kind, _)| place > 0 || !needs_others(kind));
                 FieldKind::Choice(offered.map(|(value, words)| choice(value, words)).collect())
             }
@@ -161,7 +165,7 @@ impl Field {
     ///
     /// # Errors
     /// What is wrong with the text; then nothing is changed. A number out of its range is taken, and the mixer's check tells.
-    pub fn set(self, profile: &mut Profile, text: &str) -> Result<(), String> {
+    pub fn set(self, profile: &mut Profile, text: &str) -> Result<(), FieldError> {
         match self {
             Self::MixName => profile.name = name(text)?,
             Self::Output(output, part) => {
@@ -187,7 +191,11 @@ impl Field {
 }
 
 /// A switch whose kind becomes one that looks at another looks at the one before it.
-fn set_switch(profile: &mut Profile, place: usize, (part, text): (SwitchPart, &str)) -> Result<(), String> {
+fn set_switch(
+    profile: &mut Profile,
+    place: usize,
+    (part, text): (SwitchPart, &str),
+) -> Result<(), FieldError> {
     let place = place.min(profile.switches.len());
     let (earlier, rest) = profile.switches.split_at_mut(place);
     let Some(switch) = rest.first_mut() else {

@@ -3,6 +3,7 @@
 use mixer::{Calibration, Readings, Source, first_moved};
 
 use super::Field;
+use crate::words::Words;
 
 /// An axis that went less far was not moved to its ends.
 const REACH_MIN: f64 = 0.2;
@@ -72,23 +73,18 @@ impl CalibrationRun {
 
     /// What was seen so far.
     #[must_use]
-    pub fn text(&self) -> String {
-        format!(
-            "Move it to both ends: {:.2} to {:.2}, at rest {:.2}.",
-            self.low, self.high, self.centre
-        )
+    pub fn text(&self, words: &Words) -> String {
+        let [low, high, centre] = [self.low, self.high, self.centre].map(|value| words.number(value, 2));
+        words.mix.ends.fill([&low, &high, &centre])
     }
 
     /// The calibration of what was seen.
     ///
     /// # Errors
     /// A sentence when it was not moved.
-    pub fn finish(&self) -> Result<Calibration, String> {
+    pub fn finish(&self, words: &Words) -> Result<Calibration, String> {
         if self.high - self.low < REACH_MIN {
-            return Err(format!(
-                "{} was not moved: begin again, and move it to both ends",
-                self.input
-            ));
+            return Err(words.mix.not_moved.fill([&self.input]));
         }
         Ok(Calibration {
             low: rounded(self.low),

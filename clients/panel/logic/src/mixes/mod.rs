@@ -4,6 +4,7 @@ mod draft;
 mod field;
 mod learning;
 mod parts;
+mod problem;
 mod switch_part;
 #[cfg(test)]
 mod tests;
@@ -12,4 +13,5 @@ pub use draft::MixDraft;
 pub use field::{Field, FieldKind, Group};
 pub use learning::{CalibrationRun, Learning};
 pub use parts::{InputPart, LinePart, OutputPart};
+pub use problem::{FieldError, MixProblem, profile_problem_text};
 pub use switch_part::SwitchPart;

@@ -2,6 +2,8 @@
 
 use mixer::{Calibration, Line, Mix, Name, Output};
 
+use super::FieldError;
+
 /// A setting of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LinePart {
@@ -95,10 +97,10 @@ impl LinePart {
         }
     }
 
-    pub(super) fn set(self, line: &mut Line, text: &str) -> Result<(), String> {
+    pub(super) fn set(self, line: &mut Line, text: &str) -> Result<(), FieldError> {
         match self {
             Self::Name => line.name = name(text)?,
-            Self::Input => line.input = text.parse().map_err(sentence)?,
+            Self::Input => line.input = text.parse().map_err(FieldError::Source)?,
             Self::Invert => line.invert = text == "true",
             Self::Weight => line.weight = number(text),
             Self::Offset => line.offset = number(text),
@@ -155,9 +157,9 @@ impl InputPart {
         }
     }
 
-    pub(super) fn set(self, calibration: &mut Calibration, text: &str) -> Result<(), String> {
+    pub(super) fn set(self, calibration: &mut Calibration, text: &str) -> Result<(), FieldError> {
         match self {
-            Self::Input => calibration.input = text.parse().map_err(sentence)?,
+            Self::Input => calibration.input = text.parse().map_err(FieldError::Source)?,
             Self::Low => calibration.low = number(text),
             Self::Centre => calibration.centre = number(text),
             Self::High => calibration.high = number(text),
@@ -167,12 +169,8 @@ impl InputPart {
     }
 }
 
-pub(super) fn name(text: &str) -> Result<Name, String> {
-    Name::new(text.trim()).map_err(sentence)
-}
-
-pub(super) fn sentence(error: impl ToString) -> String {
-    error.to_string()
+pub(super) fn name(text: &str) -> Result<Name, FieldError> {
+    Name::new(text.trim()).map_err(FieldError::Name)
 }
 
 /// What is no number becomes one that the mixer refuses, with its own sentence.
@@ -185,9 +183,9 @@ pub(super) fn number(text: &str) -> f64 {
         .unwrap_or(f64::NAN)
 }
 
-pub(super) fn milliseconds(text: &str) -> Result<u16, String> {
+pub(super) fn milliseconds(text: &str) -> Result<u16, FieldError> {
     let whole = text.trim().parse();
-    whole.map_err(|_| format!("`{text}` is no time: write whole milliseconds from 0 to 5000"))
+    whole.map_err(|_| FieldError::Milliseconds(text.to_owned()))
 }
 
 const fn mix_text(mix: Mix) -> &'static str {
@@ -212,14 +210,12 @@ fn points_text(points: &[[f64; 2]]) -> String {
 }
 
 /// Points as `-1 -1, 0 0.2, 1 1`.
-fn points(text: &str) -> Result<Vec<[f64; 2]>, String> {
+fn points(text: &str) -> Result<Vec<[f64; 2]>, FieldError> {
     let pairs = text.split(',').map(str::trim).filter(|pair| !pair.is_empty());
     pairs
         .map(|pair| {
             let numbers: Vec<f64> = pair.split_whitespace().map(number).collect();
-            <[f64; 2]>::try_from(numbers).map_err(|_| {
-                format!("`{pair}` is no point: write two numbers, and a comma before the next, like -1 -1, 0 0.2, 1 1")
-            })
+            <[f64; 2]>::try_from(numbers).map_err(|_| FieldError::Point(pair.to_owned()))
         })
         .collect()
 }

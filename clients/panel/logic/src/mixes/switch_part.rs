@@ -2,7 +2,9 @@
 
 use mixer::{Condition, Name, Source, Switch};
 
-use super::parts::{milliseconds, name, number, sentence};
+use super::FieldError;
+use super::parts::{milliseconds, name, number};
+use crate::words::Words;
 
 /// A setting of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,16 +24,19 @@ pub enum SwitchPart {
 }
 
 /// Conditions by their words in profiles, with what people read.
-pub(super) const CONDITIONS: [(&str, &str); 8] = [
-    ("above", "input above the level"),
-    ("below", "input below the level"),
-    ("all", "all of these are on"),
-    ("any", "any of these is on"),
-    ("not", "this is off"),
-    ("toggle", "changes over when this goes on"),
-    ("sticky", "from the first to the second"),
-    ("edge", "a while after this went on"),
-];
+pub(super) const fn conditions(words: &Words) -> [(&'static str, &'static str); 8] {
+    let told = &words.mix;
+    [
+        ("above", told.above),
+        ("below", told.below),
+        ("all", told.all_of),
+        ("any", told.any_of),
+        ("not", told.not_of),
+        ("toggle", told.toggle),
+        ("sticky", told.sticky),
+        ("edge", told.edge),
+    ]
+}
 
 impl SwitchPart {
     /// Those that a switch has.
@@ -60,12 +65,12 @@ impl SwitchPart {
         }
     }
 
-    pub(super) fn set(self, switch: &mut Switch, text: &str) -> Result<(), String> {
+    pub(super) fn set(self, switch: &mut Switch, text: &str) -> Result<(), FieldError> {
         match (self, &mut switch.on) {
             (Self::Name, _) => switch.name = name(text)?,
             (Self::Kind, on) => *on = of_kind(text, on),
             (Self::Input, Condition::Above { input, .. } | Condition::Below { input, .. }) => {
-                *input = text.parse().map_err(sentence)?;
+                *input = text.parse().map_err(FieldError::Source)?;
             }
             (Self::Level, Condition::Above { level, .. } | Condition::Below { level, .. }) => {
                 *level = number(text);
@@ -112,10 +117,9 @@ fn of_kind(kind: &str, before: &Condition) -> Condition {
 }
 
 /// Puts the switches of this text into a condition.
-fn join(condition: &mut Condition, text: &str) -> Result<(), String> {
+fn join(condition: &mut Condition, text: &str) -> Result<(), FieldError> {
     let texts = text.split(',').map(str::trim).filter(|text| !text.is_empty());
-    let names = texts.map(name).collect::<Result<Vec<Name>, String>>()?;
-    let count = |wanted: &str| format!("`{text}`: name {wanted}, with a comma between two");
+    let names = texts.map(name).collect::<Result<Vec<Name>, FieldError>>()?;
     match (condition, names.as_slice()) {
         (Condition::All(all) | Condition::Any(all), _) => *all = names,
         (Condition::Not(one) | Condition::Toggle(one) | Condition::Edge { of: one, .. }, [only]) => {
@@ -125,9 +129,9 @@ fn join(condition: &mut Condition, text: &str) -> Result<(), String> {
             *set = first.clone();
             *reset = second.clone();
         }
-        (Condition::Sticky { .. }, _) => return Err(count("two switches, the one for on first")),
+        (Condition::Sticky { .. }, _) => return Err(FieldError::TwoSwitches(text.to_owned())),
         (Condition::Above { .. } | Condition::Below { .. }, _) => {}
-        _ => return Err(count("one switch")),
+        _ => return Err(FieldError::OneSwitch(text.to_owned())),
     }
     Ok(())
 }

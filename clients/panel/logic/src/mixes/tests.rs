@@ -1,7 +1,10 @@
 //! The form as a person uses it.
 
 use super::{CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart};
-use mixer::{PadReading, Readings, Source, standard_profile};
+use crate::words::{Language, Words};
+use mixer::{Name, PadReading, ProfileError, Readings, Source, standard_profile};
+
+const ENGLISH: &Words = Language::English.words();
 
 fn draft() -> MixDraft {
     MixDraft::of_kept(standard_profile())
@@ -63,8 +66,11 @@ fn what_is_wrong_is_told_beside_its_field_and_reverted() {
         let mut draft = draft();
         draft.set(field, text);
         let told = draft.problem_of(field).expect("it is wrong");
-        assert!(told.contains(words), "{field:?} = {text}: {told}");
-        assert_eq!(draft.problem(), Some(told));
+        let sentence = told.text(ENGLISH);
+        assert!(sentence.contains(words), "{field:?} = {text}: {sentence}");
+        let other = told.text(Language::Estonian.words());
+        assert_ne!(other, sentence, "{field:?} = {text}");
+        assert_eq!(draft.problem().map(|first| first.text(ENGLISH)), Some(sentence));
         let beside = fields(&draft);
         let told = beside.iter().filter(|other| draft.problem_of(**other).is_some());
         assert_eq!(told.count(), 1, "{field:?}: only there");
@@ -81,7 +87,7 @@ fn what_is_wrong_as_a_whole_is_told_at_its_group() {
     assert!(
         draft
             .problem_with(Group::Output(2))
-            .is_some_and(|told| told.contains("must rise"))
+            .is_some_and(|told| told.text(ENGLISH).contains("must rise"))
     );
     draft.revert();
     draft.remove(Group::Switch(0));
@@ -89,14 +95,14 @@ fn what_is_wrong_as_a_whole_is_told_at_its_group() {
     assert!(
         draft
             .problem_with(Group::Line(0, line))
-            .is_some_and(|told| told.contains("slow"))
+            .is_some_and(|told| told.text(ENGLISH).contains("slow"))
     );
 }
 
 #[test]
 fn switches_change_their_kind() {
     let mut draft = draft();
-    draft.add_switch().expect("a name");
+    draft.add_switch(ENGLISH).expect("a name");
     for kind in ["all", "any", "not", "toggle", "sticky", "edge", "below", "above"] {
         draft.set(Field::Switch(1, SwitchPart::Kind), kind);
         assert_eq!(Field::Switch(1, SwitchPart::Kind).text(draft.profile()), kind);
@@ -104,14 +110,18 @@ fn switches_change_their_kind() {
     }
     draft.set(Field::Switch(1, SwitchPart::Kind), "sticky");
     draft.set(Field::Switch(1, SwitchPart::Others), "slow");
-    assert!(draft.problem().is_some_and(|told| told.contains("two switches")));
+    assert!(
+        draft
+            .problem()
+            .is_some_and(|told| told.text(ENGLISH).contains("two switches"))
+    );
 }
 
 #[test]
 fn lines_are_added_moved_and_removed() {
     let mut draft = draft();
     let count = draft.profile().outputs[0].lines.len();
-    draft.add_line(0).expect("a name");
+    draft.add_line(ENGLISH, 0).expect("a name");
     draft.move_up(Group::Line(0, count));
     assert_eq!(
         draft.profile().outputs[0].lines[count - 1].name.as_str(),
@@ -160,13 +170,13 @@ fn an_axis_is_calibrated_by_its_ends() {
     let mut run = CalibrationRun::begin(0, &axis, &readings(0.05)).expect("it is there");
     assert!(
         draft
-            .calibrate(&run)
+            .calibrate(ENGLISH, &run)
             .is_err_and(|told| told.contains("was not moved"))
     );
     for value in [-0.9, 0.8, 0.1] {
         run.look(&readings(value));
     }
-    draft.calibrate(&run).expect("it was moved");
+    draft.calibrate(ENGLISH, &run).expect("it was moved");
     let found = &draft.profile().inputs[0];
     assert_eq!([found.low, found.centre, found.high], [-0.9, 0.05, 0.8]);
     assert_eq!(draft.problem(), None);
@@ -174,12 +184,30 @@ fn an_axis_is_calibrated_by_its_ends() {
 
 #[test]
 fn new_and_copied_mixes_have_free_names() {
-    let first = MixDraft::copy_of(&standard_profile(), &[]).expect("a name");
+    let first = MixDraft::copy_of(ENGLISH, &standard_profile(), &[]).expect("a name");
     assert_eq!(first.profile().name.as_str(), "My mix");
     assert!(first.is_unsaved() && !first.is_changed());
-    let second = MixDraft::copy_of(first.profile(), &[first.profile().clone()]).expect("a name");
+    let second = MixDraft::copy_of(ENGLISH, first.profile(), &[first.profile().clone()]).expect("a name");
     assert_eq!(second.profile().name.as_str(), "My mix 2");
-    assert_eq!(MixDraft::empty(&[]).expect("a name").problem(), None);
+    assert_eq!(MixDraft::empty(ENGLISH, &[]).expect("a name").problem(), None);
     let error = MixDraft::import("{").expect_err("broken");
     assert!(error.to_string().contains("line 1"), "{error}");
+}
+
+#[test]
+fn what_new_things_are_called_is_a_name_in_every_language() {
+    for language in Language::ALL {
+        let told = &language.words().mix;
+        for name in [told.new_mix, told.my_mix, told.new_line, told.new_switch] {
+            assert!(Name::new(name).is_ok(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_no_mix_is_told_in_both_languages() {
+    let error = ProfileError::Version { found: 9 };
+    let told = |language: Language| super::profile_problem_text(language.words(), &error);
+    assert_eq!(told(Language::English), error.to_string());
+    assert!(told(Language::Estonian).contains("versioon on 9"));
 }

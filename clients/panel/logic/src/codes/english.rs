@@ -1,39 +1,9 @@
-//! Every sentence that explains a code. Codes come over the wire; people read sentences.
+//! The sentences for codes, in English.
 
-/// What a code means for the person in front of the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Explanation {
-    /// What happened.
-    pub what: &'static str,
-    /// What to do about it; empty when there is nothing to do.
-    pub remedy: &'static str,
-}
-
-/// Headline of a state.
-#[must_use]
-pub fn state_title(state: &str) -> &'static str {
-    match state {
-        "disconnected" => "Not connected",
-        "idle" => "Ready",
-        "starting" => "Starting",
-        "cleaning" => "Cleaning",
-        "spot" => "Cleaning a spot",
-        "docking" => "Looking for the dock",
-        "docked" => "On the dock",
-        "manual" => "Driven by hand",
-        "paused" => "Paused",
-        "stuck" => "Stuck",
-        "error" => "Stopped by a fault",
-        _ => "Unknown state",
-    }
-}
-
-const fn entry(code: &'static str, what: &'static str, remedy: &'static str) -> (&'static str, Explanation) {
-    (code, Explanation { what, remedy })
-}
+use super::{Explanation, entry};
 
 /// Codes of the brain, of the firmware, of the daemon and of this panel.
-const CATALOGUE: &[(&str, Explanation)] = &[
+pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry(
         "no-daemon",
         "The robot's software is not running.",
@@ -41,8 +11,8 @@ const CATALOGUE: &[(&str, Explanation)] = &[
     ),
     entry(
         "no-server",
-        "The panel lost its server.",
-        "Check that it still runs; the panel tries again by itself.",
+        "The robot cannot be reached.",
+        "Check that it is switched on and that this device is on its network; the panel tries again by itself.",
     ),
     entry(
         "no-robot",
@@ -349,39 +319,3 @@ const CATALOGUE: &[(&str, Explanation)] = &[
     ),
     entry("cause-remains", "The cause is still there.", "Remove it first."),
 ];
-
-/// The explanation of a code; a code that nobody has explained yet gives none and is shown as it is.
-#[must_use]
-pub fn explain(code: &str) -> Option<Explanation> {
-    CATALOGUE
-        .iter()
-        .find(|(known, _)| *known == code)
-        .map(|(_, explanation)| *explanation)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{CATALOGUE, explain, state_title};
-
-    #[test]
-    fn every_code_is_explained_once_in_whole_sentences() {
-        for (index, (code, explanation)) in CATALOGUE.iter().enumerate() {
-            assert!(
-                CATALOGUE[index + 1..].iter().all(|(other, _)| other != code),
-                "{code} stands twice"
-            );
-            assert!(explanation.what.ends_with('.'), "{code}");
-            assert!(
-                explanation.remedy.is_empty() || explanation.remedy.ends_with('.'),
-                "{code}"
-            );
-        }
-    }
-
-    #[test]
-    fn unknown_codes_are_left_to_the_caller() {
-        assert_eq!(explain("flux-capacitor"), None);
-        assert!(explain("wheel-drop").is_some());
-        assert_eq!(state_title("flying"), "Unknown state");
-    }
-}

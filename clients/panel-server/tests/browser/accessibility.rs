@@ -1,0 +1,108 @@
+//! What axe-core finds wrong with what is seen: nothing, on every sheet, on both screens, in both looks and languages.
+
+use std::fmt::Write as _;
+
+use crate::Visit;
+use crate::browser::{Browser, Screen};
+
+/// Gives a line for each fault: the rule, what is wrong, and where.
+const RUN: &str = "
+    const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'];
+    return axe.run(document, { runOnly: tags, resultTypes: ['violations'] }).then(
+        found => found.violations.map(fault => `${fault.id}: ${fault.help}: `
+            + fault.nodes.map(node => `${node.target} ${node.any.concat(node.all).map(check => check.message)}`).join(' | ')).join('\\n'))";
+
+/// What is wrong with what the browser shows now, a line for each fault.
+pub(crate) async fn faults(browser: &Browser) -> Vec<String> {
+    let is_there = browser.text("return typeof axe").await;
+    if is_there == "undefined" {
+        let path =
+            std::env::var_os("RVAC_AXE").expect("RVAC_AXE names axe.min.js; cargo xtask test fetches it");
+        let source = std::fs::read_to_string(path).unwrap();
+        browser.text(&format!("{source}; return ''")).await;
+    }
+    let found = browser.text(RUN).await;
+    found.lines().map(str::to_owned).collect()
+}
+
+/// Looks at what is seen and stops the test at a fault.
+pub(crate) async fn expect_none(browser: &Browser, what: &str) {
+    let found = faults(browser).await;
+    assert!(found.is_empty(), "{what}:\n{}", found.join("\n"));
+}
+
+/// Takes a language and a look for the visit.
+async fn dress(browser: &Browser, language: &str, look: &str) {
+    let keep = format!(
+        "localStorage.setItem('language', '{language}'); localStorage.setItem('theme', '{look}'); return ''"
+    );
+    browser.text(&keep).await;
+    browser.reload().await;
+    browser
+        .until(&format!(
+            "return document.documentElement.lang === '{language}' && document.documentElement.dataset.theme === '{look}'"
+        ))
+        .await;
+    browser.until_state(&["idle", "docked"]).await;
+}
+
+/// What is done on the way to a view, and a script that is true when it is there.
+const VIEWS: [(&str, &[&str], &str); 9] = [
+    ("drive", &["#tab-drive"], "#pad"),
+    (
+        "mixes",
+        &["#tab-drive", "#edit-mixes", ".output .unfold"],
+        "#mixes .lines",
+    ),
+    ("home", &["#edit-mixes", "#tab-home"], "#rooms .choose"),
+    (
+        "room",
+        &["#rooms .choose", "#rooms li button[aria-expanded]"],
+        "#order-bar",
+    ),
+    (
+        "schedules",
+        &["#choose-none", "#tab-schedules", "#add-schedule"],
+        "#schedule-form",
+    ),
+    ("history", &["#tab-history"], "#history-sheet"),
+    ("why", &["#tab-why"], "#decisions"),
+    ("device", &["#tab-device"], "#device-table table"),
+    ("log", &["#tab-log"], "#log-entries"),
+];
+
+/// Walks through all views and collects what is wrong.
+async fn walk(browser: &Browser, dressed: &str) -> String {
+    let mut all = String::new();
+    for (name, clicks, there) in VIEWS {
+        for click in clicks {
+            browser.click(click).await;
+        }
+        browser
+            .until(&format!("return document.querySelector('{there}') !== null"))
+            .await;
+        for fault in faults(browser).await {
+            writeln!(all, "{dressed}, {name}: {fault}").unwrap();
+        }
+        browser.shot(&format!("axe-{dressed}-{name}")).await;
+    }
+    all
+}
+
+#[tokio::test]
+async fn nothing_is_wrong_for_those_who_hear_or_type() {
+    for (screen, screen_name) in [(Screen::Phone, "phone"), (Screen::Desktop, "desktop")] {
+        let Some(visit) = Visit::begin_at_home(screen).await else {
+            return;
+        };
+        let browser = &visit.browser;
+        let mut all = String::new();
+        for language in ["en", "et"] {
+            for look in ["light", "dark"] {
+                dress(browser, language, look).await;
+                all += &walk(browser, &format!("{screen_name}-{language}-{look}")).await;
+            }
+        }
+        assert!(all.is_empty(), "{all}");
+    }
+}

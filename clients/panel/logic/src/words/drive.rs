@@ -1,0 +1,29 @@
+//! Driving by hand.
+
+use super::screen;
+
+screen! {
+    /// The pad and what stands around it.
+    DriveWords {
+        while_edited: "While mixes are edited nothing drives: move what you like.",
+            "Juhtskeemide muutmise ajal robot ei liigu: katseta julgelt.";
+        how: "Hold the knob, move a gamepad's stick, or focus the pad and hold W\u{a0}A\u{a0}S\u{a0}D or arrow keys. Letting go stops.",
+            "Hoia nuppu, liiguta mängupuldi hooba või vali juhtpadi ja hoia all klahvi W\u{a0}A\u{a0}S\u{a0}D või nooleklahvi. Lahti lastes robot peatub.";
+        pad: "Drive pad", "Juhtpadi";
+        editor_close: "Close the editor", "Sulge muutmine";
+        editor_open: "Edit mixes", "Muuda juhtskeeme";
+        clean: "Clean while driving", "Korista juhtimise ajal";
+        no_gamepad: "No gamepad is seen: press one of its buttons.", "Mängupulti ei leitud: vajuta selle mõnda nuppu.";
+        gamepad[2]: "pad-{0} is {1}", "pad-{0} on {1}";
+        waits_for_rest: "Waits until every stick and key is at rest.", "Ootab, kuni kõik hoovad ja klahvid on lahti lastud.";
+        latency[3]: "From stick to wheels: {0} ms, median of {1}: {2} ms", "Hoovast ratasteni: {0} ms, {1} mõõtmise mediaan {2} ms";
+        latency_long: "From the browser's time of the input that starts a standing robot to the first pose that shows it moving: the way there, its start, and the way back, with up to 50 ms until the next pose.",
+            "Alates hetkest, mil veebilehitseja märkas seisva roboti liikuma panekut, kuni esimese asukohateateni, mis näitab liikumist: tee robotini, liikumise algus ja tee tagasi, lisaks kuni 50 ms järgmise teateni.";
+        mix: "Control mix", "Juhtskeem";
+        standard: "Standard, built in", "Tavaline, sisseehitatud";
+        tilt_stop: "Stop driving by tilt", "Lõpeta kallutusega juhtimine";
+        tilt: "Drive by tilt", "Juhi kallutades";
+        tilt_refused: "The browser does not tell this page how the device is held: allow motion sensors for it.",
+            "Veebilehitseja ei anna sellele lehele teada, kuidas seadet hoitakse: luba talle liikumisandurid.";
+    }
+}

@@ -1,0 +1,122 @@
+//! What stands around all screens: bar, buttons, tabs, log, names of states, units.
+
+use super::screen;
+
+screen! {
+    /// The bar at the top, the tabs, and what is found everywhere.
+    FrameWords {
+        skip: "Skip to the controls", "Liigu juhtnuppude juurde";
+        simulated[1]: "Simulated: {0}", "Simulatsioon: {0}";
+        use_light: "Use the light look", "Kasuta heledat kujundust";
+        use_dark: "Use the dark look", "Kasuta tumedat kujundust";
+        language: "Language", "Keel";
+        battery: "Battery", "Aku";
+        connected: "Connected", "Ühendatud";
+        not_connected: "Not connected", "Ühendamata";
+        details: "Details", "Üksikasjad";
+        drive: "Drive", "Juhi";
+        home: "Home", "Kodu";
+        schedules: "Schedules", "Ajakavad";
+        history: "History", "Ajalugu";
+        why: "Why", "Miks";
+        device: "Device", "Seade";
+        log: "Log", "Logi";
+        decisions: "Decisions, newest first", "Otsused, uusimad eespool";
+        no_decisions: "It has decided nothing yet.", "Robot ei ole veel midagi otsustanud.";
+        dismiss: "Dismiss", "Sulge teade";
+        good: "Good", "Selge";
+        save: "Save", "Salvesta";
+        cancel: "Cancel", "Loobu";
+        remove: "Remove", "Eemalda";
+        rename: "Rename", "Nimeta ümber";
+        not_now[1]: ", not now: {0}", ", praegu mitte: {0}";
+    }
+}
+
+screen! {
+    /// Numbers with their units.
+    UnitWords {
+        kilometres[1]: "{0} km", "{0} km";
+        metres[1]: "{0} m", "{0} m";
+        centimetres[1]: "{0} cm", "{0} cm";
+        square_metres[1]: "{0} m²", "{0} m²";
+        percent[1]: "{0} %", "{0} %";
+        percent_said[1]: "{0} percent", "{0} protsenti";
+        frames[1]: "{0} frames/s", "{0} kaadrit/s";
+        // From Monday on, with blanks between.
+        weekdays: "Mon Tue Wed Thu Fri Sat Sun", "E T K N R L P";
+        months: "Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec",
+            "jaan veebr märts apr mai juuni juuli aug sept okt nov dets";
+        // Day of the week, day, month, time.
+        moment[4]: "{0} {1} {2}, {3}", "{0} {1}. {2} kell {3}";
+        // Year, month, day, time.
+        date[4]: "{0}-{1}-{2} {3}", "{2}.{1}.{0} {3}";
+    }
+}
+
+screen! {
+    /// The buttons for jobs.
+    ActionWords {
+        controls: "Controls", "Juhtnupud";
+        start: "Start", "Alusta";
+        stop: "Stop", "Peata";
+        resume: "Resume", "Jätka";
+        pause: "Pause", "Paus";
+        spot: "Spot", "Koht";
+        dock: "Dock", "Dokki";
+        find: "Find", "Leia";
+        clear: "Clear the fault", "Tühista rike";
+        way_of_cleaning: "Way of cleaning", "Koristusviis";
+        robot_chooses: "The robot chooses", "Robot valib ise";
+    }
+}
+
+screen! {
+    /// Why a button waits.
+    OfferWords {
+        away: "The robot is not connected.", "Robot ei ole ühendatud.";
+        fault: "Clear the fault first.", "Tühista enne rike.";
+        paused: "A paused job waits: resume or stop it.", "Pausil töö ootab: jätka seda või peata see.";
+        by_hand: "The robot is driven by hand.", "Robotit juhitakse käsitsi.";
+        runs: "A job is running.", "Töö käib.";
+        no_job: "No job is running.", "Ükski töö ei käi.";
+        docking: "It is looking for the dock already.", "Robot juba otsib dokki.";
+        docked: "It is on the dock.", "Robot on dokis.";
+    }
+}
+
+screen! {
+    /// Headlines of the states.
+    StateWords {
+        disconnected: "Not connected", "Ühendamata";
+        idle: "Ready", "Valmis";
+        starting: "Starting", "Alustab";
+        cleaning: "Cleaning", "Koristab";
+        spot: "Cleaning a spot", "Koristab üht kohta";
+        docking: "Looking for the dock", "Otsib dokki";
+        docked: "On the dock", "Dokis";
+        manual: "Driven by hand", "Käsijuhtimisel";
+        paused: "Paused", "Pausil";
+        stuck: "Stuck", "Kinni jäänud";
+        error: "Stopped by a fault", "Rikke tõttu peatunud";
+        unknown: "Unknown state", "Tundmatu olek";
+    }
+}
+
+screen! {
+    /// The log. Its entries are the robot's own and stay English.
+    LogWords {
+        level: "Level", "Tase";
+        everything: "Everything", "Kõik";
+        information: "Information", "Teated";
+        warnings: "Warnings", "Hoiatused";
+        errors: "Errors", "Vead";
+        search: "Search", "Otsing";
+        entries: "Log, newest first", "Logi, uusimad eespool";
+        none_fits: "No entry fits.", "Sobivaid kirjeid ei ole.";
+        debug: "Debug", "Silumine";
+        info: "Info", "Teade";
+        warn: "Warning", "Hoiatus";
+        error: "Error", "Viga";
+    }
+}

@@ -1,0 +1,79 @@
+//! Runs that are over.
+
+use super::screen;
+
+screen! {
+    /// The list of runs, one of them, its replay and plots.
+    HistoryWords {
+        runs: "Runs, newest first", "Tööd, uusimad eespool";
+        none: "No run is kept yet: one is some seconds after a job ends.",
+            "Ühtki tööd ei ole veel alles: see salvestub mõni sekund pärast lõppu.";
+        older: "Show older ones", "Näita vanemaid";
+        numbered[2]: "{0}. {1}", "{0}. {1}";
+        no_clock: "Clock not set", "Kell seadmata";
+        all: "All runs", "Kõik tööd";
+        run[2]: "Run {0}, {1}", "Töö {0}, {1}";
+        stops: "Where it stood or waited", "Kus robot seisis või ootas";
+        more_stops[1]: "And {0} more stops.", "Ja veel {0} peatust.";
+        figures: "Figures", "Arvud";
+        report: "For a bug report", "Veateate jaoks";
+        show_stop[1]: "Show the moment of stop {0}", "Näita peatuse {0} hetke";
+        not_recorded: "This run was not recorded.", "Seda tööd ei salvestatud.";
+        recording_gone: "The recording was removed because newer ones took its place.",
+            "Salvestis eemaldati, sest uuemad vajasid ruumi.";
+        save_recording[1]: "Save the recording ({0} MB)", "Salvesta salvestis ({0} MB)";
+        no_replay: "Without a recording the run cannot be seen again.", "Salvestiseta ei saa tööd uuesti vaadata.";
+        play: "Play", "Esita";
+        pause: "Pause", "Paus";
+        time: "Time into the run", "Aeg töö algusest";
+        speed: "Speed", "Kiirus";
+        picture[2]: "Picture of the run: {0} square metres swept, {1} stops",
+            "Pilt tööst: koristatud {0} ruutmeetrit, {1} peatust";
+        // Title, lines, low, high.
+        plot[4]: "{0}: {1}, between {2} and {3}", "{0}: {1}, vahemikus {2} kuni {3}";
+        plot_charge: "Battery charge in %", "Aku laetus, %";
+        plot_battery: "Current into the battery in A", "Akusse minev vool, A";
+        plot_motors: "Currents of the motors in A", "Mootorite voolud, A";
+        plot_link: "Bad packets on the cable in %", "Vigased paketid kaablis, %";
+        charge: "Charge", "Laetus";
+        battery: "Battery", "Aku";
+        left_wheel: "Left wheel", "Vasak ratas";
+        right_wheel: "Right wheel", "Parem ratas";
+        main_brush: "Main brush", "Põhihari";
+        bad_packets: "Bad packets", "Vigased paketid";
+        battery_from_to[2]: "battery {0} to {1}", "aku {0} kuni {1}";
+        from_to[2]: "{0} to {1}", "{0} kuni {1}";
+        spot: "Spot", "Üks koht";
+        to_dock: "To the dock", "Dokki";
+        a_zone: "a zone", "üks ala";
+        zones[1]: "{0} zones", "{0} ala";
+        everything: "All", "Kõik";
+        times[2]: "{0}, {1} times", "{0}, {1} korda";
+        by_button: "Button on the robot", "Nupp robotil";
+        by_schedule[1]: "Schedule {0}", "Ajakava {0}";
+        by_robot: "The robot itself", "Robot ise";
+        of_floor[1]: " ({0} of that floor)", " ({0} sellest põrandast)";
+        order: "Order", "Ülesanne";
+        asked_by: "Asked by", "Andis";
+        duration: "Time", "Aeg";
+        in_motion: "In motion", "Liikus";
+        swept: "Swept", "Koristatud";
+        way: "Way", "Teekond";
+        bumps: "Bumps", "Puuted";
+        map: "Map", "Kaart";
+        version[1]: "version {0}", "versioon {0}";
+        lasted[1]: "for {0}", "kestis {0}";
+        until_end: "until the end", "kuni lõpuni";
+        by[1]: " By {0}.", " Andis {0}.";
+        // What, by whom, when, how long.
+        stop[4]: "{0}{1} At {2}, {3}.", "{0}{1} Ajal {2}, {3}.";
+        finished: "Finished.", "Lõpetatud.";
+        finished_as[1]: "Finished: {0}.", "Lõpetatud: {0}.";
+        stopped: "Stopped.", "Peatatud.";
+        gave_up[1]: "Gave up: {0}.", "Robot andis alla: {0}.";
+        daemon_ended: "Ended because vthal was ended in good order.", "Lõppes, sest vthal lõpetas korrapäraselt töö.";
+        cut_short: "Cut short: vthal or its board stopped without notice; what is shown was known shortly before.",
+            "Katkes: vthal või selle arvuti seiskus ootamatult; näha on see, mis oli veidi enne seda teada.";
+        other_robot: "Ended because another robot was attached.", "Lõppes, sest ühendati teine robot.";
+    }
+}

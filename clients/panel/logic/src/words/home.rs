@@ -1,0 +1,54 @@
+//! What the robot knows of the home: floors, rooms, what is forbidden, kept maps.
+
+use super::screen;
+
+screen! {
+    /// The sheet with all of it.
+    HomeWords {
+        maps: "Kept maps", "Alles hoitud kaardid";
+        no_maps: "None yet: a map is kept when a run ends.", "Veel ühtegi: kaart jäetakse alles, kui töö lõpeb.";
+        room_one: "1 room", "1 tuba";
+        room_many[1]: "{0} rooms", "{0} tuba";
+        map[1]: "Map {0}", "Kaart {0}";
+        in_use: "in use", "kasutusel";
+        take_up_map[1]: "Take map {0} up again", "Võta kaart {0} uuesti kasutusele";
+        take_up: "Take up again", "Võta kasutusele";
+        floors: "Floors", "Korrused";
+        floor_open: "The robot finds out on which floor it is on its dock, or while it cleans.",
+            "Robot saab dokis või koristades teada, mis korrusel ta on.";
+        which_dock: "It is on a dock, and several floors have one: choose the floor on which it is.",
+            "Robot on dokis, aga dokk on mitmel korrusel: vali korrus, millel ta on.";
+        floor_unknown: "It does not recognise the floor: choose the one on which it is, or say that it is new.",
+            "Robot ei tunne korrust ära: vali, millel ta on, või ütle, et see on uus.";
+        new_floor: "It is on a new floor", "Robot on uuel korrusel";
+        floor[1]: "Floor {0}", "Korrus {0}";
+        is_on[1]: "The robot is on {0}", "Robot on siin: {0}";
+        it_is_here: "It is here", "Robot on siin";
+        is_here: "the robot is here", "robot on siin";
+        remove_named[1]: "Remove {0}", "Eemalda {0}";
+        bring_back_named[1]: "Bring {0} back", "Too {0} tagasi";
+        bring_back: "Bring back", "Too tagasi";
+        rename_named[1]: "Rename {0}", "Nimeta ümber: {0}";
+        no_map: "no map yet", "kaarti veel ei ole";
+        removed: ", removed", ", eemaldatud";
+        floor_name[1]: "New name of floor {0}; empty for its number", "Korruse {0} uus nimi; tühjana jääb number";
+        rooms: "Rooms", "Toad";
+        room[1]: "Room {0}", "Tuba {0}";
+        no_rooms: "No room is known yet: the robot finds them while it cleans.",
+            "Ühtki tuba veel ei teata: robot leiab need koristades.";
+        choose_rooms: "Press a room here or tap it on the map to choose it for cleaning.",
+            "Koristamiseks vali tuba siin või puuduta seda kaardil.";
+        draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
+        draw_avoid: "Keep out for one job", "Jäta koht ühel korral välja";
+        room_name[1]: "New name of {0}; empty for its number", "Uus nimi toale „{0}“; tühjana jääb number";
+        door_to[1]: ", door to {0}", ", uks: {0}";
+        doors_to[2]: ", doors to {0} and {1}", ", uksed: {0} ja {1}";
+        no_go: "Not to be entered", "Keelatud kohad";
+        nothing_forbidden: "Nothing is forbidden.", "Midagi ei ole keelatud.";
+        draw_wall: "Draw a virtual wall", "Joonista virtuaalsein";
+        draw_zone: "Draw a no-go zone", "Joonista keeluala";
+        wall[1]: "Virtual wall {0}", "Virtuaalsein {0}";
+        zone[1]: "No-go zone {0}", "Keeluala {0}";
+        extent[2]: "{0} x {1} m", "{0} × {1} m";
+    }
+}

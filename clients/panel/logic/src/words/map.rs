@@ -1,0 +1,65 @@
+//! The map and what is done on it.
+
+use super::screen;
+
+screen! {
+    /// The map, its buttons and legend, and the bar with orders over it.
+    MapWords {
+        title: "Map", "Kaart";
+        canvas: "Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot, 3 changes between flat and 3D, where Shift with arrow keys turns it. Enter points at the middle.",
+            "Kaart roboti, selle teekonna ja koristatud alaga; toad on loeteluna lehel „Kodu“. Nooleklahvid nihutavad, pluss ja miinus suurendavad ja vähendavad, 0 näitab kõike, F jälgib robotit, 3 vahetab tasase ja ruumilise vaate vahel, kus tõstuklahv koos nooltega pöörab. Enter osutab keskkohale.";
+        relief: "Seen in 3D", "Ruumiline vaade";
+        relief_key: "Seen in 3D (key 3)", "Ruumiline vaade (klahv 3)";
+        no_relief: "This browser cannot draw the map in 3D, so it stays flat:", "See veebilehitseja ei oska kaarti ruumiliselt joonistada, seepärast jääb see tasaseks:";
+        undo[1]: "Undo: {0}", "Võta tagasi: {0}";
+        redo[1]: "Redo: {0}", "Tee uuesti: {0}";
+        edit_wall: "virtual wall", "virtuaalsein";
+        edit_zone: "no-go zone", "keeluala";
+        edit_no_wall: "removal of a virtual wall", "virtuaalseina eemaldamine";
+        edit_no_zone: "removal of a no-go zone", "keeluala eemaldamine";
+        edit_name: "name of a room", "toa nimi";
+        changed_meanwhile: "That edit cannot be taken back or done again: the map was changed there meanwhile. The edits before it can.",
+            "Seda muudatust ei saa tagasi võtta ega uuesti teha: kaarti on seal vahepeal muudetud. Varasemaid saab.";
+        not_told_yet: "The robot has not told of that edit yet. Try again in a few seconds.",
+            "Robot ei ole sellest muudatusest veel teatanud. Proovi mõne sekundi pärast uuesti.";
+        unsure: "Not known", "Teadmata";
+        zone_of[1]: "zone of {0}", "ala {0}";
+        whole_home: "The whole home", "Kogu kodu";
+        out_of_one[1]: "{0}, keeping out of 1 place", "{0}, välja arvatud 1 koht";
+        out_of_many[2]: "{0}, keeping out of {1} places", "{0}, välja arvatud {1} kohta";
+        keep_out: "Keep out, this time", "Jäta koht välja";
+        cannot_draw: "The map cannot be drawn; everything else works.", "Kaarti ei saa joonistada; kõik muu töötab.";
+        no_webgl: "This browser offers no WebGL 2.", "See veebilehitseja ei toeta WebGL 2.";
+        view: "View of the map", "Kaardi vaade";
+        zoom_in: "Zoom in", "Suurenda";
+        zoom_out: "Zoom out", "Vähenda";
+        everything: "Show everything", "Näita kõike";
+        follow: "Follow the robot", "Jälgi robotit";
+        ground: "What the map shows", "Mida kaart näitab";
+        ground_true: "True home", "Tegelik kodu";
+        ground_known: "What it knows", "Mida robot teab";
+        legend: "Legend", "Leppemärgid";
+        swept: "Swept", "Koristatud";
+        path: "Path", "Teekond";
+        bump: "Bump", "Puude";
+        planned: "Planned", "Kavas";
+        door: "Door", "Uks";
+        true_place: "True place", "Tegelik koht";
+        wall_first: "Tap one end of the wall, or move it to the cross and press Enter.",
+            "Puuduta seina üht otsa või nihuta see ristile ja vajuta Enter.";
+        wall_second: "Now the other end.", "Nüüd teine ots.";
+        zone_first: "Tap one corner of the zone, or move it to the cross and press Enter.",
+            "Puuduta ala üht nurka või nihuta see ristile ja vajuta Enter.";
+        zone_second: "Now the opposite corner.", "Nüüd vastasnurk.";
+        chosen: "Chosen rooms and zones", "Valitud toad ja alad";
+        reckons: "The robot reckons what this takes.", "Robot arvutab, kui palju see võtab.";
+        choose_none: "Choose none", "Tühista valik";
+        clean_these: "Clean these", "Korista need";
+        times[1]: "{0}x", "{0}x";
+        how_often: "How often each of them is cleaned", "Mitu korda igaüht koristatakse";
+        // Floor, minutes, charge, pauses, share, low share.
+        prospect[6]: "{0}, about {1} min, {2} of a full battery{3}; {4} of the floor will be swept, {5} if the robot is less sure of its place than it believes",
+            "{0}, umbes {1} min, {2} täis akust{3}; põrandast saab koristatud {4}, aga {5}, kui robot teab oma asukohta halvemini, kui ta arvab";
+        pauses: ", with pauses to charge", ", laadimispausidega";
+    }
+}

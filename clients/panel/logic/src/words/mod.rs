@@ -1,0 +1,187 @@
+//! Everything that a person reads on the page, in every language that the page speaks.
+//!
+//! A *screen* is a plain structure of texts; the macro [`screen`] makes it from lines of a name, the English and the Estonian text, so
+//! a text without its translation does not compile. A text that takes values is a [`Told`] with the number of its values in
+//! its type; `{0}` is the place of the first one.
+
+mod access;
+mod device;
+mod drive;
+mod frame;
+mod history;
+mod home;
+mod map;
+mod mix;
+mod schedule;
+mod status;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Display;
+
+pub use access::AccessWords;
+pub use device::DeviceWords;
+pub use drive::DriveWords;
+pub use frame::{ActionWords, FrameWords, LogWords, OfferWords, StateWords, UnitWords};
+pub use history::HistoryWords;
+pub use home::HomeWords;
+pub use map::MapWords;
+pub use mix::MixWords;
+pub use schedule::ScheduleWords;
+pub use status::StatusWords;
+
+/// A language that the page speaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    English,
+    Estonian,
+}
+
+impl Language {
+    /// All, as they are offered.
+    pub const ALL: [Self; 2] = [Self::English, Self::Estonian];
+
+    /// As browsers and `<html lang>` write it.
+    #[must_use]
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Estonian => "et",
+        }
+    }
+
+    /// What it calls itself.
+    #[must_use]
+    pub const fn own_name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::Estonian => "Eesti",
+        }
+    }
+
+    /// The language of a tag such as `et-EE`.
+    #[must_use]
+    pub fn of_tag(tag: &str) -> Option<Self> {
+        let main = tag.split('-').next()?;
+        Self::ALL
+            .into_iter()
+            .find(|language| language.tag().eq_ignore_ascii_case(main))
+    }
+
+    /// Everything that is said in it.
+    #[must_use]
+    pub const fn words(self) -> &'static Words {
+        match self {
+            Self::English => &ENGLISH,
+            Self::Estonian => &ESTONIAN,
+        }
+    }
+}
+
+/// A text with places for `N` values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Told<const N: usize>(&'static str);
+
+impl<const N: usize> Told<N> {
+    /// The text with these values in it.
+    #[must_use]
+    pub fn fill(self, values: [&dyn Display; N]) -> String {
+        let mut text = String::new();
+        let mut rest = self.0;
+        while let Some((before, (place, behind))) = rest
+            .split_once('{')
+            .and_then(|(before, after)| Some((before, after.split_once('}')?)))
+        {
+            text.push_str(before);
+            if let Some(value) = place.parse::<usize>().ok().and_then(|place| values.get(place)) {
+                text.push_str(&value.to_string());
+            }
+            rest = behind;
+        }
+        text.push_str(rest);
+        text
+    }
+}
+
+/// Makes a screen: its structure and its texts in every language.
+macro_rules! screen {
+    ($(#[$doc:meta])* $name:ident { $($key:ident $([$count:literal])? : $english:literal, $estonian:literal;)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name { $(pub $key: $crate::words::screen!(@kind $([$count])?),)* }
+
+        impl $name {
+            pub(super) const ENGLISH: Self = Self { $($key: $crate::words::screen!(@text $([$count])? $english),)* };
+            pub(super) const ESTONIAN: Self = Self { $($key: $crate::words::screen!(@text $([$count])? $estonian),)* };
+            /// Name, number of values, and the text in every language.
+            #[cfg(test)]
+            pub(super) const ALL: &'static [(&'static str, usize, [&'static str; 2])] =
+                &[$((stringify!($key), 0 $(+ $count)?, [$english, $estonian]),)*];
+        }
+    };
+    (@kind) => { &'static str };
+    (@kind [$count:literal]) => { $crate::words::Told<$count> };
+    (@text $text:literal) => { $text };
+    (@text [$count:literal] $text:literal) => { $crate::words::Told::<$count>($text) };
+}
+pub(crate) use screen;
+
+/// All screens.
+#[derive(Clone, Copy, Debug)]
+pub struct Words {
+    /// The language that they are in.
+    pub language: Language,
+    pub access: AccessWords,
+    pub action: ActionWords,
+    pub device: DeviceWords,
+    pub drive: DriveWords,
+    pub frame: FrameWords,
+    pub history: HistoryWords,
+    pub home: HomeWords,
+    pub log: LogWords,
+    pub map: MapWords,
+    pub mix: MixWords,
+    pub offer: OfferWords,
+    pub schedule: ScheduleWords,
+    pub state: StateWords,
+    pub status: StatusWords,
+    pub unit: UnitWords,
+}
+
+impl Words {
+    /// A number with so many decimals, as the language writes it.
+    #[must_use]
+    pub fn number(&self, value: f64, decimals: usize) -> String {
+        let text = format!("{value:.decimals$}");
+        match self.language {
+            Language::English => text,
+            Language::Estonian => text.replace('.', ","),
+        }
+    }
+}
+
+macro_rules! all_screens {
+    ($language:ident, $which:ident) => {
+        Words {
+            language: Language::$language,
+            access: AccessWords::$which,
+            action: ActionWords::$which,
+            device: DeviceWords::$which,
+            drive: DriveWords::$which,
+            frame: FrameWords::$which,
+            history: HistoryWords::$which,
+            home: HomeWords::$which,
+            log: LogWords::$which,
+            map: MapWords::$which,
+            mix: MixWords::$which,
+            offer: OfferWords::$which,
+            schedule: ScheduleWords::$which,
+            state: StateWords::$which,
+            status: StatusWords::$which,
+            unit: UnitWords::$which,
+        }
+    };
+}
+
+static ENGLISH: Words = all_screens!(English, ENGLISH);
+static ESTONIAN: Words = all_screens!(Estonian, ESTONIAN);

@@ -1,0 +1,68 @@
+//! What starts by itself.
+
+use super::screen;
+
+screen! {
+    /// Schedules, their form, quiet hours.
+    ScheduleWords {
+        schedules: "Schedules", "Ajakavad";
+        none: "Nothing starts by itself.", "Midagi ei alga iseenesest.";
+        add: "Add a schedule", "Lisa ajakava";
+        next_runs: "Next runs", "Järgmised korrad";
+        no_next: "No run is to come.", "Ühtki korda ei ole ees.";
+        past_runs: "Past runs", "Möödunud korrad";
+        no_past: "No run was decided yet.", "Ühtki korda ei ole veel otsustatud.";
+        skip_named[1]: "Skip the next run of {0}", "Jäta järgmine kord vahele: {0}";
+        skip: "Skip next", "Jäta vahele";
+        run_named[1]: "Run now: {0}", "Käivita kohe: {0}";
+        run: "Run now", "Käivita kohe";
+        edit_named[1]: "Edit {0}", "Muuda: {0}";
+        edit: "Edit", "Muuda";
+        remove_named[1]: "Remove {0}", "Eemalda: {0}";
+        new: "New schedule", "Uus ajakava";
+        change: "Change the schedule", "Muuda ajakava";
+        name: "Name", "Nimi";
+        time: "Time", "Kellaaeg";
+        once: "On one day only", "Ainult ühel päeval";
+        date: "Date", "Kuupäev";
+        days: "Days of the week", "Nädalapäevad";
+        rooms: "Rooms; none for the whole home", "Toad; valimata jättes kogu kodu";
+        no_rooms: "No room is known yet.", "Ühtki tuba veel ei teata.";
+        passes: "Passes over each room", "Mitu korda iga tuba koristatakse";
+        late: "Minutes that it may start late, if the robot was off at its time",
+            "Mitu minutit hiljem võib alustada, kui robot oli õigel ajal väljas";
+        waits: "In the quiet hours wait for their end", "Vaiksel ajal oota selle lõppu";
+        need_name: "Give it a name.", "Anna ajakavale nimi.";
+        need_time: "Say at what time it starts.", "Määra kellaaeg, millal see algab.";
+        need_date: "Choose the day on which it starts.", "Vali päev, millal see algab.";
+        need_days: "Choose at least one day of the week.", "Vali vähemalt üks nädalapäev.";
+        quiet: "Quiet hours", "Vaikne aeg";
+        quiet_are[2]: "Nothing starts by itself from {0} to {1}.", "Ajavahemikus {0}–{1} ei alga midagi iseenesest.";
+        quiet_none: "There are none.", "Vaikset aega ei ole.";
+        from: "From", "Alates";
+        to: "To", "Kuni";
+        set: "Set", "Määra";
+        no_quiet: "None", "Puudub";
+        next[1]: "Next: {0}", "Järgmine: {0}";
+        no_run: "No run to come.", "Ühtki korda ei ole ees.";
+        off: "Switched off.", "Välja lülitatud.";
+        would_not[1]: "It would not start at this moment: {0}", "Praegu see ei algaks: {0}";
+        fired: "Started.", "Algas.";
+        zone[2]: "All times are those of {0}, where it is {1}.", "Kõik ajad on vööndis {0}, kus praegu on {1}.";
+        no_clock: "The robot's clock is not set, so nothing starts by itself until it is.",
+            "Roboti kell on seadmata, seni ei alga midagi iseenesest.";
+        left_out[1]: "{0}, left out", "{0}, jääb vahele";
+        kept_by_quiet[1]: "{0}, kept by the quiet hours", "{0}, jääb vaikse aja tõttu ära";
+        kept[2]: "{0}, kept: {1}", "{0}, jääb ära: {1}";
+        after_quiet[1]: "{0}, after the quiet hours", "{0}, pärast vaikset aega";
+        when_answers[1]: "{0}, when the robot answers", "{0}, kui robot vastab";
+        daily[1]: "Daily at {0}", "Iga päev kell {0}";
+        weekly[2]: "{0} at {1}", "{0} kell {1}";
+        once_at[1]: "Once, {0}", "Üks kord, {0}";
+        whole_home: "the whole home", "kogu kodu";
+        whole_home_by[1]: "the whole home, {0}", "kogu kodu, {0}";
+        room[1]: "room {0}", "tuba {0}";
+        a_zone: "a zone", "üks ala";
+        times[1]: "{0} times", "{0} korda";
+    }
+}

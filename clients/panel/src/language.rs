@@ -1,0 +1,60 @@
+//! The language of the page: as the browser wants until a person chooses.
+
+use std::cell::Cell;
+
+use leptos::prelude::*;
+use panel_logic::{Language, Words};
+
+use crate::icons::{Icon, icon};
+
+/// Under this name the browser keeps the choice; `boot.js` reads it too.
+const KEY: &str = "language";
+
+thread_local! {
+    static SPOKEN: Cell<Language> = const { Cell::new(Language::English) };
+}
+
+/// Takes the language that `boot.js` found.
+pub(crate) fn begin() {
+    let tag = document()
+        .document_element()
+        .and_then(|root| root.get_attribute("lang"));
+    let found = tag.and_then(|tag| Language::of_tag(&tag));
+    SPOKEN.set(found.unwrap_or(Language::English));
+}
+
+/// Every text of the page. It stays the same as long as the page.
+pub(crate) fn words() -> &'static Words {
+    SPOKEN.get().words()
+}
+
+/// Makes it the choice, for the next visit; the page begins anew with it.
+fn choose(language: Language) {
+    if let Ok(Some(storage)) = window().local_storage() {
+        storage.set_item(KEY, language.tag()).ok(); // Without storage the browser's wish stays in force.
+    }
+    window().location().reload().ok(); // A page that cannot be loaded anew goes on in the old language.
+}
+
+#[component]
+pub(crate) fn LanguageChoice() -> impl IntoView {
+    let spoken = words().language;
+    let take = move |event| {
+        if let Some(language) = Language::of_tag(&event_target_value(&event)) {
+            choose(language);
+        }
+    };
+    let option = move |language: Language| {
+        view! {
+            <option value=language.tag() lang=language.tag() selected=language == spoken>{language.own_name()}</option>
+        }
+    };
+    view! {
+        <span class="round language">
+            {icon(Icon::Globe)}
+            <select id="language" aria-label=words().frame.language title=words().frame.language on:change=take>
+                {Language::ALL.map(option).into_iter().collect_view()}
+            </select>
+        </span>
+    }
+}
