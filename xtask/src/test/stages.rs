@@ -156,6 +156,7 @@ fn workspace_tests(_long: bool) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
     system::need("socat", &["socat"])?;
+    system::need("curl", &["curl"])?;
     let build = check(&mut cargo(&["build", "--workspace", "--locked"]));
     let run = if system::find("cargo-nextest").is_some() {
         tests(&mut cargo(&[

@@ -30,8 +30,9 @@ struct Shell {
 }
 
 impl Shell {
-    fn open() -> Self {
-        let page = std::env::temp_dir().join(format!("rvac-book-{}", std::process::id()));
+    /// For the examples of the page of this name.
+    fn open(name: &str) -> Self {
+        let page = std::env::temp_dir().join(format!("rvac-book-{name}-{}", std::process::id()));
         fs::create_dir_all(&page).unwrap();
         fs::write(page.join("index.html"), "<!doctype html><title>Panel</title>").unwrap();
         Self {
@@ -108,7 +109,7 @@ fn same_kind(one: &Value, other: &Value) -> bool {
 fn try_page(name: &str, text: &str) {
     let examples = page::examples(text);
     assert!(examples.len() > 3, "{name} has examples");
-    let shell = Shell::open();
+    let shell = Shell::open(name);
     // The first example asks who is there; the robot may need a moment to greet.
     shell.wait_until_ready(&examples[0]);
     for example in &examples {
@@ -127,5 +128,13 @@ fn the_examples_of_the_page_on_the_socket_are_true() {
     try_page(
         "socket-api.md",
         include_str!("../../../../docs/book/src/socket-api.md"),
+    );
+}
+
+#[test]
+fn the_examples_of_the_page_on_http_are_true() {
+    try_page(
+        "http-api.md",
+        include_str!("../../../../docs/book/src/http-api.md"),
     );
 }

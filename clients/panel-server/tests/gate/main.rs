@@ -1,7 +1,9 @@
 //! A robot on a network: only paired devices get in, each as far as its role goes.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+mod openapi;
 mod rig;
+mod schema;
 
 use pairing::console::{Order, Reply};
 use pairing::wire::Finished;

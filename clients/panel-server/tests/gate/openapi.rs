@@ -1,0 +1,114 @@
+//! The description of the interface, `openapi.json`, against the table of routes and against real answers.
+
+use pairing::wire::{OpenWindow, Revoke, SetRole};
+use pairing::{Method, Need, ROUTES, Role};
+use serde_json::{Value, json};
+
+use crate::rig::{Answer, Rig};
+use crate::schema::misfit;
+
+fn described() -> Value {
+    serde_json::from_str(include_str!("../../openapi.json")).unwrap()
+}
+
+/// Method, path and role of every operation.
+fn operations(spec: &Value) -> Vec<(String, String, String)> {
+    let paths = spec["paths"].as_object().unwrap();
+    let operations = paths.iter().flat_map(|(path, methods)| {
+        let methods = methods.as_object().unwrap();
+        methods.iter().map(move |(method, operation)| {
+            let role = operation["x-role"].as_str().unwrap();
+            (method.clone(), path.clone(), role.to_owned())
+        })
+    });
+    operations.collect()
+}
+
+#[test]
+fn the_description_has_exactly_the_routes_and_their_roles() {
+    let spec = described();
+    assert_eq!(spec["openapi"], "3.1.0");
+    let mut left = operations(&spec);
+    for route in ROUTES {
+        let method = match route.method {
+            Method::Get => "get",
+            Method::Post => "post",
+        };
+        let role = match route.need {
+            Need::Nobody => "nobody",
+            Need::Role(role) => role.name(),
+        };
+        let is_it = |(found, path, needs): &(String, String, String)| {
+            let fits = path == route.path || route.path.ends_with('/') && path.starts_with(route.path);
+            found == method && fits && needs == role
+        };
+        let place = left.iter().position(is_it);
+        let place = place.unwrap_or_else(|| panic!("{method} {} for {role} is not described", route.path));
+        left.remove(place);
+    }
+    assert!(left.is_empty(), "described and not served: {left:?}");
+}
+
+/// The answer is one that the description knows, in status and content.
+#[track_caller]
+fn expect_described(spec: &Value, (method, path): (&str, &str), answer: &Answer) {
+    let responses = &spec["paths"][path][method]["responses"];
+    let response = &responses[answer.status.to_string()];
+    assert!(response.is_object(), "{method} {path} answers {answer:?}");
+    let schema = &response["content"]["application/json"]["schema"];
+    if schema.is_null() {
+        assert!(answer.body.is_empty(), "{method} {path} answers {answer:?}");
+        return;
+    }
+    let body: Value = serde_json::from_str(&answer.body).unwrap();
+    assert_eq!(misfit(spec, schema, &body), None, "{method} {path}");
+}
+
+#[tokio::test]
+async fn real_answers_are_as_described() {
+    let (rig, spec) = (Rig::start().await, described());
+    let admin = rig.pair(Role::Admin).await;
+    let viewer = rig.pair(Role::View).await;
+    for path in ["/api/pairing", "/api/session", "/api/clients"] {
+        for cookie in ["", &viewer, &admin] {
+            expect_described(&spec, ("get", path), &rig.get(path, cookie).await);
+        }
+    }
+    let wanted = OpenWindow { role: Role::Drive };
+    for cookie in ["", &viewer, &admin] {
+        let opened = rig.post("/api/pairing/open", cookie, &wanted).await;
+        expect_described(&spec, ("post", "/api/pairing/open"), &opened);
+    }
+    for path in ["begin", "finish", "open"] {
+        let path = format!("/api/pairing/{path}");
+        let odd = rig.post(&path, &admin, &json!({"odd": 1})).await;
+        assert_eq!(odd.status, 400);
+        expect_described(&spec, ("post", &path), &odd);
+    }
+    let id = rig.session(&viewer).await.client.unwrap();
+    let role = Role::Drive;
+    for cookie in ["", &viewer, &admin] {
+        let changed = rig.post("/api/clients/role", cookie, &SetRole { id, role }).await;
+        expect_described(&spec, ("post", "/api/clients/role"), &changed);
+    }
+    for expected in [204, 404] {
+        let gone = rig.post("/api/clients/revoke", &admin, &Revoke { id }).await;
+        assert_eq!(gone.status, expected);
+        expect_described(&spec, ("post", "/api/clients/revoke"), &gone);
+    }
+}
+
+#[tokio::test]
+async fn a_device_is_paired_as_described() {
+    let (rig, spec) = (Rig::start().await, described());
+    let code = rig.open(Role::Drive).await.unwrap();
+    let finish = rig.begin(&code, "Mari's phone", 7).await.unwrap();
+    let answer = rig.finish(&finish).await;
+    assert_eq!(answer.status, 200);
+    expect_described(&spec, ("post", "/api/pairing/finish"), &answer);
+    let late = rig.finish(&finish).await;
+    assert_ne!(late.status, 200);
+    expect_described(&spec, ("post", "/api/pairing/finish"), &late);
+    let uninvited = rig.begin(&code, "Mari's phone", 7).await.unwrap_err();
+    expect_described(&spec, ("post", "/api/pairing/begin"), &uninvited);
+}
