@@ -7,10 +7,10 @@ screen! {
     MapWords {
         title: "Map", "Kaart";
         canvas: "Map with the robot, its path and the swept area; the rooms stand as a list under Home. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows the robot, 3 changes between flat and 3D, where Shift with arrow keys turns it. Enter points at the middle.",
-            "Kaart roboti, selle teekonna ja koristatud alaga; toad on loeteluna lehel „Kodu“. Nooleklahvid nihutavad, pluss ja miinus suurendavad ja vähendavad, 0 näitab kõike, F jälgib robotit, 3 vahetab tasase ja ruumilise vaate vahel, kus tõstuklahv koos nooltega pöörab. Enter osutab keskkohale.";
-        relief: "Seen in 3D", "Ruumiline vaade";
-        relief_key: "Seen in 3D (key 3)", "Ruumiline vaade (klahv 3)";
-        no_relief: "This browser cannot draw the map in 3D, so it stays flat:", "See veebilehitseja ei oska kaarti ruumiliselt joonistada, seepärast jääb see tasaseks:";
+            "Kaart roboti, selle teekonna ja koristatud alaga; toad on loeteluna lehel „Kodu“. Nooleklahvid nihutavad, pluss ja miinus suurendavad ja vähendavad, 0 näitab kõike, F jälgib robotit, 3 vahetab tasase ja 3D-vaate vahel, kus tõstuklahv koos nooltega pöörab. Enter osutab keskkohale.";
+        relief: "Seen in 3D", "3D-vaade";
+        relief_key: "Seen in 3D (key 3)", "3D-vaade (klahv 3)";
+        no_relief: "This browser cannot draw the map in 3D, so it stays flat:", "See veebilehitseja ei oska kaarti 3D-s joonistada, seepärast jääb see tasaseks:";
         undo[1]: "Undo: {0}", "Võta tagasi: {0}";
         redo[1]: "Redo: {0}", "Tee uuesti: {0}";
         edit_wall: "virtual wall", "virtuaalsein";
