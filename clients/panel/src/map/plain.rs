@@ -9,9 +9,8 @@ use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ImageData};
 use super::canvas_size::fit_canvas;
 use super::palette::{Palette, Rgb};
 use super::scene::{Ground, Places, Redraw, Scene};
+use crate::language::words;
 
-/// Why there is no view in 3D.
-const NO_RELIEF: &str = "it offers no WebGL 2.";
 /// Radius of a bump mark and widths of lines, CSS pixels.
 const BUMP_PX: f64 = 3.5;
 const LINE_PX: f64 = 1.6;
@@ -79,7 +78,7 @@ impl PlainRenderer {
     /// Draws one frame, if anything in it changed.
     pub(crate) fn draw(&self, scene: &mut Scene, places: Places, redraw: Redraw) {
         if scene.camera.orbit().is_some() {
-            scene.refuse_relief(NO_RELIEF.to_owned());
+            scene.refuse_relief(words().map.no_webgl.to_owned());
         }
         fit_canvas(&self.canvas, &scene.camera);
         let palette = Palette::of(scene.theme);

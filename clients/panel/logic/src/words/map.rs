@@ -29,7 +29,7 @@ screen! {
         out_of_many[2]: "{0}, keeping out of {1} places", "{0}, välja arvatud {1} kohta";
         keep_out: "Keep out, this time", "Jäta koht välja";
         cannot_draw: "The map cannot be drawn; everything else works.", "Kaarti ei saa joonistada; kõik muu töötab.";
-        no_webgl: "This browser offers no WebGL 2.", "See veebilehitseja ei toeta WebGL 2.";
+        no_webgl: "it offers no WebGL 2.", "see ei toeta WebGL 2.";
         view: "View of the map", "Kaardi vaade";
         zoom_in: "Zoom in", "Suurenda";
         zoom_out: "Zoom out", "Vähenda";
