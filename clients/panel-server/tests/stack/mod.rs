@@ -145,7 +145,7 @@ impl Stack {
 
     /// Starts the server in front of this socket, behind which the daemon must be found.
     pub(crate) fn serve_from(&mut self, daemon: &Path) {
-        self.start_server_at(daemon, &packed_panel(), &[]);
+        self.serve((daemon, "0"), &packed_panel(), &[]);
     }
 
     pub(crate) fn folder(&self) -> &Path {
