@@ -6,6 +6,7 @@ mod actions;
 mod app;
 mod device_view;
 mod drive;
+mod evidence_view;
 mod floors_view;
 mod header;
 mod history;

@@ -7,6 +7,7 @@ use panel_logic::{
 };
 use rvac_api::Status;
 
+use crate::evidence_view::StandstillView;
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
@@ -32,6 +33,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
                 <p id="reason">{move || reason.get()}</p>
             </div>
             <Inhibits store />
+            <StandstillView store />
             <Lately store />
             <Figures store />
         </section>

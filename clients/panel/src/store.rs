@@ -5,7 +5,7 @@ use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows, top_speeds};
 use rvac_api::{
     DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody, RobotDescription,
-    SimulatedTruth, Status, Topic,
+    SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -55,6 +55,8 @@ pub(crate) struct Store {
     pub(crate) estimate: RwSignal<Option<Estimate>>,
     /// What it decided.
     pub(crate) decisions: RwSignal<DecisionBook>,
+    /// The newest time it stood still by itself.
+    pub(crate) standstill: RwSignal<Option<Standstill>>,
     /// The floors, and on which of them the robot is.
     pub(crate) floors: RwSignal<FloorsView>,
     /// Versions of the map of a floor that the daemon keeps, newest first.
@@ -97,6 +99,7 @@ impl Store {
             rooms: RwSignal::new(Vec::new()),
             estimate: RwSignal::new(None),
             decisions: RwSignal::new(DecisionBook::default()),
+            standstill: RwSignal::new(None),
             floors: RwSignal::new(FloorsView::default()),
             maps: RwSignal::new(Vec::new()),
             maps_floor: RwSignal::new(None),
@@ -214,6 +217,7 @@ impl Store {
             Topic::Log,
             Topic::Schedules,
             Topic::Floors,
+            Topic::Standstills,
             Topic::Runs,
         ];
         self.send(None, RequestBody::Watch { topics });
@@ -274,6 +278,7 @@ impl Store {
                 self.estimate.set(Some(estimate));
             }
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
+            Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { floor, maps } => {
                 self.maps_floor.set(floor);
@@ -291,10 +296,7 @@ impl Store {
             Message::Run(record) => self.history.on_record(*record),
             Message::RunKept(run) => self.history.on_kept(*run),
             Message::RunTrack(track) => self.history.on_track(*track),
-            Message::Packet { .. }
-            | Message::RunFile { .. }
-            | Message::Standstill(_)
-            | Message::Evidence { .. } => {}
+            Message::Packet { .. } | Message::RunFile { .. } | Message::Evidence { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
             }

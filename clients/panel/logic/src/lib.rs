@@ -12,6 +12,7 @@ mod connection;
 mod device_rows;
 mod driver;
 mod edits;
+mod evidence;
 mod figures;
 mod frame_meter;
 mod history;
@@ -41,6 +42,7 @@ pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use edits::{Edit, EditError, EditLog};
+pub use evidence::{FeltRow, felt_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
 pub use history::{

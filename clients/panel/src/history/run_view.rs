@@ -6,6 +6,7 @@ use rvac_api::RunRecord;
 
 use super::date_text;
 use super::player::Player;
+use crate::evidence_view::EvidenceView;
 use crate::language::words;
 use crate::store::Store;
 
@@ -61,6 +62,7 @@ fn stop_line(
         number,
         at_s,
         words: sentence,
+        evidence,
     }: StopRow,
     time: RwSignal<f64>,
 ) -> impl IntoView {
@@ -74,7 +76,10 @@ fn stop_line(
             >
                 {number}
             </button>
-            <span>{sentence}</span>
+            <div>
+                <span>{sentence}</span>
+                {(!evidence.is_empty()).then(|| view! { <EvidenceView evidence /> })}
+            </div>
         </li>
     }
 }

@@ -1,6 +1,6 @@
 //! Runs and their stops for people who read.
 
-use rvac_api::{RoomHere, Run, RunAsker, RunJob, RunRecord, RunResult, RunStop};
+use rvac_api::{Evidence, RoomHere, Run, RunAsker, RunJob, RunRecord, RunResult, RunStop};
 
 use crate::codes::{run_text, stop_cause_text};
 use crate::figures::{area_text, clock_text, distance_text, percent_text};
@@ -121,6 +121,8 @@ pub struct StopRow {
     pub at_s: f64,
     /// When, why and for how long.
     pub words: String,
+    /// What it felt and tried before, if it stopped by itself.
+    pub evidence: Evidence,
 }
 
 /// The stops of a run, in order.
@@ -130,6 +132,7 @@ pub fn stop_rows(words: &Words, record: &RunRecord) -> Vec<StopRow> {
         number: index + 1,
         at_s: stop.at_s,
         words: stop_text(words, stop),
+        evidence: stop.evidence.clone(),
     };
     record.stops.iter().enumerate().map(row).collect()
 }

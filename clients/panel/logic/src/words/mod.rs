@@ -7,6 +7,7 @@
 mod access;
 mod device;
 mod drive;
+mod evidence;
 mod frame;
 mod history;
 mod home;
@@ -22,6 +23,7 @@ use std::fmt::Display;
 pub use access::AccessWords;
 pub use device::DeviceWords;
 pub use drive::DriveWords;
+pub use evidence::EvidenceWords;
 pub use frame::{ActionWords, FrameWords, LogWords, OfferWords, StateWords, UnitWords};
 pub use history::HistoryWords;
 pub use home::HomeWords;
@@ -135,6 +137,7 @@ pub struct Words {
     pub action: ActionWords,
     pub device: DeviceWords,
     pub drive: DriveWords,
+    pub evidence: EvidenceWords,
     pub frame: FrameWords,
     pub history: HistoryWords,
     pub home: HomeWords,
@@ -168,6 +171,7 @@ macro_rules! all_screens {
             action: ActionWords::$which,
             device: DeviceWords::$which,
             drive: DriveWords::$which,
+            evidence: EvidenceWords::$which,
             frame: FrameWords::$which,
             history: HistoryWords::$which,
             home: HomeWords::$which,

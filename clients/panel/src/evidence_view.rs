@@ -1,0 +1,74 @@
+//! Why the robot stands: what it felt in the seconds before, and what it tried.
+
+use leptos::prelude::*;
+use panel_logic::{FeltRow, decision_text, felt_rows};
+use rvac_api::{Evidence, Status};
+
+use crate::language::words;
+use crate::store::Store;
+
+/// Of the standstill that goes on, folded; nothing while the robot works or stands because somebody wanted it.
+#[component]
+pub(crate) fn StandstillView(store: Store) -> impl IntoView {
+    let evidence = Memo::new(move |_| {
+        let told = store.standstill.get()?;
+        let is_now = store.status.with(|status| {
+            let fits = |status: &Status| status.state == told.state && status.reason == told.reason;
+            status.as_ref().is_some_and(fits)
+        });
+        (is_now && !told.evidence.is_empty()).then_some(told.evidence)
+    });
+    move || evidence.get().map(|evidence| view! { <EvidenceView evidence /> })
+}
+
+/// As a part of the page that unfolds.
+#[component]
+pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
+    let told = &words().evidence;
+    let rows = felt_rows(words(), &evidence);
+    let tried: Vec<String> = evidence
+        .tried
+        .iter()
+        .map(|entry| decision_text(words(), entry))
+        .collect();
+    let has_tried = !tried.is_empty();
+    view! {
+        <details class="evidence">
+            <summary>{told.title}</summary>
+            <table>
+                <caption>{told.felt}</caption>
+                <thead>
+                    <tr>
+                        <th scope="col">{told.when}</th>
+                        <th scope="col">{told.motion}</th>
+                        <th scope="col">{told.signs}</th>
+                        <th scope="col">{told.echo}</th>
+                    </tr>
+                </thead>
+                <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
+            </table>
+            <Show when=move || has_tried>
+                <h4>{told.tried}</h4>
+            </Show>
+            <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
+        </details>
+    }
+}
+
+fn row(
+    FeltRow {
+        when,
+        motion,
+        echo,
+        signs,
+    }: FeltRow,
+) -> impl IntoView {
+    view! {
+        <tr>
+            <td>{when}</td>
+            <td>{motion}</td>
+            <td>{signs}</td>
+            <td>{echo}</td>
+        </tr>
+    }
+}
