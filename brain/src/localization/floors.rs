@@ -76,6 +76,8 @@ pub struct FloorFinder {
     /// Searches of the second look, one for each rival in their order.
     second_look: Option<Vec<Search>>,
     looks_from_m: f64,
+    /// The rival that has won: whoever takes up its map needs some steps for that.
+    winner: Option<usize>,
     can_see: bool,
 }
 
@@ -113,6 +115,7 @@ impl FloorFinder {
             way_m: 0.0,
             second_look: None,
             looks_from_m: 0.0,
+            winner: None,
             can_see: config.sensors.proximity.sensors().len() >= SENSORS_MIN,
         }
     }
@@ -141,6 +144,11 @@ impl FloorFinder {
 
     /// Goes on with the second look, or with the searches of the rivals until one is proven.
     fn judge(&mut self, advance: Advance) -> Option<FloorPlace> {
+        let winner = self.winner.and_then(|winner| self.rivals.get(winner));
+        if let Some(winner) = winner.filter(|winner| winner.is_proven()) {
+            return Some(self.place_on(winner));
+        }
+        self.winner = None;
         let proven = self.rivals.iter().position(Rival::is_proven);
         let Some(proven) = proven.filter(|_| self.waiting.is_empty() && self.way_m >= self.looks_from_m)
         else {
@@ -163,7 +171,9 @@ impl FloorFinder {
         self.second_look = None;
         self.looks_from_m = self.way_m + LOOK_AGAIN_M;
         let winner = self.rivals.get(proven)?;
-        is_clear(&all, proven, winner.tracker.estimate().pose).then(|| self.place_on(winner))
+        let place = is_clear(&all, proven, winner.tracker.estimate().pose).then(|| self.place_on(winner));
+        self.winner = place.map(|_| proven);
+        place
     }
 
     fn search_on(&mut self) {
