@@ -39,6 +39,8 @@ use standstill::Standstills;
 
 /// The brain is called at least this often while there is one.
 const STEP_MAX_US: u64 = 100_000;
+/// Pause between two steps of making a home ready: whatever else comes is served in between.
+const PREPARE_US: u64 = 2_000;
 
 /// All state of the daemon that is not a file, a socket or a clock.
 #[derive(Debug)]
@@ -61,6 +63,8 @@ pub struct Core {
     tap: Tap,
     events: Vec<FirmwareEvent>,
     stepped_us: u64,
+    /// When a step of making a home ready was done last.
+    prepared_us: u64,
     ended: bool,
     /// Whoever changed the map since the brain's last step: client and number of the request.
     edits: Vec<(ClientId, Option<u32>)>,
@@ -106,6 +110,7 @@ impl Core {
             tap: Tap::default(),
             events: Vec::new(),
             stepped_us: 0,
+            prepared_us: 0,
             ended: false,
             edits: Vec::new(),
             commands_wait: false,
@@ -158,7 +163,9 @@ impl Core {
         let device = self.device.as_ref().map(Device::next_wake_us);
         let step = self.mind.as_ref().map(|_| self.stepped_us + STEP_MAX_US);
         let feed = self.feed.next_wake_us(&self.clients);
-        [device, step, feed, self.arbiter.lease_end_us()]
+        let is_preparing = self.mind.as_ref().is_some_and(Mind::is_preparing);
+        let prepare = is_preparing.then_some(self.prepared_us + PREPARE_US);
+        [device, step, prepare, feed, self.arbiter.lease_end_us()]
             .into_iter()
             .flatten()
             .min()
@@ -302,6 +309,14 @@ impl Core {
         self.events = events;
         if let Some(client) = self.arbiter.expire(now_us) {
             self.lease_ended(now_us, client, outputs);
+        }
+        let recording = self.config.recording;
+        if let Some(mind) = &mut self.mind
+            && mind.is_preparing()
+            && now_us >= self.prepared_us + PREPARE_US
+        {
+            self.prepared_us = now_us;
+            mind.prepare(now_us, &mut recorder(recording, outputs));
         }
         if self.mind.is_some() && now_us >= self.stepped_us + STEP_MAX_US {
             self.think(now_us, outputs);

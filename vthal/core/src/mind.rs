@@ -189,13 +189,18 @@ impl Mind {
         self.next.is_none() && (self.run.is_none() || (rests && cause == RunCause::Job))
     }
 
-    /// Goes on with the home of the next run, and begins that when it is ready.
-    fn prepare_run(&mut self, recorder: &mut Recorder<'_>) {
-        let now_us = self.observer.observation().time_us;
-        let Some(next) = &mut self.next else { return };
-        if self.on_its_way.is_some() {
+    /// Whether [`Self::prepare`] has something to do.
+    pub(crate) fn is_preparing(&self) -> bool {
+        self.next.is_some() || self.on_its_way.is_some()
+    }
+
+    /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
+    pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
+        if let Some(floor) = &mut self.on_its_way {
+            floor.go_on();
             return;
         }
+        let Some(next) = &mut self.next else { return };
         let Some(NextHome { written, ready }) = next.go_on(&self.config) else {
             return;
         };
@@ -286,9 +291,7 @@ impl Mind {
         };
         let actions = self.step_once(&commands, recorder);
         self.observer.seen();
-        if self.holds_commands() {
-            self.prepare_run(recorder);
-        } else {
+        if !self.holds_commands() {
             self.waiting = commands;
             self.waiting.clear();
             self.watch_rest(recorder);

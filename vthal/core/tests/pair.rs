@@ -780,7 +780,7 @@ fn what_is_said_while_the_home_of_a_run_is_made_ready_comes_after_the_order_and_
     let mut pair = on_the_dock();
     assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(vec![], 1))), None);
     assert_eq!(pair.ask(BERT, wall([3.2, 1.0], [3.2, 2.0])), None);
-    pair.run_ms(20);
+    pair.run_ms(2);
     let now = pair.core.status().state;
     assert!(
         now == "docked" && pair.edits.is_empty(),

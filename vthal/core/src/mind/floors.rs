@@ -113,7 +113,7 @@ impl Mind {
     /// The home of a floor; it takes some steps until it is ready.
     fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<ReadyHome> {
         let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
-        let ready = floor.go_on();
+        let ready = floor.take();
         if ready.is_none() {
             self.on_its_way = Some(floor);
         }

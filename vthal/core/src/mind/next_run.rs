@@ -60,6 +60,7 @@ impl NextRun {
 pub(super) struct FloorOnItsWay {
     number: u16,
     home: TakingUp,
+    ready: Option<ReadyHome>,
 }
 
 impl FloorOnItsWay {
@@ -74,11 +75,19 @@ impl FloorOnItsWay {
             .unwrap_or_else(|| Self {
                 number,
                 home: TakingUp::new(config, stored.clone()),
+                ready: None,
             })
     }
 
-    /// Does the next step.
-    pub(super) fn go_on(&mut self) -> Option<ReadyHome> {
-        self.home.go_on()
+    /// Does the next step, if one is left.
+    pub(super) fn go_on(&mut self) {
+        if self.ready.is_none() {
+            self.ready = self.home.go_on();
+        }
+    }
+
+    /// The home, once it is ready.
+    pub(super) fn take(&mut self) -> Option<ReadyHome> {
+        self.ready.take()
     }
 }
