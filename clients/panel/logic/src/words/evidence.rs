@@ -18,8 +18,8 @@ screen! {
         turning[1]: "turning, {0} °/s", "pöörab, {0} °/s";
         standing: "standing", "seisab";
         nothing: "nothing", "ei midagi";
-        bumper_left: "bumper on the left", "kaitseraud vasakul";
-        bumper_right: "bumper on the right", "kaitseraud paremal";
+        bumper_left: "bumper on the left", "põrkeraud vasakul";
+        bumper_right: "bumper on the right", "põrkeraud paremal";
         cliff_left: "edge on the left", "serv vasakul";
         cliff_front: "edge ahead", "serv ees";
         cliff_right: "edge on the right", "serv paremal";
