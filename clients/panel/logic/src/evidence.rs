@@ -70,7 +70,9 @@ fn row(words: &Words, felt: &[Felt]) -> FeltRow {
     let echo = felt.iter().filter_map(|felt| felt.echo).reduce(f32::max);
     let signs: Vec<&str> = first.signs.iter().map(|sign| sign_text(words, sign)).collect();
     FeltRow {
-        when: told.span.fill([&words.number(from_s, 1), &words.number(to_s, 1)]),
+        when: told
+            .span
+            .fill([&words.number(tenths(from_s), 1), &words.number(tenths(to_s), 1)]),
         motion,
         echo: echo.map_or_else(String::new, |echo| {
             words.number(100.0 * f64::from(echo), 0) + " %"
@@ -81,6 +83,11 @@ fn row(words: &Words, felt: &[Felt]) -> FeltRow {
             signs.join(", ")
         },
     }
+}
+
+/// Rounded to a tenth; no zero has a sign.
+fn tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0 + 0.0
 }
 
 /// A sign in words; what kept the firmware from moving has an explanation.
@@ -124,7 +131,7 @@ mod tests {
                 felt(-0.6, 0.3, &[]),
                 felt(-0.4, 0.0, &["bumper-left"]),
                 felt(-0.2, -0.1, &["bumper-left"]),
-                felt(0.0, 0.0, &["bumper-left", "wheel-drop"]),
+                felt(-0.01, 0.0, &["bumper-left", "wheel-drop"]),
             ],
             tried: Vec::new(),
         };

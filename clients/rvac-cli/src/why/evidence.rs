@@ -101,9 +101,16 @@ fn row(felt: &Felt) -> String {
     }
     let row = format!(
         "{:>7.1} s  {:>6.2}  {:>6.2}  {echo:>5}  {signs}",
-        felt.at_s, felt.v, felt.w
+        plain(felt.at_s, 10.0),
+        plain(felt.v, 100.0),
+        plain(felt.w, 100.0)
     );
     row.trim_end().to_owned()
+}
+
+/// Rounded to so many steps of one; no zero has a sign.
+fn plain(value: f64, steps: f64) -> f64 {
+    (steps * value).round() / steps + 0.0
 }
 
 #[cfg(test)]
@@ -119,6 +126,7 @@ mod tests {
                 Felt {
                     at_s: -0.2,
                     v: 0.25,
+                    w: -0.001,
                     echo: Some(0.8),
                     ..Felt::default()
                 },
