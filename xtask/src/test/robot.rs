@@ -78,12 +78,13 @@ pub(super) fn of_emulator(_long: bool) -> Result {
         .chain(trials))
 }
 
-/// An owner calibrates the emulated robot with `rvac`.
+/// An owner calibrates the emulated robot with `rvac`. Each robot keeps the pace of the clock on the wall, so not more at once than two cores
+/// emulate with room to spare.
 fn owner(elf: &Path) -> Command {
     let mut command = workspace::cargo();
     command
         .args(["test", "--locked", "--test", "owner"])
-        .args(["--no-fail-fast", "--", "--test-threads", "6"])
+        .args(["--no-fail-fast", "--", "--test-threads", "3"])
         .env("RVAC_FIRMWARE", elf)
         .env(
             "RVAC_PROGRAM",
