@@ -12,6 +12,8 @@ use crate::to_api;
 
 /// Stops that are kept of a run; further ones are only counted.
 const STOPS_MAX: usize = 100;
+/// Stops of which it is kept what the robot felt, some four kilobytes each.
+const EVIDENCE_MAX: usize = 20;
 
 /// A run that goes on, or whose end is so young that the robot might still take it back.
 #[derive(Debug)]
@@ -219,6 +221,8 @@ impl OpenRun {
             reason: decision.reason,
             is_told,
         });
+        let stops = self.record.stops.iter();
+        let is_felt = stops.filter(|stop| !stop.evidence.is_empty()).count() < EVIDENCE_MAX;
         if is_told {
             let stop = RunStop {
                 at_s: self.at_s(now_us),
@@ -228,7 +232,11 @@ impl OpenRun {
                 text: sentence(decision),
                 by: hand.filter(|_| decision.reason == "command").map(str::to_owned),
                 place: to_api::pose(brain.pose(), now_us),
-                evidence: evidence.clone(),
+                evidence: if is_felt {
+                    evidence.clone()
+                } else {
+                    Evidence::default()
+                },
             };
             self.record.stops.push(stop);
         }
