@@ -168,7 +168,9 @@ impl Mind {
         if let Some(cause) = cause
             && self.begins_run(cause)
         {
-            if self.brain.map().knowledge().values().is_empty() {
+            // One whose floor is just being taken up begins there.
+            let is_ready = self.on_its_way.is_none() && self.brain.map().knowledge().values().is_empty();
+            if is_ready {
                 self.end_run(now_us, RunEnd::Finished, recorder);
                 let checkpoint = self.brain.checkpoint();
                 self.begin_run(now_us, (cause, checkpoint, None), recorder);

@@ -1001,6 +1001,29 @@ fn on_a_dock_that_one_floor_has_the_robot_is_on_that_floor() {
 }
 
 #[test]
+fn an_order_that_comes_while_the_map_of_its_floor_is_taken_up_is_carried_out_on_that_floor() {
+    let mut pair = Pair::with_floors(vec![floor_with_dock(1, 2.0)]);
+    pair.state.docked = true;
+    while pair.core.status().state != "docked" {
+        pair.run_ms(1);
+    }
+    assert_eq!(pair.core.floors_view().here, None, "its map is not there yet");
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.run_ms(1_000);
+    assert_eq!(pair.core.floors_view().here, Some(1));
+    assert_eq!(pair.core.status().state, "starting");
+    let started = pair.records.iter().find_map(|record| match record {
+        Record::RunStarted(start) => Some(start),
+        _ => None,
+    });
+    let home = started.expect("a run").checkpoint.home.as_ref();
+    assert!(
+        home.is_some_and(|home| home.dock().is_some()),
+        "with the map of the floor"
+    );
+}
+
+#[test]
 fn on_a_dock_that_several_floors_have_a_person_is_asked_and_the_answer_counts() {
     let mut pair = Pair::with_floors(vec![floor_with_dock(1, 1.0), floor_with_dock(2, 2.0)]);
     let topics = vec![Topic::Floors];
