@@ -8,7 +8,7 @@ mod next_run;
 
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
-use brain::{Actions, BehaviorState, Body, Brain, Checkpoint, Command, MapCursor, ReadyHome, Speeds};
+use brain::{Actions, BehaviorState, Body, Brain, Checkpoint, Command, MapCursor, ReadyHome, Reason, Speeds};
 use floors::Carried;
 pub(crate) use floors::FloorNews;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
@@ -113,7 +113,8 @@ impl Mind {
     /// A run that is about to begin takes what the brain knows now.
     pub(super) fn prepare_anew(&mut self) {
         if let Some(next) = self.next.take() {
-            self.next = Some(NextRun::after(&self.brain, next.cause));
+            let anew = self.next.insert(NextRun::after(&self.brain, next.cause));
+            anew.stick_was_centred = next.stick_was_centred;
         }
     }
 
@@ -178,12 +179,37 @@ impl Mind {
                 self.next = Some(NextRun::after(&self.brain, cause));
             }
         }
+        self.watch_stick(&command);
         // A stick that moves faster than telemetry comes: only its newest position counts.
         if matches!(command, Command::Manual { .. }) {
             self.waiting
                 .retain(|other| !matches!(other, Command::Manual { .. }));
         }
         self.waiting.push(command);
+    }
+
+    /// Whether `command` would be obeyed, by this brain or by the one of the run that is about to begin.
+    pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
+        let is_centred = self.next.as_ref().is_some_and(|next| next.stick_was_centred);
+        match self.brain.admit(command) {
+            Err(Reason::CentreFirst) if is_centred => Ok(()),
+            answer => answer,
+        }
+    }
+
+    /// Keeps in mind for the next run where the stick was; after a stop it must come to the centre anew.
+    fn watch_stick(&mut self, command: &Command) {
+        let Some(next) = &mut self.next else { return };
+        match command {
+            Command::Manual {
+                speed_m_per_s,
+                turn_rad_per_s,
+                ..
+            } if *speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0 => next.stick_was_centred = true,
+            Command::ManualEnd => next.stick_was_centred = true,
+            Command::Stop => next.stick_was_centred = false,
+            _ => {}
+        }
     }
 
     fn begins_run(&self, cause: RunCause) -> bool {

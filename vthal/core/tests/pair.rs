@@ -810,6 +810,35 @@ fn what_is_said_while_the_home_of_a_run_is_made_ready_comes_after_the_order_and_
 }
 
 #[test]
+fn in_a_known_home_a_stick_that_was_in_the_centre_after_a_stop_drives_on() {
+    let mut pair = on_the_dock();
+    pair.state.docked = false;
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+    pair.run_ms(200);
+    assert_eq!(pair.drive(ANNA, 0.1).as_deref(), Some("centre-first"));
+    assert_eq!(pair.drive(ANNA, 0.0), None);
+    assert_eq!(
+        pair.drive(ANNA, 0.1),
+        None,
+        "while the home of the run is made ready"
+    );
+    assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
+    assert_eq!(
+        pair.drive(ANNA, 0.1).as_deref(),
+        Some("centre-first"),
+        "after another stop"
+    );
+    pair.run_ms(500);
+    assert_ne!(pair.core.status().state, "manual");
+    assert_eq!(pair.drive(ANNA, 0.0), None);
+    pair.run_ms(100);
+    assert_eq!(pair.drive(ANNA, 0.1), None);
+    pair.run_ms(100);
+    assert_eq!(pair.core.status().state, "manual");
+}
+
+#[test]
 fn an_order_that_cannot_be_says_what_is_wrong_with_it() {
     let mut pair = on_the_dock();
     let name = |name: &str| {

@@ -182,7 +182,7 @@ impl Core {
 
     pub(super) fn admitted(&self, command: &Command) -> Result<(), Refused> {
         let mind = self.mind.as_ref().ok_or("no-robot")?;
-        mind.brain().admit(command).map_err(brain::Reason::name)
+        mind.admit(command).map_err(brain::Reason::name)
     }
 
     /// Anybody may stop at any time; the wheels do not wait for the brain.

@@ -12,6 +12,8 @@ use crate::RunCause;
 #[derive(Debug)]
 pub(super) struct NextRun {
     pub(super) cause: RunCause,
+    /// A person's stick was in the centre since the order, so it may drive (S23).
+    pub(super) stick_was_centred: bool,
     stage: Stage,
 }
 
@@ -32,6 +34,7 @@ impl NextRun {
     pub(super) fn after(brain: &Brain, cause: RunCause) -> Self {
         Self {
             cause,
+            stick_was_centred: false,
             stage: Stage::WritingDown(Box::new(brain.begin_checkpoint())),
         }
     }
