@@ -30,21 +30,12 @@ pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
 
 /// Prints the newest decisions, the newest last.
 fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::Result<()> {
-    // Decisions first, then the pose, whose time is the present one.
-    connection.watch(vec![Topic::Decisions, Topic::Pose])?;
-    let deadline = Instant::now() + PATIENCE;
     let mut decisions = Vec::new();
-    let now_s = loop {
-        let Some(message) = connection.receive_until(deadline)? else {
-            bail!("vthal told nothing within {} s", PATIENCE.as_secs());
-        };
-        match message.update {
-            Some(Update::Decision(decision)) => decisions.push((decision, message.text)),
-            Some(Update::Pose(pose)) => break pose.t,
-            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
-            _ => {}
+    let now_s = told_before(&mut connection, Topic::Decisions, |update, text| {
+        if let Update::Decision(decision) = update {
+            decisions.push((decision, text));
         }
-    };
+    })?;
     if decisions.is_empty() {
         bail!("the robot has decided nothing yet");
     }
@@ -57,6 +48,28 @@ fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::
         }
     }
     Ok(())
+}
+
+/// Gives `take` what `topic` told up to now, each with its JSON, and returns the daemon's time.
+fn told_before(
+    connection: &mut Connection,
+    topic: Topic,
+    mut take: impl FnMut(Update, String),
+) -> anyhow::Result<f64> {
+    // The topic first, then the pose, whose time is the present one.
+    connection.watch(vec![topic, Topic::Pose])?;
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        let Some(message) = connection.receive_until(deadline)? else {
+            bail!("vthal told nothing within {} s", PATIENCE.as_secs());
+        };
+        match message.update {
+            Some(Update::Pose(pose)) => return Ok(pose.t),
+            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
+            Some(update) => take(update, message.text),
+            None => {}
+        }
+    }
 }
 
 pub(crate) fn ago(seconds: f64) -> String {

@@ -122,8 +122,8 @@ impl Open {
                 self.signs.push(sign);
             }
         }
-        let strongest = observation.proximity.iter().copied().reduce(f32::max);
-        self.echo = self.echo.max_of(strongest);
+        let echoes = observation.proximity.iter().copied();
+        self.echo = self.echo.into_iter().chain(echoes).reduce(f32::max);
         self.currents_a = match (self.currents_a, currents_a) {
             (Some(before), Some(now)) => Some([0, 1, 2].map(|motor| larger(before[motor], now[motor]))),
             (before, now) => now.or(before),
@@ -139,20 +139,6 @@ impl Open {
             signs: self.signs.iter().map(|sign| (*sign).to_owned()).collect(),
             echo: self.echo,
             currents_a: self.currents_a,
-        }
-    }
-}
-
-/// The larger of two that may be absent.
-trait MaxOf {
-    fn max_of(self, other: Self) -> Self;
-}
-
-impl MaxOf for Option<f32> {
-    fn max_of(self, other: Self) -> Self {
-        match (self, other) {
-            (Some(one), Some(other)) => Some(one.max(other)),
-            (one, other) => one.or(other),
         }
     }
 }

@@ -2,12 +2,11 @@
 
 use std::fmt::Write as _;
 use std::io::{Write as _, stdout};
-use std::time::Instant;
 
 use anyhow::bail;
 use rvac_api::{Evidence, Felt, RequestBody, Standstill, Topic, Update};
 
-use super::{PATIENCE, ago};
+use super::{PATIENCE, ago, told_before};
 use crate::control;
 use crate::socket::Connection;
 
@@ -30,21 +29,12 @@ pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Resu
 
 /// Prints why the robot stood still by itself the last time.
 pub(super) fn print_stop(mut connection: Connection, json: bool) -> anyhow::Result<()> {
-    // Standstills first, then the pose, whose time is the present one.
-    connection.watch(vec![Topic::Standstills, Topic::Pose])?;
-    let deadline = Instant::now() + PATIENCE;
     let mut newest = None;
-    let now_s = loop {
-        let Some(message) = connection.receive_until(deadline)? else {
-            bail!("vthal told nothing within {} s", PATIENCE.as_secs());
-        };
-        match message.update {
-            Some(Update::Standstill(told)) => newest = Some((told, message.text)),
-            Some(Update::Pose(pose)) => break pose.t,
-            Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
-            _ => {}
+    let now_s = told_before(&mut connection, Topic::Standstills, |update, text| {
+        if let Update::Standstill(told) = update {
+            newest = Some((told, text));
         }
-    };
+    })?;
     match newest {
         None => bail!("the robot has not stood still by itself since the daemon's start"),
         Some((_, text)) if json => writeln!(stdout(), "{text}")?,
