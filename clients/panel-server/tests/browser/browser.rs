@@ -20,6 +20,17 @@ const PATIENCE: Duration = Duration::from_secs(40);
 /// Pause between two looks at the page.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 
+/// Scrolls to an element, and notes whether the next click arrives at it. A page that is left by the click forgets the note.
+const AWAIT_CLICK: &str = "
+    const selector = arguments[0];
+    document.querySelector(selector)?.scrollIntoView({ block: 'center' });
+    const arrives = target => target.closest?.(selector)
+        || (target.tagName === 'SELECT' && target.contains(document.querySelector(selector)));
+    window.clickMissed = true;
+    window.noteClick = event => { if (arrives(event.target)) window.clickMissed = false; };
+    window.clickSeen ??= ['click', 'change'].forEach(
+        kind => window.addEventListener(kind, event => window.noteClick(event), true)) ?? true;";
+
 /// Size of the screen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Screen {
@@ -88,17 +99,23 @@ impl Browser {
     }
 
     /// Clicks in the middle of an element, which is scrolled into the middle first: the driver takes one below a bar that
-    /// stays at the edge for visible.
+    /// stays at the edge for visible. A page that grows between the driver's look and its press lets the press end elsewhere;
+    /// a person presses again then, and so does this.
     pub(crate) async fn click(&self, selector: &str) {
-        let middle = format!("document.querySelector('{selector}')?.scrollIntoView({{block: 'center'}})");
-        self.client.execute(&middle, Vec::new()).await.unwrap();
-        self.client
-            .find(Locator::Css(selector))
-            .await
-            .unwrap()
-            .click()
-            .await
-            .unwrap();
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            let prepare = vec![json!(selector)];
+            self.client.execute(AWAIT_CLICK, prepare).await.unwrap();
+            let element = self.client.find(Locator::Css(selector)).await.unwrap();
+            let pressed = element.click().await;
+            if pressed.is_ok() && self.text("return window.clickMissed !== true").await == "true" {
+                return;
+            }
+            assert!(
+                Instant::now() < deadline,
+                "{selector} cannot be clicked: {pressed:?}"
+            );
+        }
     }
 
     /// The text that a script gives, or promises.

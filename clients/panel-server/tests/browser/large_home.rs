@@ -1,12 +1,7 @@
 //! A home of 400 square metres with a way of 10,000 points: how long a picture takes, and what the map costs on the wire.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::os::unix::net::UnixStream;
-use std::path::Path;
 use std::time::Duration;
-
-use rvac_api::SEPARATOR;
 
 use crate::browser::Screen;
 use crate::stack::Stack;
@@ -82,19 +77,6 @@ fn way_mm() -> Vec<i32> {
     (0..POINTS).flat_map(place).collect()
 }
 
-/// Asks for a job as another client that stays, and again every few seconds: a robot whose home is not taken up yet refuses.
-fn start(daemon: &Path) {
-    let mut request = br#"{"c":"start"}"#.to_vec();
-    request.push(SEPARATOR);
-    let mut client = UnixStream::connect(daemon).unwrap();
-    std::thread::spawn(move || {
-        // Ends with the daemon.
-        while client.write_all(&request).is_ok() {
-            std::thread::sleep(Duration::from_secs(3));
-        }
-    });
-}
-
 #[tokio::test]
 async fn four_hundred_square_metres_and_ten_thousand_points() {
     if std::env::var_os("RVAC_BROWSER_TESTS").is_none() {
@@ -109,7 +91,7 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
         let browser = Browser::open(&stack, screen).await;
         browser.until_state(&["idle", "docked", "cleaning"]).await;
         if name == "desktop" {
-            start(&stack.daemon_socket());
+            browser.click("#start").await;
         }
         browser.until_within(START_MAX, CLEANS).await;
         browser.until(LONG_WAY).await;
