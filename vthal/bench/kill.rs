@@ -10,9 +10,7 @@ use anyhow::{Context, bail};
 use clap::Parser;
 use rvac_api::{Pose, SimulatedTruth, Update};
 
-mod peer;
-
-use peer::{Client, Daemon, Scratch, built_beside};
+use vthal_bench::{Client, Daemon, Scratch, built_beside, next_random};
 
 /// The robot must stand this long after the daemon's end (S1).
 const STAND_WITHIN_S: f64 = 0.3;
@@ -202,12 +200,4 @@ fn distance(from: Pose, to: Pose) -> f64 {
 
 fn moved(from: Pose, to: Pose) -> bool {
     distance(from, to) > SAME_PLACE_M
-}
-
-/// Marsaglia's xorshift: moments need no better randomness.
-fn next_random(state: &mut u64) -> u64 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    *state
 }

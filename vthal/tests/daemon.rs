@@ -13,10 +13,7 @@ use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
 use rvac_protocol::message::{self, BinaryKinds};
 use rvac_protocol::seal::{Digest, Direction as SealDirection};
 
-#[path = "../bench/peer/mod.rs"]
-mod peer;
-
-use peer::{Client, Daemon, Scratch, SyntheticRobot};
+use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot};
 
 /// Generous: the machine may be busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(20);

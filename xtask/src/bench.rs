@@ -12,6 +12,8 @@ enum Subject {
     Link,
     /// The daemon as a relay between a robot and 1, 10 and 100 clients.
     Relay,
+    /// The panel's server beside the daemon that it relays: delays, requests a second, memory.
+    Panel,
     /// The daemon killed at random moments while a robot drives.
     Kill,
     /// The daemon killed at random moments while it writes schedules, control mixes and maps.
@@ -147,6 +149,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
     match subject {
         Subject::Link => &["--bin", "bench-link"],
         Subject::Relay => &["--bin", "bench-relay"],
+        Subject::Panel => &["--bin", "bench-panel"],
         Subject::Kill => &["--bin", "bench-kill"],
         Subject::Writes => &["--bin", "bench-writes"],
         Subject::Sim => &["--bin", "rvac-sim"],
@@ -179,6 +182,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         Subject::Safety => &["--phases", "20"],
         Subject::Link
         | Subject::Relay
+        | Subject::Panel
         | Subject::Writes
         | Subject::Cordlib
         | Subject::Flips
@@ -202,7 +206,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
-        Subject::Link | Subject::Relay => &["--long"],
+        Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Sim | Subject::Cordlib => &[],
     }
 }

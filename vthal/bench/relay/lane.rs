@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use anyhow::bail;
 use rvac_protocol::message::BinaryKinds;
 
-use crate::peer::{Daemon, Scratch, SyntheticRobot};
 use crate::reader::{Reader, read_ready};
+use vthal_bench::{Daemon, Scratch, SyntheticRobot};
 
 /// Who relays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

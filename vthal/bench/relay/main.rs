@@ -6,8 +6,6 @@
 
 mod lane;
 mod measure;
-#[path = "../peer/mod.rs"]
-mod peer;
 mod plain;
 mod reader;
 
@@ -19,7 +17,7 @@ use anyhow::{Context, bail};
 use clap::{Parser, Subcommand};
 use lane::{Lane, Relay};
 use measure::Figures;
-use peer::built_beside;
+use vthal_bench::built_beside;
 
 /// Numbers of clients.
 const CLIENTS: [usize; 3] = [1, 10, 100];

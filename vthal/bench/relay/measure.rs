@@ -1,13 +1,12 @@
 //! One trial: robots that send at 50 Hz by turns, then each as fast as everybody reads.
 
-use std::fs;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail};
 
 use crate::lane::{Lane, listen};
-use crate::peer::Daemon;
 use crate::reader::read_ready;
+use vthal_bench::{Processor, resident_mib};
 
 /// Packets under way at most in the test of the highest rate: nobody's queue overflows.
 const UNDER_WAY: u64 = 200;
@@ -42,7 +41,7 @@ pub(crate) fn run(mut lanes: Vec<Lane>, time: Duration) -> anyhow::Result<Vec<Fi
     let after = usage(&lanes)?;
     let mut all = Vec::new();
     for (mut lane, (before, after)) in lanes.into_iter().zip(before.iter().zip(&after)) {
-        let rss_mib = resident_mib(&lane.daemon)?;
+        let rss_mib = resident_mib(lane.daemon.id())?;
         let packets_per_s = at_highest_rate(&mut lane, time / 4)?;
         lane.latencies_us.sort_by(f64::total_cmp);
         let count = lane.latencies_us.len() as f64;
@@ -106,39 +105,7 @@ fn at_highest_rate(lane: &mut Lane, time: Duration) -> anyhow::Result<f64> {
     Ok(lane.arrived() as f64 / began.elapsed().as_secs_f64())
 }
 
-/// What a daemon has had of the processors so far, over all threads.
-struct Processor {
-    ran_s: f64,
-    waited_s: f64,
-}
-
 fn usage(lanes: &[Lane]) -> anyhow::Result<Vec<Processor>> {
-    lanes.iter().map(|lane| processor(&lane.daemon)).collect()
-}
-
-fn processor(daemon: &Daemon) -> anyhow::Result<Processor> {
-    let (mut ran_ns, mut waited_ns) = (0, 0);
-    for task in fs::read_dir(format!("/proc/{}/task", daemon.id()))? {
-        let text = fs::read_to_string(task?.path().join("schedstat"))?;
-        let mut words = text.split(' ').map_while(|word| word.parse::<u64>().ok());
-        let (ran, waited) = words
-            .next()
-            .zip(words.next())
-            .context("no processor times in /proc")?;
-        ran_ns += ran;
-        waited_ns += waited;
-    }
-    Ok(Processor {
-        ran_s: Duration::from_nanos(ran_ns).as_secs_f64(),
-        waited_s: Duration::from_nanos(waited_ns).as_secs_f64(),
-    })
-}
-
-fn resident_mib(daemon: &Daemon) -> anyhow::Result<f64> {
-    let status = fs::read_to_string(format!("/proc/{}/status", daemon.id()))?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    let kib = line
-        .and_then(|line| line.trim().strip_suffix(" kB"))
-        .and_then(|kib| kib.parse::<f64>().ok());
-    Ok(kib.context("no memory in /proc")? / 1024.0)
+    let of = |lane: &Lane| Ok(Processor::of(lane.daemon.id())?);
+    lanes.iter().map(of).collect()
 }

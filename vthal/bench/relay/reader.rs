@@ -8,7 +8,7 @@ use std::time::Duration;
 use anyhow::bail;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-use crate::peer::Client;
+use vthal_bench::Client;
 
 /// What marks a telemetry packet, in both relays' output.
 const MARK: &[u8] = b"state";

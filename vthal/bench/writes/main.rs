@@ -17,16 +17,14 @@ use rvac_protocol::message::BinaryKinds;
 
 mod home;
 mod mixes;
-#[path = "../peer/mod.rs"]
-mod peer;
 mod schedules;
 mod store;
 
 use home::Home;
 use mixes::Mixes;
-use peer::{Client, Daemon, Scratch, SyntheticRobot, built_beside};
 use schedules::Schedules;
 use store::{Desk, Store, texts};
+use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot, built_beside, next_random};
 
 /// Acknowledged changes of a life, at most.
 const WHOLE_CHANGES_MAX: u64 = 3;
@@ -191,7 +189,7 @@ impl Trial<'_> {
         let mut desk = Desk::new(Client::watching(&self.scratch.join("vthal.sock"), r#"["log"]"#)?);
         self.store.get_ready(&mut desk)?;
         self.compare(&mut desk, possible.as_ref())?;
-        for _ in 0..self.next_random() % (WHOLE_CHANGES_MAX + 1) {
+        for _ in 0..next_random(&mut self.random) % (WHOLE_CHANGES_MAX + 1) {
             self.change_and_look(&mut desk)?;
         }
         self.kill_in_a_change(daemon, &mut desk)
@@ -234,7 +232,7 @@ impl Trial<'_> {
         let kept = self.store.read(desk)?;
         let change = self.store.change(&kept, self.next_number());
         let within_us = u64::try_from((self.usual * KILL_WITHIN).as_micros()).unwrap_or(u64::MAX);
-        let pause = Duration::from_micros(self.next_random() % within_us.max(1));
+        let pause = Duration::from_micros(next_random(&mut self.random) % within_us.max(1));
         desk.send(9, change.request)?;
         thread::sleep(pause);
         daemon.kill()?;
@@ -256,14 +254,6 @@ impl Trial<'_> {
     fn next_number(&mut self) -> u64 {
         self.numbers += 1;
         self.numbers
-    }
-
-    /// Marsaglia's xorshift: moments need no better randomness.
-    fn next_random(&mut self) -> u64 {
-        self.random ^= self.random << 13;
-        self.random ^= self.random >> 7;
-        self.random ^= self.random << 17;
-        self.random
     }
 }
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 use rvac_api::{LogEntry, LogLevel, Request, RequestBody, Topic, Update};
 
-use crate::peer::Client;
+use vthal_bench::Client;
 
 /// What is kept: each item as text, whole, with the number or name by which the daemon knows it. Two states are the same when
 /// their texts are.

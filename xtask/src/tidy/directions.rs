@@ -84,7 +84,7 @@ const SIMULATED: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 27] = [
+const DIRECTIONS: [Direction; 29] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -97,11 +97,13 @@ const DIRECTIONS: [Direction; 27] = [
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file"], never: &[] },
+    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "vthal-bench"], never: &[] },
+    Direction { of: "vthal-bench",   knows: &["brain", "mixer", "rvac-api", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "rvac-cli",      knows: &["mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api"],          never: &[] },
+    Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["mixer", "rvac-api"],                         never: &["tokio", "leptos", "web-sys"] },
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },

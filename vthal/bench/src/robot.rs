@@ -12,7 +12,7 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{Mode, RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
 
-use super::Pty;
+use crate::Pty;
 
 /// Pause between telemetry reports.
 const REPORT_EVERY: Duration = Duration::from_millis(20);

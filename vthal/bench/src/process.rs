@@ -40,6 +40,7 @@ impl Drop for Scratch {
 #[derive(Debug)]
 pub struct Daemon {
     child: Child,
+    ready: String,
 }
 
 impl Daemon {
@@ -67,12 +68,17 @@ impl Daemon {
         let stdout = child.stdout.take().ok_or(io::ErrorKind::BrokenPipe)?;
         let mut line = String::new();
         BufReader::new(stdout).read_line(&mut line)?;
-        let daemon = Self { child };
-        if line.starts_with("ready") {
+        let daemon = Self { child, ready: line };
+        if daemon.ready.starts_with("ready") {
             Ok(daemon)
         } else {
             Err(io::Error::other("the program did not get ready"))
         }
+    }
+
+    /// The line with which it said that it is ready.
+    pub fn ready_line(&self) -> &str {
+        self.ready.trim_end()
     }
 
     /// Its process number.
