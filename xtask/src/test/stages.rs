@@ -320,7 +320,7 @@ fn writes(long: bool) -> Result {
 }
 
 /// The tests take one turn after the other in one process: two browsers at once would measure each other.
-fn browser(_long: bool) -> Result {
+fn browser(long: bool) -> Result {
     system::need("chromium", &["chromium"])?;
     system::need("chromedriver", &["chromium-driver"])?;
     let assets = panel::build()?;
@@ -333,6 +333,7 @@ fn browser(_long: bool) -> Result {
     command
         .env("RVAC_AXE", axe)
         .env("RVAC_BROWSER_TESTS", "1")
+        .env("RVAC_LOSSES", if long { "100" } else { "1" })
         .env("RVAC_PANEL", assets)
         .env("RVAC_FIRMWARE", elf)
         .env("RVAC_SCREENSHOTS", screenshots);

@@ -12,6 +12,7 @@ use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 use tokio::time::sleep;
 
+use crate::frozen::Frozen;
 use crate::stack::Stack;
 
 /// Whatever is awaited comes within this time or the test fails. A busy machine draws slowly.
@@ -240,6 +241,18 @@ impl Browser {
     pub(crate) async fn hide_behind_a_new_tab(&self) {
         let tab = self.client.new_window(true).await.unwrap();
         self.client.switch_to_window(tab.handle).await.unwrap();
+    }
+
+    /// Closes the tab that is seen and shows the first one.
+    pub(crate) async fn close_tab_and_return(&self) {
+        self.client.close_window().await.unwrap();
+        let first = self.client.windows().await.unwrap().remove(0);
+        self.client.switch_to_window(first).await.unwrap();
+    }
+
+    /// Stops the browser and all its processes until the value is dropped; the driver lives on.
+    pub(crate) fn freeze(&self) -> Frozen {
+        Frozen::descendants_of(self.driver.id())
     }
 
     /// Saves what is seen, if screenshots are wanted.

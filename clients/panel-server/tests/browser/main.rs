@@ -3,14 +3,17 @@
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
 //! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
+//! `RVAC_LOSSES` says how often the driver is lost in each way.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod accessibility;
 mod browser;
 mod edits;
+mod frozen;
 mod history;
 mod language;
 mod large_home;
+mod losses;
 mod mixes;
 mod offline;
 mod pairing;
@@ -147,30 +150,6 @@ async fn the_real_firmware_cleans_and_stop_stands() {
         !witness.moves_within(Duration::from_secs(1)),
         "the robot moves again after Stop"
     );
-}
-
-#[tokio::test]
-async fn a_hidden_tab_stops_the_wheels() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
-        return;
-    };
-    let browser = &visit.browser;
-    leave_the_dock(browser).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
-    hold_until_it_turns(browser, &witness).await;
-    browser.shot("desktop-driving").await;
-
-    browser.hide_behind_a_new_tab().await;
-    let hidden = Instant::now();
-    let stood = witness
-        .stands_within(Duration::from_secs(3))
-        .expect("the robot drives on behind a hidden tab");
-    let after = stood.saturating_duration_since(hidden);
-    println!(
-        "the wheels stood {} ms after the tab was hidden",
-        after.as_millis()
-    );
-    assert!(after < Duration::from_millis(1000), "{after:?}");
 }
 
 /// Holds a key until the robot turns on the spot, which is possible wherever the short job has left it. On a machine

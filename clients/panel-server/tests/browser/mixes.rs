@@ -1,6 +1,6 @@
 //! Control mixes in the page, with a gamepad that a script moves.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
@@ -26,7 +26,7 @@ const EAST: u8 = 1;
 const START: u8 = 9;
 const RIGHT_ALONG: u8 = 3;
 
-async fn plug_in(browser: &Browser) {
+pub(crate) async fn plug_in(browser: &Browser) {
     browser.text(PAD).await;
     browser
         .until("return document.getElementById('gamepads').textContent.includes('Scripted pad')")
@@ -34,7 +34,7 @@ async fn plug_in(browser: &Browser) {
     is_ready(browser).await;
 }
 
-async fn is_ready(browser: &Browser) {
+pub(crate) async fn is_ready(browser: &Browser) {
     browser
         .until("return document.getElementById('drive-state').textContent === ''")
         .await;
@@ -51,7 +51,7 @@ async fn press(browser: &Browser, button: u8) {
 }
 
 /// On a machine that is too busy the lease ends between two words of the page: then the stick is let go and held again.
-async fn turn_by_pad(browser: &Browser, witness: &Witness) {
+pub(crate) async fn turn_by_pad(browser: &Browser, witness: &Witness) {
     for _ in 0..5 {
         stick(browser, ACROSS, -1.0).await;
         if witness.moves_within(Duration::from_secs(4)) {
@@ -87,7 +87,7 @@ async fn measured_latency(browser: &Browser, witness: &Witness) -> String {
 }
 
 #[tokio::test]
-async fn a_gamepad_starts_stops_and_drives_and_a_lost_one_stops_the_wheels() {
+async fn a_gamepad_starts_stops_drives_and_shakes_at_a_wall() {
     let Some(visit) = Visit::begin(Screen::Desktop).await else {
         return;
     };
@@ -105,20 +105,6 @@ async fn a_gamepad_starts_stops_and_drives_and_a_lost_one_stops_the_wheels() {
     println!("{}", measured_latency(browser, &witness).await);
     browser.shot("desktop-gamepad").await;
 
-    browser.text("window.plugged = false; return ''").await;
-    let lost = Instant::now();
-    let stood = witness
-        .stands_within(Duration::from_secs(3))
-        .expect("the robot drives on without its pad");
-    let after = stood.saturating_duration_since(lost);
-    println!("the wheels stood {} ms after the pad was lost", after.as_millis());
-    assert!(after < Duration::from_millis(1000), "{after:?}");
-
-    browser.text("window.plugged = true; return ''").await;
-    assert!(
-        !witness.moves_within(Duration::from_secs(1)),
-        "a stick that was held while the pad came back drives"
-    );
     stick(browser, ACROSS, 0.0).await;
     is_ready(browser).await;
     feel_a_wall(browser).await;

@@ -1,0 +1,117 @@
+//! How long the wheels go on when whoever drives is lost, in ways of which only a browser knows.
+
+use std::time::{Duration, Instant};
+
+use crate::browser::Screen;
+use crate::mixes::{is_ready, plug_in, turn_by_pad};
+use crate::robot::Witness;
+use crate::{Visit, hold_until_it_turns, leave_the_dock};
+
+/// Longest time from the loss until the wheels stand, as a look ten times a second sees it.
+const STANDS_WITHIN: Duration = Duration::from_millis(1000);
+
+/// How often each loss is tried.
+fn times() -> usize {
+    let wanted = std::env::var("RVAC_LOSSES").ok();
+    wanted.map_or(1, |text| text.parse().expect("RVAC_LOSSES is a number"))
+}
+
+/// How long the wheels went on in each trial.
+#[derive(Debug, Default)]
+struct Losses(Vec<Duration>);
+
+impl Losses {
+    /// Waits for rest after a loss of this moment.
+    fn watch(&mut self, witness: &Witness, lost: Instant) {
+        let stood = witness
+            .stands_within(Duration::from_secs(3))
+            .expect("the robot drives on although nobody drives it");
+        self.0.push(stood.saturating_duration_since(lost));
+    }
+
+    fn tell(mut self, what: &str) {
+        self.0.sort_unstable();
+        let count = self.0.len();
+        let (median, worst) = (self.0[count / 2], self.0[count - 1]);
+        println!(
+            "the wheels stood {} ms after {what} (worst of {count}: {} ms)",
+            median.as_millis(),
+            worst.as_millis()
+        );
+        assert!(worst < STANDS_WITHIN, "{worst:?} after {what}");
+    }
+}
+
+#[tokio::test]
+async fn a_hidden_tab_stops_the_wheels() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    leave_the_dock(browser).await;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let mut losses = Losses::default();
+    for trial in 0..times() {
+        hold_until_it_turns(browser, &witness).await;
+        if trial == 0 {
+            browser.shot("desktop-driving").await;
+        }
+        browser.hide_behind_a_new_tab().await;
+        losses.watch(&witness, Instant::now());
+        browser.close_tab_and_return().await;
+        browser.release_key('a').await;
+        assert!(
+            !witness.moves_within(Duration::from_secs(1)),
+            "a key that was held while the tab was hidden drives"
+        );
+        is_ready(browser).await;
+    }
+    losses.tell("the tab was hidden");
+}
+
+#[tokio::test]
+async fn a_lost_gamepad_stops_the_wheels() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    leave_the_dock(browser).await;
+    plug_in(browser).await;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let mut losses = Losses::default();
+    for _ in 0..times() {
+        turn_by_pad(browser, &witness).await;
+        browser.text("window.plugged = false; return ''").await;
+        losses.watch(&witness, Instant::now());
+        browser.text("window.plugged = true; return ''").await;
+        assert!(
+            !witness.moves_within(Duration::from_secs(1)),
+            "a stick that was held while the pad came back drives"
+        );
+        browser.text("stick(0, 0); return ''").await;
+        is_ready(browser).await;
+    }
+    losses.tell("the pad was lost");
+}
+
+/// The computer in front of which the person sits stops in the middle of a word: nothing says good-bye.
+#[tokio::test]
+async fn a_browser_that_freezes_stops_the_wheels() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    leave_the_dock(browser).await;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let mut losses = Losses::default();
+    for _ in 0..times() {
+        hold_until_it_turns(browser, &witness).await;
+        let frozen = browser.freeze();
+        assert!(frozen.count() > 2, "a browser has several processes");
+        losses.watch(&witness, Instant::now());
+        drop(frozen);
+        browser.release_key('a').await;
+        is_ready(browser).await;
+    }
+    losses.tell("the browser froze");
+}
