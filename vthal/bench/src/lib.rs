@@ -1,4 +1,5 @@
 //! The world around a daemon under test: a robot at the far end of a pseudo terminal, clients, and the process itself.
+#![forbid(unsafe_code)]
 
 mod client;
 mod process;
