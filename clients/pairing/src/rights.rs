@@ -73,7 +73,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 41] = [
+pub const VERBS: [(&str, Role); 42] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -114,6 +114,7 @@ pub const VERBS: [(&str, Role); 41] = [
     ("enable-schedule", Role::Admin),
     ("set-quiet",       Role::Admin),
     ("set-zone",        Role::Admin),
+    ("claim-buttons",   Role::Admin),
     ("raw",             Role::Admin),
 ];
 

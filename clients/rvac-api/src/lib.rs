@@ -33,7 +33,7 @@ pub use schedule::{
 pub use stop::{Evidence, Felt, Standstill};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
-    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, LinkReading, LogEntry, LogLevel,
+    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,
     MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, SimulatedPlan, SimulatedTruth, Status,
     Update, Versions,
 };

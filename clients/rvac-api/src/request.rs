@@ -49,6 +49,8 @@ pub enum Topic {
     Floors,
     /// [`crate::Update::Standstill`]: the last ten at once, then each new one.
     Standstills,
+    /// [`crate::Update::Button`] for each press and each hold.
+    Buttons,
 }
 
 /// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
@@ -132,6 +134,12 @@ pub enum RequestBody {
     Release,
     /// Beeps so that a person finds the robot.
     Locate,
+    /// Presses of buttons on the robot start nothing for so long, because somebody counts them for another purpose; what runs they
+    /// stop as ever. Ends by itself, and with the client's connection.
+    ClaimButtons {
+        /// Milliseconds, at most three minutes; 0 ends it.
+        ms: u32,
+    },
     /// Acknowledges an error or clears a latched inhibit by name.
     Clear {
         /// Name, as in [`crate::Status::reason`].

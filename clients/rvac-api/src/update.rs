@@ -120,6 +120,15 @@ pub enum Update {
         /// The packet.
         text: String,
     },
+    /// A person did something with the buttons on the robot.
+    Button {
+        /// What.
+        gesture: Gesture,
+        /// With which; of several the lowest.
+        button: u8,
+        /// Host time, seconds since the daemon's start.
+        t: f64,
+    },
     /// A device was paired with the robot. Said by the server of the panel to paired devices.
     NewDevice {
         /// What its owner calls it.
@@ -133,6 +142,18 @@ pub enum Update {
     SimulatedPlan(SimulatedPlan),
     /// Only with a simulated robot: where it really is.
     SimulatedTruth(SimulatedTruth),
+}
+
+/// What a person does with the buttons on the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Gesture {
+    /// One was pressed for a moment and let go.
+    Press,
+    /// START is held for five seconds: a device shall be let in.
+    PairingHold,
+    /// START and DOCK are held for fifteen seconds, soon after the robot was switched on: all devices shall be forgotten.
+    RecoveryHold,
 }
 
 /// Why a request was refused.

@@ -7,7 +7,7 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
-    Felt, FloorQuestion, FloorView, FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
     LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun, PlannedWay,
     Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView, Run, RunAsker,
     RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision,
@@ -52,10 +52,11 @@ fn requests() {
         Topic::Runs,
         Topic::Floors,
         Topic::Standstills,
+        Topic::Buttons,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills","buttons"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(
@@ -79,6 +80,10 @@ fn requests() {
     request(RequestBody::Dock, r#"{"c":"dock"}"#);
     request(RequestBody::Release, r#"{"c":"release"}"#);
     request(RequestBody::Locate, r#"{"c":"locate"}"#);
+    request(
+        RequestBody::ClaimButtons { ms: 120_000 },
+        r#"{"c":"claim-buttons","ms":120000}"#,
+    );
     request(
         RequestBody::Clear {
             reason: "wheel-stall".to_owned(),
@@ -921,6 +926,20 @@ fn a_run_in_full() {
 
 #[test]
 fn a_new_device() {
+    for (gesture, word) in [
+        (Gesture::Press, "press"),
+        (Gesture::PairingHold, "pairing-hold"),
+        (Gesture::RecoveryHold, "recovery-hold"),
+    ] {
+        check(
+            &Update::Button {
+                gesture,
+                button: 0,
+                t: 93.2,
+            },
+            &format!(r#"{{"e":"button","gesture":"{word}","button":0,"t":93.2}}"#),
+        );
+    }
     check(
         &Update::NewDevice {
             name: "Mari's phone".to_owned(),

@@ -22,6 +22,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Runs => 2048,
         Topic::Floors => 4096,
         Topic::Standstills => 8192,
+        Topic::Buttons => 16_384,
     }
 }
 

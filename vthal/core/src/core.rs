@@ -1,5 +1,6 @@
 //! The one entry point: inputs come in, the parts are asked in turn.
 
+mod buttons;
 mod checkpoints;
 mod explain;
 mod feed;
@@ -18,6 +19,7 @@ mod thinking;
 use rvac_api::{Pose, RoomHere, Schedules, Status, Topic, Update};
 
 use crate::arbiter::Arbiter;
+use crate::buttons::Buttons;
 use crate::clients::Clients;
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
@@ -48,6 +50,9 @@ pub struct Core {
     config: CoreConfig,
     clients: Clients,
     arbiter: Arbiter,
+    buttons: Buttons,
+    /// START went down while nothing ran that it had to stop.
+    start_means_more: bool,
     /// How hard the robot cleans while a person drives it.
     driver_power: CleanerPower,
     journal: Journal,
@@ -97,6 +102,8 @@ impl Core {
             config,
             clients: Clients::default(),
             arbiter: Arbiter::default(),
+            buttons: Buttons::default(),
+            start_means_more: false,
             driver_power: CleanerPower::FULL,
             journal,
             diary: Diary::default(),
@@ -247,6 +254,7 @@ impl Core {
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
         self.device = None;
         self.facts.closed();
+        self.buttons.forget();
         let text = match reason {
             LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),

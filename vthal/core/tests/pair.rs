@@ -2,7 +2,7 @@
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPower, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, Topic, Update,
+    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -431,32 +431,98 @@ fn a_lifted_robot_is_not_started() {
     );
 }
 
+/// A button goes down or up, as events and reports tell it.
+fn turn(pair: &mut Pair, button: u8, pressed: bool) {
+    let tick = Tick(pair.now_ms as u32);
+    pair.robot.queue_edge(EdgeKind::Button { button, pressed }, tick);
+    pair.state.buttons ^= 1 << button;
+}
+
+fn hold(pair: &mut Pair, button: u8, for_ms: u64) {
+    turn(pair, button, true);
+    pair.run_ms(for_ms);
+    turn(pair, button, false);
+    pair.run_ms(100);
+}
+
+/// What followers of the buttons were told since the last question.
+fn gestures(pair: &mut Pair) -> Vec<Gesture> {
+    let gesture = |update: Update| match update {
+        Update::Button { gesture, .. } => Some(gesture),
+        _ => None,
+    };
+    std::mem::take(&mut pair.updates)
+        .into_iter()
+        .filter_map(gesture)
+        .collect()
+}
+
 #[test]
 fn the_robots_button_starts_and_stops() {
     let mut pair = Pair::new();
-    let press = |pair: &mut Pair| {
-        pair.robot.queue_edge(
-            EdgeKind::Button {
-                button: 0,
-                pressed: true,
-            },
-            Tick(pair.now_ms as u32),
-        );
-        pair.robot.queue_edge(
-            EdgeKind::Button {
-                button: 0,
-                pressed: false,
-            },
-            Tick(pair.now_ms as u32),
-        );
-        pair.run_ms(100);
-    };
-    press(&mut pair);
+    hold(&mut pair, 0, 100);
     assert_eq!(pair.core.status().state, "starting");
     pair.run_ms(5000);
     assert_eq!(pair.core.status().state, "cleaning");
-    press(&mut pair);
+    turn(&mut pair, 0, true);
+    pair.run_ms(100);
+    assert_eq!(pair.core.status().state, "paused", "while it is down still");
+    turn(&mut pair, 0, false);
+    pair.run_ms(1000);
     assert_eq!(pair.core.status().state, "paused");
+    hold(&mut pair, 0, 100);
+    assert_eq!(pair.core.status().state, "starting", "it goes on");
+}
+
+#[test]
+fn start_held_to_let_a_device_in_starts_nothing() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Buttons];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    hold(&mut pair, 0, 20_000);
+    assert_eq!(gestures(&mut pair), [Gesture::PairingHold], "told once");
+    assert_eq!(pair.core.status().state, "idle");
+    hold(&mut pair, 0, 3_000);
+    assert_eq!(gestures(&mut pair), []);
+    assert_eq!(pair.core.status().state, "idle", "a hold that was given up");
+}
+
+#[test]
+fn presses_that_a_client_counts_start_nothing_and_still_stop() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Buttons];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    pair.ask(BERT, RequestBody::ClaimButtons { ms: 60_000 });
+    hold(&mut pair, 0, 100);
+    assert_eq!(gestures(&mut pair), [Gesture::Press]);
+    assert_eq!(pair.core.status().state, "idle");
+    pair.ask(ANNA, RequestBody::Start { strategy: None });
+    pair.run_ms(5000);
+    hold(&mut pair, 0, 100);
+    assert_eq!(pair.core.status().state, "paused");
+    pair.handle(Input::ClientGone(BERT));
+    pair.run_ms(1000);
+    hold(&mut pair, 0, 100);
+    assert_eq!(pair.core.status().state, "starting", "nobody counts any more");
+}
+
+#[test]
+fn devices_are_forgotten_only_soon_after_the_robot_was_switched_on() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Buttons];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let both = |pair: &mut Pair| {
+        turn(pair, 0, true);
+        hold(pair, 2, 15_500);
+        turn(pair, 0, false);
+        pair.run_ms(100);
+    };
+    both(&mut pair);
+    assert_eq!(gestures(&mut pair), [Gesture::RecoveryHold]);
+    assert_eq!(pair.core.status().state, "idle");
+    pair.run_ms(600_000);
+    both(&mut pair);
+    assert_eq!(gestures(&mut pair), []);
 }
 
 #[test]

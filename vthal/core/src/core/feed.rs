@@ -283,7 +283,7 @@ impl Core {
                     .deliveries
                     .extend(all.map(|told| one(Update::Standstill(Box::new(told)))));
             }
-            Topic::Packets | Topic::Runs => {}
+            Topic::Packets | Topic::Runs | Topic::Buttons => {}
         }
     }
 

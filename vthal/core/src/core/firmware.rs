@@ -45,16 +45,16 @@ impl Core {
                 Part::Link,
                 format!("the robot did not answer command {}", sequence.0),
             ),
-            FirmwareEvent::EdgesLost(count) => (
-                LogLevel::Warn,
-                Part::Link,
-                format!("{count} events of the robot were lost"),
-            ),
-            FirmwareEvent::Closed => (
-                LogLevel::Warn,
-                Part::Link,
-                "session with the robot ended".to_owned(),
-            ),
+            FirmwareEvent::EdgesLost(count) => {
+                self.buttons.forget();
+                let text = format!("{count} events of the robot were lost");
+                (LogLevel::Warn, Part::Link, text)
+            }
+            FirmwareEvent::Closed => {
+                self.buttons.forget();
+                let text = "session with the robot ended".to_owned();
+                (LogLevel::Warn, Part::Link, text)
+            }
             FirmwareEvent::Incompatible {
                 version_min,
                 version_max,
@@ -70,6 +70,7 @@ impl Core {
     }
 
     fn greeted(&mut self, hello: &RobotHello) -> (LogLevel, Part, String) {
+        self.buttons.forget();
         match self.facts.greeted(hello) {
             Greeting::Continues => {
                 let text = format!("session with {} {}", hello.device, hello.firmware);
@@ -133,6 +134,9 @@ impl Core {
 
     fn take_state(&mut self, now_us: u64, state: &State, outputs: &mut Outputs) {
         self.facts.take_state(now_us, state);
+        if let Some(gesture) = self.buttons.take_report(now_us, state.buttons) {
+            self.held(now_us, (gesture, state.tick), outputs);
+        }
         let description = self.device.as_ref().and_then(|device| device.description());
         if let (Some(mind), Some(description)) = (&mut self.mind, description) {
             mind.observer.take_state(now_us, state, description);
@@ -149,19 +153,15 @@ impl Core {
 
     fn take_edge(&mut self, now_us: u64, edge: &Edge, outputs: &mut Outputs) -> Option<String> {
         match edge.kind {
-            EdgeKind::Button {
-                button,
-                pressed: true,
-            } => {
-                self.button_pressed(now_us, button, outputs);
-                Some(format!("button {button} was pressed"))
+            EdgeKind::Button { button, pressed } => {
+                self.button_turned(now_us, (button, pressed), outputs);
+                pressed.then(|| format!("button {button} was pressed"))
             }
             EdgeKind::Stall(motor) => Some(format!("{} was switched off for its load", motor.name())),
             EdgeKind::Docked(true) => Some("on the dock".to_owned()),
             EdgeKind::Docked(false) => Some("off the dock".to_owned()),
             // Levels of these come with each report, and the brain decides upon levels.
-            EdgeKind::Button { pressed: false, .. }
-            | EdgeKind::Bump(_)
+            EdgeKind::Bump(_)
             | EdgeKind::Cliff(_)
             | EdgeKind::Lift(_)
             | EdgeKind::MoveFinished(_)

@@ -117,6 +117,10 @@ impl Core {
                 Ok(())
             }
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
+            RequestBody::ClaimButtons { ms } => {
+                self.buttons.claim(now_us, client, ms);
+                Ok(())
+            }
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
             RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
             body @ (RequestBody::Maps { .. }
@@ -251,6 +255,7 @@ impl Core {
         if self.arbiter.forget(client) {
             self.driver_left(now_us, client, outputs);
         }
+        self.buttons.forget_client(client);
     }
 
     pub(super) fn client_gone(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {

@@ -17,12 +17,6 @@ use crate::{ClientId, Outputs};
 
 /// How long a drive command of the brain is valid: the default of the device model.
 const VALID_FOR_US: u64 = 250_000;
-/// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
-/// changed for that very press. A press so soon after a change means the state before.
-const BUTTON_AFTER_CHANGE_US: u64 = 500_000;
-/// The button that starts and stops, on robots with several.
-const START_BUTTON: u8 = 0;
-
 impl Core {
     pub(super) fn link_view(&self, now_us: u64) -> LinkView {
         let up = self.device.as_ref().is_some_and(Device::is_attached) && self.facts.is_fresh(now_us);
@@ -169,35 +163,6 @@ impl Core {
     pub(super) fn usual_strategy(&self) -> StrategyName {
         let suits = || self.mind.as_ref().map(|mind| mind.brain().usual_strategy());
         self.config.strategy.or_else(suits).unwrap_or_default()
-    }
-
-    /// A button on the robot: stops what runs, goes on with what waits, else starts.
-    pub(super) fn button_pressed(&mut self, now_us: u64, button: u8, outputs: &mut Outputs) {
-        let Some(mind) = &self.mind else { return };
-        let status = mind.brain().status();
-        let just_changed = self.feed.state_changed_within(now_us, BUTTON_AFTER_CHANGE_US);
-        if just_changed || button != START_BUTTON || self.arbiter.admit(now_us, Source::Button).is_err() {
-            return;
-        }
-        self.arbiter.preempt();
-        let command = match status.state {
-            BehaviorState::Paused => Command::Resume,
-            BehaviorState::Docked if status.resumable => Command::Resume,
-            BehaviorState::Idle | BehaviorState::Docked => Command::Clean {
-                strategy: self.usual_strategy(),
-            },
-            BehaviorState::Stuck | BehaviorState::Error => Command::ClearError,
-            BehaviorState::Starting
-            | BehaviorState::Cleaning
-            | BehaviorState::Spot
-            | BehaviorState::Docking => Command::Pause,
-            BehaviorState::Manual => Command::ManualEnd,
-            BehaviorState::Disconnected => return,
-        };
-        if mind.brain().admit(&command).is_ok() {
-            self.order_run(RunAsker::Button, &command);
-            self.command_brain(now_us, command, outputs);
-        }
     }
 
     /// The driver's lease ended without a word: stand at once, the brain hears it too.
