@@ -3,71 +3,9 @@
 use crate::exchange::{Ends, Host};
 use crate::stored::{Stored, StoredError};
 use crate::window::{OPEN_US, Window};
-use crate::wire::{Begin, Begun, Finish, Finished, Opened, Refused};
-use crate::{Code, DeviceName, Register, RobotId, Role, Token, TokenId, Wanted};
-
-/// Why somebody is not let in, or something not done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Refusal {
-    /// No window is open.
-    #[error(
-        "Nobody can be let in now: open a window on the robot with `rvac pair`, or on a device that is its administrator."
-    )]
-    WindowShut,
-    /// Codes were guessed in earlier windows.
-    #[error("Too many wrong codes were tried: a window can be opened again in {seconds} s.")]
-    Waiting {
-        /// How long.
-        seconds: u64,
-    },
-    /// The window's attempts are used up.
-    #[error("Too many wrong codes were tried: open a new window.")]
-    NoAttemptsLeft,
-    /// The code was another one.
-    #[error("The code is wrong; {left} more attempts.")]
-    WrongCode {
-        /// Attempts left.
-        left: u8,
-    },
-    /// The guest's message is none.
-    #[error("The device sent a message that cannot be read: reload the page.")]
-    Malformed,
-    /// The attempt is not known any more.
-    #[error("This attempt has ended: begin again.")]
-    NoAttempt,
-    /// There is no room.
-    #[error("The robot knows 64 devices, which is all it takes: shut one out first.")]
-    Full,
-    /// There is no such client.
-    #[error("The robot knows no device with this number: list them again.")]
-    NoClient,
-}
-
-impl Refusal {
-    /// One word for programs.
-    #[must_use]
-    pub const fn reason(self) -> &'static str {
-        match self {
-            Self::WindowShut => "window-shut",
-            Self::Waiting { .. } => "waiting",
-            Self::NoAttemptsLeft => "no-attempts-left",
-            Self::WrongCode { .. } => "wrong-code",
-            Self::Malformed => "malformed",
-            Self::NoAttempt => "no-attempt",
-            Self::Full => "full",
-            Self::NoClient => "no-client",
-        }
-    }
-}
-
-impl From<Refusal> for Refused {
-    fn from(refusal: Refusal) -> Self {
-        Self {
-            reason: refusal.reason().to_owned(),
-            text: refusal.to_string(),
-        }
-    }
-}
+use crate::matching::{Matching, Standing};
+use crate::wire::{Begin, Begun, Finish, Finished, Join, Joined, Opened};
+use crate::{Code, DeviceName, Refusal, Register, RobotId, Role, Token, TokenId, Wanted};
 
 /// The two times of a moment.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +31,11 @@ pub struct Door {
     register: Register,
     window: Window,
     attempts: Vec<Attempt>,
+    matching: Matching,
 }
+
+/// What a device that presses let in may do.
+const ROLE_BY_PRESSES: Role = Role::Drive;
 
 impl Door {
     /// The door as it was kept, or of a robot that knows nobody yet. No window is open.
@@ -113,6 +55,7 @@ impl Door {
             register,
             window: Window::new(now_us, counters),
             attempts: Vec::new(),
+            matching: Matching::default(),
         })
     }
 
@@ -148,15 +91,100 @@ impl Door {
         let code = Code::from_random(random);
         let shown = code.shown();
         self.attempts.clear();
+        self.window.open(now_us, code, role).map_err(waiting)?;
+        self.matching = Matching::default();
+        let seconds = OPEN_S;
+        Ok(Opened { code: shown, seconds })
+    }
+
+    /// Opens a window because a person holds the button: a device that shows the presses it asks for can be let in. The window is counted:
+    /// [`Self::stored`] must be on the disk before anybody hears of it.
+    ///
+    /// # Errors
+    /// [`Refusal::OpenAlready`], [`Refusal::Waiting`].
+    pub fn open_by_button(&mut self, now_us: u64, random: [u8; 8]) -> Result<(), Refusal> {
+        if self.is_open(now_us) {
+            return Err(Refusal::OpenAlready);
+        }
         self.window
-            .open(now_us, code, role)
-            .map_err(|left_us| Refusal::Waiting {
-                seconds: left_us.div_ceil(1_000_000),
-            })?;
-        Ok(Opened {
-            code: shown,
-            seconds: u32::try_from(OPEN_US / 1_000_000).unwrap_or(u32::MAX),
+            .open_by_button(now_us, ROLE_BY_PRESSES)
+            .map_err(waiting)?;
+        self.attempts.clear();
+        self.matching = Matching::new(random);
+        Ok(())
+    }
+
+    /// Whether the open window is one for presses.
+    #[must_use]
+    pub fn is_open_for_presses(&self, now_us: u64) -> bool {
+        self.window.role_by_presses(now_us).is_some()
+    }
+
+    /// A device asks for presses, from this address.
+    ///
+    /// # Errors
+    /// See [`Refusal`].
+    pub fn join(&mut self, now_us: u64, (join, from): (Join, &str), random: [u8; 16]) -> Result<Joined, Refusal> {
+        if !self.is_open_for_presses(now_us) {
+            return Err(Refusal::WindowShut);
+        }
+        if self.register.is_full() {
+            return Err(Refusal::Full);
+        }
+        let presses = self
+            .matching
+            .join(random, join.name, from)
+            .ok_or(Refusal::TooManyWait)?;
+        Ok(Joined {
+            session: random,
+            presses,
         })
+    }
+
+    /// Whether presses are waited for now: then they are for nothing else.
+    #[must_use]
+    pub fn waits_for_presses(&self, now_us: u64) -> bool {
+        self.is_open_for_presses(now_us) && self.matching.is_waited()
+    }
+
+    /// The button was pressed.
+    pub fn press(&mut self, now_us: u64) {
+        if self.is_open_for_presses(now_us) {
+            self.matching.press(now_us);
+        }
+    }
+
+    /// Time passes: a whole pattern that is not that of any device that waits ends the window.
+    pub fn judge_presses(&mut self, now_us: u64) {
+        if self.is_open_for_presses(now_us) && self.matching.judge(now_us) == Some(false) {
+            self.window.on_wrong_presses(now_us);
+        }
+    }
+
+    /// A device asks what became of it; when its presses came, it is a client from now on. [`Self::stored`] must be on the disk before
+    /// the answer goes out.
+    ///
+    /// # Errors
+    /// See [`Refusal`].
+    pub fn ask_matched(
+        &mut self,
+        now: Moment,
+        session: &[u8; 16],
+        random: &[u8; 40],
+    ) -> Result<Option<(Role, Token)>, Refusal> {
+        let role = self.window.role_by_presses(now.now_us);
+        match (self.matching.standing(session), role) {
+            (None, _) => Err(Refusal::NoAttempt),
+            (Some(Standing::Missed), _) => Err(Refusal::NotMatched),
+            (Some(_), None) => Err(Refusal::WindowShut),
+            (Some(Standing::Waits), Some(_)) => Ok(None),
+            (Some(Standing::Chosen), Some(role)) => {
+                let name = self.matching.take(session).ok_or(Refusal::NoAttempt)?;
+                let token = self.add(now.unix_s, Wanted { name, role }, random)?;
+                self.window.on_success();
+                Ok(Some((role, token)))
+            }
+        }
     }
 
     /// Takes a guest's first message. The attempt is counted: [`Self::stored`] must be on the disk before the answer goes out.
@@ -164,19 +192,19 @@ impl Door {
     /// # Errors
     /// See [`Refusal`].
     pub fn begin(&mut self, now_us: u64, begin: Begin, random: &[u8; 80]) -> Result<Begun, Refusal> {
-        if !self.is_open(now_us) {
+        if self.window.code(now_us).is_none() {
             return Err(Refusal::WindowShut);
         }
         if self.register.is_full() {
             return Err(Refusal::Full);
         }
-        let open = self.window.count_attempt(now_us).ok_or(Refusal::NoAttemptsLeft)?;
+        let code = self.window.count_attempt(now_us).ok_or(Refusal::NoAttemptsLeft)?;
         let (attempt, scalar) = split(random);
         let ends = Ends {
             guest: &begin.name,
             robot: self.robot.full(),
         };
-        let answer = Host::answer(&open.code, ends, scalar, &begin.message);
+        let answer = Host::answer(&code, ends, scalar, &begin.message);
         let Ok((host, message)) = answer else {
             self.window.on_failure(now_us);
             return Err(Refusal::Malformed);
@@ -255,6 +283,14 @@ impl Door {
             .set_role(id, role)
             .then_some(())
             .ok_or(Refusal::NoClient)
+    }
+}
+
+const OPEN_S: u32 = (OPEN_US / 1_000_000) as u32;
+
+fn waiting(left_us: u64) -> Refusal {
+    Refusal::Waiting {
+        seconds: left_us.div_ceil(1_000_000),
     }
 }
 

@@ -46,10 +46,12 @@ pub struct Route {
 
 /// Every address below `/api/`; one that ends with `/` stands for all that begin so. The page and its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 10] = [
+pub const ROUTES: [Route; 12] = [
     Route { method: Method::Get,  path: "/api/pairing",        need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/begin",  need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/finish", need: Need::Nobody },
+    Route { method: Method::Post, path: "/api/pairing/match",  need: Need::Nobody },
+    Route { method: Method::Post, path: "/api/pairing/matched", need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/session",        need: Need::Role(Role::View) },
     Route { method: Method::Get,  path: "/api/ws",             need: Need::Role(Role::View) },
     Route { method: Method::Get,  path: "/api/runs/",          need: Need::Role(Role::View) },

@@ -23,14 +23,26 @@ pub(crate) struct Counters {
     pub(crate) attempts: u8,
     /// Windows since the last success whose attempts were used up.
     pub(crate) used_up: u8,
+    /// Windows since the last success that the button opened.
+    #[serde(default)]
+    pub(crate) by_button: u8,
 }
 
 /// An open window.
 #[derive(Clone, Debug)]
 pub(crate) struct Open {
     pub(crate) until_us: u64,
-    pub(crate) code: Code,
+    pub(crate) proof: Proof,
     pub(crate) role: Role,
+}
+
+/// What lets a client in.
+#[derive(Clone, Debug)]
+pub(crate) enum Proof {
+    /// The digits that its person was shown.
+    Code(Code),
+    /// The presses that it shows to its person.
+    Presses,
 }
 
 /// The window, open or shut.
@@ -39,6 +51,8 @@ pub(crate) struct Window {
     pub(crate) counters: Counters,
     open: Option<Open>,
     shut_until_us: u64,
+    /// The same for the button, which may be stuck or be played with: it must not keep the console out.
+    button_shut_until_us: u64,
 }
 
 impl Window {
@@ -48,10 +62,10 @@ impl Window {
             counters,
             open: None,
             shut_until_us: now_us,
+            button_shut_until_us: now_us,
         };
-        if counters.used_up > 0 {
-            window.shut_until_us = now_us + window.pause_us();
-        }
+        window.shut_until_us += pause_us(counters.used_up);
+        window.button_shut_until_us += pause_us(counters.by_button);
         window
     }
 
@@ -63,20 +77,56 @@ impl Window {
         if now_us < self.shut_until_us {
             return Err(self.shut_until_us - now_us);
         }
-        let ended_by_time = self.current(now_us).is_none() && self.open.take().is_some();
-        if ended_by_time && self.attempts_left() > 0 {
-            self.counters.attempts = 0;
-        }
+        self.forget_ended(now_us);
         if self.attempts_left() == 0 {
             self.use_up(now_us);
             return self.open(now_us, code, role);
         }
         self.open = Some(Open {
             until_us: now_us + OPEN_US,
-            code,
+            proof: Proof::Code(code),
             role,
         });
         Ok(())
+    }
+
+    /// Opens it for presses of the button, by the button, while it is shut.
+    ///
+    /// # Errors
+    /// How long it stays shut for the button, in microseconds.
+    pub(crate) fn open_by_button(&mut self, now_us: u64, role: Role) -> Result<(), u64> {
+        let shut_until_us = self.shut_until_us.max(self.button_shut_until_us);
+        if now_us < shut_until_us {
+            return Err(shut_until_us - now_us);
+        }
+        self.forget_ended(now_us);
+        let until_us = now_us + OPEN_US;
+        self.counters.by_button = self.counters.by_button.saturating_add(1);
+        self.button_shut_until_us = until_us + pause_us(self.counters.by_button);
+        self.open = Some(Open {
+            until_us,
+            proof: Proof::Presses,
+            role,
+        });
+        Ok(())
+    }
+
+    /// A window for codes that ended by its time takes its attempts with it.
+    fn forget_ended(&mut self, now_us: u64) {
+        if self.current(now_us).is_some() {
+            return;
+        }
+        let ended = self.open.take();
+        let was_for_codes = ended.is_some_and(|open| matches!(open.proof, Proof::Code(_)));
+        if was_for_codes && self.attempts_left() > 0 {
+            self.counters.attempts = 0;
+        }
+    }
+
+    /// The presses were wrong.
+    pub(crate) fn on_wrong_presses(&mut self, now_us: u64) {
+        self.open = None;
+        self.button_shut_until_us = now_us + pause_us(self.counters.by_button);
     }
 
     /// The open window.
@@ -88,14 +138,28 @@ impl Window {
         ATTEMPTS_MAX.saturating_sub(self.counters.attempts)
     }
 
+    /// The code of the open window, if it is one for codes.
+    pub(crate) fn code(&self, now_us: u64) -> Option<&Code> {
+        match &self.current(now_us)?.proof {
+            Proof::Code(code) => Some(code),
+            Proof::Presses => None,
+        }
+    }
+
+    /// The role of the open window, if it is one for presses.
+    pub(crate) fn role_by_presses(&self, now_us: u64) -> Option<Role> {
+        let open = self.current(now_us)?;
+        matches!(open.proof, Proof::Presses).then_some(open.role)
+    }
+
     /// Counts an attempt, if one is left.
-    pub(crate) fn count_attempt(&mut self, now_us: u64) -> Option<Open> {
-        let open = self.current(now_us)?.clone();
+    pub(crate) fn count_attempt(&mut self, now_us: u64) -> Option<Code> {
+        let code = self.code(now_us)?.clone();
         if self.attempts_left() == 0 {
             return None;
         }
         self.counters.attempts += 1;
-        Some(open)
+        Some(code)
     }
 
     /// An attempt failed: the last one shuts the window.
@@ -109,21 +173,25 @@ impl Window {
     pub(crate) fn on_success(&mut self) {
         self.open = None;
         self.counters = Counters::default();
+        self.button_shut_until_us = 0;
     }
 
     fn use_up(&mut self, now_us: u64) {
         self.open = None;
         self.counters.attempts = 0;
         self.counters.used_up = self.counters.used_up.saturating_add(1);
-        self.shut_until_us = now_us + self.pause_us();
+        self.shut_until_us = now_us + pause_us(self.counters.used_up);
     }
+}
 
-    fn pause_us(&self) -> u64 {
-        let place = usize::from(self.counters.used_up).saturating_sub(1);
-        REOPENING_US
-            .get(place)
-            .or(REOPENING_US.last())
-            .copied()
-            .unwrap_or_default()
-    }
+/// How long it stays shut after so many windows in vain.
+fn pause_us(in_vain: u8) -> u64 {
+    let Some(place) = usize::from(in_vain).checked_sub(1) else {
+        return 0;
+    };
+    REOPENING_US
+        .get(place)
+        .or(REOPENING_US.last())
+        .copied()
+        .unwrap_or_default()
 }

@@ -3,13 +3,16 @@
 use serde::{Deserialize, Serialize};
 
 use crate::exchange::{MESSAGE, PROOF};
-use crate::{DeviceName, Paired, Role, TokenId, hex};
+use crate::{DeviceName, Paired, Pattern, Role, TokenId, hex};
 
 /// `GET /api/pairing`: whether anybody can be let in now, and by whom.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Invitation {
     /// Whether a window is open.
     pub open: bool,
+    /// Whether it is one for presses of the robot's button, in which codes count for nothing.
+    #[serde(default)]
+    pub presses: bool,
     /// The robot's full number, which goes into the proof.
     pub robot: String,
 }
@@ -54,6 +57,39 @@ pub struct Finished {
     pub proof: [u8; PROOF],
     /// What the device may do.
     pub role: Role,
+}
+
+/// `POST /api/pairing/match`: the device wants to be let in by presses.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Join {
+    /// How it shall be called.
+    pub name: DeviceName,
+}
+
+/// Its answer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Joined {
+    /// Names the device until it is let in. Whoever knows it comes in its place.
+    #[serde(with = "hex")]
+    pub session: [u8; 16],
+    /// How often START is to be pressed before and after the pause.
+    pub presses: Pattern,
+}
+
+/// `POST /api/pairing/matched`: whether its presses came.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct AskMatched {
+    /// As [`Joined::session`].
+    #[serde(with = "hex")]
+    pub session: [u8; 16],
+}
+
+/// Its answer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Matched {
+    /// What the device may do, once it is let in; then its token comes as a cookie.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub role: Option<Role>,
 }
 
 /// `GET /api/session`: who the asking client is.

@@ -1,10 +1,10 @@
 //! Windows, attempts and races on a virtual clock.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
-use pairing::wire::{Begin, Finish};
+use pairing::wire::{Begin, Finish, Join, Joined};
 use pairing::{
-    ATTEMPTS_MAX, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, Moment, OPEN_US, REOPENING_US, Refusal,
-    RobotId, Role, Token, Wanted,
+    ATTEMPTS_MAX, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, MATCHING_MAX, Moment, OPEN_US, REOPENING_US, Refusal,
+    RobotId, Role, Token, TokenId, Wanted,
 };
 
 const SECOND: u64 = 1_000_000;
@@ -82,6 +82,40 @@ impl Hall {
     fn try_code(&mut self, code: &Code) -> Result<Token, Refusal> {
         let finish = self.begin(code)?;
         self.finish(&finish)
+    }
+
+    fn hold_start(&mut self) -> Result<(), Refusal> {
+        let random = self.random();
+        self.door.open_by_button(self.now_us, random)
+    }
+
+    fn join(&mut self, from: &str) -> Result<Joined, Refusal> {
+        let name = DeviceName::new(from).unwrap();
+        let random = self.random();
+        self.door.join(self.now_us, (Join { name }, from), random)
+    }
+
+    fn press(&mut self, pattern: [u8; 2]) {
+        for count in pattern {
+            for _ in 0..count {
+                self.now_us += SECOND / 2;
+                self.door.press(self.now_us);
+                self.door.judge_presses(self.now_us);
+            }
+            self.now_us += 2 * SECOND;
+        }
+        self.now_us += SECOND;
+        self.door.judge_presses(self.now_us);
+    }
+
+    fn ask(&mut self, joined: &Joined) -> Result<Option<TokenId>, Refusal> {
+        let random = self.random();
+        let now = Moment {
+            now_us: self.now_us,
+            unix_s: 1_700_000_000,
+        };
+        let matched = self.door.ask_matched(now, &joined.session, &random)?;
+        Ok(matched.map(|(_, token)| token.id()))
     }
 
     /// The server is killed and started again after what it has written.
@@ -293,4 +327,98 @@ fn a_full_register_lets_nobody_in_and_damaged_ones_are_told() {
     for text in damaged {
         assert!(Door::new(0, robot(), Some(&text)).is_err(), "{text}");
     }
+}
+
+#[test]
+fn the_device_whose_presses_come_is_let_in_to_drive_and_nobody_else() {
+    let mut hall = Hall::new();
+    assert_eq!(hall.join("phone").unwrap_err(), Refusal::WindowShut);
+    hall.hold_start().unwrap();
+    assert_eq!(hall.hold_start(), Err(Refusal::OpenAlready));
+    let [phone, thief] = ["phone", "thief"].map(|from| hall.join(from).unwrap());
+    assert!(hall.door.waits_for_presses(hall.now_us));
+    assert_eq!(hall.ask(&phone), Ok(None));
+    hall.press(phone.presses);
+    assert_eq!(hall.ask(&thief), Err(Refusal::NotMatched));
+    let id = hall.ask(&phone).unwrap().unwrap();
+    let client = hall.door.register().get(id).unwrap();
+    assert_eq!((client.name.as_str(), client.role), ("phone", Role::Drive));
+    assert_eq!(hall.ask(&phone), Err(Refusal::NoAttempt), "once");
+    assert!(!hall.door.is_open(hall.now_us), "one success");
+}
+
+#[test]
+fn one_wrong_pattern_ends_the_window() {
+    let mut hall = Hall::new();
+    hall.hold_start().unwrap();
+    let phone = hall.join("phone").unwrap();
+    hall.press([1, 0]);
+    assert_eq!(hall.ask(&phone), Ok(None), "the second group may come");
+    hall.now_us += 10 * SECOND;
+    hall.door.judge_presses(hall.now_us);
+    assert_eq!(hall.ask(&phone), Err(Refusal::NotMatched));
+    assert!(!hall.door.is_open(hall.now_us));
+    hall.press(phone.presses);
+    assert_eq!(hall.ask(&phone), Err(Refusal::NotMatched), "too late");
+    assert_eq!(hall.join("phone").unwrap_err(), Refusal::WindowShut);
+}
+
+#[test]
+fn a_window_by_the_button_takes_no_code_and_a_code_no_presses() {
+    let mut hall = Hall::new();
+    hall.hold_start().unwrap();
+    let guess = Code::parse("12345678").unwrap();
+    assert_eq!(hall.begin(&guess).unwrap_err(), Refusal::WindowShut);
+    let phone = hall.join("phone").unwrap();
+    let code = hall.open().unwrap();
+    assert_eq!(hall.ask(&phone), Err(Refusal::NoAttempt), "the console was later");
+    hall.press(phone.presses);
+    assert!(hall.door.register().iter().next().is_none());
+    assert_eq!(hall.hold_start(), Err(Refusal::OpenAlready));
+    hall.try_code(&code).unwrap();
+}
+
+#[test]
+fn a_button_that_is_stuck_and_let_go_again_and_again_keeps_no_window_open() {
+    let mut hall = Hall::new();
+    let (mut opened, mut open_for_us) = (0, 0);
+    for _ in 0..24 * 3600 {
+        if hall.hold_start().is_ok() {
+            opened += 1;
+        }
+        open_for_us += SECOND * u64::from(hall.door.is_open(hall.now_us));
+        hall.now_us += SECOND;
+        if hall.now_us.is_multiple_of(7000 * SECOND) {
+            hall.kill();
+        }
+    }
+    assert!(opened <= 28, "{opened} windows in a day");
+    assert!(open_for_us <= opened * OPEN_US);
+    let code = hall.open().expect("the console is not kept out");
+    hall.try_code(&code).unwrap();
+    hall.hold_start().expect("a success forgets what was before");
+}
+
+#[test]
+fn presses_come_too_late_when_the_window_is_over() {
+    let mut hall = Hall::new();
+    hall.hold_start().unwrap();
+    let phone = hall.join("phone").unwrap();
+    hall.press(phone.presses);
+    hall.now_us += OPEN_US;
+    assert_eq!(hall.ask(&phone), Err(Refusal::WindowShut));
+    assert!(hall.door.register().iter().next().is_none());
+}
+
+#[test]
+fn four_devices_can_ask_and_no_two_for_the_same() {
+    let mut hall = Hall::new();
+    hall.hold_start().unwrap();
+    let mut shown: Vec<[u8; 2]> = (0..MATCHING_MAX)
+        .map(|number| hall.join(&format!("device {number}")).unwrap().presses)
+        .collect();
+    assert_eq!(hall.join("one more").unwrap_err(), Refusal::TooManyWait);
+    shown.sort_unstable();
+    shown.dedup();
+    assert_eq!(shown.len(), MATCHING_MAX);
 }

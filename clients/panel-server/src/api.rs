@@ -10,8 +10,10 @@ use axum::extract::{Extension, Request, State};
 use axum::http::{Response, StatusCode, header};
 use axum::response::IntoResponse;
 use axum::routing::{get, post};
-use pairing::wire::{Begin, ClientRow, Finish, OpenWindow, Refused, Revoke, Session, SetRole};
-use pairing::{Refusal, Role};
+use pairing::wire::{
+    AskMatched, Begin, ClientRow, Finish, Join, Matched, OpenWindow, Refused, Revoke, Session, SetRole,
+};
+use pairing::{Refusal, Role, Token};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -105,6 +107,8 @@ pub(crate) fn routes() -> Router<Arc<Site>> {
         .route("/api/pairing", get(invitation))
         .route("/api/pairing/begin", post(begin))
         .route("/api/pairing/finish", post(finish))
+        .route("/api/pairing/match", post(join))
+        .route("/api/pairing/matched", post(ask_matched))
         .route("/api/pairing/open", post(open))
         .route("/api/clients", get(clients))
         .route("/api/clients/revoke", post(revoke))
@@ -154,11 +158,41 @@ async fn finish(
         .finish(&finish, &ip.to_canonical().to_string())
         .await?;
     gate.beep();
-    let mut response = json(StatusCode::OK, &finished);
-    if let Some(cookie) = set_cookie(&token) {
+    Ok(with_cookie(json(StatusCode::OK, &finished), &token))
+}
+
+async fn join(
+    State(site): State<Arc<Site>>,
+    Extension(Peer(ip)): Extension<Peer>,
+    request: Request,
+) -> Answer {
+    let gate = gate(&site)?;
+    let join: Join = read(request).await?;
+    let joined = gate.guarded.join(join, &ip.to_canonical().to_string()).await?;
+    Ok(json(StatusCode::OK, &joined))
+}
+
+async fn ask_matched(
+    State(site): State<Arc<Site>>,
+    Extension(Peer(ip)): Extension<Peer>,
+    request: Request,
+) -> Answer {
+    let gate = gate(&site)?;
+    let asked: AskMatched = read(request).await?;
+    let from = ip.to_canonical().to_string();
+    let Some((role, token)) = gate.guarded.ask_matched(&asked, &from).await? else {
+        return Ok(json(StatusCode::OK, &Matched { role: None }));
+    };
+    gate.beep();
+    let matched = Matched { role: Some(role) };
+    Ok(with_cookie(json(StatusCode::OK, &matched), &token))
+}
+
+fn with_cookie(mut response: Response<Body>, token: &Token) -> Response<Body> {
+    if let Some(cookie) = set_cookie(token) {
         response.headers_mut().insert(header::SET_COOKIE, cookie);
     }
-    Ok(response)
+    response
 }
 
 async fn open(State(site): State<Arc<Site>>, request: Request) -> Answer {

@@ -18,6 +18,7 @@ use tracing::{info, warn};
 use crate::guarded::{ClientsError, Guarded, NotDone, unix_s};
 use crate::identity::{Authority, IdentityError, Leaf, Subjects, own_addresses, reckoned_now_s};
 use crate::rules::{Rules, Scheme};
+use crate::upstream::Upstream;
 
 /// How often names, addresses and the certificate's age are looked at.
 const LOOK_EVERY: Duration = Duration::from_secs(60);
@@ -149,6 +150,11 @@ impl Gate {
         let opened = self.guarded.open(wanted).await?;
         self.beep();
         Ok(opened)
+    }
+
+    /// A connection to the daemon, to be made.
+    pub(crate) fn daemon(&self) -> Upstream {
+        Upstream::new(self.vthal.clone())
     }
 
     /// Lets the robot beep once, if its daemon runs.

@@ -12,6 +12,7 @@
 mod api;
 mod assets;
 mod browser;
+mod buttons;
 mod courtesy;
 mod download;
 mod gate;

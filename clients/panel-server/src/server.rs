@@ -27,6 +27,7 @@ use tracing::{debug, error, warn};
 
 use crate::api::{self, Peer};
 use crate::browser;
+use crate::buttons::watch_buttons;
 use crate::download::{self, Wanted};
 use crate::gate::Gate;
 use crate::guarded::{Known, listen_console, serve_console};
@@ -189,6 +190,7 @@ impl Server {
         tokio::join!(
             accept(self.listener, Some(acceptor), router, seats),
             gate.keep(&self.site.rules),
+            watch_buttons(&gate),
             OptionFuture::from(page),
             OptionFuture::from(console),
         );

@@ -10,9 +10,11 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use axum::http::HeaderMap;
-use pairing::wire::{Begin, Begun, Finish, Finished, OpenWindow, Opened};
+use pairing::wire::{
+    AskMatched, Begin, Begun, Finish, Finished, Join, Joined, OpenWindow, Opened,
+};
 use pairing::{Door, Moment, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted};
-use tokio::sync::{broadcast, watch};
+use tokio::sync::{Notify, broadcast, watch};
 use tracing::{info, warn};
 
 pub(crate) use console::{listen as listen_console, refused, serve_console};
@@ -83,6 +85,7 @@ pub(crate) struct Guarded {
     register: watch::Sender<Register>,
     notices: broadcast::Sender<Newcomer>,
     nonces: Mutex<Nonces>,
+    presses_wanted: Notify,
 }
 
 impl Guarded {
@@ -104,6 +107,7 @@ impl Guarded {
             door: tokio::sync::Mutex::new(door),
             notices: broadcast::Sender::new(NOTICES_MAX),
             nonces: Mutex::default(),
+            presses_wanted: Notify::new(),
         })
     }
 
@@ -146,8 +150,10 @@ impl Guarded {
     /// Whether somebody can be let in, and the robot's number.
     pub(crate) async fn invitation(&self) -> pairing::wire::Invitation {
         let door = self.door.lock().await;
+        let now_us = self.now_us();
         pairing::wire::Invitation {
-            open: door.is_open(self.now_us()),
+            open: door.is_open(now_us),
+            presses: door.is_open_for_presses(now_us),
             robot: door.robot().full().to_owned(),
         }
     }
@@ -159,6 +165,66 @@ impl Guarded {
             .await?;
         info!(role = %wanted.role, "a window for a new device is open");
         Ok(opened)
+    }
+
+    /// Opens a window because somebody holds START.
+    pub(crate) async fn open_by_button(&self) -> Result<(), NotDone> {
+        let random = random()?;
+        self.change(|door, now_us| door.open_by_button(now_us, random))
+            .await?;
+        info!("a window for a new device is open, by the button");
+        Ok(())
+    }
+
+    pub(crate) async fn join(&self, join: Join, from: &str) -> Result<Joined, NotDone> {
+        let random = random()?;
+        let joined = self
+            .change(|door, now_us| door.join(now_us, (join, from), random))
+            .await?;
+        info!(from, "a device waits for its presses");
+        self.presses_wanted.notify_one();
+        Ok(joined)
+    }
+
+    pub(crate) async fn ask_matched(
+        &self,
+        asked: &AskMatched,
+        from: &str,
+    ) -> Result<Option<(Role, Token)>, NotDone> {
+        let random = random()?;
+        let outcome = self
+            .change(|door, now_us| {
+                let unix_s = unix_s();
+                door.ask_matched(Moment { now_us, unix_s }, &asked.session, &random)
+            })
+            .await;
+        if let Ok(Some((_, token))) = &outcome {
+            self.tell(token.id(), from);
+        }
+        outcome
+    }
+
+    /// A device has begun to wait for its presses.
+    pub(crate) async fn presses_wanted(&self) {
+        self.presses_wanted.notified().await;
+    }
+
+    /// START was pressed.
+    pub(crate) async fn press(&self) {
+        self.door.lock().await.press(self.now_us());
+    }
+
+    /// Judges what was pressed up to now; whether more is waited for.
+    pub(crate) async fn judge_presses(&self) -> bool {
+        let now_us = self.now_us();
+        let mut door = self.door.lock().await;
+        let waited = door.waits_for_presses(now_us);
+        door.judge_presses(now_us);
+        let waits = door.waits_for_presses(now_us);
+        if waited && !waits {
+            info!("presses came, or the window is over");
+        }
+        waits
     }
 
     pub(crate) async fn begin(&self, begin: Begin) -> Result<Begun, NotDone> {
