@@ -143,6 +143,52 @@ async fn an_administrator_does_from_the_panel_what_the_console_does() {
 }
 
 #[tokio::test]
+async fn whoever_holds_start_and_presses_what_a_device_shows_lets_it_in() {
+    let mut rig = Rig::start().await;
+    let closed = rig.join("phone").await.unwrap_err();
+    assert!(closed.body.contains("window-shut"), "{closed:?}");
+    let invitation = rig.hold_start().await;
+    assert!(invitation.presses, "no code in this one");
+    assert_eq!(
+        rig.daemon().await.hear().await.unwrap(),
+        r#"{"c":"locate"}"#,
+        "the robot beeps"
+    );
+    let joined = rig.join("Mari's phone").await.unwrap();
+    assert_eq!(
+        rig.buttons.hear().await.unwrap(),
+        r#"{"c":"claim-buttons","ms":2000}"#,
+        "the presses shall start nothing"
+    );
+    rig.press(joined.presses).await;
+    let answer = rig.matched(&joined).await;
+    assert!(answer.body.contains(r#""role":"drive""#), "{answer:?}");
+    let cookie = answer.cookie().unwrap();
+    assert_eq!(rig.session(&cookie).await.role, Role::Drive);
+    while rig.buttons.hear().await.unwrap() != r#"{"c":"claim-buttons","ms":0}"# {}
+    let again = rig.matched(&joined).await;
+    assert!(again.body.contains("no-attempt"), "{again:?}");
+}
+
+#[tokio::test]
+async fn other_presses_let_nobody_in_and_end_the_window() {
+    let mut rig = Rig::start().await;
+    rig.hold_start().await;
+    let joined = rig.join("phone").await.unwrap();
+    for _ in 0..6 {
+        rig.gesture("press").await;
+    }
+    let answer = rig.matched(&joined).await;
+    assert!(
+        answer.status == 403 && answer.body.contains("not-matched"),
+        "{answer:?}"
+    );
+    assert!(rig.join("phone").await.is_err());
+    let clients = rig.console(&Order::Clients).await;
+    assert!(matches!(clients, Reply::Clients { clients } if clients.is_empty()));
+}
+
+#[tokio::test]
 async fn what_devices_may_trust_is_to_be_had() {
     let rig = Rig::start().await;
     let file = rig.get("/robot.crt", "").await;

@@ -1,7 +1,7 @@
 //! The description of the interface, `openapi.json`, against the table of routes and against real answers.
 
-use pairing::wire::{OpenWindow, Revoke, SetRole};
-use pairing::{Method, Need, ROUTES, Role};
+use pairing::wire::{AskMatched, Join, Joined, OpenWindow, Revoke, SetRole};
+use pairing::{DeviceName, Method, Need, ROUTES, Role};
 use serde_json::{Value, json};
 
 use crate::rig::{Answer, Rig};
@@ -79,7 +79,7 @@ async fn real_answers_are_as_described() {
         let opened = rig.post("/api/pairing/open", cookie, &wanted).await;
         expect_described(&spec, ("post", "/api/pairing/open"), &opened);
     }
-    for path in ["begin", "finish", "open"] {
+    for path in ["begin", "finish", "open", "match", "matched"] {
         let path = format!("/api/pairing/{path}");
         let odd = rig.post(&path, &admin, &json!({"odd": 1})).await;
         assert_eq!(odd.status, 400);
@@ -95,6 +95,27 @@ async fn real_answers_are_as_described() {
         let gone = rig.post("/api/clients/revoke", &admin, &Revoke { id }).await;
         assert_eq!(gone.status, expected);
         expect_described(&spec, ("post", "/api/clients/revoke"), &gone);
+    }
+}
+
+#[tokio::test]
+async fn a_device_is_matched_as_described() {
+    let (mut rig, spec) = (Rig::start().await, described());
+    let closed = rig.join("phone").await.unwrap_err();
+    expect_described(&spec, ("post", "/api/pairing/match"), &closed);
+    rig.hold_start().await;
+    expect_described(&spec, ("get", "/api/pairing"), &rig.get("/api/pairing", "").await);
+    let name = DeviceName::new("phone").unwrap();
+    let answer = rig.post("/api/pairing/match", "", &Join { name }).await;
+    assert_eq!(answer.status, 200);
+    expect_described(&spec, ("post", "/api/pairing/match"), &answer);
+    let joined: Joined = serde_json::from_str(&answer.body).unwrap();
+    let session = joined.session;
+    let waits = rig.post("/api/pairing/matched", "", &AskMatched { session }).await;
+    expect_described(&spec, ("post", "/api/pairing/matched"), &waits);
+    rig.press(joined.presses).await;
+    for _ in 0..2 {
+        expect_described(&spec, ("post", "/api/pairing/matched"), &rig.matched(&joined).await);
     }
 }
 

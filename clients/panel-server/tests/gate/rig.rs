@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use futures_util::{SinkExt as _, StreamExt as _};
 use pairing::console::{Order, Reply, Trust};
-use pairing::wire::{Begin, Begun, Finish, Session};
-use pairing::{Code, DeviceName, Ends, Guest, Role};
+use pairing::wire::{AskMatched, Begin, Begun, Finish, Invitation, Join, Joined, Session};
+use pairing::{Code, DeviceName, Ends, Guest, Pattern, Role};
 use panel_server::{Guard, Server, Settings};
 use rustls::pki_types::pem::PemObject as _;
 use rustls::pki_types::{CertificateDer, ServerName};
@@ -69,6 +69,8 @@ pub(crate) struct Rig {
     pub(crate) address: SocketAddr,
     pub(crate) page: SocketAddr,
     pub(crate) vthal: UnixListener,
+    /// The connection on which the server hears of the robot's buttons.
+    pub(crate) buttons: Daemon,
     pub(crate) trust: Trust,
     server: tokio::task::JoinHandle<()>,
 }
@@ -88,6 +90,7 @@ impl Rig {
         std::fs::write(folder.join("index.html"), "<!doctype html><title>x</title>").unwrap();
         let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
         let (server, address, page) = serve(&folder).await;
+        let buttons = ears(&vthal).await;
         let trust = match console(&folder, &Order::Trust).await {
             Reply::Trust(trust) => trust,
             other => panic!("{other:?}"),
@@ -97,6 +100,7 @@ impl Rig {
             address,
             page,
             vthal,
+            buttons,
             trust,
             server,
         }
@@ -107,6 +111,58 @@ impl Rig {
         self.server.abort();
         (&mut self.server).await.ok();
         (self.server, self.address, self.page) = serve(&self.folder).await;
+        self.buttons = ears(&self.vthal).await;
+    }
+
+    /// A person does something with the robot's buttons.
+    pub(crate) async fn gesture(&mut self, gesture: &str) {
+        let update = format!(r#"{{"e":"button","gesture":"{gesture}","button":0,"t":1.5}}"#);
+        self.buttons.say(&update).await;
+    }
+
+    /// START is held until a window is open; gives the invitation.
+    pub(crate) async fn hold_start(&mut self) -> Invitation {
+        self.gesture("pairing-hold").await;
+        loop {
+            let invitation: Invitation =
+                serde_json::from_str(&self.get("/api/pairing", "").await.body).unwrap();
+            if invitation.open {
+                return invitation;
+            }
+        }
+    }
+
+    /// A device asks for presses.
+    pub(crate) async fn join(&self, name: &str) -> Result<Joined, Answer> {
+        let name = DeviceName::new(name).unwrap();
+        let answer = self.post("/api/pairing/match", "", &Join { name }).await;
+        if answer.status != 200 {
+            return Err(answer);
+        }
+        Ok(serde_json::from_str(&answer.body).unwrap())
+    }
+
+    /// START is pressed so often, with a pause between.
+    pub(crate) async fn press(&mut self, pattern: Pattern) {
+        let [first, second] = pattern;
+        for (count, pause) in [(first, Duration::from_millis(1500)), (second, Duration::ZERO)] {
+            for _ in 0..count {
+                self.gesture("press").await;
+            }
+            tokio::time::sleep(pause).await;
+        }
+    }
+
+    /// What becomes of a device that asked, when it is no longer waited for.
+    pub(crate) async fn matched(&self, joined: &Joined) -> Answer {
+        let session = joined.session;
+        loop {
+            let answer = self.post("/api/pairing/matched", "", &AskMatched { session }).await;
+            if answer.status != 200 || answer.body.contains("role") {
+                return answer;
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
     }
 
     /// As it stands in `Host`.
@@ -261,6 +317,22 @@ fn cookie_line(cookie: &str) -> String {
     format!("Cookie: {cookie}\r\n")
 }
 
+/// The connection of a server that has just begun to listen for the buttons; beeps of the one before may wait still.
+async fn ears(vthal: &UnixListener) -> Daemon {
+    loop {
+        let (stream, _) = timeout(DEADLINE, vthal.accept()).await.expect("in time").unwrap();
+        let mut daemon = Daemon(stream);
+        let hello = daemon.hear().await;
+        if hello.is_some_and(|hello| hello.contains("panel-server")) {
+            assert_eq!(
+                daemon.hear().await.unwrap(),
+                r#"{"c":"watch","topics":["buttons"]}"#
+            );
+            return daemon;
+        }
+    }
+}
+
 async fn serve(folder: &std::path::Path) -> (tokio::task::JoinHandle<()>, SocketAddr, SocketAddr) {
     let settings = Settings {
         vthal: folder.join("vthal.sock"),
@@ -335,6 +407,10 @@ impl Socket {
 pub(crate) struct Daemon(UnixStream);
 
 impl Daemon {
+    pub(crate) async fn say(&mut self, text: &str) {
+        self.0.write_all(format!("{text}\u{1f}").as_bytes()).await.unwrap();
+    }
+
     /// The next message; none when the other end is gone.
     pub(crate) async fn hear(&mut self) -> Option<String> {
         let mut text = Vec::new();
