@@ -1,7 +1,12 @@
 //! Pairing in the page: a stranger's device, a wrong code, the right one, what its role allows, and the end.
 
+use std::time::Duration;
+
+use tokio::time::sleep;
+
 use crate::Visit;
 use crate::browser::{Browser, Screen};
+use crate::robot::Witness;
 use crate::stack::Stack;
 
 /// Types into a field, as far as the page can tell.
@@ -115,4 +120,68 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
     browser
         .until("return document.getElementById('pair') !== null")
         .await;
+}
+
+/// Presses START as the page asks for it.
+async fn press_as_shown(browser: &Browser, stack: &Stack) {
+    browser
+        .until("return document.querySelectorAll('#pair-presses .dots')[0].textContent.includes('●')")
+        .await;
+    let dots = browser
+        .text("return document.querySelector('#pair-presses .dots').textContent")
+        .await;
+    let groups: Vec<usize> = dots.split_whitespace().map(|group| group.chars().count()).collect();
+    assert_eq!(groups.len(), 2, "{dots}");
+    for group in groups {
+        for _ in 0..group {
+            stack.hand(r#"{"c":"press","button":0,"ms":200}"#);
+            sleep(Duration::from_millis(500)).await;
+        }
+        sleep(Duration::from_secs(2)).await;
+    }
+}
+
+async fn let_in_by_presses(start: fn() -> Stack) {
+    let Some(visit) = Visit::at_the_door(start, Screen::Phone).await else {
+        return;
+    };
+    let (browser, stack) = (&visit.browser, &visit.stack);
+    browser
+        .until("return document.getElementById('pair') !== null")
+        .await;
+    let witness = Witness::watch(&stack.simulator_socket());
+    // As soon as the daemon knows the robot.
+    while !stack.daemon_knows_a_robot() {
+        sleep(Duration::from_millis(200)).await;
+    }
+    stack.hand(r#"{"c":"press","button":0,"ms":6000}"#);
+    browser
+        .until("return document.getElementById('pair-by-presses').textContent.includes('START was held')")
+        .await;
+    fill(browser, "pair-name", "Mari's phone").await;
+    browser.click("#pair-now").await;
+    browser
+        .until("return document.getElementById('pair-presses').textContent.includes('Press START')")
+        .await;
+    browser.shot("phone-pair-presses").await;
+    press_as_shown(browser, stack).await;
+    browser.until_state(&["idle", "docked"]).await;
+    assert!(
+        stack.console(&["clients"]).contains("drive  Mari's phone"),
+        "let in to drive"
+    );
+    assert!(
+        !witness.moves_within(Duration::from_secs(1)),
+        "presses that were counted have started the robot"
+    );
+}
+
+#[tokio::test]
+async fn whoever_stands_beside_the_robot_lets_a_phone_in_without_a_code() {
+    let_in_by_presses(Stack::start_guarded).await;
+}
+
+#[tokio::test]
+async fn the_buttons_of_the_real_firmware_let_a_phone_in() {
+    let_in_by_presses(Stack::start_guarded_emulated).await;
 }

@@ -6,9 +6,12 @@
 
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
+use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
+
+use rvac_api::SEPARATOR;
 
 static STACKS: AtomicU32 = AtomicU32::new(0);
 
@@ -107,13 +110,27 @@ impl Stack {
 
     /// In a home that the robot does not know, with the robot's real firmware in an emulated chip.
     pub(crate) fn start_emulated() -> Self {
-        let firmware = std::env::var_os("RVAC_FIRMWARE").expect("RVAC_FIRMWARE names the robot's firmware");
-        Self::new(Home::Unknown, Some(Path::new(&firmware)), &packed_panel())
+        Self::new(Home::Unknown, Some(&Self::firmware()), &packed_panel())
     }
 
     /// In a home that the robot does not know, with a server that only paired devices may use.
     pub(crate) fn start_guarded() -> Self {
-        let mut stack = Self::without_server(Home::Unknown, None);
+        Self::guarded(None)
+    }
+
+    /// The same with the robot's real firmware in an emulated chip.
+    pub(crate) fn start_guarded_emulated() -> Self {
+        Self::guarded(Some(&Self::firmware()))
+    }
+
+    fn firmware() -> PathBuf {
+        std::env::var_os("RVAC_FIRMWARE")
+            .expect("RVAC_FIRMWARE names the robot's firmware")
+            .into()
+    }
+
+    fn guarded(firmware: Option<&Path>) -> Self {
+        let mut stack = Self::without_server(Home::Unknown, firmware);
         let state = stack.folder.join("panel");
         stack.start_server(&packed_panel(), &["--state".as_ref(), state.as_os_str()]);
         stack
@@ -195,6 +212,31 @@ impl Stack {
 
     pub(crate) fn daemon_socket(&self) -> PathBuf {
         self.folder.join("vthal.sock")
+    }
+
+    /// Does what the hand of a person does, at the simulator.
+    pub(crate) fn hand(&self, request: &str) {
+        use std::io::Write as _;
+        let mut stream = UnixStream::connect(self.simulator_socket()).unwrap();
+        stream.write_all(format!("{request}\u{1f}").as_bytes()).unwrap();
+        let done = br#"{"e":"done"}"#;
+        let mut messages = BufReader::new(stream).split(SEPARATOR);
+        assert!(
+            messages.any(|message| message.is_ok_and(|message| message == done)),
+            "the simulator does not do {request}"
+        );
+    }
+
+    /// Whether the daemon has heard from the robot what it is.
+    pub(crate) fn daemon_knows_a_robot(&self) -> bool {
+        use std::io::Write as _;
+        let mut stream = UnixStream::connect(self.daemon_socket()).unwrap();
+        stream
+            .write_all(b"{\"c\":\"watch\",\"topics\":[\"status\"]}\x1f")
+            .unwrap();
+        let first = BufReader::new(stream).split(SEPARATOR).next();
+        let text = String::from_utf8(first.unwrap().unwrap()).unwrap();
+        !text.contains("no-robot")
     }
 
     pub(crate) fn simulator_socket(&self) -> PathBuf {

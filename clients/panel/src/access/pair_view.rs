@@ -1,37 +1,110 @@
 //! What a device sees that the robot does not know.
 
+use std::time::Duration;
+
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
+use pairing::wire::Joined;
 
-use super::pairing_steps::pair;
+use super::pairing_steps::{is_open_for_presses, join, pair, wait_for_presses};
 use crate::language::words;
 use crate::store::Store;
 
-#[component]
-pub(crate) fn PairView(store: Store) -> impl IntoView {
-    let (name, code) = (RwSignal::new(String::new()), RwSignal::new(String::new()));
-    let (wrong, works) = (RwSignal::new(String::new()), RwSignal::new(false));
-    let submit = move |event: SubmitEvent| {
-        event.prevent_default();
-        if works.get_untracked() {
+/// The robot is asked this often whether START was held.
+const LOOK_EVERY: Duration = Duration::from_secs(2);
+
+/// What is typed, and how far it went.
+#[derive(Clone, Copy)]
+struct Form {
+    name: RwSignal<String>,
+    code: RwSignal<String>,
+    wrong: RwSignal<String>,
+    works: RwSignal<bool>,
+    /// START was held: presses count, and no code.
+    by_presses: RwSignal<bool>,
+    /// What to press.
+    joined: RwSignal<Option<Joined>>,
+}
+
+impl Form {
+    fn new() -> Self {
+        Self {
+            name: RwSignal::new(String::new()),
+            code: RwSignal::new(String::new()),
+            wrong: RwSignal::new(String::new()),
+            works: RwSignal::new(false),
+            by_presses: RwSignal::new(false),
+            joined: RwSignal::new(None),
+        }
+    }
+
+    /// Looks whether START was held, unless the person is in the middle of something.
+    fn look(self) {
+        leptos::task::spawn_local(async move {
+            let is_open = is_open_for_presses().await;
+            if self.works.try_get_untracked() == Some(false) {
+                self.by_presses.try_set(is_open);
+            }
+        });
+    }
+
+    async fn enter(self) -> Result<(), String> {
+        if !self.by_presses.get_untracked() {
+            return pair(&self.name.get_untracked(), &self.code.get_untracked()).await;
+        }
+        let joined = join(&self.name.get_untracked()).await?;
+        self.joined.set(Some(joined.clone()));
+        let outcome = wait_for_presses(&joined).await;
+        self.joined.set(None);
+        outcome
+    }
+
+    fn submit(self, store: Store) {
+        if self.works.get_untracked() {
             return;
         }
-        works.set(true);
-        wrong.set(String::new());
+        self.works.set(true);
+        self.wrong.set(String::new());
         leptos::task::spawn_local(async move {
-            match pair(&name.get_untracked(), &code.get_untracked()).await {
+            match self.enter().await {
                 Ok(()) => store.connect(),
-                Err(text) => wrong.set(text),
+                Err(text) => self.wrong.set(text),
             }
-            works.set(false);
+            self.works.set(false);
         });
+    }
+
+    fn button_text(self) -> &'static str {
+        let told = &words().access;
+        match (self.by_presses.get(), self.works.get()) {
+            (true, true) => told.waiting,
+            (true, false) => told.show_presses,
+            (false, true) => told.pairing,
+            (false, false) => told.pair,
+        }
+    }
+}
+
+#[component]
+pub(crate) fn PairView(store: Store) -> impl IntoView {
+    let form = Form::new();
+    form.look();
+    if let Ok(timer) = set_interval_with_handle(move || form.look(), LOOK_EVERY) {
+        on_cleanup(move || timer.clear());
+    }
+    let submit = move |event: SubmitEvent| {
+        event.prevent_default();
+        form.submit(store);
     };
     view! {
         <main class="pair-page">
             <form class="card pair" id="pair" aria-labelledby="pair-title" on:submit=submit>
                 <h2 id="pair-title">{words().access.title}</h2>
-                <p class="hint">
+                <p class="hint" hidden=move || form.by_presses.get()>
                     {words().access.how_before} <code>"rvac pair"</code> {words().access.how_after}
+                </p>
+                <p class="hint" role="status" id="pair-by-presses">
+                    {move || form.by_presses.get().then_some(words().access.how_presses)}
                 </p>
                 <label class="field">
                     {words().access.device_name}
@@ -40,11 +113,11 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
                         autocomplete="off"
                         maxlength="40"
                         placeholder=words().access.example_name
-                        prop:value=move || name.get()
-                        on:input=move |event| name.set(event_target_value(&event))
+                        prop:value=move || form.name.get()
+                        on:input=move |event| form.name.set(event_target_value(&event))
                     />
                 </label>
-                <label class="field">
+                <label class="field" hidden=move || form.by_presses.get()>
                     {words().access.code}
                     <input
                         id="pair-code"
@@ -52,13 +125,14 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
                         autocomplete="one-time-code"
                         maxlength="12"
                         placeholder="1234 5678"
-                        prop:value=move || code.get()
-                        on:input=move |event| code.set(event_target_value(&event))
+                        prop:value=move || form.code.get()
+                        on:input=move |event| form.code.set(event_target_value(&event))
                     />
                 </label>
-                <p class="wrong" id="pair-wrong" role="alert">{move || wrong.get()}</p>
-                <button type="submit" class="small strong" id="pair-now" aria-disabled=move || works.get().to_string()>
-                    {move || if works.get() { words().access.pairing } else { words().access.pair }}
+                <PressesView joined=form.joined/>
+                <p class="wrong" id="pair-wrong" role="alert">{move || form.wrong.get()}</p>
+                <button type="submit" class="small strong" id="pair-now" aria-disabled=move || form.works.get().to_string()>
+                    {move || form.button_text()}
                 </button>
                 <p class="hint">
                     {words().access.trust_before}
@@ -68,5 +142,24 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
                 </p>
             </form>
         </main>
+    }
+}
+
+/// What to press, as a sentence and as dots.
+#[component]
+fn PressesView(joined: RwSignal<Option<Joined>>) -> impl IntoView {
+    let told = move || {
+        let [first, second] = joined.get()?.presses;
+        Some(words().access.presses.fill([&first, &second]))
+    };
+    let dots = move || {
+        let [first, second] = joined.get()?.presses.map(|count| "●".repeat(usize::from(count)));
+        Some(format!("{first}   {second}"))
+    };
+    view! {
+        <div role="status" id="pair-presses" class="presses">
+            <p>{told}</p>
+            <p class="dots" aria-hidden="true">{dots}</p>
+        </div>
     }
 }

@@ -1,12 +1,18 @@
 //! The steps by which a device proves the code.
 
+use js_sys::Promise;
 use leptos::prelude::window;
-use pairing::wire::{Begin, Begun, Finish, Finished, Invitation};
+use pairing::wire::{AskMatched, Begin, Begun, Finish, Finished, Invitation, Join, Joined, Matched};
 use pairing::{Code, DeviceName, Ends, Guest, NameError};
+use wasm_bindgen::JsValue;
+use wasm_bindgen_futures::JsFuture;
 
 use super::http::{self, Failed};
 
 use crate::language::words;
+
+/// While presses are waited for, the robot is asked this often.
+const ASK_EVERY_MS: i32 = 500;
 
 /// Proves the code; from then on the browser has a cookie that no script can read.
 ///
@@ -39,6 +45,47 @@ pub(super) async fn pair(name: &str, code: &str) -> Result<(), String> {
         return Ok(());
     }
     Err(words().access.impostor.to_owned())
+}
+
+/// Whether the robot's button has opened a window, in which presses let a device in.
+pub(super) async fn is_open_for_presses() -> bool {
+    let invitation: Result<Invitation, Failed> = http::get("/api/pairing").await;
+    invitation.is_ok_and(|invitation| invitation.open && invitation.presses)
+}
+
+/// Asks for presses.
+///
+/// # Errors
+/// As of [`pair`].
+pub(super) async fn join(name: &str) -> Result<Joined, String> {
+    let name = DeviceName::new(name).map_err(name_problem)?;
+    ask("/api/pairing/match", &Join { name }).await
+}
+
+/// Waits until the presses came; from then on the browser has a cookie that no script can read.
+///
+/// # Errors
+/// As of [`pair`].
+pub(super) async fn wait_for_presses(joined: &Joined) -> Result<(), String> {
+    let session = joined.session;
+    loop {
+        let matched: Matched = ask("/api/pairing/matched", &AskMatched { session }).await?;
+        if matched.role.is_some() {
+            return Ok(());
+        }
+        pause(ASK_EVERY_MS).await;
+    }
+}
+
+async fn pause(ms: i32) {
+    let over = Promise::new(&mut |over, _| {
+        let timer = window().set_timeout_with_callback_and_timeout_and_arguments_0(&over, ms);
+        // A page that gets no timer asks again at once.
+        if timer.is_err() {
+            over.call0(&JsValue::NULL).ok();
+        }
+    });
+    JsFuture::from(over).await.ok();
 }
 
 fn name_problem(error: NameError) -> String {

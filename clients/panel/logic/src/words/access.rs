@@ -7,9 +7,16 @@ screen! {
     AccessWords {
         title: "Pair this device with the robot", "Seo see seade robotiga";
         // The two commands stand between the parts.
-        how_before: "Run ", "Käivita robotis ";
+        how_before: "Hold START on the robot for five seconds until it beeps. Or run ", "Hoia robotil nuppu START viis sekundit, kuni kostab helisignaal. Või käivita robotis ";
         how_after: " on the robot, or choose “Add a device” on a device that is its administrator. The robot beeps and a code of eight digits is shown, which holds for two minutes.",
             " või vali haldusõigusega seadmes „Lisa seade“. Robot annab helisignaali ja näidatakse kaheksakohalist koodi, mis kehtib kaks minutit.";
+        how_presses: "The robot has beeped: START was held. Give this device a name, and it shows how often to press START.",
+            "Robot andis helisignaali: nuppu START hoiti. Anna sellele seadmele nimi ja see näitab, mitu korda nuppu vajutada.";
+        show_presses: "Show what to press", "Näita, mida vajutada";
+        waiting: "Waiting for START …", "Ootab nupuvajutusi …";
+        // How often before and after the pause.
+        presses[2]: "Press START on the robot {0}×, pause for two seconds, then press it {1}×.",
+            "Vajuta robotil nuppu START {0}×, oota kaks sekundit ja vajuta veel {1}×.";
         device_name: "Name of this device", "Selle seadme nimi";
         example_name: "Mari's phone", "Mari telefon";
         code: "Code", "Kood";
