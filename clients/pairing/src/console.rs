@@ -35,6 +35,16 @@ pub enum Order {
         /// Which.
         role: Role,
     },
+    /// Says that the person who uses this device is beside the robot.
+    Vouch {
+        /// Which.
+        id: TokenId,
+    },
+    /// Forgets all devices.
+    ForgetAll {
+        /// The robot's identity too: whatever trusts its certificate must trust a new one.
+        identity: bool,
+    },
     /// Asks for what devices may trust.
     Trust,
 }

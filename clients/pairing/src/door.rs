@@ -4,7 +4,7 @@ use crate::exchange::{Ends, Host};
 use crate::stored::{Stored, StoredError};
 use crate::window::{OPEN_US, Window};
 use crate::matching::{Matching, Standing};
-use crate::wire::{Begin, Begun, Finish, Finished, Join, Joined, Opened};
+use crate::wire::{Begin, Begun, Finish, Finished, Forgotten, Join, Joined, Opened};
 use crate::{Code, DeviceName, Refusal, Register, RobotId, Role, Token, TokenId, Wanted};
 
 /// The two times of a moment.
@@ -29,6 +29,8 @@ struct Attempt {
 pub struct Door {
     robot: RobotId,
     register: Register,
+    /// Why all clients were forgotten, until an administrator is let in.
+    forgotten: Option<Forgotten>,
     window: Window,
     attempts: Vec<Attempt>,
     matching: Matching,
@@ -43,16 +45,17 @@ impl Door {
     /// # Errors
     /// See [`StoredError`].
     pub fn new(now_us: u64, robot: RobotId, stored: Option<&str>) -> Result<Self, StoredError> {
-        let (counters, register) = match stored {
+        let (counters, register, forgotten) = match stored {
             Some(text) => {
                 let stored = Stored::parse(text)?;
-                (stored.counters, stored.clients)
+                (stored.counters, stored.clients, stored.forgotten)
             }
             None => Default::default(),
         };
         Ok(Self {
             robot,
             register,
+            forgotten,
             window: Window::new(now_us, counters),
             attempts: Vec::new(),
             matching: Matching::default(),
@@ -62,7 +65,7 @@ impl Door {
     /// What must be on the disk.
     #[must_use]
     pub fn stored(&self) -> String {
-        Stored::new(self.window.counters, self.register.clone()).text()
+        Stored::new((self.window.counters, self.register.clone()), self.forgotten).text()
     }
 
     /// The clients.
@@ -75,6 +78,27 @@ impl Door {
     #[must_use]
     pub const fn robot(&self) -> &RobotId {
         &self.robot
+    }
+
+    /// Why all clients were forgotten, until an administrator is let in.
+    #[must_use]
+    pub const fn forgotten(&self) -> Option<Forgotten> {
+        self.forgotten
+    }
+
+    /// Forgets all clients and all counters, and shuts the window. The robot stays who it is.
+    pub fn forget_all(&mut self, now_us: u64, why: Forgotten) {
+        self.register = Register::default();
+        self.window = Window::new(now_us, Default::default());
+        self.attempts.clear();
+        self.matching = Matching::default();
+        self.forgotten = Some(why);
+    }
+
+    /// The robot is somebody else from now on: proofs for the one before are none.
+    pub fn rename(&mut self, robot: RobotId) {
+        self.robot = robot;
+        self.attempts.clear();
     }
 
     /// Whether somebody can be let in.
@@ -247,9 +271,8 @@ impl Door {
         };
         self.window.on_success();
         self.attempts.clear();
-        let token = Token::from_random(random);
         let name = attempt.name;
-        self.register.add(&token, Wanted { name, role }, unix_s);
+        let token = self.add(unix_s, Wanted { name, role }, random)?;
         Ok((Finished { proof, role }, token))
     }
 
@@ -260,6 +283,9 @@ impl Door {
     pub fn add(&mut self, unix_s: u64, wanted: Wanted, random: &[u8; 40]) -> Result<Token, Refusal> {
         if self.register.is_full() {
             return Err(Refusal::Full);
+        }
+        if wanted.role == Role::Admin {
+            self.forgotten = None;
         }
         let token = Token::from_random(random);
         self.register.add(&token, wanted, unix_s);

@@ -7,8 +7,9 @@ use crate::rhythm::{Heard, Rhythm};
 /// Devices that can ask in one window.
 pub const MATCHING_MAX: usize = 4;
 
-/// Most presses in a group.
-const PRESSES_MAX: u8 = 5;
+/// Presses in a group. A single one is what people press who want the robot to start.
+const PRESSES_MIN: u8 = 2;
+const PRESSES_MAX: u8 = 6;
 
 /// How often to press before and after the pause.
 pub type Pattern = [u8; 2];
@@ -112,13 +113,13 @@ impl Matching {
 }
 
 /// Five patterns of which any two differ by three presses, so that a miscount by one or two is never another device's pattern:
-/// a perfect Lee code on the square, shifted and shuffled.
+/// a perfect Lee code on the square of all, shifted and shuffled.
 fn patterns(random: [u8; 8]) -> Vec<Pattern> {
+    const COUNTS: u8 = PRESSES_MAX - PRESSES_MIN + 1;
     let [shift, shuffle @ ..] = random;
-    let second = 1..=PRESSES_MAX;
-    let first = |second: u8| (u32::from(shift) + 3 * u32::from(second)) % u32::from(PRESSES_MAX);
-    let mut all: Vec<Pattern> = second
-        .map(|second| [u8::try_from(first(second)).unwrap_or_default() + 1, second])
+    let first = |second: u8| (shift % COUNTS + 3 * second) % COUNTS;
+    let mut all: Vec<Pattern> = (0..COUNTS)
+        .map(|second| [first(second), second].map(|count| count + PRESSES_MIN))
         .collect();
     for (last, random) in (1..all.len()).rev().zip(shuffle) {
         all.swap(last, usize::from(random) % (last + 1));
@@ -156,7 +157,7 @@ mod tests {
             let all = patterns([shift, 3, 1, 4, 1, 5, 9, 2]);
             assert_eq!(all.len(), 5);
             for (place, one) in all.iter().enumerate() {
-                assert!(one.iter().all(|count| (1..=5).contains(count)), "{one:?}");
+                assert!(one.iter().all(|count| (2..=6).contains(count)), "{one:?}");
                 for other in &all[place + 1..] {
                     let apart = one[0].abs_diff(other[0]) + one[1].abs_diff(other[1]);
                     assert!(apart >= 3, "{one:?} {other:?}");
@@ -185,7 +186,7 @@ mod tests {
         let mut matching = Matching::new([1; 8]);
         let [first, second] = matching.join([0; 16], name(), "a").unwrap();
         matching.join([1; 16], name(), "b").unwrap();
-        let miscounted = [if first == 1 { 2 } else { first - 1 }, second];
+        let miscounted = [if first == 2 { 3 } else { first - 1 }, second];
         assert_eq!(press(&mut matching, miscounted), Some(false));
         assert_eq!(matching.standing(&[0; 16]), Some(Standing::Missed));
         assert!(!matching.is_waited());

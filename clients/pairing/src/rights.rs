@@ -120,6 +120,9 @@ pub const VERBS: [(&str, Role); 42] = [
     ("raw",             Role::Admin),
 ];
 
+/// Requests for which somebody must be beside the robot or at its console, whatever the role: what they do no rule of the robot checks.
+pub const PRESENCE: [&str; 1] = ["raw"];
+
 /// Why a request is not passed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Denied {
@@ -132,13 +135,16 @@ pub enum Denied {
         /// What it needs.
         needed: Role,
     },
+    /// Nobody is known to be beside the robot.
+    Absent,
 }
 
-/// A request that `role` may make, written anew, so that the daemon reads what was judged here and nothing else.
+/// A request that `role` may make, written anew, so that the daemon reads what was judged here and nothing else. `is_present` says that
+/// somebody is known to be beside the robot.
 ///
 /// # Errors
 /// See [`Denied`].
-pub fn checked_request(text: &str, role: Role) -> Result<String, Denied> {
+pub fn checked_request(text: &str, (role, is_present): (Role, bool)) -> Result<String, Denied> {
     let request: Request = serde_json::from_str(text).map_err(|_| Denied::Unreadable)?;
     let value = serde_json::to_value(&request).map_err(|_| Denied::Unreadable)?;
     let verb = value.get("c").and_then(|verb| verb.as_str()).unwrap_or_default();
@@ -148,6 +154,9 @@ pub fn checked_request(text: &str, role: Role) -> Result<String, Denied> {
             id: request.id,
             needed,
         });
+    }
+    if !is_present && PRESENCE.contains(&verb) {
+        return Err(Denied::Absent);
     }
     Ok(value.to_string())
 }
@@ -190,20 +199,29 @@ mod tests {
     }
 
     #[test]
+    fn what_no_rule_checks_needs_somebody_beside_the_robot() {
+        let raw = r#"{"c":"raw","packet":"x"}"#;
+        assert_eq!(checked_request(raw, (Role::Admin, false)), Err(Denied::Absent));
+        assert_eq!(checked_request(raw, (Role::Admin, true)).as_deref(), Ok(raw));
+        let denied = checked_request(raw, (Role::Drive, true));
+        assert!(matches!(denied, Err(Denied::NotAllowed { .. })), "{denied:?}");
+    }
+
+    #[test]
     fn a_request_is_written_anew() {
         assert_eq!(
-            checked_request(r#"{ "id":7, "c":"stop", "extra":1 }"#, Role::View).as_deref(),
+            checked_request(r#"{ "id":7, "c":"stop", "extra":1 }"#, (Role::View, false)).as_deref(),
             Ok(r#"{"c":"stop","id":7}"#)
         );
         assert_eq!(
-            checked_request(r#"{"id":7,"c":"start"}"#, Role::View),
+            checked_request(r#"{"id":7,"c":"start"}"#, (Role::View, true)),
             Err(Denied::NotAllowed {
                 id: Some(7),
                 needed: Role::Drive
             })
         );
         for hidden in [r#"{"c":"stop","c":"start"}"#, "[]", "", r#"{"c":"fly"}"#] {
-            assert!(checked_request(hidden, Role::View).is_err(), "{hidden}");
+            assert!(checked_request(hidden, (Role::View, true)).is_err(), "{hidden}");
         }
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::register::Register;
 use crate::window::Counters;
+use crate::wire::Forgotten;
 
 /// Version of this file.
 const VERSION: u32 = 1;
@@ -27,14 +28,17 @@ pub(crate) struct Stored {
     version: u32,
     pub(crate) counters: Counters,
     pub(crate) clients: Register,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) forgotten: Option<Forgotten>,
 }
 
 impl Stored {
-    pub(crate) fn new(counters: Counters, clients: Register) -> Self {
+    pub(crate) fn new((counters, clients): (Counters, Register), forgotten: Option<Forgotten>) -> Self {
         Self {
             version: VERSION,
             counters,
             clients,
+            forgotten,
         }
     }
 

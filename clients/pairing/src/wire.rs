@@ -15,6 +15,21 @@ pub struct Invitation {
     pub presses: bool,
     /// The robot's full number, which goes into the proof.
     pub robot: String,
+    /// Why the robot knows nobody any more, until an administrator is let in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forgotten: Option<Forgotten>,
+}
+
+/// By what all devices were forgotten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Forgotten {
+    /// START and DOCK were held.
+    Buttons,
+    /// There was a file on the card that the robot's computer starts from.
+    File,
+    /// The owner said so at the console.
+    Console,
 }
 
 /// `POST /api/pairing/begin`.

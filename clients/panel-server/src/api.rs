@@ -78,7 +78,7 @@ fn status_of(error: &NotDone) -> StatusCode {
         NotDone::Refused(Refusal::Malformed) => StatusCode::BAD_REQUEST,
         NotDone::Refused(Refusal::Waiting { .. }) => StatusCode::TOO_MANY_REQUESTS,
         NotDone::Refused(_) => StatusCode::FORBIDDEN,
-        NotDone::Disk(_) | NotDone::Random(_) => StatusCode::INTERNAL_SERVER_ERROR,
+        NotDone::Disk(_) | NotDone::Random(_) | NotDone::Identity(_) => StatusCode::INTERNAL_SERVER_ERROR,
     }
 }
 

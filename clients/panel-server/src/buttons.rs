@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
+use pairing::wire::Forgotten;
 use rvac_api::{Gesture, Request, RequestBody, Topic, Update};
 use tokio::time::{Interval, MissedTickBehavior, interval};
-use tracing::{debug, info};
+use tracing::{debug, info, warn};
 
 use crate::gate::Gate;
 use crate::upstream::{Event, Upstream};
@@ -73,12 +74,24 @@ impl Ears<'_> {
 
     async fn on_gesture(&mut self, gesture: Gesture, button: u8) {
         match gesture {
-            Gesture::Press if button == START => self.gate.guarded.press().await,
-            Gesture::Press | Gesture::RecoveryHold => {}
+            Gesture::Press => self.gate.guarded.press(button == START).await,
+            Gesture::RecoveryHold => self.recover().await,
             Gesture::PairingHold => match self.gate.guarded.open_by_button().await {
                 Ok(()) => self.gate.beep(),
                 Err(error) => info!(%error, "START is held, and no window is opened"),
             },
+        }
+    }
+
+    /// Forgets all devices, and lets the next one in.
+    async fn recover(&self) {
+        let outcome = async {
+            self.gate.guarded.forget_all(Forgotten::Buttons).await?;
+            self.gate.guarded.open_by_button().await
+        };
+        match outcome.await {
+            Ok(()) => self.gate.beep(),
+            Err(error) => warn!(%error, "START and DOCK are held, and not all devices could be forgotten"),
         }
     }
 

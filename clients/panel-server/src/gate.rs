@@ -6,12 +6,13 @@ use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Duration;
 
 use pairing::console::Trust;
-use pairing::wire::{OpenWindow, Opened};
+use pairing::wire::{Forgotten, OpenWindow, Opened};
 use rustls::ServerConfig;
 use rustls::server::{ClientHello, ResolvesServerCert};
 use rustls::sign::CertifiedKey;
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::UnixStream;
+use tokio::sync::Notify;
 use tokio_rustls::TlsAcceptor;
 use tracing::{info, warn};
 
@@ -49,7 +50,10 @@ pub enum GateError {
 #[derive(Debug)]
 pub(crate) struct Gate {
     pub(crate) guarded: Guarded,
-    authority: Authority,
+    authority: RwLock<Arc<Authority>>,
+    identity: PathBuf,
+    /// The certificate and the names must be looked at now.
+    renamed: Notify,
     extra_names: Vec<String>,
     port: u16,
     vthal: PathBuf,
@@ -68,18 +72,35 @@ impl Gate {
             path: folder.to_owned(),
             source,
         })?;
-        let authority = Authority::at(&folder.join("identity.json"), &extra_names)?;
+        let identity = folder.join("identity.json");
+        let authority = Authority::at(&identity, &extra_names)?;
         let guarded = Guarded::at(&folder.join("clients.json"), authority.robot().clone())?;
         let now = subjects(&authority, &extra_names);
         let leaf = Leaf::issue(&authority, now, reckoned_now_s(unix_s()))?;
         Ok(Self {
             guarded,
-            authority,
+            authority: RwLock::new(Arc::new(authority)),
+            identity,
+            renamed: Notify::new(),
             extra_names,
             port: address.port(),
             vthal,
             leaf: RwLock::new(leaf),
         })
+    }
+
+    fn authority(&self) -> Arc<Authority> {
+        Arc::clone(&self.authority.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Forgets all devices, and becomes another robot to all that trusted this one.
+    pub(crate) async fn forget_everything(&self) -> Result<(), NotDone> {
+        self.guarded.forget_all(Forgotten::Console).await?;
+        let authority = Authority::anew(&self.identity, &self.extra_names)?;
+        self.guarded.rename(authority.robot().clone()).await;
+        *self.authority.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(authority);
+        self.renamed.notify_one();
+        Ok(())
     }
 
     /// What accepts connections: TLS 1.3 and nothing older.
@@ -95,7 +116,7 @@ impl Gate {
 
     /// The rules for the names and addresses of the moment.
     pub(crate) fn rules(&self) -> Rules {
-        let subjects = subjects(&self.authority, &self.extra_names);
+        let subjects = subjects(&self.authority(), &self.extra_names);
         let addresses = subjects
             .addresses
             .iter()
@@ -111,7 +132,10 @@ impl Gate {
     pub(crate) async fn keep(&self, rules: &RwLock<Rules>) {
         let mut pulse = tokio::time::interval(LOOK_EVERY);
         loop {
-            pulse.tick().await;
+            tokio::select! {
+                _ = pulse.tick() => {}
+                () = self.renamed.notified() => {}
+            }
             if self.renew() {
                 *rules.write().unwrap_or_else(PoisonError::into_inner) = self.rules();
             }
@@ -120,8 +144,9 @@ impl Gate {
 
     /// Whether there is a new certificate.
     fn renew(&self) -> bool {
+        let authority = self.authority();
         let (wanted, now_s) = (
-            subjects(&self.authority, &self.extra_names),
+            subjects(&authority, &self.extra_names),
             reckoned_now_s(unix_s()),
         );
         let due = self
@@ -132,7 +157,7 @@ impl Gate {
         if !due {
             return false;
         }
-        match Leaf::issue(&self.authority, wanted, now_s) {
+        match Leaf::issue(&authority, wanted, now_s) {
             Ok(leaf) => {
                 info!("the certificate was renewed");
                 *self.leaf.write().unwrap_or_else(PoisonError::into_inner) = leaf;
@@ -174,7 +199,7 @@ impl Gate {
 
     /// Where devices find the robot.
     pub(crate) fn addresses(&self) -> Vec<String> {
-        let subjects = subjects(&self.authority, &self.extra_names);
+        let subjects = subjects(&self.authority(), &self.extra_names);
         let hosts = subjects.names.into_iter().chain(
             subjects
                 .addresses
@@ -192,12 +217,13 @@ impl Gate {
 
     /// What devices may trust.
     pub(crate) fn trust(&self) -> Trust {
+        let authority = self.authority();
         Trust {
-            robot: self.authority.robot().full().to_owned(),
-            host_name: self.authority.robot().host_name(),
+            robot: authority.robot().full().to_owned(),
+            host_name: authority.robot().host_name(),
             addresses: self.addresses(),
-            pem: self.authority.pem().to_owned(),
-            fingerprint: self.authority.fingerprint(),
+            pem: authority.pem().to_owned(),
+            fingerprint: authority.fingerprint(),
         }
     }
 }

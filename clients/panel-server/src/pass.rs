@@ -85,13 +85,23 @@ impl Pass {
         if !self.greeted {
             return self.greet(text);
         }
-        match checked_request(text, self.known.role) {
+        let is_present = self.gate.guarded.is_present(self.known.id);
+        match checked_request(text, (self.known.role, is_present)) {
             Ok(request) => Judged::PassOn(request),
             Err(Denied::Unreadable) => Judged::Answer(refused(
                 text,
                 "syntax",
                 "The request could not be read: reload the page, or update the software.",
             )),
+            Err(Denied::Absent) => {
+                self.gate.guarded.ask_presence(self.known.id);
+                Judged::Answer(refused(
+                    text,
+                    "not-present",
+                    "Somebody must be beside the robot for that: press a button on it within a minute, then ask again. At its console, \
+                     rvac clients vouch does the same.",
+                ))
+            }
             Err(Denied::NotAllowed { needed, .. }) => Judged::Answer(refused(
                 text,
                 "not-allowed",

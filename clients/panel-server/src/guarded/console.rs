@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use pairing::Wanted;
 use pairing::console::{Order, Reply};
-use pairing::wire::{OpenWindow, Refused};
+use pairing::wire::{Forgotten, OpenWindow, Refused};
 use tokio::io::{AsyncBufReadExt as _, AsyncReadExt as _, AsyncWriteExt as _, BufReader};
 use tokio::net::{UnixListener, UnixStream};
 use tokio::time::timeout;
@@ -95,6 +95,20 @@ async fn obey(order: Order, gate: &Gate) -> Result<Reply, NotDone> {
             guarded.set_role(id, role).await?;
             Reply::Done
         }
+        Order::Vouch { id } => {
+            guarded.vouch(id)?;
+            Reply::Done
+        }
+        Order::ForgetAll { identity: false } => {
+            guarded.forget_all(Forgotten::Console).await?;
+            gate.beep();
+            Reply::Done
+        }
+        Order::ForgetAll { identity: true } => {
+            gate.forget_everything().await?;
+            gate.beep();
+            Reply::Trust(gate.trust())
+        }
         Order::Trust => Reply::Trust(gate.trust()),
     })
 }
@@ -103,7 +117,7 @@ async fn obey(order: Order, gate: &Gate) -> Result<Reply, NotDone> {
 pub(crate) fn refused(error: &NotDone) -> Refused {
     match error {
         NotDone::Refused(refusal) => (*refusal).into(),
-        NotDone::Disk(_) | NotDone::Random(_) => Refused {
+        NotDone::Disk(_) | NotDone::Random(_) | NotDone::Identity(_) => Refused {
             reason: "robot".to_owned(),
             text: error.to_string(),
         },

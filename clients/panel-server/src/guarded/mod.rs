@@ -11,9 +11,9 @@ use std::time::Instant;
 
 use axum::http::HeaderMap;
 use pairing::wire::{
-    AskMatched, Begin, Begun, Finish, Finished, Join, Joined, OpenWindow, Opened,
+    AskMatched, Begin, Begun, Finish, Finished, Forgotten, Join, Joined, OpenWindow, Opened,
 };
-use pairing::{Door, Moment, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted};
+use pairing::{Door, Moment, Presence, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted};
 use tokio::sync::{Notify, broadcast, watch};
 use tracing::{info, warn};
 
@@ -59,6 +59,8 @@ pub(crate) enum NotDone {
     Disk(io::Error),
     #[error("The robot's system gives no random numbers: {0}.")]
     Random(#[from] getrandom::Error),
+    #[error("The robot got no new identity: {0}.")]
+    Identity(#[from] crate::identity::IdentityError),
 }
 
 /// Somebody known.
@@ -86,6 +88,7 @@ pub(crate) struct Guarded {
     notices: broadcast::Sender<Newcomer>,
     nonces: Mutex<Nonces>,
     presses_wanted: Notify,
+    presence: Mutex<Presence>,
 }
 
 impl Guarded {
@@ -108,6 +111,7 @@ impl Guarded {
             notices: broadcast::Sender::new(NOTICES_MAX),
             nonces: Mutex::default(),
             presses_wanted: Notify::new(),
+            presence: Mutex::default(),
         })
     }
 
@@ -155,6 +159,7 @@ impl Guarded {
             open: door.is_open(now_us),
             presses: door.is_open_for_presses(now_us),
             robot: door.robot().full().to_owned(),
+            forgotten: door.forgotten(),
         }
     }
 
@@ -209,22 +214,67 @@ impl Guarded {
         self.presses_wanted.notified().await;
     }
 
-    /// START was pressed.
-    pub(crate) async fn press(&self) {
-        self.door.lock().await.press(self.now_us());
+    /// A button was pressed. What devices ask for with START is no proof that somebody is there for another reason.
+    pub(crate) async fn press(&self, is_start: bool) {
+        let now_us = self.now_us();
+        let mut door = self.door.lock().await;
+        if door.waits_for_presses(now_us) {
+            if is_start {
+                door.press(now_us);
+            }
+        } else if let Some(id) = self.presence().press(now_us) {
+            info!(%id, "a button was pressed: somebody is beside the robot");
+        }
     }
 
     /// Judges what was pressed up to now; whether more is waited for.
     pub(crate) async fn judge_presses(&self) -> bool {
         let now_us = self.now_us();
         let mut door = self.door.lock().await;
-        let waited = door.waits_for_presses(now_us);
         door.judge_presses(now_us);
-        let waits = door.waits_for_presses(now_us);
-        if waited && !waits {
-            info!("presses came, or the window is over");
+        door.waits_for_presses(now_us) || self.presence().is_waited(now_us)
+    }
+
+    /// Whether somebody is known to be beside the robot on behalf of this client.
+    pub(crate) fn is_present(&self, id: TokenId) -> bool {
+        self.presence().is_proven(self.now_us(), id)
+    }
+
+    /// The next press of a button says that the person who uses this client is beside the robot.
+    pub(crate) fn ask_presence(&self, id: TokenId) {
+        self.presence().ask(self.now_us(), id);
+        self.presses_wanted.notify_one();
+    }
+
+    /// Somebody at the console says so.
+    pub(crate) fn vouch(&self, id: TokenId) -> Result<(), NotDone> {
+        if self.register.borrow().get(id).is_none() {
+            return Err(Refusal::NoClient.into());
         }
-        waits
+        self.presence().prove(self.now_us(), id);
+        info!(%id, "somebody at the console vouches for the device");
+        Ok(())
+    }
+
+    fn presence(&self) -> std::sync::MutexGuard<'_, Presence> {
+        self.presence.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Forgets all clients: their connections end.
+    pub(crate) async fn forget_all(&self, why: Forgotten) -> Result<(), NotDone> {
+        self.change(|door, now_us| {
+            door.forget_all(now_us, why);
+            Ok(())
+        })
+        .await?;
+        *self.presence() = Presence::default();
+        warn!(?why, "all devices were forgotten");
+        Ok(())
+    }
+
+    /// The robot has another identity from now on.
+    pub(crate) async fn rename(&self, robot: RobotId) {
+        self.door.lock().await.rename(robot);
     }
 
     pub(crate) async fn begin(&self, begin: Begin) -> Result<Begun, NotDone> {

@@ -83,15 +83,10 @@ impl Authority {
             path: path.to_owned(),
             source,
         };
-        let stored = match kept_text(path).map_err(file_error)? {
-            Some(text) => serde_json::from_str(&text).map_err(|error| damaged(path, &error))?,
-            None => {
-                let made = make(extra_names)?;
-                let text = serde_json::to_string_pretty(&made).map_err(|error| damaged(path, &error))?;
-                kept_file::replace_secret(path, text.as_bytes()).map_err(file_error)?;
-                made
-            }
+        let Some(text) = kept_text(path).map_err(file_error)? else {
+            return Self::anew(path, extra_names);
         };
+        let stored: Stored = serde_json::from_str(&text).map_err(|error| damaged(path, &error))?;
         let unknown = extra_names.iter().find(|name| {
             !stored
                 .extra_names
@@ -105,6 +100,17 @@ impl Authority {
             });
         }
         Self::from_stored(stored).map_err(|error| damaged(path, &error))
+    }
+
+    /// A new authority, in place of any that is kept at `path`.
+    pub(crate) fn anew(path: &Path, extra_names: &[String]) -> Result<Self, IdentityError> {
+        let made = make(extra_names)?;
+        let text = serde_json::to_string_pretty(&made).map_err(|error| damaged(path, &error))?;
+        kept_file::replace_secret(path, text.as_bytes()).map_err(|source| IdentityError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::from_stored(made).map_err(|error| damaged(path, &error))
     }
 
     fn from_stored(stored: Stored) -> Result<Self, rcgen::Error> {

@@ -175,7 +175,7 @@ async fn other_presses_let_nobody_in_and_end_the_window() {
     let mut rig = Rig::start().await;
     rig.hold_start().await;
     let joined = rig.join("phone").await.unwrap();
-    for _ in 0..6 {
+    for _ in 0..7 {
         rig.gesture("press").await;
     }
     let answer = rig.matched(&joined).await;
