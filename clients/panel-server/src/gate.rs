@@ -18,6 +18,7 @@ use tracing::{info, warn};
 
 use crate::guarded::{ClientsError, Guarded, NotDone, unix_s};
 use crate::identity::{Authority, IdentityError, Leaf, Subjects, own_addresses, reckoned_now_s};
+use crate::reset_file::Wish;
 use crate::rules::{Rules, Scheme};
 use crate::upstream::Upstream;
 
@@ -93,9 +94,19 @@ impl Gate {
         Arc::clone(&self.authority.read().unwrap_or_else(PoisonError::into_inner))
     }
 
+    /// Forgets what the file on the card asks for.
+    pub(crate) async fn forget(&self, wish: Wish) -> Result<(), NotDone> {
+        match wish {
+            Wish::Devices => self.guarded.forget_all(Forgotten::File).await?,
+            Wish::Everything => self.forget_everything(Forgotten::File).await?,
+        }
+        self.renew();
+        Ok(())
+    }
+
     /// Forgets all devices, and becomes another robot to all that trusted this one.
-    pub(crate) async fn forget_everything(&self) -> Result<(), NotDone> {
-        self.guarded.forget_all(Forgotten::Console).await?;
+    pub(crate) async fn forget_everything(&self, why: Forgotten) -> Result<(), NotDone> {
+        self.guarded.forget_all(why).await?;
         let authority = Authority::anew(&self.identity, &self.extra_names)?;
         self.guarded.rename(authority.robot().clone()).await;
         *self.authority.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(authority);

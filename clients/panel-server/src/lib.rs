@@ -21,6 +21,7 @@ mod identity;
 mod outbox;
 mod page;
 mod pass;
+mod reset_file;
 mod rules;
 mod seats;
 mod server;

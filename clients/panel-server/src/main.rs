@@ -38,6 +38,9 @@ struct Arguments {
     /// Unix socket for rvac pair, clients and trust; console.sock in the folder of --state when absent
     #[arg(long, value_name = "SOCKET", requires = "state")]
     console: Option<PathBuf>,
+    /// Folder of the card that this computer starts from: a file librvac-reset in it has all devices forgotten
+    #[arg(long, value_name = "DIR", requires = "state")]
+    card: Option<PathBuf>,
     /// Port of a page that tells the way to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
@@ -45,10 +48,11 @@ struct Arguments {
 
 impl From<Arguments> for Settings {
     fn from(arguments: Arguments) -> Self {
-        let (console, page_port) = (arguments.console, arguments.page_port);
+        let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
         let guard = arguments.state.map(|state| Guard {
             state,
             console,
+            card,
             page_port,
         });
         Self {

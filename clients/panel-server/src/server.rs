@@ -33,6 +33,7 @@ use crate::gate::Gate;
 use crate::guarded::{Known, listen_console, serve_console};
 use crate::page;
 use crate::pass::Pass;
+use crate::reset_file;
 use crate::rules::in_authority;
 use crate::seats::Seats;
 use crate::upstream::Upstream;
@@ -128,6 +129,11 @@ impl Server {
             return Ok(());
         };
         let gate = Gate::new(&guard.state, host_names, self.address, site.vthal.clone())?;
+        if let Some(wish) = guard.card.as_deref().and_then(reset_file::take) {
+            gate.forget(wish)
+                .await
+                .map_err(|error| StartError::Forget(error.to_string()))?;
+        }
         site.rules = RwLock::new(gate.rules());
         site.gate = Some(Arc::new(gate));
         self.url = format!("https://{}/", self.address);

@@ -31,6 +31,8 @@ pub struct Guard {
     pub state: PathBuf,
     /// Unix socket of the person at this computer; in `state` when absent.
     pub console: Option<PathBuf>,
+    /// Folder in which the owner may put the file that has all devices forgotten.
+    pub card: Option<PathBuf>,
     /// Port of a page that only tells the way to the HTTPS address.
     pub page_port: Option<u16>,
 }
@@ -61,6 +63,9 @@ pub enum StartError {
     /// Certificate or clients are not to be had.
     #[error(transparent)]
     Gate(#[from] GateError),
+    /// The owner wants devices forgotten, which does not succeed.
+    #[error("cannot forget all devices, as the file on the card asks: {0}; then rename that file back and start again")]
+    Forget(String),
     /// The console's socket cannot be made.
     #[error("cannot listen on {path}: {source}; choose another place with --console")]
     Console {

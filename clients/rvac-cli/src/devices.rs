@@ -39,6 +39,8 @@ pub(crate) fn clients(job: &ClientsJob) -> anyhow::Result<ExitCode> {
     let order = match &job.verb {
         None => Order::Clients,
         Some(ClientsVerb::Revoke { id }) => Order::Revoke { id: *id },
+        Some(ClientsVerb::Vouch { id }) => Order::Vouch { id: *id },
+        Some(ClientsVerb::ForgetAll { identity }) => Order::ForgetAll { identity: *identity },
         Some(ClientsVerb::Role { id, role }) => Order::SetRole { id: *id, role: *role },
         Some(ClientsVerb::Add { name, role }) => Order::Add {
             name: name.clone(),
@@ -57,6 +59,10 @@ pub(crate) fn clients(job: &ClientsJob) -> anyhow::Result<ExitCode> {
             }
         }
         Reply::Added { token } => writeln!(out, "{token}")?,
+        Reply::Trust(trust) => {
+            writeln!(out, "The robot is {} from now on.", trust.host_name)?;
+            writeln!(out, "Fingerprint: {}", trust.fingerprint)?;
+        }
         _ => {}
     }
     Ok(ExitCode::SUCCESS)

@@ -105,7 +105,7 @@ async fn obey(order: Order, gate: &Gate) -> Result<Reply, NotDone> {
             Reply::Done
         }
         Order::ForgetAll { identity: true } => {
-            gate.forget_everything().await?;
+            gate.forget_everything(Forgotten::Console).await?;
             gate.beep();
             Reply::Trust(gate.trust())
         }

@@ -5,6 +5,8 @@
 mod connections;
 mod entrance;
 mod pages;
+mod presses;
+mod recovery;
 mod report;
 #[path = "../gate/rig.rs"]
 mod rig;
@@ -25,10 +27,12 @@ async fn main() -> ExitCode {
     let mut report = Report::default();
     roles::try_all(&mut report).await;
     entrance::try_all(&mut report).await;
+    presses::try_all(&mut report).await;
     pages::try_all(&mut report).await;
     tokens::try_all(&mut report).await;
     connections::try_all(&mut report).await;
     transport::try_all(&mut report).await;
+    recovery::try_all(&mut report).await;
     report.elsewhere(
         "A4: 100,000 guesses on a virtual clock, and A5: 500 races (clients/pairing/tests/door.rs)",
     );
@@ -42,7 +46,6 @@ async fn main() -> ExitCode {
     report.not_there_yet("A8 to A12 from real pages in a browser: here only what a browser would send");
     report.not_there_yet("A26: updates of firmware and daemon");
     report.not_there_yet("A27: MQTT");
-    report.not_there_yet("A28: recovery by buttons");
     let wants_json = std::env::args().any(|argument| argument == "--json");
     println!("{}", if wants_json { report.json() } else { report.text() });
     if report.is_good() {

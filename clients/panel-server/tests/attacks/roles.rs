@@ -1,6 +1,6 @@
 //! A1, A2: who has no token, and who has one of a role that is too low.
 
-use pairing::{Method, Need, ROUTES, Role, VERBS};
+use pairing::{Method, Need, PRESENCE, ROUTES, Role, VERBS};
 
 use crate::report::Report;
 use crate::rig::{Answer, Rig};
@@ -107,7 +107,7 @@ async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
         if heard {
             daemon.hear().await;
         }
-        let expected = if role >= needed {
+        let expected = if role >= needed && !PRESENCE.contains(&verb) {
             "the daemon hears it"
         } else {
             "nobody hears it"
@@ -145,6 +145,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "change-schedule" => {
             r#","number":1,"name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
         }
+        "claim-buttons" => r#","ms":0"#,
         "raw" => r#","packet":"{}""#,
         _ => "",
     }

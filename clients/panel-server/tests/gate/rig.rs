@@ -188,6 +188,14 @@ impl Rig {
         &self,
         authority: CertificateDer<'static>,
     ) -> std::io::Result<TlsStream<TcpStream>> {
+        self.tls_as(&self.trust.host_name, authority).await
+    }
+
+    pub(crate) async fn tls_as(
+        &self,
+        host_name: &str,
+        authority: CertificateDer<'static>,
+    ) -> std::io::Result<TlsStream<TcpStream>> {
         let mut roots = RootCertStore::empty();
         roots.add(authority).unwrap();
         let provider = Arc::new(rustls::crypto::ring::default_provider());
@@ -196,7 +204,7 @@ impl Rig {
             .unwrap()
             .with_root_certificates(roots)
             .with_no_client_auth();
-        let name = ServerName::try_from(self.trust.host_name.clone()).unwrap();
+        let name = ServerName::try_from(host_name.to_owned()).unwrap();
         let stream = TcpStream::connect(self.address).await?;
         TlsConnector::from(Arc::new(config)).connect(name, stream).await
     }
@@ -341,6 +349,7 @@ async fn serve(folder: &std::path::Path) -> (tokio::task::JoinHandle<()>, Socket
         guard: Some(Guard {
             state: folder.join("state"),
             console: None,
+            card: Some(folder.join("card")),
             page_port: Some(0),
         }),
         assets: folder.to_owned(),

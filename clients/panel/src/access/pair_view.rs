@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
-use pairing::wire::Joined;
+use pairing::wire::{Forgotten, Joined};
 
-use super::pairing_steps::{is_open_for_presses, join, pair, wait_for_presses};
+use super::pairing_steps::{invitation, join, pair, wait_for_presses};
 use crate::language::words;
 use crate::store::Store;
 
@@ -22,6 +22,8 @@ struct Form {
     works: RwSignal<bool>,
     /// START was held: presses count, and no code.
     by_presses: RwSignal<bool>,
+    /// Why the robot knows nobody any more.
+    forgotten: RwSignal<Option<Forgotten>>,
     /// What to press.
     joined: RwSignal<Option<Joined>>,
 }
@@ -34,6 +36,7 @@ impl Form {
             wrong: RwSignal::new(String::new()),
             works: RwSignal::new(false),
             by_presses: RwSignal::new(false),
+            forgotten: RwSignal::new(None),
             joined: RwSignal::new(None),
         }
     }
@@ -41,9 +44,10 @@ impl Form {
     /// Looks whether START was held, unless the person is in the middle of something.
     fn look(self) {
         leptos::task::spawn_local(async move {
-            let is_open = is_open_for_presses().await;
+            let Some(invitation) = invitation().await else { return };
             if self.works.try_get_untracked() == Some(false) {
-                self.by_presses.try_set(is_open);
+                self.by_presses.try_set(invitation.open && invitation.presses);
+                self.forgotten.try_set(invitation.forgotten);
             }
         });
     }
@@ -100,6 +104,9 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
         <main class="pair-page">
             <form class="card pair" id="pair" aria-labelledby="pair-title" on:submit=submit>
                 <h2 id="pair-title">{words().access.title}</h2>
+                <p class="wrong" role="status" id="pair-forgotten">
+                    {move || form.forgotten.get().map(forgotten_text)}
+                </p>
                 <p class="hint" hidden=move || form.by_presses.get()>
                     {words().access.how_before} <code>"rvac pair"</code> {words().access.how_after}
                 </p>
@@ -142,6 +149,15 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
                 </p>
             </form>
         </main>
+    }
+}
+
+fn forgotten_text(why: Forgotten) -> &'static str {
+    let told = &words().access;
+    match why {
+        Forgotten::Buttons => told.forgotten_buttons,
+        Forgotten::File => told.forgotten_file,
+        Forgotten::Console => told.forgotten_console,
     }
 }
 

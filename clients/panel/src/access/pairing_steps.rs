@@ -47,10 +47,9 @@ pub(super) async fn pair(name: &str, code: &str) -> Result<(), String> {
     Err(words().access.impostor.to_owned())
 }
 
-/// Whether the robot's button has opened a window, in which presses let a device in.
-pub(super) async fn is_open_for_presses() -> bool {
-    let invitation: Result<Invitation, Failed> = http::get("/api/pairing").await;
-    invitation.is_ok_and(|invitation| invitation.open && invitation.presses)
+/// Whether and how a device can be let in now, if the robot can be asked.
+pub(super) async fn invitation() -> Option<Invitation> {
+    http::get("/api/pairing").await.ok()
 }
 
 /// Asks for presses.

@@ -43,6 +43,17 @@ pub(crate) enum ClientsVerb {
         /// Its number.
         id: TokenId,
     },
+    /// Say that the person who uses a device is beside the robot: for five minutes it may send raw packets, if it is an administrator.
+    Vouch {
+        /// Its number.
+        id: TokenId,
+    },
+    /// Forget all devices: each must be let in anew. Maps and schedules stay.
+    ForgetAll {
+        /// Make a new identity too: whatever trusts the robot's certificate must trust the new one.
+        #[arg(long)]
+        identity: bool,
+    },
     /// Give a device another role.
     Role {
         /// Its number.

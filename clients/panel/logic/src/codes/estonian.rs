@@ -109,6 +109,7 @@ pub(super) const REFUSALS: &[(&str, &str)] = &[
     ("disk-busy", "Ketas on praegu muudatuste jaoks liiga aeglane: proovi uuesti."),
     ("not-sent", "Robot ei võtnud käsku vastu."),
     ("window-shut", "Praegu ei saa kedagi siduda: hoia robotil nuppu START viis sekundit või ava aken käsuga „rvac pair“ või haldusõigusega seadmes."),
+    ("not-present", "Selleks peab keegi roboti juures olema: vajuta minuti jooksul robotil nuppu ja proovi uuesti."),
     ("too-many-wait", "Neli seadet juba ootavad nupuvajutusi: proovi uuesti järgmise akna ajal."),
     ("not-matched", "Vajutati midagi muud: hoia nuppu START viis sekundit ja alusta uuesti."),
     ("waiting", "Valesid koode prooviti liiga palju: oota veidi, enne kui akna uuesti avad."),

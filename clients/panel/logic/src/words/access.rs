@@ -10,6 +10,12 @@ screen! {
         how_before: "Hold START on the robot for five seconds until it beeps. Or run ", "Hoia robotil nuppu START viis sekundit, kuni kostab helisignaal. Või käivita robotis ";
         how_after: " on the robot, or choose “Add a device” on a device that is its administrator. The robot beeps and a code of eight digits is shown, which holds for two minutes.",
             " või vali haldusõigusega seadmes „Lisa seade“. Robot annab helisignaali ja näidatakse kaheksakohalist koodi, mis kehtib kaks minutit.";
+        forgotten_buttons: "START and DOCK were held on the robot: it has forgotten all devices. Pair this one anew.",
+            "Robotil hoiti nuppe START ja DOCK: see on kõik seadmed unustanud. Seo see seade uuesti.";
+        forgotten_file: "A file on the robot's card had all devices forgotten. Pair this one anew.",
+            "Fail roboti kaardil lasi kõik seadmed unustada. Seo see seade uuesti.";
+        forgotten_console: "At the robot's console all devices were forgotten. Pair this one anew.",
+            "Roboti konsoolil unustati kõik seadmed. Seo see seade uuesti.";
         how_presses: "The robot has beeped: START was held. Give this device a name, and it shows how often to press START.",
             "Robot andis helisignaali: nuppu START hoiti. Anna sellele seadmele nimi ja see näitab, mitu korda nuppu vajutada.";
         show_presses: "Show what to press", "Näita, mida vajutada";
