@@ -1,9 +1,9 @@
 //! Register, window and attempts together: everything about who comes in.
 
 use crate::exchange::{Ends, Host};
+use crate::matching::{Matching, Standing};
 use crate::stored::{Stored, StoredError};
 use crate::window::{OPEN_US, Window};
-use crate::matching::{Matching, Standing};
 use crate::wire::{Begin, Begun, Finish, Finished, Forgotten, Join, Joined, Opened};
 use crate::{Code, DeviceName, Refusal, Register, RobotId, Role, Token, TokenId, Wanted};
 
@@ -148,7 +148,12 @@ impl Door {
     ///
     /// # Errors
     /// See [`Refusal`].
-    pub fn join(&mut self, now_us: u64, (join, from): (Join, &str), random: [u8; 16]) -> Result<Joined, Refusal> {
+    pub fn join(
+        &mut self,
+        now_us: u64,
+        (join, from): (Join, &str),
+        random: [u8; 16],
+    ) -> Result<Joined, Refusal> {
         if !self.is_open_for_presses(now_us) {
             return Err(Refusal::WindowShut);
         }

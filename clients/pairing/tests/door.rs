@@ -3,8 +3,8 @@
 
 use pairing::wire::{Begin, Finish, Join, Joined};
 use pairing::{
-    ATTEMPTS_MAX, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, MATCHING_MAX, Moment, OPEN_US, REOPENING_US, Refusal,
-    RobotId, Role, Token, TokenId, Wanted,
+    ATTEMPTS_MAX, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, MATCHING_MAX, Moment, OPEN_US,
+    REOPENING_US, Refusal, RobotId, Role, Token, TokenId, Wanted,
 };
 
 const SECOND: u64 = 1_000_000;

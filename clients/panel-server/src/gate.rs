@@ -156,10 +156,7 @@ impl Gate {
     /// Whether there is a new certificate.
     fn renew(&self) -> bool {
         let authority = self.authority();
-        let (wanted, now_s) = (
-            subjects(&authority, &self.extra_names),
-            reckoned_now_s(unix_s()),
-        );
+        let (wanted, now_s) = (subjects(&authority, &self.extra_names), reckoned_now_s(unix_s()));
         let due = self
             .leaf
             .read()

@@ -46,7 +46,11 @@ fn read_and_rename(path: &Path, done: &Path) -> io::Result<Option<Wish>> {
     fs::rename(path, done)?;
     warn!(path = %path.display(), "found, and renamed");
     let everything = text.trim().eq_ignore_ascii_case(EVERYTHING);
-    Ok(Some(if everything { Wish::Everything } else { Wish::Devices }))
+    Ok(Some(if everything {
+        Wish::Everything
+    } else {
+        Wish::Devices
+    }))
 }
 
 #[cfg(test)]

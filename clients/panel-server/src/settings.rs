@@ -64,7 +64,9 @@ pub enum StartError {
     #[error(transparent)]
     Gate(#[from] GateError),
     /// The owner wants devices forgotten, which does not succeed.
-    #[error("cannot forget all devices, as the file on the card asks: {0}; then rename that file back and start again")]
+    #[error(
+        "cannot forget all devices, as the file on the card asks: {0}; then rename that file back and start again"
+    )]
     Forget(String),
     /// The console's socket cannot be made.
     #[error("cannot listen on {path}: {source}; choose another place with --console")]

@@ -7,12 +7,12 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
-    Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
-    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun, PlannedWay,
-    Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView, Run, RunAsker,
-    RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision,
-    ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth,
-    Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart,
+    KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun,
+    PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView,
+    Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
+    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
+    SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;

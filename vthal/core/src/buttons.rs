@@ -250,7 +250,10 @@ mod tests {
         buttons.claim(SECOND, other, 0);
         assert!(!buttons.are_claimed(SECOND));
         buttons.claim(2 * SECOND, one, u32::MAX);
-        assert!(!buttons.are_claimed(2 * SECOND + 180 * SECOND), "at most three minutes");
+        assert!(
+            !buttons.are_claimed(2 * SECOND + 180 * SECOND),
+            "at most three minutes"
+        );
         buttons.forget_client(one);
         assert!(!buttons.are_claimed(2 * SECOND));
     }

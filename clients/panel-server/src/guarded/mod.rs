@@ -13,7 +13,9 @@ use axum::http::HeaderMap;
 use pairing::wire::{
     AskMatched, Begin, Begun, Finish, Finished, Forgotten, Join, Joined, OpenWindow, Opened,
 };
-use pairing::{Door, Moment, Presence, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted};
+use pairing::{
+    Door, Moment, Presence, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted,
+};
 use tokio::sync::{Notify, broadcast, watch};
 use tracing::{info, warn};
 
@@ -268,6 +270,9 @@ impl Guarded {
         })
         .await?;
         *self.presence() = Presence::default();
+        // The predecessor of the file still has them: written once more, it has not either.
+        let stored = self.door.lock().await.stored();
+        self.write(stored).await.map_err(NotDone::Disk)?;
         warn!(?why, "all devices were forgotten");
         Ok(())
     }

@@ -106,10 +106,13 @@ impl Authority {
     pub(crate) fn anew(path: &Path, extra_names: &[String]) -> Result<Self, IdentityError> {
         let made = make(extra_names)?;
         let text = serde_json::to_string_pretty(&made).map_err(|error| damaged(path, &error))?;
-        kept_file::replace_secret(path, text.as_bytes()).map_err(|source| IdentityError::File {
-            path: path.to_owned(),
-            source,
-        })?;
+        // Twice, so that the predecessor of the file holds no older identity that could come back.
+        for _ in 0..2 {
+            kept_file::replace_secret(path, text.as_bytes()).map_err(|source| IdentityError::File {
+                path: path.to_owned(),
+                source,
+            })?;
+        }
         Self::from_stored(made).map_err(|error| damaged(path, &error))
     }
 

@@ -78,7 +78,11 @@ async fn patterns(report: &mut Report) {
         reason(&rig.matched(&phone).await),
     );
     let shut = rig.join("phone").await.unwrap_err();
-    report.row(("A4", "and another try in that window"), "window-shut", reason(&shut));
+    report.row(
+        ("A4", "and another try in that window"),
+        "window-shut",
+        reason(&shut),
+    );
 }
 
 /// A button that is stuck and let go again and again.
@@ -87,7 +91,9 @@ async fn stuck(report: &mut Report) {
     let mut windows = 0;
     for _ in 0..20 {
         rig.gesture("pairing-hold").await;
-        let Ok(phone) = joined_soon(&rig).await else { continue };
+        let Ok(phone) = joined_soon(&rig).await else {
+            continue;
+        };
         windows += 1;
         for _ in 0..7 {
             rig.gesture("press").await;
@@ -132,7 +138,10 @@ async fn presence(report: &mut Report) {
     socket.say(raw).await;
     let answer = socket.hear().await.unwrap_or_default();
     report.row(
-        ("A2", "a raw packet of an administrator, after a press that was for nothing"),
+        (
+            "A2",
+            "a raw packet of an administrator, after a press that was for nothing",
+        ),
         "not-present",
         word(&answer),
     );
@@ -145,7 +154,11 @@ async fn presence(report: &mut Report) {
             break;
         }
     }
-    report.row(("A2", "the same after a press that was asked for"), "heard", "heard");
+    report.row(
+        ("A2", "the same after a press that was asked for"),
+        "heard",
+        "heard",
+    );
     let other = rig.pair(Role::Admin).await;
     for _ in 0..2 {
         rig.daemon().await;
@@ -181,5 +194,9 @@ async fn presence(report: &mut Report) {
 }
 
 fn word(answer: &str) -> &'static str {
-    if answer.contains("not-present") { "not-present" } else { "something else" }
+    if answer.contains("not-present") {
+        "not-present"
+    } else {
+        "something else"
+    }
 }

@@ -42,7 +42,10 @@ async fn by_buttons(report: &mut Report) {
         rig.ask(("POST", path), &line, body).await;
     }
     report.row(
-        ("A28", "an administrator asks for it over the network: devices left"),
+        (
+            "A28",
+            "an administrator asks for it over the network: devices left",
+        ),
         "1",
         known(&rig).await.to_string(),
     );
@@ -53,6 +56,12 @@ async fn by_buttons(report: &mut Report) {
     let status = rig.get("/api/session", &cookie).await.status;
     report.row(("A28", "a token from before"), "401", status.to_string());
     report.row(("A28", "devices left"), "0", known(&rig).await.to_string());
+    let old = std::fs::read_to_string(rig.folder.join("state/clients.json.old")).unwrap();
+    report.row(
+        ("A28", "the predecessor of the list holds a token"),
+        "false",
+        old.contains("digest").to_string(),
+    );
     let stays = fingerprint(&rig).await == rig.trust.fingerprint;
     report.row(("A28", "the robot is who it was"), "true", stays.to_string());
     let mut invited = invitation(&rig).await;
@@ -83,7 +92,10 @@ async fn by_file(report: &mut Report) {
         std::fs::write(card.join("librvac-reset"), text).unwrap();
         rig.restart().await;
         report.row(
-            ("A28", format!("the file on the card, with {text:?}: devices left")),
+            (
+                "A28",
+                format!("the file on the card, with {text:?}: devices left"),
+            ),
             "0",
             known(&rig).await.to_string(),
         );
@@ -121,7 +133,10 @@ async fn by_console(report: &mut Report) {
         trusting = rig.tls_as(&new.host_name, authority(&new.pem)).await;
     }
     report.row(
-        ("A28", "everything forgotten at the console: who trusts the new identity"),
+        (
+            "A28",
+            "everything forgotten at the console: who trusts the new identity",
+        ),
         "connected",
         "connected",
     );

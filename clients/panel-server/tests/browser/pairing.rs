@@ -130,7 +130,10 @@ async fn press_as_shown(browser: &Browser, stack: &Stack) {
     let dots = browser
         .text("return document.querySelector('#pair-presses .dots').textContent")
         .await;
-    let groups: Vec<usize> = dots.split_whitespace().map(|group| group.chars().count()).collect();
+    let groups: Vec<usize> = dots
+        .split_whitespace()
+        .map(|group| group.chars().count())
+        .collect();
     assert_eq!(groups.len(), 2, "{dots}");
     for group in groups {
         for _ in 0..group {

@@ -111,11 +111,17 @@ async fn a_device_is_matched_as_described() {
     expect_described(&spec, ("post", "/api/pairing/match"), &answer);
     let joined: Joined = serde_json::from_str(&answer.body).unwrap();
     let session = joined.session;
-    let waits = rig.post("/api/pairing/matched", "", &AskMatched { session }).await;
+    let waits = rig
+        .post("/api/pairing/matched", "", &AskMatched { session })
+        .await;
     expect_described(&spec, ("post", "/api/pairing/matched"), &waits);
     rig.press(joined.presses).await;
     for _ in 0..2 {
-        expect_described(&spec, ("post", "/api/pairing/matched"), &rig.matched(&joined).await);
+        expect_described(
+            &spec,
+            ("post", "/api/pairing/matched"),
+            &rig.matched(&joined).await,
+        );
     }
 }
 

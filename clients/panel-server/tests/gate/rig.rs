@@ -157,7 +157,9 @@ impl Rig {
     pub(crate) async fn matched(&self, joined: &Joined) -> Answer {
         let session = joined.session;
         loop {
-            let answer = self.post("/api/pairing/matched", "", &AskMatched { session }).await;
+            let answer = self
+                .post("/api/pairing/matched", "", &AskMatched { session })
+                .await;
             if answer.status != 200 || answer.body.contains("role") {
                 return answer;
             }
@@ -417,7 +419,10 @@ pub(crate) struct Daemon(UnixStream);
 
 impl Daemon {
     pub(crate) async fn say(&mut self, text: &str) {
-        self.0.write_all(format!("{text}\u{1f}").as_bytes()).await.unwrap();
+        self.0
+            .write_all(format!("{text}\u{1f}").as_bytes())
+            .await
+            .unwrap();
     }
 
     /// The next message; none when the other end is gone.

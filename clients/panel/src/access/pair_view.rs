@@ -44,7 +44,9 @@ impl Form {
     /// Looks whether START was held, unless the person is in the middle of something.
     fn look(self) {
         leptos::task::spawn_local(async move {
-            let Some(invitation) = invitation().await else { return };
+            let Some(invitation) = invitation().await else {
+                return;
+            };
             if self.works.try_get_untracked() == Some(false) {
                 self.by_presses.try_set(invitation.open && invitation.presses);
                 self.forgotten.try_set(invitation.forgotten);

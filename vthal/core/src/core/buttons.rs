@@ -49,11 +49,7 @@ impl Core {
             Gesture::RecoveryHold => "START and DOCK are held: all devices shall be forgotten",
             Gesture::PairingHold | Gesture::Press => "START is held: a device shall be let in",
         };
-        self.log(
-            now_us,
-            (LogLevel::Info, Part::Firmware, text.to_owned()),
-            outputs,
-        );
+        self.log(now_us, (LogLevel::Info, Part::Firmware, text.to_owned()), outputs);
         self.tell_gesture(now_us, (gesture, START), outputs);
     }
 

@@ -3,12 +3,11 @@
 use brain::action::{Decision, Tone};
 use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
-use rvac_api::{LogLevel, RunAsker, Topic, Update};
+use rvac_api::{LogLevel, Topic, Update};
 use rvac_protocol::quality::Verdict;
 
 use super::standstill::is_standstill;
 use super::{Core, recorder};
-use crate::arbiter::Source;
 use crate::device::{CleanerDrive, CleanerPower, Device, DeviceCommand, LeaveDock};
 use crate::journal::Part;
 use crate::observe::LinkView;
