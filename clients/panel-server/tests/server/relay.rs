@@ -138,6 +138,7 @@ async fn refusals_to_start_name_the_remedy() {
     open.guard = Some(Guard {
         state: folder.0.join("state"),
         console: None,
+        card: None,
         page_port: None,
     });
     let server = Server::bind(open).await.unwrap();
