@@ -30,6 +30,14 @@ fn request(body: RequestBody, golden: &str) {
 }
 
 #[test]
+fn requests_about_buttons() {
+    request(
+        RequestBody::ClaimButtons { ms: 120_000 },
+        r#"{"c":"claim-buttons","ms":120000}"#,
+    );
+}
+
+#[test]
 fn requests() {
     request(
         RequestBody::Hello {
@@ -80,10 +88,6 @@ fn requests() {
     request(RequestBody::Dock, r#"{"c":"dock"}"#);
     request(RequestBody::Release, r#"{"c":"release"}"#);
     request(RequestBody::Locate, r#"{"c":"locate"}"#);
-    request(
-        RequestBody::ClaimButtons { ms: 120_000 },
-        r#"{"c":"claim-buttons","ms":120000}"#,
-    );
     request(
         RequestBody::Clear {
             reason: "wheel-stall".to_owned(),
