@@ -296,7 +296,10 @@ impl Store {
             Message::Run(record) => self.history.on_record(*record),
             Message::RunKept(run) => self.history.on_kept(*run),
             Message::RunTrack(track) => self.history.on_track(*track),
-            Message::Packet { .. } | Message::RunFile { .. } | Message::Evidence { .. } | Message::Button { .. } => {}
+            Message::Packet { .. }
+            | Message::RunFile { .. }
+            | Message::Evidence { .. }
+            | Message::Button { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
             }
