@@ -31,6 +31,16 @@ pub(super) struct Calibration {
     window: Window,
 }
 
+/// What was counted and gained between two moments at which the heading was known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gain {
+    pub(super) time_s: f64,
+    pub(super) counted_rad: f64,
+    pub(super) gained_rad: f64,
+    /// Variance of what was gained, square radians.
+    pub(super) variance_rad2: f64,
+}
+
 #[derive(Clone, Copy, Debug, Default)]
 struct Window {
     time_s: f64,
@@ -116,7 +126,18 @@ impl Calibration {
         if self.window.time_s < WINDOW_S {
             return;
         }
-        self.learn(began_rad2 + variance_rad2);
+        let Window {
+            time_s,
+            counted_rad,
+            gained_rad,
+            ..
+        } = self.window;
+        self.learn(Gain {
+            time_s,
+            counted_rad,
+            gained_rad,
+            variance_rad2: began_rad2 + variance_rad2,
+        });
         self.window = Window {
             variance_rad2: Some(variance_rad2),
             ..Window::default()
@@ -128,13 +149,14 @@ impl Calibration {
         self.window = Window::default();
     }
 
-    fn learn(&mut self, noise_rad2: f64) {
-        let Window {
+    /// Takes in how the heading changed between two moments at which it was known.
+    pub(super) fn learn(&mut self, gain: Gain) {
+        let Gain {
             time_s,
             counted_rad,
             gained_rad,
-            ..
-        } = self.window;
+            variance_rad2: noise_rad2,
+        } = gain;
         let [ss, sb, bb] = self.covariance;
         let off_rad = gained_rad - counted_rad;
         let by_scale = ss * counted_rad - sb * time_s;

@@ -233,6 +233,8 @@ fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_be
     let counted_rmse_m = (counted_squares / f64::from(steps)).sqrt();
     assert!(rmse_m < 0.1, "{rmse_m} m");
     assert!(counted_rmse_m > 3.0 * rmse_m, "{counted_rmse_m} m by odometry");
+    let scale = (1.0 + localization.odometry.gyro().0) * GYRO_SCALE - 1.0;
+    assert!(scale.abs() < 0.003, "the gyro's scale is still off by {scale}");
     drawn.finish_redraw();
     assert!(drawn.redrawn() > 2, "{} times", drawn.redrawn());
     let mut off_m = Vec::new();

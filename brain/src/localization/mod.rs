@@ -289,8 +289,11 @@ impl Localization {
         else {
             return;
         };
-        let variance_rad2 = fix.sigma_rad * fix.sigma_rad;
-        self.odometry.calibration.correct(fix.turned_rad, variance_rad2);
+        if advance.gyro_turn_rad.is_some() {
+            for gain in fix.gains {
+                self.odometry.calibration.learn(gain);
+            }
+        }
         self.correct(fix.map_from_odom);
         self.drift = Drift {
             sigma_m: fix.sigma_m,

@@ -105,6 +105,11 @@ pub(super) struct Fitted {
 }
 
 impl Fitted {
+    /// How many nodes it knows.
+    pub(super) fn nodes(&self) -> usize {
+        self.graph.nodes.len()
+    }
+
     /// The fitted graph with what has come to `since` after the fit began.
     pub(super) fn with_news_of(mut self, since: &Graph) -> Graph {
         let known = self.graph.nodes.len();

@@ -22,6 +22,8 @@ pub(super) struct Node {
     /// From the node before, by odometry, and how sure that is.
     pub(super) step: Pose2,
     pub(super) variance: StepVariance,
+    /// Sum of the turns since the node before, full ones counted, radians.
+    pub(super) turn_rad: f64,
 }
 
 /// A straight line, from its front.
@@ -320,6 +322,7 @@ pub(super) mod tests {
                 pose: believed,
                 step,
                 variance: VARIANCE,
+                turn_rad: 0.0,
             });
             let side = match index % 32 {
                 0..10 => 0,

@@ -6,6 +6,7 @@
 //! The map is then drawn again with the better poses.
 
 mod fit;
+mod gains;
 mod graph;
 mod kalman;
 mod linear;
@@ -18,18 +19,21 @@ mod walls;
 mod work;
 
 use fit::{Fit, Fitted};
+use gains::GainLog;
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
 use visit::{Visit, VisitLog};
 
 use super::Advance;
+use super::calibration::Gain;
 use crate::config::ProximityLayout;
-use crate::geometry::{Pose2, normalize_rad};
+use crate::geometry::Pose2;
 use crate::mapping::Keyframe;
 use crate::observation::Observation;
 
-/// Slip along the way, square metres per metre, and what each step adds.
-const SLIP_M2_PER_M: f64 = 2.0e-4;
+/// Slip along the way, square metres per metre, and what each step adds: that of a bad robot. One that is taken for too good
+/// holds on to a wrong wall.
+const SLIP_M2_PER_M: f64 = 4.0e-4;
 const STEP_M2: f64 = 4.0e-6;
 /// Noise of a gyro's heading, square radians per second: 0.02 degrees per square root of a second.
 const GYRO_RAD2_PER_S: f64 = 1.2e-7;
@@ -48,11 +52,11 @@ const REDRAW_US: u64 = 60_000_000;
 const REDRAW_SHARE: u64 = 5;
 
 /// What the survey found out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Fix {
     pub(super) map_from_odom: Pose2,
-    /// By how much the walls have turned the pose, radians.
-    pub(super) turned_rad: f64,
+    /// How much the robot turned in times that lie behind it.
+    pub(super) gains: Vec<Gain>,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
@@ -71,6 +75,7 @@ pub(super) struct Survey {
     pending: Pending,
     marks_fitted: usize,
     fit: Option<Box<Fit>>,
+    gains: GainLog,
     drawn_us: u64,
     /// Poses of the nodes with which the map was drawn.
     drawn: Vec<Pose2>,
@@ -137,6 +142,7 @@ impl Survey {
             pending: Pending::default(),
             marks_fitted: 0,
             fit: None,
+            gains: GainLog::default(),
             drawn_us: 0,
             drawn: Vec::new(),
             outdated: false,
@@ -157,11 +163,12 @@ impl Survey {
     ) -> Option<Fix> {
         self.pending.add(advance);
         let visit = self.log.follow((odom, advance), observation, &self.layout);
-        let seen_rad = visit
-            .filter(|visit| !visit.strokes.is_empty())
-            .map(|visit| self.take(&visit, turns));
-        let fitted_rad = self.fit_on();
-        if seen_rad.is_none() && fitted_rad.is_none() {
+        let visit = visit.filter(|visit| !visit.strokes.is_empty());
+        if let Some(visit) = &visit {
+            self.take(visit, turns);
+        }
+        let gains = self.fit_on();
+        if visit.is_none() && gains.is_none() {
             return None;
         }
         let mut now = self.belief;
@@ -170,28 +177,27 @@ impl Survey {
         let (sigma_m, sigma_rad) = now.sigmas();
         Some(Fix {
             map_from_odom: now.pose * odom.inverse(),
-            turned_rad: seen_rad.unwrap_or(0.0) + fitted_rad.unwrap_or(0.0),
+            gains: gains.unwrap_or_default(),
             sigma_m,
             sigma_rad,
         })
     }
 
-    /// Takes in a visit, and gives by how much its walls turned the belief, radians.
-    fn take(&mut self, visit: &Visit, turns: TurnSigmas) -> f64 {
+    /// Takes in a visit.
+    fn take(&mut self, visit: &Visit, turns: TurnSigmas) {
         self.step_to(visit, turns);
-        let before_rad = self.belief.pose.heading_rad;
         self.place_strokes(&visit.strokes);
         if let Some(node) = self.graph.nodes.get_mut(self.here) {
             node.pose = self.belief.pose;
             self.drawn.push(node.pose);
         }
-        normalize_rad(self.belief.pose.heading_rad - before_rad)
     }
 
     /// The belief moves to the visit's end, where there is a new node while there may be more.
     fn step_to(&mut self, visit: &Visit, turns: TurnSigmas) {
         let step = self.odom.inverse() * visit.odom;
-        let variance = core::mem::take(&mut self.pending).variance(step, turns);
+        let pending = core::mem::take(&mut self.pending);
+        let variance = pending.variance(step, turns);
         self.belief.step(step, variance);
         self.odom = visit.odom;
         self.here = self.graph.nodes.len();
@@ -202,13 +208,14 @@ impl Survey {
                 pose: self.belief.pose,
                 step,
                 variance,
+                turn_rad: pending.turn_rad,
             });
         }
     }
 
-    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. When the fit is taken up it gives by
-    /// how much that turned the belief, radians.
-    fn fit_on(&mut self) -> Option<f64> {
+    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. When the fit is taken up it gives what
+    /// that tells of turns.
+    fn fit_on(&mut self) -> Option<Vec<Gain>> {
         match self.fit.take() {
             Some(fit) => match fit.go_on() {
                 Err(fit) => {
@@ -233,8 +240,8 @@ impl Survey {
         }
     }
 
-    fn take_up(&mut self, fitted: Fitted) -> f64 {
-        let moved = fitted.moved;
+    fn take_up(&mut self, fitted: Fitted) -> Vec<Gain> {
+        let (moved, known) = (fitted.moved, fitted.nodes());
         self.graph = fitted.with_news_of(&self.graph);
         self.belief.pose = moved * self.belief.pose;
         self.marks_fitted = self.marks_fitted.min(self.graph.marks.len());
@@ -244,7 +251,7 @@ impl Survey {
             .iter()
             .zip(&self.drawn)
             .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
-        moved.heading_rad
+        self.gains.take(&self.graph, known)
     }
 
     /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
