@@ -101,7 +101,10 @@ mod tests {
         gains.extend(log.take(&graph, graph.nodes.len()));
         assert!(gains.len() >= graph.nodes.len() / 2 - 2, "{gains:?}");
         for gain in gains {
-            assert!((gain.counted_rad - SCALE * gain.gained_rad).abs() < 1e-6, "{gain:?}");
+            assert!(
+                (gain.counted_rad - SCALE * gain.gained_rad).abs() < 1e-6,
+                "{gain:?}"
+            );
             assert!((gain.time_s - 30.0).abs() < 1e-9, "{gain:?}");
         }
     }
