@@ -1,5 +1,6 @@
 //! What people and schedules ask of the brain.
 
+use crate::mapping::CutLine;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::CleaningOrder;
 
@@ -32,6 +33,23 @@ pub enum Command {
         room: u16,
         /// Its name.
         name: Option<RoomName>,
+    },
+    /// Cut a room in two.
+    SplitRoom {
+        /// Identity of the room; without one, the room in which the line is longest.
+        room: Option<u16>,
+        /// Where.
+        line: CutLine,
+    },
+    /// Make two rooms one.
+    JoinRooms {
+        /// Their identities.
+        rooms: [u16; 2],
+    },
+    /// Take a change of the rooms back.
+    UndoRoomChange {
+        /// Its number in [`crate::mapping::RoomChanges`].
+        number: u16,
     },
     /// Clean a small disc around the present place.
     Spot,

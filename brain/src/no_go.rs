@@ -88,7 +88,7 @@ fn thin_zone(from: Point2, to: Point2) -> Result<Zone, Reason> {
 }
 
 /// The same steps as in the bytes of a stored map: what comes back from the disk is equal bit for bit.
-fn in_micrometres(point: Point2) -> Point2 {
+pub(crate) fn in_micrometres(point: Point2) -> Point2 {
     let rounded = |metres: f64| (libm::round(metres * 1e6) as i64) as f64 * 1e-6;
     if !(point.x_m.is_finite() && point.y_m.is_finite()) {
         return point;

@@ -16,6 +16,9 @@ impl Behavior {
             Command::AddNoGo { no_go } => map.admit_no_go(no_go),
             Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
             Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
+            Command::SplitRoom { room, line } => map.admit_room_split(*room, line),
+            Command::JoinRooms { rooms } => map.admit_room_join(*rooms),
+            Command::UndoRoomChange { number } => map.admit_room_change_undo(*number),
             Command::Clean { strategy } => {
                 self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
             }
@@ -142,7 +145,12 @@ impl Behavior {
                 self.begin((kind, order.clone()), mind);
             }
             // The map's business.
-            Command::AddNoGo { .. } | Command::RemoveNoGo { .. } | Command::NameRoom { .. } => {}
+            Command::AddNoGo { .. }
+            | Command::RemoveNoGo { .. }
+            | Command::NameRoom { .. }
+            | Command::SplitRoom { .. }
+            | Command::JoinRooms { .. }
+            | Command::UndoRoomChange { .. } => {}
             Command::Spot => self.begin((JobKind::Spot, whole), mind),
             Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
             Command::Dock => self.begin((JobKind::Dock, whole), mind),

@@ -171,6 +171,22 @@ reasons! {
     BadName => "bad-name",
     /// Another room is called so.
     NameTaken => "name-taken",
+    /// A line between rooms has two ends near the home.
+    BadLine => "bad-line",
+    /// A line that was to cut a room lies in none, or beside the one that is meant.
+    LineMissesRoom => "line-misses-room",
+    /// A line that was to cut a room leaves a way round it.
+    LineEndsInRoom => "line-ends-in-room",
+    /// What a line would cut off is too small for a room.
+    PartTooSmall => "part-too-small",
+    /// Rooms that are not beside each other.
+    RoomsApart => "rooms-apart",
+    /// There is no change of the rooms of this number.
+    NoSuchRoomChange => "no-such-room-change",
+    /// Another change of the rooms builds on it.
+    RoomChangeInUse => "room-change-in-use",
+    /// The rooms were changed as often as those of a home can be.
+    TooManyRoomChanges => "too-many-room-changes",
     /// A zone without any floor that the map knows.
     NoFloorThere => "no-floor-there",
     /// The next part of the order.

@@ -1,7 +1,8 @@
-//! What people have said of the home: where the robot must not go, and what rooms are called.
+//! What people have said of the home: where the robot must not go, which rooms it has, and what they are called.
 
 use std::collections::BTreeMap;
 
+use super::room_changes::RoomChanges;
 use crate::behavior::Reason;
 use crate::no_go::{NoGo, RoomName};
 
@@ -17,6 +18,7 @@ pub struct Annotations {
     /// Number of the next one; numbers are not used twice.
     pub(super) next_no_go: u16,
     pub(super) names: BTreeMap<u16, RoomName>,
+    pub(super) rooms: RoomChanges,
 }
 
 impl Default for Annotations {
@@ -25,6 +27,7 @@ impl Default for Annotations {
             no_go: BTreeMap::new(),
             next_no_go: 1,
             names: BTreeMap::new(),
+            rooms: RoomChanges::default(),
         }
     }
 }
@@ -41,10 +44,16 @@ impl Annotations {
         self.names.get(&room)
     }
 
+    /// How the rooms that are found were changed.
+    #[must_use]
+    pub fn room_changes(&self) -> &RoomChanges {
+        &self.rooms
+    }
+
     /// Whether nobody has said anything.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.no_go.is_empty() && self.names.is_empty()
+        self.no_go.is_empty() && self.names.is_empty() && self.rooms.is_empty()
     }
 
     pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), Reason> {
@@ -63,9 +72,11 @@ impl Annotations {
         }
     }
 
-    /// Two rooms of one name could not be told apart.
+    /// Two rooms of one name could not be told apart. One that a change of people hides has none.
     pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), Reason> {
-        let is_taken = |(other, taken): (&u16, &RoomName)| *other != room && taken.sounds_like(name.as_str());
+        let is_taken = |(other, taken): (&u16, &RoomName)| {
+            *other != room && taken.sounds_like(name.as_str()) && !self.rooms.hide(*other)
+        };
         if self.names.iter().any(is_taken) {
             return Err(Reason::NameTaken);
         }
@@ -77,7 +88,12 @@ impl Annotations {
 
     pub(super) fn call(&mut self, room: u16, name: Option<RoomName>) {
         match name {
-            Some(name) => self.names.insert(room, name),
+            Some(name) => {
+                let is_its_own =
+                    |other: &u16, taken: &RoomName| *other == room || !taken.sounds_like(name.as_str());
+                self.names.retain(|other, taken| is_its_own(other, taken));
+                self.names.insert(room, name)
+            }
             None => self.names.remove(&room),
         };
     }

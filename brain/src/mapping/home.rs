@@ -13,7 +13,7 @@ use super::walls::{WallSegment, walls};
 use super::{CELL_M, Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Gradual, Pace};
+use crate::gradual::{Gradual, Pace, at_once};
 use crate::localization::{Advance, PoseEstimate};
 use crate::observation::Observation;
 
@@ -149,12 +149,12 @@ impl HomeMap {
         self.refresh();
     }
 
-    fn survey(&mut self) {
+    pub(super) fn survey(&mut self) {
         self.refresh();
         let beneath = self.knowledge_beneath();
-        self.rooms = self
-            .rooms
-            .renewed(beneath.as_ref().unwrap_or(&self.derived.knowledge));
+        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
+        let with_changes = (knowledge, self.annotations.room_changes());
+        self.rooms = at_once(self.rooms.renewed_in_steps(with_changes, &mut Pace::at_once()));
         self.surveying = None;
     }
 
@@ -162,9 +162,10 @@ impl HomeMap {
     fn begin_survey(&mut self) {
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.unwrap_or_else(|| self.derived.knowledge.clone());
-        let before = self.rooms.clone();
+        let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
         self.surveying = Some(Gradual::new(async move {
-            before.renewed_in_steps(&knowledge, &mut Pace::in_steps()).await
+            let with_changes = (&knowledge, &changes);
+            before.renewed_in_steps(with_changes, &mut Pace::in_steps()).await
         }));
     }
 
@@ -266,7 +267,8 @@ impl HomeMap {
         self.derived = Derived::anew(&mut self.layers, pace).await;
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
-        self.rooms = stored.rooms().renewed_in_steps(knowledge, pace).await;
+        let with_changes = (knowledge, self.annotations.room_changes());
+        self.rooms = stored.rooms().renewed_in_steps(with_changes, pace).await;
         self
     }
 

@@ -3,12 +3,14 @@
 //! Water rises in a relief of distances to the nearest obstacle, from the widest places down. A pool that meets another one
 //! in a passage narrower than a wide door stays apart from it; else the two become one. Furniture that stands free is no
 //! obstacle here, or every chair would divide a room. Rooms keep their identities: a new room takes over that of the old
-//! room with which it shares most cells.
+//! room with which it shares most cells. What people have changed of the rooms is done after that.
 
 use std::collections::BTreeMap;
 
 use super::distance::{squared_cells, window};
+use super::doors::{Door, doors};
 use super::reach::neighbours;
+use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::geometry::Point2;
 use crate::gradual::{Pace, at_once};
@@ -23,15 +25,12 @@ const CORE_M2: f64 = 0.2;
 const ROOM_M2: f64 = 1.0;
 /// What is not free and smaller than this is furniture, square metres.
 const FURNITURE_M2: f64 = 1.2;
-/// Cells of one door lie within this many cells of each other.
-const DOOR_GAP_CELLS: i32 = 8;
 
-/// Cells that are looked at between two looks at the pace, and the work of one: visited, named, flooded, looked at for a door.
-const CELLS: usize = 128;
+/// Cells that are looked at between two looks at the pace, and the work of one: visited, named, flooded.
+pub(super) const CELLS: usize = 128;
 const VISIT_WORK: usize = 8;
 const NAME_WORK: usize = 6;
 const FLOOD_WORK: usize = 25;
-const DOOR_WORK: usize = 10;
 
 /// A room.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,21 +43,12 @@ pub struct Room {
     pub middle: Point2,
 }
 
-/// A passage between two rooms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Door {
-    /// Identities of the rooms, the lower one first.
-    pub rooms: [u16; 2],
-    /// Its middle.
-    pub at: Point2,
-    /// Its width in metres.
-    pub width_m: f64,
-}
-
 /// Rooms and doors of a home.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rooms {
-    labels: Raster<u16>,
+    found: Raster<u16>,
+    /// After the changes of people, if there are any.
+    changed: Option<Raster<u16>>,
     rooms: Vec<Room>,
     doors: Vec<Door>,
     next: u16,
@@ -67,7 +57,8 @@ pub struct Rooms {
 impl Default for Rooms {
     fn default() -> Self {
         Self {
-            labels: Raster::filled(Cell::default(), 0, 0, 0),
+            found: Raster::filled(Cell::default(), 0, 0, 0),
+            changed: None,
             rooms: Vec::new(),
             doors: Vec::new(),
             next: 1,
@@ -91,13 +82,21 @@ impl Rooms {
     /// Identity of the room of each cell, 0 = none.
     #[must_use]
     pub fn labels(&self) -> &Raster<u16> {
-        &self.labels
+        self.changed.as_ref().unwrap_or(&self.found)
+    }
+
+    /// The same without the changes of people.
+    pub(super) fn found(&self) -> &Raster<u16> {
+        &self.found
     }
 
     /// Identity of the room under a point.
     #[must_use]
     pub fn room_at(&self, point: Point2) -> Option<u16> {
-        self.labels.get(Cell::under(point)).copied().filter(|id| *id > 0)
+        self.labels()
+            .get(Cell::under(point))
+            .copied()
+            .filter(|id| *id > 0)
     }
 
     /// Identity that the next new room gets.
@@ -105,11 +104,18 @@ impl Rooms {
         self.next
     }
 
+    /// Another identity that no room has had.
+    pub(super) fn take_next(&mut self) -> u16 {
+        let next = self.next;
+        self.next = next.saturating_add(1);
+        next
+    }
+
     /// Rooms of an earlier time, of which only cells and identities are known.
-    pub(super) fn remembered(labels: Raster<u16>, next: u16) -> Self {
-        let highest = labels.values().iter().copied().max().unwrap_or(0);
+    pub(super) fn remembered(found: Raster<u16>, next: u16) -> Self {
+        let highest = found.values().iter().copied().max().unwrap_or(0);
         Self {
-            labels,
+            found,
             next: next.max(highest.saturating_add(1)),
             ..Self::default()
         }
@@ -118,11 +124,16 @@ impl Rooms {
     /// The rooms of what is known now; those that were there before keep their identities.
     #[must_use]
     pub fn renewed(&self, knowledge: &Raster<CellKnowledge>) -> Self {
-        at_once(self.renewed_in_steps(knowledge, &mut Pace::at_once()))
+        let unchanged = RoomChanges::default();
+        at_once(self.renewed_in_steps((knowledge, &unchanged), &mut Pace::at_once()))
     }
 
-    /// As [`Self::renewed`], step by step.
-    pub(super) async fn renewed_in_steps(&self, knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Self {
+    /// As [`Self::renewed`], and changed as people want them, step by step.
+    pub(super) async fn renewed_in_steps(
+        &self,
+        (knowledge, changes): (&Raster<CellKnowledge>, &RoomChanges),
+        pace: &mut Pace,
+    ) -> Self {
         let Some(all) = window(knowledge) else {
             return self.clone();
         };
@@ -133,11 +144,18 @@ impl Rooms {
         pools.fill(&space, pace).await;
         let labels = pools.labels(&space, pace).await;
         let (names, next) = self.names(&labels, pace).await;
-        let labels = renamed(&labels, &names, pace).await;
-        let rooms = measured(&labels, &squared, pace).await;
-        let doors = doors(&labels, &squared, pace).await;
+        let found = renamed(&labels, &names, pace).await;
+        let changed = if changes.is_empty() {
+            None
+        } else {
+            Some(changes.made_in(&found, pace).await)
+        };
+        let labels = changed.as_ref().unwrap_or(&found);
+        let rooms = measured(labels, &squared, pace).await;
+        let doors = doors(labels, &squared, pace).await;
         Self {
-            labels,
+            found,
+            changed,
             rooms,
             doors,
             next,
@@ -154,7 +172,7 @@ impl Rooms {
             if *label == 0 {
                 continue;
             }
-            let old = self.labels.get(labels.cell(index)).copied().unwrap_or(0);
+            let old = self.found.get(labels.cell(index)).copied().unwrap_or(0);
             *shared.entry((*label, old)).or_default() += 1;
         }
         let mut pairs: Vec<((u16, u16), u32)> = shared.iter().map(|(pair, count)| (*pair, *count)).collect();
@@ -419,71 +437,5 @@ pub(super) fn centre(cell: Cell) -> Point2 {
     Point2 {
         x_m: (f64::from(cell.x) + 0.5) * CELL_M,
         y_m: (f64::from(cell.y) + 0.5) * CELL_M,
-    }
-}
-
-/// Where cells of two rooms lie beside each other.
-async fn doors(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Door> {
-    let mut borders: BTreeMap<[u16; 2], Vec<(Cell, f32)>> = BTreeMap::new();
-    for (index, label) in labels.values().iter().enumerate() {
-        if index % CELLS == 0 {
-            pace.spend(DOOR_WORK * CELLS).await;
-        }
-        if *label == 0 {
-            continue;
-        }
-        let cell = labels.cell(index);
-        for neighbour in neighbours(cell).iter().take(2) {
-            let other = labels.get(*neighbour).copied().unwrap_or(0);
-            if other > 0 && other != *label {
-                let pair = [other.min(*label), other.max(*label)];
-                let depth = squared.get(index).copied().unwrap_or(0.0);
-                borders.entry(pair).or_default().push((cell, depth));
-            }
-        }
-    }
-    borders
-        .into_iter()
-        .flat_map(|(rooms, cells)| {
-            clusters(cells).into_iter().map(move |cluster| Door {
-                rooms,
-                ..door(&cluster)
-            })
-        })
-        .collect()
-}
-
-/// Cells joined to groups that lie together.
-fn clusters(cells: Vec<(Cell, f32)>) -> Vec<Vec<(Cell, f32)>> {
-    let mut groups: Vec<Vec<(Cell, f32)>> = Vec::new();
-    for member in cells {
-        let is_near = |other: &(Cell, f32)| {
-            other.0.x.abs_diff(member.0.x) <= DOOR_GAP_CELLS as u32
-                && other.0.y.abs_diff(member.0.y) <= DOOR_GAP_CELLS as u32
-        };
-        let (near, far): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.iter().any(is_near));
-        let mut joined: Vec<(Cell, f32)> = near.into_iter().flatten().collect();
-        joined.push(member);
-        groups = far;
-        groups.push(joined);
-    }
-    groups
-}
-
-fn door(cells: &[(Cell, f32)]) -> Door {
-    let count = cells.len().max(1) as f64;
-    let sum = cells.iter().fold((0.0, 0.0), |sum, (cell, _)| {
-        let at = centre(*cell);
-        (sum.0 + at.x_m, sum.1 + at.y_m)
-    });
-    let widest = cells.iter().map(|(_, depth)| *depth).fold(0.0, f32::max);
-    Door {
-        rooms: [0, 0],
-        at: Point2 {
-            x_m: sum.0 / count,
-            y_m: sum.1 / count,
-        },
-        // From centre to border is half a cell less than from centre to centre, on both sides.
-        width_m: (2.0 * f64::from(widest).sqrt() - 1.0).max(0.0) * CELL_M,
     }
 }

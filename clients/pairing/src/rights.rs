@@ -75,7 +75,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 42] = [
+pub const VERBS: [(&str, Role); 45] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -103,6 +103,9 @@ pub const VERBS: [(&str, Role); 42] = [
     ("add-no-go",       Role::Admin),
     ("remove-no-go",    Role::Admin),
     ("name-room",       Role::Admin),
+    ("split-room",      Role::Admin),
+    ("join-rooms",      Role::Admin),
+    ("undo-room-change", Role::Admin),
     ("restore-map",     Role::Admin),
     ("new-floor",       Role::Admin),
     ("name-floor",      Role::Admin),

@@ -2,7 +2,7 @@
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
-use panel_logic::{Edit, NoGoRow, RoomRow, Tool};
+use panel_logic::{Edit, NoGoRow, RoomChangeRow, RoomRow, Tool};
 
 use crate::language::words;
 use crate::store::Store;
@@ -13,6 +13,7 @@ const NAME_MAX: &str = "40";
 #[component]
 pub(crate) fn RoomList(store: Store) -> impl IntoView {
     let renamed = RwSignal::new(None::<u16>);
+    let joinable = Memo::new(move |_| store.joinable_rooms());
     view! {
         <h3 id="rooms-title">{words().home.rooms}</h3>
         <ul id="rooms" class="rows" aria-labelledby="rooms-title">
@@ -36,8 +37,67 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
                 <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().home.draw_avoid}
                 </button>
+                <button type="button" class="small" id="draw-cut" on:click=move |_| store.take_tool(Tool::Cut)>
+                    {words().home.draw_cut}
+                </button>
+                <Show when=move || joinable.get().is_some()>
+                    <button type="button" class="small" id="join-rooms" on:click=move |_| store.join_chosen()>
+                        {words().map.join_these}
+                    </button>
+                </Show>
             </div>
+            <p class="hint">{words().home.join_hint}</p>
         </Show>
+        <RoomChanges store />
+    }
+}
+
+/// How the rooms were split and joined, each to be taken back.
+#[component]
+fn RoomChanges(store: Store) -> impl IntoView {
+    let changes = store.orders.room_changes;
+    view! {
+        <Show when=move || changes.with(|changes| !changes.is_empty())>
+            <h3 id="room-changes-title">{words().home.room_changes}</h3>
+            <ul id="room-changes" class="rows" aria-labelledby="room-changes-title">
+                <For
+                    each=move || changes.get()
+                    key=|row| (row.number, row.text.clone(), row.can_be_taken_back)
+                    let:row
+                >
+                    {room_change(store, row)}
+                </For>
+            </ul>
+        </Show>
+    }
+}
+
+fn room_change(store: Store, row: RoomChangeRow) -> impl IntoView {
+    let RoomChangeRow {
+        number,
+        text,
+        can_be_taken_back,
+    } = row;
+    let label = words().home.take_back_named.fill([&text]);
+    let take_back = move |_| {
+        let home = store.known_home();
+        let change = home.room_changes.iter().find(|change| change.number == number);
+        if let Some(change) = change {
+            store.edit(change.line.map_or(Edit::Unjoin(change.rooms), Edit::Unsplit));
+        }
+    };
+    view! {
+        <li>
+            <span class="name">{text}</span>
+            {can_be_taken_back
+                .then(|| {
+                    view! {
+                        <button type="button" class="small" aria-label=label on:click=take_back>
+                            {words().home.take_back}
+                        </button>
+                    }
+                })}
+        </li>
     }
 }
 

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{NoGoView, Pose, Rle};
+use crate::{NoGoView, Pose, Rle, RoomChangeView};
 
 /// The home as far as the robot knows it, in the frame of its poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,9 @@ pub struct HomeView {
     /// No-go zones and virtual walls, by their numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_go: Vec<NoGoView>,
+    /// How people have changed the rooms, in the order in which they did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub room_changes: Vec<RoomChangeView>,
 }
 
 /// A version of the map of the home that the daemon keeps.

@@ -24,7 +24,9 @@ pub use history::{
     RunTrack, TrackPose, TrackReading,
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
-pub use order::{JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomNaming};
+pub use order::{
+    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSplitting,
+};
 pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,

@@ -79,6 +79,28 @@ pub struct NoGoView {
     pub shape: NoGoShape,
 }
 
+/// A line that cuts a room in two.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomSplitting {
+    /// Identity of the room; absent = the room in which the line is longest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<u16>,
+    /// Two places, metres; the line goes on for half a metre beyond them, or to the border of the room.
+    pub line: [[f64; 2]; 2],
+}
+
+/// A change that people have made of the rooms.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomChangeView {
+    /// Its number, from 1; never used twice in a map.
+    pub number: u16,
+    /// The room that was cut and the part that was cut off; or the room that both are now, and the one that went into it.
+    pub rooms: [u16; 2],
+    /// Where the room was cut; absent = the two were joined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<[[f64; 2]; 2]>,
+}
+
 /// A name for a room.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RoomNaming {

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, ScheduleEntry};
+use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, RoomSplitting, ScheduleEntry};
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,6 +101,19 @@ pub enum RequestBody {
     },
     /// Names a room. Answered when the map with the name is on the disk.
     NameRoom(RoomNaming),
+    /// Cuts a room in two along a line. Answered, as all changes of rooms, when the map with it is on the disk; refused while
+    /// a job runs or waits.
+    SplitRoom(RoomSplitting),
+    /// Makes two rooms that lie beside each other one.
+    JoinRooms {
+        /// Their identities.
+        rooms: [u16; 2],
+    },
+    /// Takes a change of the rooms back on which no later one builds.
+    UndoRoomChange {
+        /// Its number, as in [`crate::HomeView::room_changes`].
+        number: u16,
+    },
     /// Asks what the robot has felt and tried up to now, for example after it refused something; answered by
     /// [`crate::Update::Evidence`].
     Evidence,

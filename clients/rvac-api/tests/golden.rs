@@ -9,10 +9,11 @@ use rvac_api::{
     BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
     Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart,
     KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun,
-    PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomHere, RoomNaming, RoomView,
-    Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
-    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
-    SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView, RoomHere,
+    RoomNaming, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording,
+    RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
+    Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update,
+    Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -395,6 +396,21 @@ fn the_map() {
     );
 }
 
+fn changes_of_two_rooms() -> Vec<RoomChangeView> {
+    vec![
+        RoomChangeView {
+            number: 1,
+            rooms: [1, 5],
+            line: Some([[0.0, 1.0], [2.5, 1.0]]),
+        },
+        RoomChangeView {
+            number: 3,
+            rooms: [1, 4],
+            line: None,
+        },
+    ]
+}
+
 #[test]
 fn the_home() {
     let home = HomeView {
@@ -426,6 +442,7 @@ fn the_home() {
         }],
         dock: None,
         no_go: vec![],
+        room_changes: vec![],
     };
     check(
         &Update::Home(home.clone()),
@@ -448,11 +465,38 @@ fn the_home() {
                 shape: NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
             },
         ],
+        room_changes: changes_of_two_rooms(),
         ..home
     };
     check(
         &Update::Home(told),
-        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}]}"#,
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}]}"#,
+    );
+}
+
+#[test]
+fn changes_of_rooms() {
+    let splitting = |room| {
+        RequestBody::SplitRoom(RoomSplitting {
+            room,
+            line: [[0.0, 0.5], [1.0, 0.5]],
+        })
+    };
+    request(
+        splitting(Some(3)),
+        r#"{"c":"split-room","room":3,"line":[[0.0,0.5],[1.0,0.5]]}"#,
+    );
+    request(
+        splitting(None),
+        r#"{"c":"split-room","line":[[0.0,0.5],[1.0,0.5]]}"#,
+    );
+    request(
+        RequestBody::JoinRooms { rooms: [3, 1] },
+        r#"{"c":"join-rooms","rooms":[3,1]}"#,
+    );
+    request(
+        RequestBody::UndoRoomChange { number: 2 },
+        r#"{"c":"undo-room-change","number":2}"#,
     );
 }
 

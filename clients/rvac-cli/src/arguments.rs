@@ -44,7 +44,8 @@ pub(crate) enum Subcommand {
     Clean(OrderOptions),
     /// What such a job will take.
     Estimate(EstimateOptions),
-    /// The rooms of the home, and their names.
+    /// The rooms of the home, their names, and how they are split and joined.
+    #[command(visible_alias = "room")]
     Rooms(RoomsJob),
     /// No-go zones and virtual walls.
     Zone(ZoneJob),

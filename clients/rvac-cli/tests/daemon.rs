@@ -14,8 +14,8 @@ use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
     Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
     LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody,
-    RoomNaming, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
-    Status, Topic, Update, Weekday,
+    RoomNaming, RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
+    Schedules, Status, Topic, Update, Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -303,7 +303,7 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         })
     };
     let add = |shape| RequestBody::AddNoGo { shape };
-    let cases: [(&[&str], RequestBody); 8] = [
+    let cases: [(&[&str], RequestBody); 11] = [
         (&["clean"], RequestBody::Clean(job(vec![], 1))),
         (
             &[
@@ -325,6 +325,18 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
             &["zone", "wall", "-1,0", "2,1.5"],
             add(NoGoShape::Wall([[-1.0, 0.0], [2.0, 1.5]])),
         ),
+        (
+            &["room", "split", "Hall", "-1,0", "2,1.5"],
+            RequestBody::SplitRoom(RoomSplitting {
+                room: Some(1),
+                line: [[-1.0, 0.0], [2.0, 1.5]],
+            }),
+        ),
+        (
+            &["room", "join", "Hall", "4"],
+            RequestBody::JoinRooms { rooms: [1, 4] },
+        ),
+        (&["rooms", "undo", "3"], RequestBody::UndoRoomChange { number: 3 }),
         (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
     ];
     for (place, (arguments, body)) in cases.into_iter().enumerate() {

@@ -12,6 +12,7 @@ mod manual;
 mod orders;
 mod refusal;
 mod requests;
+mod room_edits;
 mod schedules;
 mod standstill;
 mod thinking;

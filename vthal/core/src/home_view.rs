@@ -1,8 +1,8 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
-use brain::mapping::{Annotations, Door, Room, WallSegment};
+use brain::mapping::{Annotations, Door, Room, RoomChange, WallSegment};
 use brain::{CELL_M, CellKnowledge, Map, NoGo, Raster};
-use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, Rle, RoomView, WallView};
+use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, Rle, RoomChangeView, RoomView, WallView};
 
 use crate::to_api;
 
@@ -30,6 +30,7 @@ pub(crate) fn home_view(map: &Map) -> HomeView {
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
         no_go: map.annotations().no_go().map(no_go).collect(),
+        room_changes: map.annotations().room_changes().made().map(room_change).collect(),
         ..view
     }
 }
@@ -135,6 +136,21 @@ fn no_go((number, no_go): (u16, &NoGo)) -> NoGoView {
         brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
     };
     NoGoView { number, shape }
+}
+
+fn room_change((number, change): (u16, &RoomChange)) -> RoomChangeView {
+    match change {
+        RoomChange::Split(split) => RoomChangeView {
+            number,
+            rooms: [split.room, split.part],
+            line: Some(split.line.ends().map(|end| [end.x_m, end.y_m])),
+        },
+        RoomChange::Join(join) => RoomChangeView {
+            number,
+            rooms: [join.kept, join.lost],
+            line: None,
+        },
+    }
 }
 
 fn room(room: &Room, annotations: &Annotations) -> RoomView {

@@ -160,6 +160,9 @@ impl Mind {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameRoom { .. }
+            | Command::SplitRoom { .. }
+            | Command::JoinRooms { .. }
+            | Command::UndoRoomChange { .. }
             | Command::Pause
             | Command::Resume
             | Command::Stop

@@ -2,7 +2,8 @@
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, Topic, Update,
+    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, RoomSplitting,
+    Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -792,6 +793,110 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     let told = told.expect("a view at once");
     assert_eq!(told.rooms[0].name.as_deref(), Some("Kitchen"));
     assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
+}
+
+fn split(room: Option<u16>, line: [[f64; 2]; 2]) -> RequestBody {
+    RequestBody::SplitRoom(RoomSplitting { room, line })
+}
+
+#[test]
+fn rooms_are_split_and_joined_at_rest_and_kept_before_anybody_hears_that_it_is_done() {
+    let mut pair = on_the_dock();
+    let across = [[2.5, 0.25], [2.5, 2.5]];
+    assert_eq!(pair.ask(ANNA, split(None, across)), None);
+    pair.run_ms(200);
+    assert_eq!(pair.edits.len(), 1);
+    assert_eq!(pair.edits[0].home.home.room_count(), 2);
+    let topics = vec![Topic::Home];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let told = |pair: &Pair| {
+        let last = pair.updates.iter().rev().find_map(|update| match update {
+            Update::Home(view) => Some(view.clone()),
+            _ => None,
+        });
+        last.expect("a view")
+    };
+    let view = told(&pair);
+    assert_eq!(view.rooms.len(), 2);
+    let change = view.room_changes[0];
+    assert_eq!(
+        (change.number, change.rooms, change.line),
+        (1, [1, 2], Some(across))
+    );
+    assert_eq!(pair.ask(ANNA, RequestBody::JoinRooms { rooms: [1, 2] }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.edits[1].home.home.room_count(), 1);
+    assert_eq!(pair.ask(ANNA, RequestBody::UndoRoomChange { number: 2 }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.edits[2].home.home.room_count(), 2);
+    let half = clean(vec![JobPart::Room(2)], 1);
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(half)), None);
+    // Also while the home of the run is still being made ready.
+    assert_eq!(
+        pair.ask(BERT, RequestBody::UndoRoomChange { number: 1 })
+            .as_deref(),
+        Some("job-runs")
+    );
+}
+
+#[test]
+fn a_change_of_rooms_that_cannot_be_says_what_is_wrong_with_it() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, split(None, [[1.0, 0.1], [1.0, 2.9]])), None);
+    assert_eq!(pair.ask(ANNA, split(None, [[3.0, 0.1], [3.0, 2.9]])), None);
+    pair.run_ms(200);
+    let join = |rooms| RequestBody::JoinRooms { rooms };
+    let cases = [
+        (
+            split(None, [[9.0, 0.0], [9.0, 1.0]]),
+            "line-misses-room",
+            "x 9.00 m, y 0.00 m",
+        ),
+        (
+            split(Some(1), [[0.2, 0.1], [0.2, 2.9]]),
+            "line-misses-room",
+            "does not cut room 1",
+        ),
+        (
+            split(Some(7), [[2.0, 0.1], [2.0, 2.9]]),
+            "no-such-room",
+            "has the rooms 1, 2, 3",
+        ),
+        (
+            split(None, [[2.0, 1.0], [2.0, 1.2]]),
+            "line-ends-in-room",
+            "a way round it",
+        ),
+        (
+            split(None, [[0.1, 0.1], [0.1, 2.9]]),
+            "part-too-small",
+            "half a square metre",
+        ),
+        (split(None, [[1e9, 0.0], [0.0, 0.0]]), "bad-line", "within 500 m"),
+        (join([2, 3]), "rooms-apart", "beside room 2 lie 1"),
+        (join([2, 2]), "rooms-apart", "name two rooms"),
+        (join([2, 8]), "no-such-room", "no room 8"),
+        (
+            RequestBody::UndoRoomChange { number: 1 },
+            "room-change-in-use",
+            "take 2 back first",
+        ),
+        (
+            RequestBody::UndoRoomChange { number: 9 },
+            "no-such-room-change",
+            "there are 1, 2",
+        ),
+    ];
+    for (request, reason, words) in cases {
+        let what = format!("{request:?}");
+        assert_eq!(pair.ask(ANNA, request).as_deref(), Some(reason), "{what}");
+        let text = pair.updates.iter().rev().find_map(|update| match update {
+            Update::Failed(failure) => Some(failure.text.clone()),
+            _ => None,
+        });
+        let text = text.expect("a sentence");
+        assert!(text.contains(words), "{what}: {text}");
+    }
 }
 
 #[test]

@@ -3,8 +3,10 @@
 //! `RVACMAP`, a version byte, then numbers of variable length (seven bits a byte, low ones first, signed ones zigzag), and
 //! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses and corners are micrometres and microradians.
 //!
-//! Version 1 ends after the layers; version 2 adds what people have said of the home.
+//! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
+//! its rooms.
 
+mod room_words;
 mod words;
 
 use super::{CELLS_MAX, Run, StoredMap};
@@ -13,7 +15,7 @@ use crate::mapping::{Annotations, Cell};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 2;
+const VERSION: u8 = 3;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -55,6 +57,8 @@ pub enum StoredMapError {
     NoGo,
     /// A name that no room can have.
     Name,
+    /// A change of rooms that no map can have.
+    RoomChange,
     /// Something follows the end.
     Trailing,
 }
@@ -84,6 +88,7 @@ impl core::fmt::Display for StoredMapError {
             }
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
+            Self::RoomChange => formatter.write_str("it has a change of rooms that cannot be"),
             Self::Trailing => formatter.write_str("something follows its end"),
         }
     }
@@ -119,6 +124,7 @@ impl StoredMap {
             }
         }
         words::put_words(&mut bytes, &self.annotations);
+        room_words::put_room_changes(&mut bytes, &self.annotations.rooms);
         let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -169,10 +175,13 @@ impl Reader<'_> {
         let next_room = self.number()?.try_into().map_err(|_| StoredMapError::Number)?;
         let cells = self.layer(expected)?;
         let rooms = self.layer(expected)?;
-        let annotations = match version {
+        let mut annotations = match version {
             1 => Annotations::default(),
             _ => self.words()?,
         };
+        if version >= 3 {
+            annotations.rooms = self.room_changes(next_room)?;
+        }
         if !self.rest.is_empty() {
             return Err(StoredMapError::Trailing);
         }
@@ -265,7 +274,9 @@ fn crc32(bytes: &[u8]) -> u32 {
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
     use crate::geometry::{Point2, Pose2};
-    use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
+    use crate::mapping::{
+        Annotations, Cell, CellKnowledge, CutLine, PartSide, Raster, RoomChange, RoomJoin, RoomSplit,
+    };
     use crate::no_go::{NoGo, RoomName};
     use crate::order::Zone;
 
@@ -285,7 +296,11 @@ mod tests {
             y_m: 2.5,
             heading_rad: -3.0,
         };
-        StoredMap::from_raster(&raster, Some(dock)).with_annotations(words())
+        let next_room = 7;
+        StoredMap {
+            next_room,
+            ..StoredMap::from_raster(&raster, Some(dock)).with_annotations(words())
+        }
     }
 
     fn words() -> Annotations {
@@ -297,6 +312,21 @@ mod tests {
             .add(NoGo::wall(at(0.0, 0.0), at(2.0 / 3.0, 1e-5)).unwrap())
             .unwrap();
         words.call(3, Some(RoomName::new("Köök").unwrap()));
+        let split = |part| RoomSplit {
+            room: 3,
+            part,
+            side: PartSide::Right,
+            line: CutLine::new(at(-1.0, 1.0 / 3.0), at(2.0, 0.5)).unwrap(),
+        };
+        let join = RoomJoin {
+            kept: 3,
+            lost: 2,
+            at: [at(0.5, 0.25), at(-1.5, 2.0)],
+        };
+        words.rooms.add(RoomChange::Split(split(5))).unwrap();
+        words.rooms.take_back(1).unwrap();
+        words.rooms.add(RoomChange::Split(split(6))).unwrap();
+        words.rooms.add(RoomChange::Join(join)).unwrap();
         words
     }
 
@@ -310,6 +340,47 @@ mod tests {
         assert_eq!(map.knowledge().values().len(), 6);
         assert!(map.annotations().is_empty());
         assert_eq!(StoredMap::decode(&map.encode()), Ok(map));
+    }
+
+    #[test]
+    fn a_map_of_the_second_version_has_no_changes_of_rooms() {
+        let mut bytes = b"RVACMAP\x02".to_vec();
+        // The same cells; the next no-go zone is the first one, none is there; room 1 is called A.
+        bytes.extend([0, 0, 0, 2, 3, 1, 1, 5, 6, 0, 1, 0, 1, 1, 1, b'A']);
+        bytes.extend(crc32(&bytes).to_le_bytes());
+        let map = StoredMap::decode(&bytes).unwrap();
+        assert_eq!(map.annotations().name(1).map(RoomName::as_str), Some("A"));
+        assert!(map.annotations().room_changes().is_empty());
+        assert_eq!(StoredMap::decode(&map.encode()), Ok(map));
+    }
+
+    #[test]
+    fn a_change_of_rooms_that_cannot_be_is_refused() {
+        // As above in version 3, with the next change and then the changes: number, kind, rooms, places.
+        let begin = [0, 0, 0, 2, 3, 9, 1, 5, 6, 0, 1, 0, 0];
+        let good: [&[u8]; 2] = [&[2, 1, 1, 1, 1, 2, 0, 0, 2, 2, 0], &[1, 0, 0]];
+        let bad: [&[u8]; 6] = [
+            // Number 1 where the next one is 1; rooms 1 and 1; room 0; room 9, which is yet to come; kind 7; a line without length.
+            &[1, 1, 1, 1, 1, 2, 0, 0, 2, 2, 0],
+            &[2, 1, 1, 1, 1, 1, 0, 0, 2, 2, 0],
+            &[2, 1, 1, 1, 0, 2, 0, 0, 2, 2, 0],
+            &[2, 1, 1, 1, 1, 9, 0, 0, 2, 2, 0],
+            &[2, 1, 1, 7, 1, 2, 0, 0, 2, 2, 0],
+            &[2, 1, 1, 0, 1, 2, 0, 0, 0, 0, 0, 0],
+        ];
+        let read = |rest: &[u8]| {
+            let mut bytes = b"RVACMAP\x03".to_vec();
+            bytes.extend(begin);
+            bytes.extend(rest);
+            bytes.extend(crc32(&bytes).to_le_bytes());
+            StoredMap::decode(&bytes)
+        };
+        for rest in good {
+            assert!(read(rest).is_ok(), "{rest:?}: {:?}", read(rest).err());
+        }
+        for rest in bad {
+            assert_eq!(read(rest), Err(StoredMapError::RoomChange), "{rest:?}");
+        }
     }
 
     #[test]

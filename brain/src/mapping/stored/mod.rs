@@ -28,7 +28,7 @@ pub struct StoredMap {
     width: u32,
     height: u32,
     cells: Vec<Run>,
-    /// Room of each cell, 0 = none; no runs at all when the map has no rooms yet.
+    /// Room of each cell as it was found, 0 = none; no runs at all when the map has no rooms yet.
     rooms: Vec<Run>,
     /// Identity of the next room that has none yet.
     next_room: u16,
@@ -113,7 +113,13 @@ impl StoredMap {
     /// Number of rooms in it.
     #[must_use]
     pub fn room_count(&self) -> usize {
-        let labels: BTreeSet<u16> = self.rooms.iter().map(|run| run.value).collect();
+        let labels: BTreeSet<u16> = if self.annotations.room_changes().is_empty() {
+            self.rooms.iter().map(|run| run.value).collect()
+        } else {
+            let changes = self.annotations.room_changes();
+            let changed = at_once(changes.made_in(self.rooms().found(), &mut Pace::at_once()));
+            changed.values().iter().copied().collect()
+        };
         labels.iter().filter(|label| **label != 0).count()
     }
 
@@ -146,7 +152,7 @@ impl StoredMap {
         }
         let (mut cells, mut labels) = (Vec::new(), Vec::new());
         for (index, value) in raster.values().iter().enumerate() {
-            let label = rooms.labels().get(raster.cell(index)).copied();
+            let label = rooms.found().get(raster.cell(index)).copied();
             lengthen(&mut cells, *value);
             lengthen(&mut labels, label.unwrap_or(0));
             pace.spend(CELL_WORK).await;
@@ -163,7 +169,7 @@ impl StoredMap {
         }
     }
 
-    /// Cells and identities of the rooms.
+    /// Cells and identities of the rooms that were found.
     pub(super) fn rooms(&self) -> Rooms {
         let mut labels = Raster::filled(self.origin, self.width as usize, self.height as usize, 0);
         for (place, value) in labels.values_mut().iter_mut().zip(values_of(&self.rooms)) {

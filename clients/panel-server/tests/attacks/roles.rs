@@ -131,7 +131,11 @@ fn arguments_of(verb: &str) -> &'static str {
         "clear" => r#","reason":"x""#,
         "add-no-go" => r#","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
         "name-room" => r#","room":1,"name":"x""#,
-        "remove-no-go" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => r#","number":1"#,
+        "split-room" => r#","line":[[0.0,0.5],[1.0,0.5]]"#,
+        "join-rooms" => r#","rooms":[1,2]"#,
+        "remove-no-go" | "undo-room-change" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => {
+            r#","number":1"#
+        }
         "run-file" => r#","number":1,"from":0"#,
         "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,

@@ -1,4 +1,4 @@
-//! What people draw on the map and say of rooms, taken back and done again; and zones for one job.
+//! What people draw on the map and say of rooms, taken back and done again; rooms split and joined; and zones for one job.
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
@@ -29,7 +29,7 @@ impl Onlooker {
     }
 
     /// Waits until it is told of such a home.
-    fn sees(&mut self, is_it: impl Fn(&HomeView) -> bool) {
+    fn sees(&mut self, mut is_it: impl FnMut(&HomeView) -> bool) {
         loop {
             let mut message = Vec::new();
             self.updates.read_until(SEPARATOR, &mut message).unwrap();
@@ -153,4 +153,78 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     forbidden(browser, 0).await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;
+}
+
+async fn rooms(browser: &Browser, count: usize) {
+    browser
+        .until(&format!(
+            "return document.querySelectorAll('#rooms .choose').length === {count}"
+        ))
+        .await;
+}
+
+#[tokio::test]
+async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_and_joined_again() {
+    let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#theme").await;
+    browser
+        .until("return document.documentElement.dataset.theme === 'dark'")
+        .await;
+    let mut onlooker = Onlooker::watch(&visit.stack.daemon_socket());
+    browser.click("#tab-home").await;
+    browser
+        .until("return document.querySelectorAll('#rooms .choose').length > 1")
+        .await;
+    let before: usize = browser
+        .text("return String(document.querySelectorAll('#rooms .choose').length)")
+        .await
+        .parse()
+        .unwrap();
+    // A line that lies in no room is refused in words.
+    browser.click("#draw-cut").await;
+    let beyond = ["ArrowUp"; 12];
+    keys(browser, &beyond).await;
+    keys(browser, &["Enter", "ArrowUp", "Enter"]).await;
+    browser
+        .until("return document.body.innerText.includes('lies in no room')")
+        .await;
+    browser.click("#draw-cut").await;
+    keys(browser, &["0", "ArrowLeft"]).await;
+    keys(browser, &["ArrowUp"; 8]).await;
+    keys(browser, &["Enter"]).await;
+    keys(browser, &["ArrowDown"; 16]).await;
+    keys(browser, &["Enter", "0"]).await;
+    rooms(browser, before + 1).await;
+    browser.shot("phone-room-split-dark").await;
+    let mut halves = [0, 0];
+    onlooker.sees(|home| {
+        halves = home.room_changes.first().map_or([0, 0], |change| change.rooms);
+        halves != [0, 0]
+    });
+    let [_, part] = halves;
+
+    browser.click(&format!("#room-{part}")).await;
+    browser.click("#clean-chosen").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
+        .await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+
+    for half in halves {
+        browser.click(&format!("#room-{half}")).await;
+    }
+    browser.click("#join-rooms").await;
+    rooms(browser, before).await;
+    onlooker.sees(|home| home.room_changes.len() == 2 && home.rooms.len() == before);
+    browser.shot("phone-rooms-joined-dark").await;
+    // The list of changes takes the newest one back.
+    browser.click("#room-changes li:last-child button").await;
+    rooms(browser, before + 1).await;
+    browser.click("#undo").await;
+    rooms(browser, before).await;
 }

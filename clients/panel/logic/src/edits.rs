@@ -3,7 +3,7 @@
 //! An edit is known by what it changed, not by the number under which the robot keeps it: what is brought back gets a new number,
 //! and another client may have been there in between. Nothing counts before the robot has confirmed it.
 
-use rvac_api::{HomeView, NoGoShape, Request, RequestBody, RoomNaming};
+use rvac_api::{HomeView, NoGoShape, Request, RequestBody, RoomChangeView, RoomNaming, RoomSplitting};
 
 use crate::words::Words;
 
@@ -31,6 +31,14 @@ pub enum Edit {
         /// What it shall be called.
         after: Option<String>,
     },
+    /// A room was cut in two along a line.
+    Split([[f64; 2]; 2]),
+    /// That was taken back.
+    Unsplit([[f64; 2]; 2]),
+    /// Two rooms were made one.
+    Join([u16; 2]),
+    /// That was taken back.
+    Unjoin([u16; 2]),
 }
 
 /// Why an edit cannot be asked for.
@@ -65,6 +73,10 @@ impl Edit {
                 before: after,
                 after: before,
             },
+            Self::Split(line) => Self::Unsplit(line),
+            Self::Unsplit(line) => Self::Split(line),
+            Self::Join(rooms) => Self::Unjoin(rooms),
+            Self::Unjoin(rooms) => Self::Join(rooms),
         }
     }
 
@@ -78,6 +90,10 @@ impl Edit {
             Self::Allow(NoGoShape::Wall(_)) => told.edit_no_wall,
             Self::Allow(NoGoShape::Zone(_)) => told.edit_no_zone,
             Self::Name { .. } => told.edit_name,
+            Self::Split(_) => told.edit_split,
+            Self::Unsplit(_) => told.edit_unsplit,
+            Self::Join(_) => told.edit_join,
+            Self::Unjoin(_) => told.edit_unjoin,
         }
     }
 
@@ -100,16 +116,42 @@ impl Edit {
                     name: after.clone(),
                 }))
             }
+            Self::Split(line) => Ok(RequestBody::SplitRoom(RoomSplitting {
+                room: None,
+                line: *line,
+            })),
+            Self::Unsplit(line) => take_back(home, |change| {
+                change.line.is_some_and(|cut| is_same_line(&cut, line))
+            }),
+            Self::Join(rooms) => Ok(RequestBody::JoinRooms { rooms: *rooms }),
+            // Which of them goes on is the robot's choice.
+            Self::Unjoin([one, other]) => take_back(home, |change| {
+                change.line.is_none() && [[*one, *other], [*other, *one]].contains(&change.rooms)
+            }),
         }
     }
 }
 
+/// Takes back the newest such change of the rooms.
+fn take_back(home: &HomeView, is_it: impl Fn(&RoomChangeView) -> bool) -> Result<RequestBody, EditError> {
+    let found = home.room_changes.iter().rev().find(|change| is_it(change));
+    let number = found.ok_or(EditError::ChangedMeanwhile)?.number;
+    Ok(RequestBody::UndoRoomChange { number })
+}
+
+fn is_near(one: &[f64; 2], other: &[f64; 2]) -> bool {
+    (one[0] - other[0]).hypot(one[1] - other[1]) < SAME_M
+}
+
+fn is_same_line(one: &[[f64; 2]; 2], other: &[[f64; 2]; 2]) -> bool {
+    one.iter().zip(other).all(|(a, b)| is_near(a, b))
+}
+
 fn is_same(one: &NoGoShape, other: &NoGoShape) -> bool {
-    let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_M;
     match (one, other) {
-        (NoGoShape::Wall(one), NoGoShape::Wall(other)) => one.iter().zip(other).all(|(a, b)| near(a, b)),
+        (NoGoShape::Wall(one), NoGoShape::Wall(other)) => is_same_line(one, other),
         (NoGoShape::Zone(one), NoGoShape::Zone(other)) => {
-            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| near(a, b))
+            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| is_near(a, b))
         }
         _ => false,
     }
@@ -245,7 +287,7 @@ impl EditLog {
 #[cfg(test)]
 mod tests {
     use super::{Edit, EditError, EditLog};
-    use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody, RoomView};
+    use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody, RoomChangeView, RoomView};
 
     fn wall(x: f64) -> NoGoShape {
         NoGoShape::Wall([[x, 0.0], [x, 1.0]])
@@ -328,6 +370,41 @@ mod tests {
         let changed = home(3, &[], Some("Den"));
         assert_eq!(log.redo(&changed), Some(Err(EditError::ChangedMeanwhile)));
         assert_eq!(log.redo(&changed), None, "it is dropped");
+    }
+
+    fn home_with(revision: u32, changes: &[(u16, [u16; 2], Option<f64>)]) -> HomeView {
+        let view = |(number, rooms, x): &(u16, [u16; 2], Option<f64>)| RoomChangeView {
+            number: *number,
+            rooms: *rooms,
+            line: x.map(|x| [[x, 0.0], [x, 3.0]]),
+        };
+        HomeView {
+            room_changes: changes.iter().map(view).collect(),
+            ..home(revision, &[], None)
+        }
+    }
+
+    #[test]
+    fn a_split_and_a_join_go_and_come_back_under_whatever_number_they_have() {
+        let mut log = EditLog::default();
+        let line = [[1.0, 0.0], [1.0, 3.0]];
+        let asked = log.begin(Edit::Split(line), &home_with(1, &[])).unwrap();
+        log.on_done(number(&asked), 1);
+        let cut = (4, [3, 5], Some(1.001));
+        let asked = log.begin(Edit::Join([5, 2]), &home_with(2, &[cut])).unwrap();
+        assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
+        log.on_done(number(&asked), 2);
+        let both = home_with(3, &[(2, [2, 5], Some(7.0)), cut, (6, [2, 5], None)]);
+        let asked = log.undo(&both).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::UndoRoomChange { number: 6 });
+        log.on_done(number(&asked), 3);
+        assert_eq!(
+            log.undo(&home_with(4, &[(2, [2, 5], Some(7.0))])),
+            Some(Err(EditError::ChangedMeanwhile)),
+            "somebody else has taken the split back"
+        );
+        let asked = log.redo(&home_with(4, &[cut])).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
     }
 
     #[test]

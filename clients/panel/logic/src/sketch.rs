@@ -17,6 +17,8 @@ pub enum Tool {
     Wall,
     /// Draw a no-go zone between two opposite corners.
     Zone,
+    /// Draw a line that cuts a room in two.
+    Cut,
     /// Draw a zone to be cleaned.
     CleanZone,
     /// Draw a zone out of which the robot keeps for one job.
@@ -32,6 +34,8 @@ pub enum Drawn {
     Clean(Vec<[f64; 2]>),
     /// Floor that is forbidden for one job.
     Avoid(NoGoShape),
+    /// A line that cuts a room in two.
+    Cut([[f64; 2]; 2]),
 }
 
 /// What is being drawn.
@@ -45,6 +49,12 @@ impl Sketch {
     /// Takes a tool; what was begun is dropped.
     pub fn take(&mut self, tool: Tool) {
         *self = Self { tool, first: None };
+    }
+
+    /// Whether a line is being drawn, and not a rectangle.
+    #[must_use]
+    pub fn is_line(self) -> bool {
+        matches!(self.tool, Tool::Wall | Tool::Cut)
     }
 
     /// The tool in hand.
@@ -75,9 +85,14 @@ impl Sketch {
         let corners = || vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]];
         let drawn = match self.tool {
             Tool::Choose => return None,
-            Tool::Wall => {
-                let wall = NoGoShape::Wall([[x, y], [far_x, far_y]]);
-                return (wide.hypot(high) >= APART_MIN_M).then_some(Drawn::Forbidden(wall));
+            Tool::Wall | Tool::Cut => {
+                let line = [[x, y], [far_x, far_y]];
+                let drawn = if self.tool == Tool::Cut {
+                    Drawn::Cut(line)
+                } else {
+                    Drawn::Forbidden(NoGoShape::Wall(line))
+                };
+                return (wide.hypot(high) >= APART_MIN_M).then_some(drawn);
             }
             Tool::Zone => Drawn::Forbidden(NoGoShape::Zone(corners())),
             Tool::CleanZone => Drawn::Clean(corners()),
@@ -94,6 +109,8 @@ impl Sketch {
             (Tool::Choose, _) => None,
             (Tool::Wall, None) => Some(told.wall_first),
             (Tool::Wall, Some(_)) => Some(told.wall_second),
+            (Tool::Cut, None) => Some(told.cut_first),
+            (Tool::Cut, Some(_)) => Some(told.cut_second),
             (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(told.zone_first),
             (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(told.zone_second),
         }
@@ -185,6 +202,16 @@ mod tests {
         let drawn = NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]]);
         assert_eq!(no_go_strokes(&drawn), [1.0, 1.0, 1.0, 2.0]);
         assert_eq!(wall, Some(Drawn::Forbidden(drawn)));
+        assert_eq!(sketch, Sketch::default());
+    }
+
+    #[test]
+    fn two_places_make_a_line_across_a_room() {
+        let mut sketch = Sketch::default();
+        sketch.take(Tool::Cut);
+        assert!(sketch.is_line() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("cut")));
+        sketch.point((1.0, 1.0));
+        assert_eq!(sketch.point((1.0, 4.0)), Some(Drawn::Cut([[1.0, 1.0], [1.0, 4.0]])));
         assert_eq!(sketch, Sketch::default());
     }
 

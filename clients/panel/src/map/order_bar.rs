@@ -66,6 +66,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
         Offer::NotNow(why) => Some(why.text(words())),
         Offer::Ready | Offer::Absent => None,
     };
+    let joinable = Memo::new(move |_| store.joinable_rooms());
     let clean = move |_| {
         let order = orders.choice.with_untracked(panel_logic::RoomChoice::order);
         if let (Some(order), Offer::Ready) = (order, offer.get_untracked()) {
@@ -81,6 +82,11 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                 <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
                     {words().map.choose_none}
                 </button>
+                <Show when=move || joinable.get().is_some()>
+                    <button type="button" class="small" id="join-chosen" on:click=move |_| store.join_chosen()>
+                        {words().map.join_these}
+                    </button>
+                </Show>
                 <button type="button" class="small" id="keep-out" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().map.keep_out}
                 </button>

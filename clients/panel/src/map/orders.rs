@@ -2,7 +2,8 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, NoGoRow, RoomChoice, Sketch, Tool, job_estimate_text, no_go_rows, refusal_text,
+    Drawn, Edit, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, job_estimate_text, joinable, no_go_rows,
+    refusal_text, room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
@@ -26,6 +27,8 @@ pub(crate) struct Orders {
     pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
     /// What is forbidden.
     pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
+    /// How the rooms were split and joined.
+    pub(crate) room_changes: RwSignal<Vec<RoomChangeRow>>,
     asked: StoredValue<u32>,
 }
 
@@ -37,6 +40,7 @@ impl Orders {
             sketch: RwSignal::new(Sketch::default()),
             pointer: RwSignal::new(None),
             no_go: RwSignal::new(Vec::new()),
+            room_changes: RwSignal::new(Vec::new()),
             asked: StoredValue::new(FIRST_ESTIMATE),
         }
     }
@@ -45,6 +49,10 @@ impl Orders {
         let rows = no_go_rows(words(), home);
         if self.no_go.with_untracked(|known| *known != rows) {
             self.no_go.set(rows);
+        }
+        let changes = room_change_rows(words(), home);
+        if self.room_changes.with_untracked(|known| *known != changes) {
+            self.room_changes.set(changes);
         }
         let mut choice = self.choice.get_untracked();
         if choice.retain_known(home) {
@@ -114,10 +122,28 @@ impl Store {
         match drawn {
             None => return,
             Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(shape)),
+            Some(Drawn::Cut(line)) => self.edit(Edit::Split(line)),
             Some(Drawn::Clean(corners)) => choice.update(|choice| choice.add_zone(corners)),
             Some(Drawn::Avoid(shape)) => choice.update(|choice| choice.keep_out_of(shape)),
         }
         self.orders.pointer.set(None);
+    }
+
+    /// The chosen rooms, if they are two that can be made one. Read anew when the choice or a room changes.
+    pub(crate) fn joinable_rooms(self) -> Option<[u16; 2]> {
+        self.rooms.track();
+        let chosen = self.orders.choice.with(RoomChoice::rooms);
+        if chosen.len() != 2 {
+            return None;
+        }
+        joinable(&self.known_home(), &chosen)
+    }
+
+    /// Makes the two chosen rooms one.
+    pub(crate) fn join_chosen(self) {
+        if let Some(rooms) = self.joinable_rooms() {
+            self.edit(Edit::Join(rooms));
+        }
     }
 
     /// Asks what cleaning the chosen rooms takes.

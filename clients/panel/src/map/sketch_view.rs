@@ -15,8 +15,8 @@ pub(crate) fn SketchView(store: Store) -> impl IntoView {
             return String::new();
         };
         let (far_x, far_y) = orders.pointer.get().unwrap_or((x, y));
-        let is_wall = orders.sketch.with(|sketch| sketch.tool() == Tool::Wall);
-        let corners = if is_wall {
+        let is_line = orders.sketch.with(|sketch| sketch.is_line());
+        let corners = if is_line {
             vec![(x, y), (far_x, far_y)]
         } else {
             vec![(x, y), (far_x, y), (far_x, far_y), (x, far_y), (x, y)]

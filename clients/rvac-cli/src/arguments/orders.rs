@@ -63,6 +63,29 @@ pub(crate) enum RoomsVerb {
         /// Its name or number.
         room: String,
     },
+    /// Cut a room in two along a line; the larger part keeps number and name.
+    Split {
+        /// Its name or number.
+        room: String,
+        /// One end of the line, metres in the map, at a wall of the room.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        from: Place,
+        /// The other end, at another wall.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        to: Place,
+    },
+    /// Make two rooms that lie beside each other one; it keeps the number of the one with a name, else of the larger one.
+    Join {
+        /// The name or number of one.
+        room: String,
+        /// The name or number of the other.
+        other: String,
+    },
+    /// Tell how the rooms were split and joined, or take such a change back.
+    Undo {
+        /// Its number; without one, all changes are listed.
+        number: Option<u16>,
+    },
 }
 
 #[derive(Debug, Args)]

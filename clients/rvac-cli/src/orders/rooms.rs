@@ -1,10 +1,10 @@
-//! `rvac rooms`: the rooms and their names.
+//! `rvac rooms`: the rooms, their names, and how people split and joined them.
 
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
 use anyhow::bail;
-use rvac_api::{HomeView, RequestBody, RoomNaming, RoomView};
+use rvac_api::{HomeView, RequestBody, RoomNaming, RoomSplitting, RoomView};
 
 use crate::arguments::{RoomsJob, RoomsVerb};
 use crate::control;
@@ -14,21 +14,51 @@ use crate::socket::Connection;
 pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&job.daemon.socket)?;
     let home = known::ask(&mut connection)?.home;
-    let naming = match &job.verb {
+    let body = match &job.verb {
         None => {
             write!(stdout(), "{}", table(&home))?;
             return Ok(ExitCode::SUCCESS);
         }
-        Some(RoomsVerb::Name { room, name }) => RoomNaming {
+        Some(RoomsVerb::Undo { number: None }) => {
+            write!(stdout(), "{}", changes(&home))?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Some(RoomsVerb::Name { room, name }) => RequestBody::NameRoom(RoomNaming {
             room: find(&home, room)?,
             name: Some(name.clone()),
-        },
-        Some(RoomsVerb::Unname { room }) => RoomNaming {
+        }),
+        Some(RoomsVerb::Unname { room }) => RequestBody::NameRoom(RoomNaming {
             room: find(&home, room)?,
             name: None,
+        }),
+        Some(RoomsVerb::Split { room, from, to }) => RequestBody::SplitRoom(RoomSplitting {
+            room: Some(find(&home, room)?),
+            line: [from, to].map(|end| [end.x_m, end.y_m]),
+        }),
+        Some(RoomsVerb::Join { room, other }) => RequestBody::JoinRooms {
+            rooms: [find(&home, room)?, find(&home, other)?],
         },
+        Some(RoomsVerb::Undo { number: Some(number) }) => RequestBody::UndoRoomChange { number: *number },
     };
-    control::ask(&mut connection, RequestBody::NameRoom(naming))
+    control::ask(&mut connection, body)
+}
+
+fn changes(home: &HomeView) -> String {
+    if home.room_changes.is_empty() {
+        return "the rooms are as the robot found them\n".to_owned();
+    }
+    let mut text = "number  change\n".to_owned();
+    for change in &home.room_changes {
+        let [room, other] = change.rooms;
+        let what = match change.line {
+            Some([[x, y], [to_x, to_y]]) => {
+                format!("room {other} was cut off from room {room} at {x:.2},{y:.2} {to_x:.2},{to_y:.2}")
+            }
+            None => format!("room {other} is a part of room {room}"),
+        };
+        text += &format!("{:<7} {what}\n", change.number);
+    }
+    text
 }
 
 fn table(home: &HomeView) -> String {
@@ -74,8 +104,8 @@ fn called(room: &RoomView) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{find, table};
-    use rvac_api::{HomeView, RoomView};
+    use super::{changes, find, table};
+    use rvac_api::{HomeView, RoomChangeView, RoomView};
 
     fn home() -> HomeView {
         let room = |id, name: Option<&str>| RoomView {
@@ -98,6 +128,26 @@ mod tests {
         }
         let error = find(&home(), "Attic").expect_err("is unknown").to_string();
         assert!(error.contains("1, 4 (Köök), 5 (1)"), "{error}");
+    }
+
+    #[test]
+    fn each_change_has_a_line() {
+        let change = |number, line| RoomChangeView {
+            number,
+            rooms: [1, 5],
+            line,
+        };
+        let home = HomeView {
+            room_changes: vec![change(2, Some([[0.0, 0.5], [-1.0, 0.5]])), change(3, None)],
+            ..HomeView::default()
+        };
+        let text = changes(&home);
+        assert!(
+            text.contains("2       room 5 was cut off from room 1 at 0.00,0.50 -1.00,0.50\n"),
+            "{text}"
+        );
+        assert!(text.ends_with("3       room 5 is a part of room 1\n"), "{text}");
+        assert!(changes(&HomeView::default()).contains("as the robot found them"));
     }
 
     #[test]

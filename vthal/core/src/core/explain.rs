@@ -46,6 +46,9 @@ pub(super) fn explain(reason: &str) -> &'static str {
         "too-many-no-gos" => {
             "There are as many no-go zones and virtual walls as a home can have: remove one first."
         }
+        "too-many-room-changes" => {
+            "The rooms were split and joined as often as those of a home can be: take a change back first."
+        }
         "disk-busy" => "The disk is too slow to take more changes now; try again.",
         "not-sent" => "The robot did not take the command.",
         _ => "The robot cannot do this in its present state; the reason has the name of the cause.",

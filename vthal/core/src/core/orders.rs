@@ -2,7 +2,9 @@
 
 use brain::order::FAR_M;
 use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Reason, RoomName, Zone};
-use rvac_api::{Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RoomNaming, Update};
+use rvac_api::{
+    Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RequestBody, RoomNaming, Update,
+};
 
 use super::Core;
 use super::refusal::Refusal;
@@ -12,7 +14,7 @@ use crate::outputs::{Delivery, Recipients};
 use crate::{ClientId, MapEdit, Outputs};
 
 /// Who asks, and the number of the request.
-type Asker = (ClientId, Option<u32>);
+pub(super) type Asker = (ClientId, Option<u32>);
 
 impl Core {
     pub(super) fn clean(
@@ -68,7 +70,25 @@ impl Core {
         Ok(())
     }
 
-    pub(super) fn add_no_go(
+    /// Changes what people have said of the home; nothing else comes here.
+    pub(super) fn change_home(
+        &mut self,
+        now_us: u64,
+        (asker, body): (Asker, RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        match body {
+            RequestBody::AddNoGo { shape } => self.add_no_go(now_us, (asker, &shape), outputs),
+            RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, (asker, number), outputs),
+            RequestBody::NameRoom(naming) => self.name_room(now_us, (asker, &naming), outputs),
+            RequestBody::SplitRoom(splitting) => self.split_room(now_us, (asker, &splitting), outputs),
+            RequestBody::JoinRooms { rooms } => self.join_rooms(now_us, (asker, rooms), outputs),
+            RequestBody::UndoRoomChange { number } => self.undo_room_change(now_us, (asker, number), outputs),
+            _ => Ok(()),
+        }
+    }
+
+    fn add_no_go(
         &mut self,
         now_us: u64,
         (asker, shape): (Asker, &NoGoShape),
@@ -86,7 +106,7 @@ impl Core {
         Ok(())
     }
 
-    pub(super) fn remove_no_go(
+    fn remove_no_go(
         &mut self,
         now_us: u64,
         (asker, number): (Asker, u16),
@@ -101,7 +121,7 @@ impl Core {
         Ok(())
     }
 
-    pub(super) fn name_room(
+    fn name_room(
         &mut self,
         now_us: u64,
         (asker, naming): (Asker, &RoomNaming),
@@ -123,14 +143,14 @@ impl Core {
     }
 
     /// The brain, in the home that is kept.
-    fn known_home(&self) -> Result<&Mind, Refusal> {
+    pub(super) fn known_home(&self) -> Result<&Mind, Refusal> {
         let mind = self.mind.as_ref().ok_or("no-robot")?;
         mind.admit_edit()?;
         Ok(mind)
     }
 
     /// Gives the brain a change of the map; whoever wants it hears of it when it is on the disk.
-    fn edit(
+    pub(super) fn edit(
         &mut self,
         now_us: u64,
         (asker, command, what): (Asker, Command, &'static str),

@@ -43,6 +43,9 @@ impl Core {
                 | RequestBody::AddNoGo { .. }
                 | RequestBody::RemoveNoGo { .. }
                 | RequestBody::NameRoom(_)
+                | RequestBody::SplitRoom(_)
+                | RequestBody::JoinRooms { .. }
+                | RequestBody::UndoRoomChange { .. }
                 | RequestBody::Estimate(_)
                 | RequestBody::Evidence
                 | RequestBody::AddSchedule(_)
@@ -84,22 +87,22 @@ impl Core {
         match request.body {
             RequestBody::Hello { name } => self.hello(now_us, (client, name), outputs),
             RequestBody::Watch { topics } => self.watch(now_us, (client, &topics), outputs),
-            RequestBody::Start { strategy } => {
-                let strategy = self.strategy_named(strategy.as_deref())?;
-                Ok(self.job(now_us, (client, Command::Clean { strategy }), outputs)?)
-            }
+            RequestBody::Start { strategy } => self.start(now_us, (client, strategy.as_deref()), outputs),
             RequestBody::Clean(order) => self.clean(now_us, (client, &order), outputs),
             RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
             RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
-            RequestBody::AddNoGo { shape } => self.add_no_go(now_us, ((client, id), &shape), outputs),
-            RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, ((client, id), number), outputs),
-            RequestBody::NameRoom(naming) => self.name_room(now_us, ((client, id), &naming), outputs),
+            body @ (RequestBody::AddNoGo { .. }
+            | RequestBody::RemoveNoGo { .. }
+            | RequestBody::NameRoom(_)
+            | RequestBody::SplitRoom(_)
+            | RequestBody::JoinRooms { .. }
+            | RequestBody::UndoRoomChange { .. }) => self.change_home(now_us, ((client, id), body), outputs),
             RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
             RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),
             RequestBody::Resume => Ok(self.job(now_us, (client, Command::Resume), outputs)?),
             RequestBody::Dock => Ok(self.job(now_us, (client, Command::Dock), outputs)?),
-            RequestBody::Stop => {
-                self.stop(now_us, client, outputs);
+            body @ (RequestBody::Stop | RequestBody::Release | RequestBody::ClaimButtons { .. }) => {
+                self.obey_always(now_us, (client, &body), outputs);
                 Ok(())
             }
             RequestBody::Drive {
@@ -112,15 +115,7 @@ impl Core {
                 let (stick, power) = (manual::stick((v, w), ttl), manual::power(clean, power)?);
                 Ok(self.drive(now_us, (client, stick, power), outputs)?)
             }
-            RequestBody::Release => {
-                self.release(now_us, client, outputs);
-                Ok(())
-            }
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
-            RequestBody::ClaimButtons { ms } => {
-                self.buttons.claim(now_us, client, ms);
-                Ok(())
-            }
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
             RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
             body @ (RequestBody::Maps { .. }
@@ -146,6 +141,26 @@ impl Core {
             | RequestBody::SetQuiet { .. }
             | RequestBody::SetZone { .. }) => self.change_schedules(now_us, ((client, id), body), outputs),
         }
+    }
+
+    /// What is never refused; nothing else comes here.
+    fn obey_always(&mut self, now_us: u64, (client, body): (ClientId, &RequestBody), outputs: &mut Outputs) {
+        match body {
+            RequestBody::Stop => self.stop(now_us, client, outputs),
+            RequestBody::Release => self.release(now_us, client, outputs),
+            RequestBody::ClaimButtons { ms } => self.buttons.claim(now_us, client, *ms),
+            _ => {}
+        }
+    }
+
+    fn start(
+        &mut self,
+        now_us: u64,
+        (client, strategy): (ClientId, Option<&str>),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let strategy = self.strategy_named(strategy)?;
+        Ok(self.job(now_us, (client, Command::Clean { strategy }), outputs)?)
     }
 
     pub(super) fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {

@@ -20,7 +20,7 @@ pub(super) struct NextRun {
 #[derive(Debug)]
 enum Stage {
     WritingDown(Box<CheckpointWork>),
-    TakingUp { written: StoredMap, home: TakingUp },
+    TakingUp { written: Box<StoredMap>, home: TakingUp },
 }
 
 /// A home for the next brain: as it is recorded, and as it is used.
@@ -46,13 +46,13 @@ impl NextRun {
                 let written = work.go_on()?.home.unwrap_or_default();
                 self.stage = Stage::TakingUp {
                     home: TakingUp::new(config, written.clone()),
-                    written,
+                    written: Box::new(written),
                 };
                 None
             }
             Stage::TakingUp { written, home } => Some(NextHome {
                 ready: home.go_on()?,
-                written: core::mem::take(written),
+                written: core::mem::take(&mut **written),
             }),
         }
     }

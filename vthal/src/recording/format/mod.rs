@@ -12,8 +12,9 @@ pub use answer::Answered;
 pub use order::{GivenNoGo, GivenOrder};
 pub use state::BrainState;
 
+use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{Body, BrainConfig, Command, Observation, RoomName, Speeds, StrategyName};
+use brain::{Body, BrainConfig, Command, Observation, Point2, RoomName, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -259,6 +260,17 @@ pub enum GivenCommand {
         /// Its name; absent = none any more.
         name: Option<String>,
     },
+    /// [`Command::SplitRoom`]
+    SplitRoom {
+        /// Identity of the room.
+        room: Option<u16>,
+        /// The ends of the line.
+        line: [[f64; 2]; 2],
+    },
+    /// [`Command::JoinRooms`] by their identities.
+    JoinRooms([u16; 2]),
+    /// [`Command::UndoRoomChange`] by its number.
+    UndoRoomChange(u16),
     /// [`Command::Spot`]
     Spot,
     /// [`Command::Pause`]
@@ -297,6 +309,12 @@ impl From<&Command> for GivenCommand {
                 room: *room,
                 name: name.as_ref().map(|name| name.as_str().to_owned()),
             },
+            Command::SplitRoom { room, line } => Self::SplitRoom {
+                room: *room,
+                line: line.ends().map(|end| [end.x_m, end.y_m]),
+            },
+            Command::JoinRooms { rooms } => Self::JoinRooms(*rooms),
+            Command::UndoRoomChange { number } => Self::UndoRoomChange(*number),
             Command::Spot => Self::Spot,
             Command::Pause => Self::Pause,
             Command::Resume => Self::Resume,
@@ -341,6 +359,15 @@ impl GivenCommand {
                     Some(name) => Some(RoomName::new(name).ok()?),
                 },
             },
+            Self::SplitRoom { room, line } => {
+                let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
+                Command::SplitRoom {
+                    room: *room,
+                    line: CutLine::new(from, to).ok()?,
+                }
+            }
+            Self::JoinRooms(rooms) => Command::JoinRooms { rooms: *rooms },
+            Self::UndoRoomChange(number) => Command::UndoRoomChange { number: *number },
             Self::Spot => Command::Spot,
             Self::Pause => Command::Pause,
             Self::Resume => Command::Resume,
@@ -365,6 +392,7 @@ impl GivenCommand {
 
 #[cfg(test)]
 mod tests {
+    use brain::mapping::CutLine;
     use brain::observation::{BeaconRange, ChargeFlow};
     use brain::{CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, Zone};
 
@@ -423,6 +451,12 @@ mod tests {
                 name: Some(RoomName::new("Köök").expect("a good name")),
             },
             Command::NameRoom { room: 3, name: None },
+            Command::SplitRoom {
+                room: Some(3),
+                line: CutLine::new(corners[0], corners[1]).expect("two places"),
+            },
+            Command::JoinRooms { rooms: [3, 4] },
+            Command::UndoRoomChange { number: 2 },
             Command::Clean {
                 strategy: brain::StrategyName::Bounce,
             },

@@ -38,7 +38,7 @@ pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
     }
 }
 
-fn put_point(bytes: &mut Vec<u8>, point: Point2) {
+pub(super) fn put_point(bytes: &mut Vec<u8>, point: Point2) {
     for metres in [point.x_m, point.y_m] {
         put_signed(bytes, libm::round(metres * 1e6) as i64);
     }
@@ -89,18 +89,18 @@ impl Reader<'_> {
         RoomName::new(name).map_err(|_| StoredMapError::Name)
     }
 
-    fn point(&mut self) -> Result<Point2, StoredMapError> {
+    pub(super) fn point(&mut self) -> Result<Point2, StoredMapError> {
         Ok(Point2 {
             x_m: self.millionths()?,
             y_m: self.millionths()?,
         })
     }
 
-    fn short(&mut self) -> Result<u16, StoredMapError> {
+    pub(super) fn short(&mut self) -> Result<u16, StoredMapError> {
         self.number()?.try_into().map_err(|_| StoredMapError::Number)
     }
 
-    fn count(&mut self, most: usize) -> Result<u64, StoredMapError> {
+    pub(super) fn count(&mut self, most: usize) -> Result<u64, StoredMapError> {
         let count = self.number()?;
         if count > most as u64 {
             return Err(StoredMapError::Number);

@@ -40,6 +40,14 @@ screen! {
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
         draw_avoid: "Keep out for one job", "Jäta koht ühel korral välja";
+        draw_cut: "Split a room", "Poolita tuba";
+        join_hint: "To make two rooms one, choose both: they must lie beside each other.",
+            "Kahe toa ühendamiseks vali mõlemad: need peavad olema kõrvuti.";
+        room_changes: "Rooms that were split or joined", "Poolitatud ja ühendatud toad";
+        was_cut[2]: "{1} was cut off from {0}", "{1} on lõigatud toast „{0}“";
+        was_joined[2]: "{1} is a part of {0}", "{1} on toa „{0}“ osa";
+        take_back: "Take back", "Võta tagasi";
+        take_back_named[1]: "Take back: {0}", "Võta tagasi: {0}";
         room_name[1]: "New name of {0}; empty for its number", "Uus nimi toale „{0}“; tühjana jääb number";
         door_to[1]: ", door to {0}", ", uks: {0}";
         doors_to[2]: ", doors to {0} and {1}", ", uksed: {0} ja {1}";

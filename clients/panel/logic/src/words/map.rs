@@ -18,6 +18,10 @@ screen! {
         edit_no_wall: "removal of a virtual wall", "virtuaalseina eemaldamine";
         edit_no_zone: "removal of a no-go zone", "keeluala eemaldamine";
         edit_name: "name of a room", "toa nimi";
+        edit_split: "split of a room", "toa poolitamine";
+        edit_unsplit: "removal of a split", "poolitamise tagasivõtmine";
+        edit_join: "joining of rooms", "tubade ühendamine";
+        edit_unjoin: "removal of a joining", "ühendamise tagasivõtmine";
         changed_meanwhile: "That edit cannot be taken back or done again: the map was changed there meanwhile. The edits before it can.",
             "Seda muudatust ei saa tagasi võtta ega uuesti teha: kaarti on seal vahepeal muudetud. Varasemaid saab.";
         not_told_yet: "The robot has not told of that edit yet. Try again in a few seconds.",
@@ -48,11 +52,15 @@ screen! {
         wall_first: "Tap one end of the wall, or move it to the cross and press Enter.",
             "Puuduta seina üht otsa või nihuta see ristile ja vajuta Enter.";
         wall_second: "Now the other end.", "Nüüd teine ots.";
+        cut_first: "Tap where the room shall be cut: first at one wall, or move that to the cross and press Enter.",
+            "Puuduta, kust tuba poolitada: kõigepealt ühe seina ääres, või nihuta see ristile ja vajuta Enter.";
+        cut_second: "Now at the other wall.", "Nüüd teise seina ääres.";
         zone_first: "Tap one corner of the zone, or move it to the cross and press Enter.",
             "Puuduta ala üht nurka või nihuta see ristile ja vajuta Enter.";
         zone_second: "Now the opposite corner.", "Nüüd vastasnurk.";
         chosen: "Chosen rooms and zones", "Valitud toad ja alad";
         reckons: "The robot reckons what this takes.", "Robot arvutab, kui palju see võtab.";
+        join_these: "Join these rooms", "Ühenda need toad";
         choose_none: "Choose none", "Tühista valik";
         clean_these: "Clean these", "Korista need";
         times[1]: "{0}x", "{0}x";

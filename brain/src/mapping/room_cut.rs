@@ -1,0 +1,306 @@
+//! A line across a room, and the two parts into which it cuts it.
+
+use std::collections::VecDeque;
+
+use super::reach::neighbours;
+use super::{CELL_M, Cell, Raster};
+use crate::behavior::Reason;
+use crate::geometry::Point2;
+use crate::no_go::in_micrometres;
+use crate::order::FAR_M;
+
+/// Shortest line, metres.
+const LINE_MIN_M: f64 = 0.05;
+/// People end a line before the wall: it goes on by so much, metres.
+const BEYOND_M: f64 = 0.5;
+/// Smallest part of a room that a person may cut off, square metres.
+const PART_MIN_M2: f64 = 0.5;
+/// Places of a line that are looked at, per cell.
+const STEPS_PER_CELL: f64 = 4.0;
+
+/// A line that a person has drawn. Its ends are whole micrometres, as a stored map keeps them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutLine {
+    from: Point2,
+    to: Point2,
+}
+
+impl CutLine {
+    /// A line between two places.
+    ///
+    /// # Errors
+    /// [`Reason::BadLine`] when they are one place or far away.
+    pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
+        let is_near = |end: &Point2| end.x_m.abs() < FAR_M && end.y_m.abs() < FAR_M;
+        let line = Self {
+            from: in_micrometres(from),
+            to: in_micrometres(to),
+        };
+        if is_near(&from) && is_near(&to) && line.length_m() >= LINE_MIN_M {
+            Ok(line)
+        } else {
+            Err(Reason::BadLine)
+        }
+    }
+
+    /// Its ends.
+    #[must_use]
+    pub fn ends(&self) -> [Point2; 2] {
+        [self.from, self.to]
+    }
+
+    fn length_m(&self) -> f64 {
+        self.from.distance_m(self.to)
+    }
+
+    /// The place so many metres along it; it goes on beyond its ends.
+    fn at(&self, way_m: f64) -> Point2 {
+        let share = way_m / self.length_m();
+        Point2 {
+            x_m: self.from.x_m + share * (self.to.x_m - self.from.x_m),
+            y_m: self.from.y_m + share * (self.to.y_m - self.from.y_m),
+        }
+    }
+
+    fn side_of(&self, point: Point2) -> PartSide {
+        let (along_x, along_y) = (self.to.x_m - self.from.x_m, self.to.y_m - self.from.y_m);
+        let across = along_x * (point.y_m - self.from.y_m) - along_y * (point.x_m - self.from.x_m);
+        if across < 0.0 {
+            PartSide::Right
+        } else {
+            PartSide::Left
+        }
+    }
+
+    /// Cells under it from one place of it to another; each one shares an edge with the next.
+    fn cells(&self, (from_m, to_m): (f64, f64)) -> Vec<Cell> {
+        let steps = ((to_m - from_m).abs() * STEPS_PER_CELL / CELL_M) as u32 + 1;
+        let mut cells: Vec<Cell> = Vec::new();
+        for step in 0..=steps {
+            let share = f64::from(step) / f64::from(steps);
+            let cell = Cell::under(self.at(from_m + share * (to_m - from_m)));
+            match cells.last().copied() {
+                Some(last) if last == cell => {}
+                Some(last) => {
+                    if last.x != cell.x && last.y != cell.y {
+                        cells.push(Cell { x: cell.x, y: last.y });
+                    }
+                    cells.push(cell);
+                }
+                None => cells.push(cell),
+            }
+        }
+        cells
+    }
+}
+
+/// Which part of a room, seen from the beginning of the line to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartSide {
+    /// On the left, with what lies under the line.
+    Left,
+    /// On the right.
+    Right,
+}
+
+/// The two parts of a room.
+pub(super) struct Cut {
+    pub(super) room: u16,
+    left: Vec<Cell>,
+    right: Vec<Cell>,
+    /// Whether a way leads round an end of the line.
+    leaks: bool,
+}
+
+impl Cut {
+    pub(super) fn side(&self, side: PartSide) -> &[Cell] {
+        match side {
+            PartSide::Left => &self.left,
+            PartSide::Right => &self.right,
+        }
+    }
+
+    pub(super) fn smaller(&self) -> PartSide {
+        if self.left.len() < self.right.len() {
+            PartSide::Left
+        } else {
+            PartSide::Right
+        }
+    }
+}
+
+/// Cuts a room from border to border; without a room, the one in which the line is longest.
+pub(super) fn cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Result<Cut, Reason> {
+    let cut = nearest_cut(labels, room, line).ok_or(Reason::LineMissesRoom)?;
+    if cut.leaks {
+        return Err(Reason::LineEndsInRoom);
+    }
+    let least = PART_MIN_M2 / (CELL_M * CELL_M);
+    if (cut.side(cut.smaller()).len() as f64) < least {
+        return Err(Reason::PartTooSmall);
+    }
+    Ok(cut)
+}
+
+/// The same, however small a part is, and where a way leads round the line each cell belongs to the side that is nearer.
+/// `None` when the line misses the room, or all of it lies on one side.
+pub(super) fn nearest_cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Option<Cut> {
+    let (room, under) = stretch(labels, room, line)?;
+    let mut places = Raster::filled(labels.origin(), labels.width(), labels.height(), Place::Open);
+    for cell in &under {
+        if let Some(place) = places.get_mut(*cell) {
+            *place = Place::Line;
+        }
+    }
+    let beside = under.iter().flat_map(|cell| neighbours(*cell));
+    let mut next: VecDeque<(Cell, PartSide)> =
+        beside.map(|cell| (cell, line.side_of(cell.middle()))).collect();
+    let (mut left, mut right, mut leaks) = (under.clone(), Vec::new(), false);
+    while let Some((cell, side)) = next.pop_front() {
+        let Some(place) = places.get_mut(cell).filter(|_| labels.get(cell) == Some(&room)) else {
+            continue;
+        };
+        match *place {
+            Place::Line => {}
+            Place::On(other) => leaks |= other != side,
+            Place::Open => {
+                *place = Place::On(side);
+                match side {
+                    PartSide::Left => left.push(cell),
+                    PartSide::Right => right.push(cell),
+                }
+                next.extend(neighbours(cell).map(|beside| (beside, side)));
+            }
+        }
+    }
+    let is_cut = left.len() > under.len() && !right.is_empty();
+    is_cut.then_some(Cut {
+        room,
+        left,
+        right,
+        leaks,
+    })
+}
+
+/// Where a cell of the room was found to lie.
+#[derive(Clone, Copy)]
+enum Place {
+    Open,
+    Line,
+    On(PartSide),
+}
+
+/// The longest piece of a line that lies in one room, to the room's border at both ends, and the room.
+fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<(u16, Vec<Cell>)> {
+    let cells = line.cells((0.0, line.length_m()));
+    let room_of = |cell: &Cell| {
+        let label = labels.get(*cell).copied().filter(|label| *label != 0);
+        label.filter(|label| wanted.is_none_or(|room| room == *label))
+    };
+    let pieces = cells.chunk_by(|one, other| room_of(one) == room_of(other));
+    let in_rooms = pieces.filter_map(|piece| Some((room_of(piece.first()?)?, piece)));
+    // The first of equally long ones.
+    let (room, piece) = in_rooms.rev().max_by_key(|(_, piece)| piece.len())?;
+    let end = line.length_m();
+    let mut under = piece.to_vec();
+    let inside = |cell: &Cell| labels.get(*cell) == Some(&room);
+    if piece.first() == cells.first() {
+        under.extend(
+            line.cells((0.0, -BEYOND_M))
+                .into_iter()
+                .take_while(inside)
+                .skip(1),
+        );
+    }
+    if piece.last() == cells.last() {
+        under.extend(
+            line.cells((end, end + BEYOND_M))
+                .into_iter()
+                .take_while(inside)
+                .skip(1),
+        );
+    }
+    Some((room, under))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CutLine, PartSide, cut, nearest_cut};
+    use crate::behavior::Reason;
+    use crate::geometry::Point2;
+    use crate::mapping::{Cell, Raster};
+
+    fn at(x_m: f64, y_m: f64) -> Point2 {
+        Point2 { x_m, y_m }
+    }
+
+    fn line(from: (f64, f64), to: (f64, f64)) -> CutLine {
+        CutLine::new(at(from.0, from.1), at(to.0, to.1)).unwrap()
+    }
+
+    /// Room 1 of 4 x 2 m, and room 2 of 1 x 2 m on its right.
+    fn labels() -> Raster<u16> {
+        let mut labels = Raster::filled(Cell { x: -1, y: -1 }, 202, 82, 0);
+        for index in 0..labels.values().len() {
+            let cell = labels.cell(index);
+            let is_inside = (0..200).contains(&cell.x) && (0..80).contains(&cell.y);
+            let room = if cell.x < 160 { 1 } else { 2 };
+            labels.values_mut()[index] = if is_inside { room } else { 0 };
+        }
+        labels
+    }
+
+    #[test]
+    fn a_line_from_border_to_border_makes_two_parts_of_all_cells() {
+        for line in [
+            line((1.0, -0.1), (1.0, 2.1)),
+            line((1.0, 0.3), (1.0, 1.7)),
+            line((0.6, 2.0), (1.4, 0.0)),
+            line((1.4, 0.1), (0.6, 1.9)),
+        ] {
+            let cut = cut(&labels(), None, &line).unwrap();
+            let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));
+            assert_eq!(cut.room, 1);
+            assert_eq!(left.len() + right.len(), 160 * 80);
+            let small = cut.side(cut.smaller());
+            assert!((3_000..3_600).contains(&small.len()), "{}", small.len());
+            assert!(left.iter().all(|cell| !right.contains(cell)));
+        }
+    }
+
+    #[test]
+    fn what_cuts_nothing_is_refused_by_name() {
+        for (room, line, reason) in [
+            (None, line((-3.0, 0.0), (-3.0, 2.0)), Reason::LineMissesRoom),
+            (Some(2), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
+            (Some(3), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
+            (None, line((1.0, 0.7), (1.0, 1.2)), Reason::LineEndsInRoom),
+            (None, line((0.2, -0.1), (0.2, 2.1)), Reason::PartTooSmall),
+        ] {
+            assert_eq!(cut(&labels(), room, &line).err(), Some(reason), "{line:?}");
+        }
+        for (from, to) in [
+            (at(0.0, 0.0), at(0.0, 0.04)),
+            (at(0.0, 0.0), at(f64::NAN, 1.0)),
+            (at(0.0, 0.0), at(501.0, 1.0)),
+        ] {
+            assert_eq!(CutLine::new(from, to), Err(Reason::BadLine));
+        }
+    }
+
+    #[test]
+    fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_one_that_is_meant() {
+        let along = line((1.0, 1.0), (5.0, 1.0));
+        assert_eq!(nearest_cut(&labels(), None, &along).map(|cut| cut.room), Some(1));
+        assert_eq!(cut(&labels(), Some(2), &along).map(|cut| cut.room), Ok(2));
+    }
+
+    #[test]
+    fn a_line_that_does_not_reach_the_border_any_more_divides_what_is_near_its_sides() {
+        let short = line((1.0, 0.7), (1.0, 1.2));
+        let cut = nearest_cut(&labels(), Some(1), &short).unwrap();
+        let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));
+        assert_eq!(left.len() + right.len(), 160 * 80);
+        assert!(left.contains(&Cell { x: 2, y: 40 }) && right.contains(&Cell { x: 150, y: 40 }));
+    }
+}

@@ -1,0 +1,96 @@
+//! How people changed the rooms, as bytes: the number of the next change, the changes, and the splits that were taken back.
+
+use super::{Reader, StoredMapError, put};
+use crate::geometry::Point2;
+use crate::mapping::room_changes::CHANGES_MAX;
+use crate::mapping::{CutLine, PartSide, RoomChange, RoomChanges, RoomJoin, RoomSplit};
+
+const LEFT: u64 = 0;
+const JOIN: u64 = 1;
+const RIGHT: u64 = 2;
+
+pub(super) fn put_room_changes(bytes: &mut Vec<u8>, changes: &RoomChanges) {
+    put(bytes, changes.next.into());
+    put(bytes, changes.made.len() as u64);
+    for (number, change) in &changes.made {
+        put(bytes, u64::from(*number));
+        match change {
+            RoomChange::Split(split) => put_split(bytes, split),
+            RoomChange::Join(join) => put_change(bytes, (JOIN, [join.kept, join.lost], join.at)),
+        }
+    }
+    put(bytes, changes.taken_back.len() as u64);
+    for split in &changes.taken_back {
+        put_split(bytes, split);
+    }
+}
+
+fn put_split(bytes: &mut Vec<u8>, split: &RoomSplit) {
+    let kind = match split.side {
+        PartSide::Left => LEFT,
+        PartSide::Right => RIGHT,
+    };
+    put_change(bytes, (kind, [split.room, split.part], split.line.ends()));
+}
+
+fn put_change(bytes: &mut Vec<u8>, (kind, rooms, places): (u64, [u16; 2], [Point2; 2])) {
+    put(bytes, kind);
+    rooms.iter().for_each(|room| put(bytes, u64::from(*room)));
+    places
+        .iter()
+        .for_each(|place| super::words::put_point(bytes, *place));
+}
+
+impl Reader<'_> {
+    /// Changes that speak of rooms before `next_room`.
+    pub(super) fn room_changes(&mut self, next_room: u16) -> Result<RoomChanges, StoredMapError> {
+        let mut changes = RoomChanges {
+            next: self.short()?,
+            ..RoomChanges::default()
+        };
+        for _ in 0..self.count(CHANGES_MAX)? {
+            let number = self.short()?;
+            let change = self.room_change(next_room)?;
+            if number >= changes.next || changes.made.insert(number, change).is_some() {
+                return Err(StoredMapError::RoomChange);
+            }
+        }
+        for _ in 0..self.count(CHANGES_MAX)? {
+            match self.room_change(next_room)? {
+                RoomChange::Split(split) => changes.taken_back.push(split),
+                RoomChange::Join(_) => return Err(StoredMapError::RoomChange),
+            }
+        }
+        Ok(changes)
+    }
+
+    fn room_change(&mut self, next_room: u16) -> Result<RoomChange, StoredMapError> {
+        let kind = self.number()?;
+        let rooms = [self.short()?, self.short()?];
+        let known = 1..next_room;
+        if rooms[0] == rooms[1] || !rooms.iter().all(|room| known.contains(room)) {
+            return Err(StoredMapError::RoomChange);
+        }
+        let at = [self.point()?, self.point()?];
+        let [room, part] = rooms;
+        let split = |side| {
+            let line = CutLine::new(at[0], at[1]).map_err(|_| StoredMapError::RoomChange)?;
+            Ok(RoomChange::Split(RoomSplit {
+                room,
+                part,
+                side,
+                line,
+            }))
+        };
+        match kind {
+            LEFT => split(PartSide::Left),
+            RIGHT => split(PartSide::Right),
+            JOIN => Ok(RoomChange::Join(RoomJoin {
+                kept: room,
+                lost: part,
+                at,
+            })),
+            _ => Err(StoredMapError::RoomChange),
+        }
+    }
+}
