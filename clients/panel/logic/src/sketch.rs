@@ -211,7 +211,10 @@ mod tests {
         sketch.take(Tool::Cut);
         assert!(sketch.is_line() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("cut")));
         sketch.point((1.0, 1.0));
-        assert_eq!(sketch.point((1.0, 4.0)), Some(Drawn::Cut([[1.0, 1.0], [1.0, 4.0]])));
+        assert_eq!(
+            sketch.point((1.0, 4.0)),
+            Some(Drawn::Cut([[1.0, 1.0], [1.0, 4.0]]))
+        );
         assert_eq!(sketch, Sketch::default());
     }
 
