@@ -26,8 +26,6 @@ enum Reading {
 }
 
 impl Reading {
-    const COUNT: usize = 6;
-
     fn of(text: &str) -> Option<Self> {
         #[derive(Deserialize)]
         struct Kind<'t> {
@@ -49,9 +47,11 @@ impl Reading {
 /// The queue. It does no I/O.
 #[derive(Debug, Default)]
 pub struct Outbox {
-    waiting: VecDeque<String>,
-    waiting_bytes: usize,
-    readings: [Option<String>; Reading::COUNT],
+    /// In the order in which they go out, as in the daemon's own queues: the last view of a topic ends what was asked for before it.
+    waiting: VecDeque<(Option<Reading>, String)>,
+    /// Those of them that must not be lost.
+    lossless: usize,
+    lossless_bytes: usize,
 }
 
 impl Outbox {
@@ -60,25 +60,31 @@ impl Outbox {
     /// # Errors
     /// [`Stalled`] when too much waits already; the message is not added.
     pub fn push(&mut self, text: String) -> Result<(), Stalled> {
-        if let Some(reading) = Reading::of(&text) {
-            self.readings[reading as usize] = Some(text);
+        let reading = Reading::of(&text);
+        if reading.is_some() {
+            match self.waiting.iter_mut().find(|(other, _)| *other == reading) {
+                Some((_, older)) => *older = text,
+                None => self.waiting.push_back((reading, text)),
+            }
             return Ok(());
         }
-        if self.waiting.len() >= WAITING_MAX || self.waiting_bytes + text.len() > WAITING_BYTES_MAX {
+        if self.lossless >= WAITING_MAX || self.lossless_bytes + text.len() > WAITING_BYTES_MAX {
             return Err(Stalled);
         }
-        self.waiting_bytes += text.len();
-        self.waiting.push_back(text);
+        self.lossless += 1;
+        self.lossless_bytes += text.len();
+        self.waiting.push_back((None, text));
         Ok(())
     }
 
-    /// Takes the next message: those that must not be lost in their order, then readings.
+    /// Takes the next message.
     pub fn pop(&mut self) -> Option<String> {
-        if let Some(text) = self.waiting.pop_front() {
-            self.waiting_bytes -= text.len();
-            return Some(text);
+        let (reading, text) = self.waiting.pop_front()?;
+        if reading.is_none() {
+            self.lossless -= 1;
+            self.lossless_bytes -= text.len();
         }
-        self.readings.iter_mut().find_map(Option::take)
+        Some(text)
     }
 }
 
@@ -87,7 +93,7 @@ mod tests {
     use super::{Outbox, Stalled, WAITING_BYTES_MAX, WAITING_MAX};
 
     #[test]
-    fn newest_reading_wins_and_order_of_the_rest_is_kept() {
+    fn newest_reading_wins_in_the_place_of_the_older_one_and_the_order_is_kept() {
         let mut outbox = Outbox::default();
         for text in [
             r#"{"e":"pose","x":1}"#,
@@ -104,11 +110,11 @@ mod tests {
         assert_eq!(
             sent,
             [
+                r#"{"e":"pose","x":2}"#,
                 r#"{"e":"log","number":1}"#,
                 r#"{"e":"log","number":2}"#,
-                r#"{"e":"pose","x":2}"#,
-                r#"{"e":"simulated-truth","n":1}"#,
                 r#"{"e":"device","n":2}"#,
+                r#"{"e":"simulated-truth","n":1}"#,
             ]
         );
     }
@@ -123,7 +129,9 @@ mod tests {
             outbox.push(r#"{"e":"log"}"#.to_owned()).unwrap();
         }
         assert_eq!(outbox.push(r#"{"e":"log"}"#.to_owned()), Err(Stalled));
-        outbox.pop().unwrap();
+        for sent in [r#"{"e":"pose"}"#, r#"{"e":"log"}"#] {
+            assert_eq!(outbox.pop().as_deref(), Some(sent));
+        }
         assert_eq!(outbox.push(r#"{"e":"log"}"#.to_owned()), Ok(()));
     }
 
