@@ -9,6 +9,9 @@ use tokio_tungstenite::tungstenite::Message;
 use crate::report::Report;
 use crate::rig::{Rig, read_all};
 
+/// What the crowd and the flood may take.
+const GROWTH_KIB_MAX: u64 = 48 << 10;
+
 /// Twice as many as all connections that are served at one time.
 const CROWD: usize = 256;
 
@@ -18,9 +21,50 @@ pub(crate) async fn try_all(report: &mut Report) {
     for _ in 0..2 {
         rig.daemon().await;
     }
+    let before = resident_kib();
     too_much(&rig, &cookie, report).await;
+    endless_body(&rig, report).await;
     flood(&rig, &cookie, report).await;
     crowd(&rig, &cookie, report).await;
+    let grown = resident_kib().saturating_sub(before);
+    let seen = if grown < GROWTH_KIB_MAX {
+        "below 48 MiB".to_owned()
+    } else {
+        format!("{grown} KiB")
+    };
+    report.row(
+        ("A18", "memory that all of it took, attackers and server together"),
+        "below 48 MiB",
+        seen,
+    );
+}
+
+/// What is resident of this process, which is server and attackers at once.
+fn resident_kib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmRSS:"))
+        .unwrap();
+    line.split_whitespace().next().unwrap().parse().unwrap()
+}
+
+/// A body of 1 GiB is announced, and sent for as long as anybody takes it.
+async fn endless_body(rig: &Rig, report: &mut Report) {
+    let mut stream = rig.tls().await;
+    let (host, origin) = (rig.host(), rig.origin());
+    let head = format!(
+        "POST /api/pairing/begin HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nContent-Type: application/json\r\n\
+         X-Rvac: 1\r\nContent-Length: {}\r\n\r\n",
+        1_u64 << 30
+    );
+    stream.write_all(head.as_bytes()).await.unwrap();
+    let (chunk, mut sent) = (vec![b'x'; 64 << 10], 0_u64);
+    while sent < 64 << 20 && stream.write_all(&chunk).await.is_ok() {
+        sent += chunk.len() as u64;
+    }
+    let seen = if sent < 16 << 20 { "cut off" } else { "taken" };
+    report.row(("A18", "a body of 1 GiB"), "cut off", seen);
 }
 
 async fn too_much(rig: &Rig, cookie: &str, report: &mut Report) {
