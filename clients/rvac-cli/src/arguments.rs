@@ -10,6 +10,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+use crate::remote::Address;
+
 pub(crate) use devices::{ClientsJob, ClientsVerb, Console, PairOptions, TrustOptions};
 pub(crate) use floors::{FloorJob, FloorVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
@@ -105,6 +107,9 @@ pub(crate) struct Daemon {
         global = true
     )]
     pub(crate) socket: PathBuf,
+    /// A robot on the network that this computer is paired with (rvac pair --robot), in place of --socket.
+    #[arg(long, value_name = "https://NAME[:PORT]", env = "RVAC_ROBOT", global = true)]
+    pub(crate) robot: Option<Address>,
 }
 
 #[derive(Debug, Args)]

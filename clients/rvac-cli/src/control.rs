@@ -20,7 +20,7 @@ pub(crate) fn start(strategy: Option<String>, daemon: &Daemon) -> anyhow::Result
 
 /// Sends a request and waits until vthal says how it went.
 pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCode> {
-    ask(&mut Connection::open(&daemon.socket)?, body)
+    ask(&mut Connection::open(daemon)?, body)
 }
 
 /// As [`send`], over a connection that stands.

@@ -1,7 +1,7 @@
 //! Who may use the robot from the network: windows, devices and the robot's certificate. It asks panel-server.
 
 use std::fs;
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{BufRead as _, BufReader, IsTerminal as _, Write as _};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
@@ -9,14 +9,20 @@ use std::time::Duration;
 
 use anyhow::{Context as _, bail};
 use pairing::console::{Order, Reply, Trust};
+use pairing::{Code, DeviceName};
 
 use crate::arguments::{ClientsJob, ClientsVerb, Console, PairOptions, TrustOptions};
+use crate::qr;
+use crate::remote::{self, Address};
 
 /// A server that takes longer has hung.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Opens a window and shows its code.
+/// Opens a window and shows its code, or pairs this computer with a robot elsewhere.
 pub(crate) fn pair(options: &PairOptions) -> anyhow::Result<ExitCode> {
+    if let Some(robot) = &options.robot {
+        return join(robot, options.name.as_ref());
+    }
     let Reply::Opened { opened, addresses } = ask(&options.console, &Order::Pair { role: options.role })?
     else {
         bail!("panel-server gave another answer: both must be of one version");
@@ -28,9 +34,51 @@ pub(crate) fn pair(options: &PairOptions) -> anyhow::Result<ExitCode> {
         "Open the panel on the new device within {} s and type the code. The device gets the role {}.",
         opened.seconds, options.role
     )?;
-    for address in addresses {
+    for address in &addresses {
         writeln!(out, "  {address}")?;
     }
+    if out.is_terminal() {
+        for line in addresses
+            .iter()
+            .find(|address| is_numeric(address))
+            .map_or_else(Vec::new, |address| qr::lines(address))
+        {
+            writeln!(out, "{line}")?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Whether phones find the address without anybody who knows the robot's name.
+fn is_numeric(address: &str) -> bool {
+    let host = address.trim_start_matches("https://");
+    host.starts_with(|first: char| first == '[' || first.is_ascii_digit())
+}
+
+fn join(robot: &Address, name: Option<&DeviceName>) -> anyhow::Result<ExitCode> {
+    let name = match name {
+        Some(name) => name.clone(),
+        None => {
+            let own = rustix::system::uname().nodename().to_string_lossy().into_owned();
+            DeviceName::new(&own).context("this computer has no name that fits: give one with --name")?
+        }
+    };
+    let joined = remote::join(robot, &name, || {
+        let mut out = std::io::stderr();
+        write!(out, "Code: ")?;
+        out.flush()?;
+        let mut line = String::new();
+        std::io::stdin().read_line(&mut line)?;
+        Ok(Code::parse(line.trim())?)
+    })?;
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "{} knows this computer as {name}, with the role {}.",
+        joined.robot.host_name(),
+        joined.role
+    )?;
+    writeln!(out, "Its token is kept in {}.", joined.kept_in.display())?;
     Ok(ExitCode::SUCCESS)
 }
 

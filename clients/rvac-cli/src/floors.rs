@@ -11,7 +11,7 @@ use crate::control;
 use crate::socket::Connection;
 
 pub(crate) fn run(job: &FloorJob) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&job.daemon.socket)?;
+    let mut connection = Connection::open(&job.daemon)?;
     let (floors, text) = ask(&mut connection)?;
     let Some(verb) = &job.verb else {
         if job.json {

@@ -16,6 +16,8 @@ mod mixes;
 mod orders;
 mod packet;
 mod probe;
+mod qr;
+mod remote;
 mod replay;
 mod robot;
 mod schedules;

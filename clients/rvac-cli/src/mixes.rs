@@ -26,7 +26,7 @@ pub(crate) fn run(job: &MixJob) -> anyhow::Result<ExitCode> {
 }
 
 fn list(job: &MixJob) -> anyhow::Result<ExitCode> {
-    let profiles = kept_profiles(&mut Connection::open(&job.daemon.socket)?)?;
+    let profiles = kept_profiles(&mut Connection::open(&job.daemon)?)?;
     let mut output = std::io::stdout().lock();
     if profiles.is_empty() {
         writeln!(output, "The robot keeps no mix: the standard one drives.")?;
@@ -47,7 +47,7 @@ fn list(job: &MixJob) -> anyhow::Result<ExitCode> {
 fn show(job: &MixJob, name: Option<&str>) -> anyhow::Result<ExitCode> {
     let profile = match name {
         None => standard_profile(),
-        Some(name) => named_profile(name, &mut Connection::open(&job.daemon.socket)?)?,
+        Some(name) => named_profile(name, &mut Connection::open(&job.daemon)?)?,
     };
     writeln!(std::io::stdout(), "{}", profile.to_pretty_json())?;
     Ok(ExitCode::SUCCESS)

@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, bail};
 use rvac_api::{Request, RequestBody, SEPARATOR, Topic, Update};
 
+use crate::arguments::Daemon;
+use crate::remote;
+
 /// A message longer than this is no message of ours.
 const MESSAGE_BYTES_MAX: usize = 64 << 20;
 
@@ -26,14 +29,26 @@ pub(crate) struct Message {
 }
 
 impl Connection {
-    /// Connects and introduces this program.
-    pub(crate) fn open(path: &Path) -> anyhow::Result<Self> {
+    /// Connects to the daemon, here or on the network, and introduces this program.
+    pub(crate) fn open(daemon: &Daemon) -> anyhow::Result<Self> {
+        match &daemon.robot {
+            Some(robot) => Self::introduced(remote::connect(robot)?),
+            None => Self::open_here(&daemon.socket),
+        }
+    }
+
+    /// Connects to the daemon of this computer.
+    pub(crate) fn open_here(path: &Path) -> anyhow::Result<Self> {
         let stream = UnixStream::connect(path).with_context(|| {
             format!(
                 "cannot reach vthal at {}: is it running? (--socket names another place)",
                 path.display()
             )
         })?;
+        Self::introduced(stream)
+    }
+
+    fn introduced(stream: UnixStream) -> anyhow::Result<Self> {
         let mut connection = Self {
             stream,
             received: Vec::new(),

@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Prints status and device table once.
 pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&options.daemon.socket)?;
+    let mut connection = Connection::open(&options.daemon)?;
     // Views come in this order; a daemon without a robot has no estimate.
     connection.watch(vec![Topic::Status, Topic::Estimate, Topic::Device])?;
     let deadline = Instant::now() + PATIENCE;
@@ -49,7 +49,7 @@ pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
 
 /// Prints changes line by line.
 pub(crate) fn watch(options: &WatchOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&options.daemon.socket)?;
+    let mut connection = Connection::open(&options.daemon)?;
     connection.watch(vec![
         Topic::Status,
         Topic::Device,

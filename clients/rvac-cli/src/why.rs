@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Prints what was asked for.
 pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
-    let connection = Connection::open(&options.daemon.socket)?;
+    let connection = Connection::open(&options.daemon)?;
     if options.stop {
         evidence::print_stop(connection, options.json)?;
     } else if options.felt {

@@ -101,7 +101,7 @@ const DIRECTIONS: [Direction; 29] = [
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "rvac-api", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "rvac-cli",      knows: &["mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api"],          never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },

@@ -79,7 +79,7 @@ enum Home {
 }
 
 /// A binary that cargo put beside that of the server.
-fn binary(name: &str) -> PathBuf {
+pub(crate) fn binary(name: &str) -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_panel-server")).with_file_name(name)
 }
 
@@ -134,6 +134,42 @@ impl Stack {
         let state = stack.folder.join("panel");
         stack.start_server(&packed_panel(), &["--state".as_ref(), state.as_os_str()]);
         stack
+    }
+
+    /// In a home that the robot does not know, with a server that paired devices may use from all networks.
+    pub(crate) fn start_on_network(panel: &Path) -> Self {
+        let mut stack = Self::without_server(Home::Unknown, None);
+        stack.serve_network(panel, ("0", "panel"));
+        stack
+    }
+
+    /// Another robot takes the place of this one.
+    pub(crate) fn serve_as_another(&mut self, panel: &Path) {
+        self.serve_again_on_network(panel, "another");
+    }
+
+    /// This robot is back.
+    pub(crate) fn serve_as_before(&mut self, panel: &Path) {
+        self.serve_again_on_network(panel, "panel");
+    }
+
+    fn serve_again_on_network(&mut self, panel: &Path, state: &str) {
+        self.stop_server();
+        let port = self.port();
+        self.serve_network(panel, (&port, state));
+    }
+
+    fn serve_network(&mut self, panel: &Path, (port, state): (&str, &str)) {
+        let has_v6 = Path::new("/proc/net/if_inet6").exists();
+        let all = if has_v6 { "::" } else { "0.0.0.0" };
+        let state = self.folder.join(state);
+        let more: [&OsStr; 4] = [
+            "--bind".as_ref(),
+            all.as_ref(),
+            "--state".as_ref(),
+            state.as_os_str(),
+        ];
+        self.serve((&self.daemon_socket(), port), panel, &more);
     }
 
     /// What `rvac` says at the console of that server.
@@ -296,15 +332,14 @@ impl Stack {
         self.processes.pop();
     }
 
+    fn port(&self) -> String {
+        let port = self.address.trim_end_matches('/').rsplit(':').next();
+        port.unwrap().to_owned()
+    }
+
     /// Serves this panel at the same address again.
     pub(crate) fn serve_again(&mut self, panel: &Path) {
-        let port = self
-            .address
-            .trim_end_matches('/')
-            .rsplit(':')
-            .next()
-            .unwrap()
-            .to_owned();
+        let port = self.port();
         self.serve((&self.daemon_socket(), &port), panel, &[]);
     }
 

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use pairing::{DeviceName, Role, TokenId};
 
+use crate::remote::Address;
+
 /// Where panel-server listens for the person at its computer.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Console {
@@ -26,6 +28,12 @@ pub(crate) struct PairOptions {
     /// What the new device may do: view, drive or admin.
     #[arg(long, default_value_t = Role::Admin)]
     pub(crate) role: Role,
+    /// Pair this computer with that robot, by a code that it shows.
+    #[arg(long, value_name = "https://NAME[:PORT]", conflicts_with = "role")]
+    pub(crate) robot: Option<Address>,
+    /// How this computer is called in the robot's list; its host name otherwise.
+    #[arg(long, value_parser = DeviceName::new, requires = "robot")]
+    pub(crate) name: Option<DeviceName>,
 }
 
 #[derive(Debug, Args)]

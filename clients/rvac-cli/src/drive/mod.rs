@@ -43,7 +43,7 @@ enum Event {
 }
 
 pub(crate) fn run(options: &DriveOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&options.daemon.socket)?;
+    let mut connection = Connection::open(&options.daemon)?;
     let profile = profile::chosen(options, &mut connection)?;
     let robot = profile::robot(&mut connection)?;
     let (events, inbox) = channel();

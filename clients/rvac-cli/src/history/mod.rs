@@ -17,7 +17,7 @@ use crate::control::{self, ANSWER};
 use crate::socket::Connection;
 
 pub(crate) fn run(job: &HistoryJob) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&job.daemon.socket)?;
+    let mut connection = Connection::open(&job.daemon)?;
     match &job.verb {
         None => list(job, &mut connection),
         Some(HistoryVerb::Show { number }) => show(job, *number, &mut connection),

@@ -21,7 +21,7 @@ pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
         None => show(job),
         Some(MapVerb::List { floor }) => list(&job.daemon, floor.as_deref()),
         Some(MapVerb::Restore { number, floor }) => {
-            let mut connection = Connection::open(&job.daemon.socket)?;
+            let mut connection = Connection::open(&job.daemon)?;
             let request = RequestBody::RestoreMap {
                 number: *number,
                 floor: floor_meant(&mut connection, floor.as_deref())?,
@@ -45,7 +45,7 @@ fn show(job: &MapJob) -> anyhow::Result<ExitCode> {
         text,
         estimate,
         pose,
-    } = known::ask(&mut Connection::open(&job.daemon.socket)?)?;
+    } = known::ask(&mut Connection::open(&job.daemon)?)?;
     if job.json {
         writeln!(stdout(), "{text}")?;
     } else {
@@ -148,7 +148,7 @@ fn doors_of(home: &HomeView, room: u16) -> String {
 }
 
 fn list(daemon: &Daemon, floor: Option<&str>) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&daemon.socket)?;
+    let mut connection = Connection::open(daemon)?;
     let floor = floor_meant(&mut connection, floor)?;
     let request = (RequestBody::Maps { floor }, control::ANSWER);
     let maps = control::answer(&mut connection, request, |update, _| match update {

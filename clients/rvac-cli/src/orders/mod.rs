@@ -21,13 +21,13 @@ use crate::socket::Connection;
 const PATIENCE: Duration = Duration::from_secs(60);
 
 pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&order.daemon.socket)?;
+    let mut connection = Connection::open(&order.daemon)?;
     let body = RequestBody::Clean(to_order(&order.parts, &mut connection)?);
     control::ask(&mut connection, body)
 }
 
 pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&options.order.daemon.socket)?;
+    let mut connection = Connection::open(&options.order.daemon)?;
     let order = to_order(&options.order.parts, &mut connection)?;
     let request = (RequestBody::Estimate(order), PATIENCE);
     let (estimate, text) = control::answer(&mut connection, request, |update, text| match update {

@@ -12,7 +12,7 @@ use crate::home::known;
 use crate::socket::Connection;
 
 pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&job.daemon.socket)?;
+    let mut connection = Connection::open(&job.daemon)?;
     let home = known::ask(&mut connection)?.home;
     let body = match &job.verb {
         None => {

@@ -13,7 +13,7 @@ use crate::socket::Connection;
 pub(crate) fn zones(job: &ZoneJob) -> anyhow::Result<ExitCode> {
     let body = match &job.verb {
         None => {
-            let home = known::ask(&mut Connection::open(&job.daemon.socket)?)?.home;
+            let home = known::ask(&mut Connection::open(&job.daemon)?)?.home;
             write!(stdout(), "{}", table(&home))?;
             return Ok(ExitCode::SUCCESS);
         }

@@ -18,7 +18,7 @@ use crate::orders;
 use crate::socket::Connection;
 
 pub(crate) fn run(job: &ScheduleJob) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(&job.daemon.socket)?;
+    let mut connection = Connection::open(&job.daemon)?;
     let Some(body) = request(job, &mut connection)? else {
         return show(job, &mut connection);
     };

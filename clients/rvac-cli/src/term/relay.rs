@@ -23,7 +23,7 @@ enum Event {
 }
 
 pub(super) fn run(socket: &Path, options: &TermOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open(socket)?;
+    let mut connection = Connection::open_here(socket)?;
     let mut sender = connection.sender()?;
     let (events, inbox) = channel();
     connection.watch(vec![Topic::Packets])?;
