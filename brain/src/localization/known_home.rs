@@ -344,7 +344,8 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
             assert!(steps < 15_000, "not found within five minutes");
         }
         let off_m = truth.off_m(&localization);
-        assert!(off_m < 0.2, "{off_m} m");
+        // As near as the filter asks for, and by what its own map is off.
+        assert!(off_m < 0.3, "{off_m} m");
     }
 }
 

@@ -9,9 +9,13 @@ use crate::localization::calibration::Gain;
 
 /// Time between the two moments at least, seconds.
 const WINDOW_S: f64 = 20.0;
+/// Where no wall was seen for longer than this a wrong wall may stand at the end, seconds.
+const WINDOW_MAX_S: f64 = 60.0;
 /// Deviation of a heading that walls have told, radians: strokes are bent by what reflects differently along them.
-const HEADING_SIGMA_RAD: f64 = 0.02;
-/// A wall of no quarter tells the heading when so many marks lie on it.
+const HEADING_SIGMA_RAD: f64 = 0.03;
+/// The gyro is never wrong by more than this over such a time, radians: the wall is.
+const OFF_MAX_RAD: f64 = 0.1;
+/// In a home without right angles a wall tells the heading when so many marks lie on it.
 const MARKS_MIN: u32 = 4;
 
 /// Where the next gain begins.
@@ -31,13 +35,17 @@ impl GainLog {
                 break;
             }
             let wall = graph.walls.get(mark.wall);
-            let tells = wall.is_some_and(|wall| wall.quarter.is_some() || wall.marks >= MARKS_MIN);
+            let is_square = graph.square_rad.is_some();
+            let tells =
+                wall.is_some_and(|wall| wall.quarter.is_some() || !is_square && wall.marks >= MARKS_MIN);
             if !tells {
                 continue;
             }
             match self.gain_up_to(mark.node, graph) {
                 Some(gain) if gain.time_s >= WINDOW_S => {
-                    gains.push(gain);
+                    let is_sound = gain.time_s <= WINDOW_MAX_S
+                        && (gain.gained_rad - gain.counted_rad).abs() <= OFF_MAX_RAD;
+                    gains.extend(is_sound.then_some(gain));
                     self.next = mark.node;
                 }
                 Some(_) => {}
@@ -71,7 +79,7 @@ mod tests {
 
     const FULL_RAD: f64 = core::f64::consts::TAU;
     /// What the gyro counts of a turn.
-    const SCALE: f64 = 1.02;
+    const SCALE: f64 = 1.005;
 
     #[test]
     fn a_gain_is_what_the_walls_say_of_a_turn_that_was_counted_wrongly() {

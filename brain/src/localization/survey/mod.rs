@@ -35,8 +35,8 @@ use crate::observation::Observation;
 /// holds on to a wrong wall.
 const SLIP_M2_PER_M: f64 = 4.0e-4;
 const STEP_M2: f64 = 4.0e-6;
-/// Noise of a gyro's heading, square radians per second: 0.02 degrees per square root of a second.
-const GYRO_RAD2_PER_S: f64 = 1.2e-7;
+/// Noise of a gyro's heading, square radians per second: 0.04 degrees per square root of a second, that of a bad robot, too.
+const GYRO_RAD2_PER_S: f64 = 4.8e-7;
 /// Slip in heading where there is no gyro, square radians per metre.
 const SLIP_RAD2_PER_M: f64 = 7.6e-5;
 /// Most nodes; what comes later is placed by the walls that are known by then.
