@@ -10,13 +10,14 @@ use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
-    Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, KeptFloor, MapEdit, MapOrder, MixOrder, MixTask,
-    ScheduleOrder,
+    Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder, KeptFloor, MapEdit, MapOrder,
+    MixOrder, MixTask, ScheduleOrder,
 };
 
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::floor_folder::{FloorError, FloorFolder};
+use crate::health_file;
 use crate::mix_folder::{MixError, MixFolder};
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
@@ -31,6 +32,8 @@ pub(crate) struct KeptPaths {
     pub(crate) mixes: MixFolder,
     /// The schedules.
     pub(crate) schedules: PathBuf,
+    /// The loads of the motors.
+    pub(crate) health: PathBuf,
     /// The records of runs.
     pub(crate) runs: RunFolder,
 }
@@ -44,6 +47,7 @@ enum Kept {
     Order(MapOrder),
     MixOrder(MixOrder),
     Schedules(Box<ScheduleOrder>),
+    Health(Box<HealthOrder>),
     Run(Box<RunRecord>),
 }
 
@@ -167,6 +171,12 @@ impl CheckpointHandle {
         self.try_send(Kept::Schedules(Box::new(order)))
     }
 
+    /// Hands loads of motors over; `false` when the disk is too slow to take them now.
+    #[must_use]
+    pub(crate) fn keep_health(&self, order: HealthOrder) -> bool {
+        self.try_send(Kept::Health(Box::new(order)))
+    }
+
     /// Hands the record of a run over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn keep_run(&self, record: Box<RunRecord>) -> bool {
@@ -221,6 +231,11 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                     let result = schedule_file::save(&paths.schedules, &order.book);
                     let result = result.map_err(|error| unkept_schedules(&error));
                     events.blocking_send(Event::Schedules(order.number, result)).ok();
+                }
+                Kept::Health(order) => {
+                    let result = health_file::save(&paths.health, &order.health);
+                    let result = result.map_err(|error| unkept_health(&error));
+                    events.blocking_send(Event::Health(order.number, result)).ok();
                 }
             }
         }
@@ -312,6 +327,12 @@ fn unkept(error: &io::Error) -> String {
     format!(
         "The robot knows it now, but the map cannot be written: {error}. Check the disk and the state folder; after a \
          restart it would be forgotten."
+    )
+}
+
+fn unkept_health(error: &io::Error) -> String {
+    format!(
+        "The loads of the motors cannot be written: {error}. Check the disk and the state folder; they are as they were before."
     )
 }
 

@@ -152,6 +152,7 @@ impl Daemon {
             Event::Runs(answer) => self.take_run_answer(answer),
             Event::RunKept(number, result) => self.handle(Input::RunKept { number, result }),
             Event::RecordingOpened(run, name) => self.handle(Input::RecordingOpened { run, name }),
+            Event::Health(number, result) => self.handle(Input::HealthKept { number, result }),
             Event::Schedules(number, result) => self.handle(Input::SchedulesKept { number, result }),
             Event::Terminate(signal) => self.terminate(signal),
         }
@@ -284,6 +285,7 @@ impl Daemon {
             }
         }
         let schedules = self.outputs.schedules.take();
+        let health = self.outputs.health.take();
         let run = self.outputs.run.take();
         self.outputs.clear();
         if let Some(record) = run {
@@ -291,6 +293,9 @@ impl Daemon {
         }
         if let Some(order) = schedules {
             self.keep_schedules(order);
+        }
+        if let Some(order) = health {
+            self.keep_health(order);
         }
     }
 

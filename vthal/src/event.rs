@@ -38,6 +38,8 @@ pub(crate) enum Event {
     RunKept(u64, Result<Box<Run>, String>),
     /// The recording of a run, by its number since the daemon's start, has this file name.
     RecordingOpened(u32, String),
+    /// Loads of motors are on the disk, or a sentence says why they are not.
+    Health(u64, Result<(), String>),
     /// Schedules are on the disk, or a sentence says why they are not.
     Schedules(u64, Result<(), String>),
     /// The core asked to be called now.

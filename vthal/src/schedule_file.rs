@@ -1,10 +1,11 @@
 //! The schedules on disk: `schedules.json` in the state folder. What cannot be read is put aside, never overwritten.
 
-use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use vthal_core::schedule::{Book, StoredBook};
+
+use crate::newest_file::{Newest, newest};
 
 /// What a daemon finds at its start.
 #[derive(Debug, Default)]
@@ -19,31 +20,20 @@ pub(crate) struct FoundSchedules {
 
 /// Reads the newest file that is whole.
 pub(crate) fn load(path: &Path) -> FoundSchedules {
-    let mut found = FoundSchedules::default();
-    for version in kept_file::versions(path)
-        .iter()
-        .filter(|version| version.exists())
-    {
-        match read(version) {
-            Ok(book) => {
-                found.book = book;
-                return found;
-            }
-            Err(error) => {
-                let aside = put_aside(version);
-                found.complaints.push(format!(
-                    "the schedules in {} cannot be read: {error}; {aside}",
-                    version.display()
-                ));
-                found.distrusted = true;
-            }
-        }
-    }
-    if found.distrusted {
+    let Newest {
+        value,
+        mut complaints,
+    } = newest(path, "the schedules", parse);
+    let distrusted = !complaints.is_empty();
+    if distrusted && value.is_none() {
         let empty = "there are no schedules now: nothing starts by itself until somebody makes new ones";
-        found.complaints.push(empty.to_owned());
+        complaints.push(empty.to_owned());
     }
-    found
+    FoundSchedules {
+        book: value.unwrap_or_default(),
+        distrusted,
+        complaints,
+    }
 }
 
 /// Keeps the schedules in place of those before.
@@ -55,26 +45,9 @@ pub(crate) fn save(path: &Path, book: &StoredBook) -> io::Result<()> {
     kept_file::replace(path, text.as_bytes())
 }
 
-fn read(path: &Path) -> Result<Book, String> {
-    let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    let stored: StoredBook = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+fn parse(text: &str) -> Result<Book, String> {
+    let stored: StoredBook = serde_json::from_str(text).map_err(|error| error.to_string())?;
     Book::try_from(stored).map_err(|error| error.to_string())
-}
-
-/// Renames a damaged file to a name that nothing has; says how that went.
-fn put_aside(path: &Path) -> String {
-    let name = |number: u32| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(format!(".damaged-{number}"));
-        PathBuf::from(name)
-    };
-    let Some(free) = (1..1_000).map(name).find(|name| !name.exists()) else {
-        return "it stays where it is, for there are too many damaged ones".to_owned();
-    };
-    match fs::rename(path, &free) {
-        Ok(()) => format!("it is kept as {}", free.display()),
-        Err(error) => format!("it cannot be put aside: {error}"),
-    }
 }
 
 #[cfg(test)]

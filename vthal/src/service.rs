@@ -16,6 +16,7 @@ use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::floor_folder::FloorFolder;
+use crate::health_file;
 use crate::instance::{self, InstanceError};
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
@@ -44,6 +45,8 @@ const RECORDINGS: &str = "runs";
 const MIXES: &str = "mixes";
 /// Name of the file of schedules in the state folder.
 const SCHEDULES: &str = "schedules.json";
+/// Name of the file of the motors' loads in the state folder.
+const HEALTH: &str = "health.json";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -88,6 +91,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         floors: FloorFolder::new(config.state.join(MAPS)),
         mixes: MixFolder::new(config.state.join(MIXES)),
         schedules: config.state.join(SCHEDULES),
+        health: config.state.join(HEALTH),
         runs: RunFolder::new(config.state.join(HISTORY), config.state.join(RECORDINGS)),
     };
     let core_config = core_config(config, &kept)?;
@@ -129,8 +133,9 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 /// Settings of the core, with what is kept in the state folder.
 fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
     let found = schedule_file::load(&kept.schedules);
+    let (health, health_complaints) = health_file::load(&kept.health);
     let (floors, floor_complaints) = kept.floors.load();
-    let complaints = [found.complaints, floor_complaints].concat();
+    let complaints = [found.complaints, health_complaints, floor_complaints].concat();
     for complaint in &complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
@@ -141,6 +146,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
     let (resume, next_run) = left_over(kept);
     Ok(CoreConfig {
         schedules: found.book,
+        health,
         schedules_distrusted: found.distrusted,
         zone: system_zone(),
         floors,

@@ -75,11 +75,12 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 45] = [
+pub const VERBS: [(&str, Role); 47] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
     ("evidence",        Role::View),
+    ("health",          Role::View),
     ("maps",            Role::View),
     ("mixes",           Role::View),
     ("runs",            Role::View),
@@ -106,6 +107,7 @@ pub const VERBS: [(&str, Role); 45] = [
     ("split-room",      Role::Admin),
     ("join-rooms",      Role::Admin),
     ("undo-room-change", Role::Admin),
+    ("reset-health",    Role::Admin),
     ("restore-map",     Role::Admin),
     ("new-floor",       Role::Admin),
     ("name-floor",      Role::Admin),

@@ -17,6 +17,7 @@ mod link;
 mod log_view;
 mod map;
 mod mixes;
+mod parts_view;
 mod rooms_view;
 mod schedules;
 mod status_view;

@@ -4,8 +4,8 @@ use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows, top_speeds};
 use rvac_api::{
-    DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody, RobotDescription,
-    SimulatedTruth, Standstill, Status, Topic,
+    ComponentHealth, DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody,
+    RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -30,6 +30,9 @@ pub(crate) const SCHEDULE_ID: u32 = 4;
 
 /// Number of the requests for a run that is over.
 pub(crate) const RUN_ID: u32 = 5;
+
+/// Number of the requests that say that a part was cleaned.
+const HEALTH_ID: u32 = 6;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -69,6 +72,8 @@ pub(crate) struct Store {
     pub(crate) edits: Edits,
     /// What starts by itself.
     pub(crate) schedules: ScheduleDesk,
+    /// How the parts are.
+    pub(crate) health: RwSignal<Vec<ComponentHealth>>,
     /// Runs that are over.
     pub(crate) history: HistoryDesk,
     /// The log.
@@ -106,6 +111,7 @@ impl Store {
             orders: Orders::new(),
             edits: Edits::new(),
             schedules: ScheduleDesk::new(),
+            health: RwSignal::new(Vec::new()),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
@@ -174,7 +180,16 @@ impl Store {
         }
     }
 
+    /// Says that a part was cleaned.
+    pub(crate) fn reset_health(self, component: String) {
+        self.refusal.set(None);
+        self.send(Some(HEALTH_ID), RequestBody::ResetHealth { component });
+    }
+
     fn on_done(self, id: u32) {
+        if id == HEALTH_ID {
+            self.send(None, RequestBody::Health);
+        }
         self.edits.on_done(id, &self.known_home());
         self.schedules.on_done(id);
         if id == MIX_ID
@@ -288,6 +303,7 @@ impl Store {
                 self.edits.on_floor(floors.here);
                 self.floors.set(floors);
             }
+            Message::Health { components, .. } => self.health.set(components),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),

@@ -11,6 +11,7 @@ use crate::history::HistorySheet;
 use crate::home_view::HomeSheet;
 use crate::language::words;
 use crate::log_view::LogView;
+use crate::parts_view::PartsView;
 use crate::schedules::ScheduleSheet;
 use crate::store::Store;
 use crate::why_view::WhyView;
@@ -87,6 +88,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
             <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 5>
                 <Show when=move || open.get() == 5>
                     <DeviceView store />
+                    <PartsView store />
                     <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
                 </Show>
             </div>

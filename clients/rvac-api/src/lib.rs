@@ -9,6 +9,7 @@
 extern crate alloc;
 
 mod floor;
+mod health;
 mod history;
 mod home;
 mod order;
@@ -19,6 +20,7 @@ mod thought;
 mod update;
 
 pub use floor::{FloorQuestion, FloorView, FloorsView};
+pub use health::ComponentHealth;
 pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
     RunTrack, TrackPose, TrackReading,

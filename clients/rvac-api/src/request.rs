@@ -117,6 +117,13 @@ pub enum RequestBody {
     /// Asks what the robot has felt and tried up to now, for example after it refused something; answered by
     /// [`crate::Update::Evidence`].
     Evidence,
+    /// Asks how worn or dirty the parts that turn are; answered by [`crate::Update::Health`].
+    Health,
+    /// Says that a part was cleaned or changed: its load is learnt anew. Answered when that is on the disk.
+    ResetHealth {
+        /// Name, as in [`crate::ComponentHealth::component`].
+        component: String,
+    },
     /// Cleans a small disc around the present place.
     Spot,
     /// Stands still, keeps the job.

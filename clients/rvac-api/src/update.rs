@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay, Run, RunRecord,
-    RunTrack, Schedules, Standstill,
+    ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay,
+    Run, RunRecord, RunTrack, Schedules, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -63,6 +63,14 @@ pub enum Update {
         /// Up to the request.
         #[serde(flatten)]
         evidence: Evidence,
+    },
+    /// How the parts are.
+    Health {
+        /// Number of the request.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        id: Option<u32>,
+        /// All parts whose loads are measured.
+        components: Vec<ComponentHealth>,
     },
     /// The versions of the map of a floor that are kept.
     Maps {

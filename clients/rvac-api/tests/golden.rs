@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPower, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
+    BatteryReading, BumpMark, CleaningPower, ComponentHealth, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
     Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart,
     KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun,
     PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView, RoomHere,
@@ -1019,6 +1019,28 @@ fn standstill() {
         r#"{"e":"evidence","id":4,"felt":[{"at_s":-0.2,"v":0.25,"w":-0.1,"signs":["bumper-left","not-moving"],"echo":0.5,"currents_a":[0.5,0.25,0.0]},{"at_s":0.0,"v":0.0,"w":0.0}]}"#,
     );
     request(RequestBody::Evidence, r#"{"c":"evidence"}"#);
+    check(
+        &Update::Health {
+            id: Some(5),
+            components: vec![ComponentHealth {
+                component: "brush-main".to_owned(),
+                verdict: "hard".to_owned(),
+                minutes: 40,
+                load_a: Some(0.625),
+                usual_a: Some(0.5),
+                share: Some(1.25),
+                text: "Clean it.".to_owned(),
+            }],
+        },
+        r#"{"e":"health","id":5,"components":[{"component":"brush-main","verdict":"hard","minutes":40,"load_a":0.625,"usual_a":0.5,"share":1.25,"text":"Clean it."}]}"#,
+    );
+    request(RequestBody::Health, r#"{"c":"health"}"#);
+    request(
+        RequestBody::ResetHealth {
+            component: "wheel-left".to_owned(),
+        },
+        r#"{"c":"reset-health","component":"wheel-left"}"#,
+    );
     let told = Standstill {
         number: 2,
         t: 61.5,

@@ -2,6 +2,7 @@
 
 mod devices;
 mod floors;
+mod health;
 mod history;
 mod orders;
 mod schedules;
@@ -14,6 +15,7 @@ use crate::remote::Address;
 
 pub(crate) use devices::{ClientsJob, ClientsVerb, Console, PairOptions, TrustOptions};
 pub(crate) use floors::{FloorJob, FloorVerb};
+pub(crate) use health::{HealthJob, HealthVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
 pub(crate) use orders::{
     EstimateOptions, OrderOptions, OrderParts, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb,
@@ -55,6 +57,8 @@ pub(crate) enum Subcommand {
     Schedule(ScheduleJob),
     /// The runs that are over, and what came of them; without a verb: list them, newest first.
     History(HistoryJob),
+    /// How worn or dirty the parts are that turn, by what their motors draw.
+    Health(HealthJob),
     /// What the robot decided lately, and why.
     Why(WhyOptions),
     /// Run a recording through the brain again.

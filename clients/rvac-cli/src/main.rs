@@ -8,6 +8,7 @@ mod control;
 mod devices;
 mod drive;
 mod floors;
+mod health;
 mod history;
 mod home;
 mod lines;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Subcommand::Zone(job) => orders::zones(&job),
         Subcommand::Schedule(job) => schedules::run(&job),
         Subcommand::History(job) => history::run(&job),
+        Subcommand::Health(job) => health::run(&job),
         Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),

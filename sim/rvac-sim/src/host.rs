@@ -5,9 +5,12 @@ use brain::mapping::StoredMap;
 use brain::observation::BeaconRange;
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Pose as TruePose};
-use rvac_api::{FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status};
+use rvac_api::{
+    ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status,
+};
+use vthal_core::health::StoredHealth;
 use vthal_core::schedule::{Book, StoredBook};
-use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, Input, Outputs};
+use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, Outputs};
 
 use crate::HostCost;
 use crate::host_floors::HostFloors;
@@ -29,6 +32,7 @@ pub struct Host {
     /// Its clock on the wall, if it has one.
     wall: Option<HostWall>,
     schedules: Option<StoredBook>,
+    health: Option<StoredHealth>,
     /// Runs that are over.
     runs: Vec<RunRecord>,
     floors: HostFloors,
@@ -54,6 +58,7 @@ impl Host {
             born_us: now_us,
             wall: None,
             schedules: None,
+            health: None,
             runs: Vec::new(),
             disk_is_mute: false,
         };
@@ -111,6 +116,18 @@ impl Host {
         self.core.schedules()
     }
 
+    /// The loads of motors that a daemon after this one finds on its disk.
+    #[must_use]
+    pub fn kept_health(&self) -> Option<StoredHealth> {
+        self.health.clone()
+    }
+
+    /// How the parts are, as clients are told.
+    #[must_use]
+    pub fn health(&self) -> Vec<ComponentHealth> {
+        self.core.component_health()
+    }
+
     /// The schedules that a daemon after this one finds on its disk.
     #[must_use]
     pub fn kept_schedules(&self) -> Book {
@@ -163,6 +180,7 @@ impl Host {
             log.append(&mut self.outputs.log);
         }
         let schedules = self.outputs.schedules.take();
+        let health = self.outputs.health.take();
         let run = self.outputs.run.take();
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
         if let Some(kept) = self.outputs.home.take() {
@@ -171,6 +189,9 @@ impl Host {
         self.outputs.clear();
         if let Some(record) = run {
             self.keep_run(now_us, *record);
+        }
+        if let Some(order) = health {
+            self.keep_health(now_us, order);
         }
         for order in floor_orders {
             let input = self.floors.obey(order.task);
@@ -182,6 +203,14 @@ impl Host {
                 let (number, result) = (order.number, Ok(()));
                 self.handle(now_us, Input::SchedulesKept { number, result });
             }
+        }
+    }
+
+    fn keep_health(&mut self, now_us: u64, order: HealthOrder) {
+        self.health = Some(order.health);
+        if !self.disk_is_mute {
+            let (number, result) = (order.number, Ok(()));
+            self.handle(now_us, Input::HealthKept { number, result });
         }
     }
 

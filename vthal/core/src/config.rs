@@ -5,6 +5,7 @@ use brain::command::StrategyName;
 
 use crate::Checkpoint;
 use crate::floors::KeptFloor;
+use crate::health::Health;
 use crate::schedule::{Book, Zone};
 
 /// Settings of the core, fixed for its life.
@@ -35,6 +36,8 @@ pub struct CoreConfig {
     pub schedules: Book,
     /// Whether the newest decisions of theirs may be lost: then nothing that was due before the start is made up for.
     pub schedules_distrusted: bool,
+    /// The loads of motors as they were kept.
+    pub health: Health,
     /// The time zone of the system.
     pub zone: Zone,
     /// What was wrong with what was kept, one sentence each: the first lines of the log that clients see.
@@ -58,6 +61,7 @@ impl Default for CoreConfig {
             resume: None,
             schedules: Book::default(),
             schedules_distrusted: false,
+            health: Health::default(),
             zone: Zone::utc(),
             complaints: Vec::new(),
             next_run: 1,

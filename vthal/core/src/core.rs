@@ -6,6 +6,7 @@ mod explain;
 mod feed;
 mod firmware;
 mod floors;
+mod health;
 mod history;
 mod link_facts;
 mod manual;
@@ -35,6 +36,7 @@ use crate::tap::Tap;
 use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
 use checkpoints::CheckpointClock;
 use feed::Feed;
+use health::HealthDesk;
 use history::UnkeptRuns;
 use link_facts::LinkFacts;
 use rvac_api::LogLevel;
@@ -80,6 +82,7 @@ pub struct Core {
     scheduler: Scheduler,
     schedules_told: Option<Schedules>,
     schedules_told_us: u64,
+    health: HealthDesk,
     runs: RunFollower,
     unkept: UnkeptRuns,
 }
@@ -98,6 +101,7 @@ impl Core {
             floors: Floors::new(core::mem::take(&mut config.floors)),
             schedules_told: None,
             schedules_told_us: 0,
+            health: HealthDesk::new(core::mem::take(&mut config.health)),
             runs: RunFollower::new(config.next_run),
             unkept: UnkeptRuns::default(),
             config,
@@ -155,6 +159,7 @@ impl Core {
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
+            Input::HealthKept { number, result } => self.health_kept(now_us, (number, result), outputs),
             Input::RunKept { number, result } => self.run_kept(now_us, (number, result), outputs),
             Input::RecordingOpened { run, name } => self.runs.recorded_as(run, name),
             Input::Wake => {}

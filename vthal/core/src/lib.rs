@@ -22,6 +22,7 @@ pub mod device;
 mod diary;
 mod evidence;
 mod floors;
+pub mod health;
 mod history;
 mod home_view;
 mod input;
@@ -43,6 +44,6 @@ pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    Delivery, Direction, FloorHome, FloorOrder, FloorTask, MapEdit, MapOrder, MixOrder, MixTask, Outputs,
-    Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask, ScheduleOrder,
+    Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder, MapEdit, MapOrder, MixOrder, MixTask,
+    Outputs, Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask, ScheduleOrder,
 };

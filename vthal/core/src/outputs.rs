@@ -5,6 +5,7 @@ use rvac_api::{DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status,
 
 use crate::Checkpoint;
 use crate::ClientId;
+use crate::health::StoredHealth;
 use crate::schedule::StoredBook;
 
 /// Collected results of [`crate::Core::handle`]. The shell empties it after each call; keeping the value keeps its buffers.
@@ -32,6 +33,8 @@ pub struct Outputs {
     pub mix_orders: Vec<MixOrder>,
     /// Schedules for the disk.
     pub schedules: Option<ScheduleOrder>,
+    /// Loads of motors for the disk.
+    pub health: Option<HealthOrder>,
     /// A run that is over, for the disk. The shell says with [`crate::Input::RunKept`] what came of it; until then no further
     /// one comes.
     pub run: Option<Box<RunRecord>>,
@@ -47,6 +50,15 @@ pub struct ScheduleOrder {
     pub number: u64,
     /// What is kept.
     pub book: StoredBook,
+}
+
+/// Loads of motors that the shell keeps in place of the ones before, and says so with [`crate::Input::HealthKept`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct HealthOrder {
+    /// Number of the order.
+    pub number: u64,
+    /// What is kept.
+    pub health: StoredHealth,
 }
 
 /// Something that a client asks of the kept runs; the shell answers the client itself.
@@ -196,6 +208,7 @@ impl Outputs {
         self.mix_orders.clear();
         self.map_edits.clear();
         self.schedules = None;
+        self.health = None;
         self.run = None;
         self.run_queries.clear();
     }

@@ -1,7 +1,7 @@
 //! What goes to the thread that writes and reads files, and what comes back from it.
 
 use rvac_api::{RunRecord, Update};
-use vthal_core::{ClientId, FloorOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder};
+use vthal_core::{ClientId, FloorOrder, HealthOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder};
 
 use super::{Daemon, refusal};
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
@@ -108,6 +108,19 @@ impl Daemon {
         if !self.wiring.checkpoints.keep_schedules(order) {
             let text = "The disk is too slow to take schedules now; they are as they were before.".to_owned();
             self.handle(Input::SchedulesKept {
+                number,
+                result: Err(text),
+            });
+        }
+    }
+
+    pub(super) fn keep_health(&mut self, order: HealthOrder) {
+        let number = order.number;
+        if !self.wiring.checkpoints.keep_health(order) {
+            let text =
+                "The disk is too slow to take the loads of the motors now; they are as they were before."
+                    .to_owned();
+            self.handle(Input::HealthKept {
                 number,
                 result: Err(text),
             });

@@ -140,6 +140,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,
         "save-mix" => r#","profile":"{}""#,
+        "reset-health" => r#","component":"brush-main""#,
         "remove-mix" => r#","name":"x""#,
         "enable-schedule" => r#","number":1,"enabled":true"#,
         "skip-next" => r#","number":1,"skip":true"#,

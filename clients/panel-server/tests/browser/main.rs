@@ -17,6 +17,7 @@ mod losses;
 mod mixes;
 mod offline;
 mod pairing;
+mod parts;
 mod relief;
 mod robot;
 mod schedules;

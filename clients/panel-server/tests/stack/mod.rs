@@ -113,6 +113,16 @@ impl Stack {
         Self::new(Home::Unknown, Some(&Self::firmware()), &packed_panel())
     }
 
+    /// In a home that the robot does not know, with this file in the daemon's state folder.
+    pub(crate) fn start_with_state(name: &str, text: &str) -> Self {
+        let folder = Self::new_folder();
+        std::fs::write(folder.join("state").join(name), text).unwrap();
+        let description = PathBuf::from("homes/two-room-flat.toml");
+        let mut stack = Self::without_server_in(folder, description, (Home::Unknown, None));
+        stack.start_server(&packed_panel(), &[]);
+        stack
+    }
+
     /// In a home that the robot does not know, with a server that only paired devices may use.
     pub(crate) fn start_guarded() -> Self {
         Self::guarded(None)

@@ -15,6 +15,7 @@ mod edits;
 mod evidence;
 mod figures;
 mod frame_meter;
+mod health;
 mod history;
 mod home;
 mod latency;
@@ -46,6 +47,7 @@ pub use edits::{Edit, EditError, EditLog};
 pub use evidence::{FeltRow, felt_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use frame_meter::FrameMeter;
+pub use health::{PartRow, part_rows};
 pub use history::{
     Plot, Replay, RunDrawing, RunRow, StopRow, plots, room_here_text, run_drawing, run_figures, run_rows,
     stop_rows,

@@ -57,6 +57,8 @@ pub struct World {
     dock: Option<Dock>,
     battery: Pack,
     charging_speed: f64,
+    /// What the main brush draws over what a clean one does.
+    brush_drag: f64,
     dirt: Dirt,
     lidar: Option<Lidar>,
     faults: Faults,
@@ -111,6 +113,7 @@ impl World {
             dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             charging_speed: 1.0,
+            brush_drag: 1.0,
             dirt: Dirt::new(
                 &home,
                 model.body.swath_m,
@@ -284,6 +287,11 @@ impl World {
     /// stays as it is. For simulations that cannot wait for a charge.
     pub fn set_charging_speed(&mut self, times: f64) {
         self.charging_speed = times.max(1.0);
+    }
+
+    /// Winds hair around the main brush: its motor draws so many times the current of a clean one.
+    pub fn wind_brush(&mut self, times: f64) {
+        self.brush_drag = times.clamp(0.0, 10.0);
     }
 
     /// Puts another pack in.

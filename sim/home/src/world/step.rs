@@ -260,7 +260,7 @@ impl World {
 
     fn step_battery(&mut self, actuation: &Actuation, dt_s: f64) {
         let cleaners = &self.model.cleaners;
-        let brush_a = cleaners.main_a * actuation.brush_main.abs().min(1.0);
+        let brush_a = self.brush_drag * cleaners.main_a * actuation.brush_main.abs().min(1.0);
         let sides_a = if actuation.brush_sides {
             cleaners.sides_a
         } else {

@@ -276,6 +276,7 @@ impl Server {
             | SimulatorRequest::Press { .. }
             | SimulatorRequest::Hold { .. }
             | SimulatorRequest::Paper { .. }
+            | SimulatorRequest::Hair { .. }
             | SimulatorRequest::Place { .. } => {
                 self.touch(request);
                 self.clients.answer(client, &Answer::Done);
@@ -311,6 +312,7 @@ impl Server {
                     );
                 }
             }
+            SimulatorRequest::Hair { times } => world.wind_brush(times),
             SimulatorRequest::Place { x, y, heading } => {
                 let there = Pose {
                     x_m: x,

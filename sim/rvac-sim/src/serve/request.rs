@@ -53,6 +53,11 @@ pub(crate) enum SimulatorRequest {
         #[serde(default)]
         sensor: Option<u8>,
     },
+    /// Winds hair around the main brush.
+    Hair {
+        /// What its motor draws then, over what it draws without.
+        times: f64,
+    },
     /// Puts the robot somewhere else, in the frame of the plan that the socket gives.
     Place {
         /// Metres.
@@ -112,7 +117,7 @@ impl SimulatorRequest {
             reason: "unknown".to_owned(),
             text: format!(
                 "this is no request to the simulator ({error}); known are report, truth, lift, put-down, press, \
-                 push, turn, roll, hold, paper, place and meters"
+                 push, turn, roll, hold, paper, hair, place and meters"
             ),
         })
     }

@@ -8,6 +8,7 @@ pub(super) fn explain(reason: &str) -> &'static str {
         "centre-first" => "The robot was stopped while you drove: let go of the stick once, then drive on.",
         "lease-range" => "The lease must be 1 to 400 ms.",
         "range" => "The speed is beyond what this robot can do; see its description.",
+        "unknown-component" => "There is no such part; the answer to health lists them.",
         "unknown-strategy" => "There is no such strategy; the answer to hello lists them.",
         "expert-off" => "Raw packets are not allowed: set socket.expert in the configuration of vthal.",
         "raw-syntax" => {

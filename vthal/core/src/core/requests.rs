@@ -48,6 +48,8 @@ impl Core {
                 | RequestBody::UndoRoomChange { .. }
                 | RequestBody::Estimate(_)
                 | RequestBody::Evidence
+                | RequestBody::Health
+                | RequestBody::ResetHealth { .. }
                 | RequestBody::AddSchedule(_)
                 | RequestBody::ChangeSchedule { .. }
                 | RequestBody::RemoveSchedule { .. }
@@ -90,6 +92,8 @@ impl Core {
             RequestBody::Start { strategy } => self.start(now_us, (client, strategy.as_deref()), outputs),
             RequestBody::Clean(order) => self.clean(now_us, (client, &order), outputs),
             RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
+            RequestBody::Health => self.tell_health((client, id), outputs),
+            RequestBody::ResetHealth { component } => self.reset_health((client, id), &component, outputs),
             RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }

@@ -47,6 +47,7 @@ impl Core {
         let was_recorded = mind.is_recorded();
         self.commands_wait = mind.holds_commands();
         self.feel();
+        self.weigh_loads(now_us, outputs);
         let Some(mind) = &mut self.mind else { return };
         let actions = mind.step(&mut recorder(recording, outputs));
         if was_recorded && !mind.is_recorded() {
@@ -120,7 +121,7 @@ impl Core {
     }
 
     /// A job cleans at full power, a person who drives as hard as they ask.
-    fn cleaner_power(&self) -> CleanerPower {
+    pub(super) fn cleaner_power(&self) -> CleanerPower {
         let state = self.mind.as_ref().map(|mind| mind.brain().status().state);
         if state == Some(BehaviorState::Manual) {
             self.driver_power

@@ -272,6 +272,16 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     ),
     entry("busy", "Too much was asked at once.", "Try again."),
     entry(
+        "unknown-component",
+        "The robot knows no such part.",
+        "Reload the page.",
+    ),
+    entry(
+        "health-unwritable",
+        "The robot could not write down that the part was cleaned.",
+        "Check its disk, then say it again.",
+    ),
+    entry(
         "unknown-strategy",
         "This way of cleaning is not known.",
         "Choose another one.",

@@ -76,6 +76,16 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("driver-busy", "Keegi teine juhib.", "Oota, kuni ta lahti laseb, või vajuta „Peata“."),
     entry("centre-first", "Robot peatati, kui sa juhtisid.", "Lase korraks lahti, siis juhi edasi."),
     entry("busy", "Korraga küsiti liiga palju.", "Proovi uuesti."),
+    entry(
+        "unknown-component",
+        "Robot ei tunne sellist osa.",
+        "Laadi leht uuesti.",
+    ),
+    entry(
+        "health-unwritable",
+        "Robot ei saanud üles kirjutada, et osa on puhastatud.",
+        "Kontrolli robotis ketast ja ütle uuesti.",
+    ),
     entry("unknown-strategy", "Seda koristusviisi ei tunta.", "Vali mõni teine."),
     entry("expert-off", "Toorpaketid on välja lülitatud.", "Luba need vthali seadistuses."),
     entry("syntax", "Päringut ei saanud lugeda.", "Laadi leht uuesti."),

@@ -9,6 +9,7 @@ mod device;
 mod drive;
 mod evidence;
 mod frame;
+mod health;
 mod history;
 mod home;
 mod map;
@@ -25,6 +26,7 @@ pub use device::DeviceWords;
 pub use drive::DriveWords;
 pub use evidence::EvidenceWords;
 pub use frame::{ActionWords, FrameWords, LogWords, OfferWords, StateWords, UnitWords};
+pub use health::HealthWords;
 pub use history::HistoryWords;
 pub use home::HomeWords;
 pub use map::MapWords;
@@ -139,6 +141,7 @@ pub struct Words {
     pub drive: DriveWords,
     pub evidence: EvidenceWords,
     pub frame: FrameWords,
+    pub health: HealthWords,
     pub history: HistoryWords,
     pub home: HomeWords,
     pub log: LogWords,
@@ -173,6 +176,7 @@ macro_rules! all_screens {
             drive: DriveWords::$which,
             evidence: EvidenceWords::$which,
             frame: FrameWords::$which,
+            health: HealthWords::$which,
             history: HistoryWords::$which,
             home: HomeWords::$which,
             log: LogWords::$which,

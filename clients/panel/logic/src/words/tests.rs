@@ -1,20 +1,21 @@
 //! Checks of the texts themselves.
 
 use super::{
-    AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HistoryWords, HomeWords,
-    Language, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords, StatusWords, Told,
-    UnitWords,
+    AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords, HistoryWords,
+    HomeWords, Language, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords, StatusWords,
+    Told, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
 
-const SCREENS: [&Texts; 16] = [
+const SCREENS: [&Texts; 17] = [
     AccessWords::ALL,
     ActionWords::ALL,
     DeviceWords::ALL,
     DriveWords::ALL,
     EvidenceWords::ALL,
     FrameWords::ALL,
+    HealthWords::ALL,
     HistoryWords::ALL,
     HomeWords::ALL,
     LogWords::ALL,

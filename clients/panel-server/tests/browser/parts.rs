@@ -1,0 +1,61 @@
+//! Wear in the page: a brush that runs hard is told with what to do, until a person says that it is clean.
+
+use std::fmt::Write as _;
+
+use crate::Visit;
+use crate::browser::Screen;
+use crate::stack::Stack;
+
+/// What a daemon has kept of forty minutes of work in which hair came around the brush.
+fn wound() -> String {
+    let gauge = |usual_a: f64, newest_a: f64| {
+        let mut text = String::new();
+        let list = |a: f64| vec![a.to_string(); 10].join(",");
+        write!(
+            text,
+            r#"{{"usual_a":[{}],"newest_a":[{}],"marks":40}}"#,
+            list(usual_a),
+            list(newest_a)
+        )
+        .unwrap();
+        text
+    };
+    format!(
+        r#"{{"version":1,"gauges":{{"brush-main":{},"wheel-left":{},"wheel-right":{}}}}}"#,
+        gauge(0.5, 0.8),
+        gauge(0.25, 0.25),
+        gauge(0.25, 0.25)
+    )
+}
+
+fn says(words: &str) -> String {
+    format!("return document.getElementById('parts')?.textContent.includes('{words}') === true")
+}
+
+#[tokio::test]
+async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
+    let start = || Stack::start_with_state("health.json", &wound());
+    for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
+        let Some(visit) = Visit::with(start, screen).await else {
+            return;
+        };
+        let browser = &visit.browser;
+        browser.click("#theme").await;
+        browser.click("#tab-device").await;
+        browser.until(&says("runs hard: 160 %")).await;
+        browser.until(&says("Take hair and threads off it")).await;
+        browser.until(&says("as usual: 100 %")).await;
+        browser
+            .text("document.getElementById('parts').scrollIntoView({block: 'center'}); return ''")
+            .await;
+        browser.shot(&format!("{name}-parts-dark")).await;
+        crate::accessibility::expect_none(browser, "parts").await;
+        browser.click("#cleaned-brush-main").await;
+        browser.until(&says("0 of 10 minutes")).await;
+        browser.reload().await;
+        browser.until_state(&["idle", "docked"]).await;
+        browser.click("#tab-device").await;
+        browser.until(&says("0 of 10 minutes")).await;
+        browser.until(&says("as usual: 100 %")).await;
+    }
+}

@@ -1,0 +1,25 @@
+//! `rvac health`.
+
+use clap::{Args, Subcommand};
+
+use super::Daemon;
+
+#[derive(Debug, Args)]
+pub(crate) struct HealthJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<HealthVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+    /// Print the daemon's own JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum HealthVerb {
+    /// Say that a part was cleaned or changed: its load is learnt anew.
+    Reset {
+        /// brush-main, wheel-left or wheel-right.
+        component: String,
+    },
+}

@@ -1,0 +1,182 @@
+//! What the loads of motors say of their parts: taken in while the robot cleans, told on demand, begun anew when somebody has
+//! cleaned a part.
+
+use brain::BehaviorState;
+use rvac_api::{ComponentHealth, Failure, LogLevel, Update};
+
+use super::Core;
+use super::feed::currents_a;
+use super::refusal::Refusal;
+use crate::Outputs;
+use crate::device::CleanerPower;
+use crate::health::{Component, Gauge, Health, Load, StoredHealth};
+use crate::journal::Part;
+use crate::outputs::{Delivery, HealthOrder, Recipients};
+use crate::scheduler::Asker;
+
+/// Wheels below this speed, or that differ by more, carry loads of their own kind.
+const STRAIGHT_MIN_M_PER_S: f64 = 0.12;
+const STRAIGHT_DIFFERENCE: f64 = 0.15;
+
+/// The loads, and who waits until a reset is on the disk.
+#[derive(Debug, Default)]
+pub(super) struct HealthDesk {
+    health: Health,
+    orders: u64,
+    resets: Vec<Reset>,
+}
+
+/// A reset that is not on the disk yet.
+#[derive(Debug)]
+struct Reset {
+    order: u64,
+    asker: Asker,
+    component: Component,
+    before: Gauge,
+}
+
+impl HealthDesk {
+    pub(super) fn new(health: Health) -> Self {
+        Self {
+            health,
+            ..Self::default()
+        }
+    }
+
+    fn keep(&mut self, outputs: &mut Outputs) {
+        self.orders += 1;
+        outputs.health = Some(HealthOrder {
+            number: self.orders,
+            health: StoredHealth::from(&self.health),
+        });
+    }
+}
+
+impl Core {
+    /// What the motors draw in this step, if it can be compared with other moments.
+    pub(super) fn weigh_loads(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let Some(load) = self.load(now_us) else { return };
+        let taken = self.health.health.take(&load);
+        if taken.marked {
+            self.health.keep(outputs);
+        }
+        for change in taken.changes {
+            let (level, text) = match change.component.remedy(change.verdict) {
+                Some(remedy) => (LogLevel::Warn, remedy.to_owned()),
+                None => (
+                    LogLevel::Info,
+                    format!("{} runs as usual again.", change.component.name()),
+                ),
+            };
+            self.log(now_us, (level, Part::Vthal, text), outputs);
+        }
+    }
+
+    fn load(&self, now_us: u64) -> Option<Load> {
+        let (mind, description) = (self.mind.as_ref()?, self.description()?);
+        if mind.brain().status().state != BehaviorState::Cleaning {
+            return None;
+        }
+        let state = self.facts.state.as_ref()?;
+        let [left_a, right_a, brush_a] = currents_a(state, description)?;
+        let speeds = self
+            .facts
+            .count_rates_hz
+            .map(|rate_hz| rate_hz * description.count_m);
+        let [slower, faster] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
+        let is_straight = slower >= STRAIGHT_MIN_M_PER_S && faster - slower <= STRAIGHT_DIFFERENCE * faster;
+        let brush_runs = state.cleaners & 1 != 0 && self.cleaner_power() == CleanerPower::FULL;
+        is_straight.then_some(Load {
+            time_us: now_us,
+            wheels_a: Some([left_a, right_a]),
+            brush_a: brush_runs.then_some(brush_a),
+        })
+    }
+
+    /// How worn or dirty the parts are whose loads are measured.
+    #[must_use]
+    pub fn component_health(&self) -> Vec<ComponentHealth> {
+        Component::ALL
+            .map(|component| view(&self.health.health, component))
+            .into()
+    }
+
+    /// A client asks how the parts are.
+    pub(super) fn tell_health(&self, (client, id): Asker, outputs: &mut Outputs) -> Result<(), Refusal> {
+        outputs.deliveries.push(Delivery {
+            to: Recipients::One(client),
+            update: Update::Health {
+                id,
+                components: self.component_health(),
+            },
+        });
+        Ok(())
+    }
+
+    /// A client has cleaned a part. Answered when the disk has it.
+    pub(super) fn reset_health(
+        &mut self,
+        asker: Asker,
+        name: &str,
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let component = Component::from_name(name).ok_or("unknown-component")?;
+        let before = self.health.health.reset(component);
+        self.health.keep(outputs);
+        self.health.resets.push(Reset {
+            order: self.health.orders,
+            asker,
+            component,
+            before,
+        });
+        Ok(())
+    }
+
+    /// The disk has the loads that it was given under this number, or says why it has not.
+    pub(super) fn health_kept(
+        &mut self,
+        now_us: u64,
+        (number, result): (u64, Result<(), String>),
+        outputs: &mut Outputs,
+    ) {
+        if let Err(text) = &result {
+            self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
+        }
+        let (done, waiting) = core::mem::take(&mut self.health.resets)
+            .into_iter()
+            .partition::<Vec<_>, _>(|reset| reset.order <= number);
+        self.health.resets = waiting;
+        for reset in done.into_iter().rev() {
+            let (client, id) = reset.asker;
+            let update = match (&result, id) {
+                (Ok(()), Some(id)) => Update::Done { id },
+                (Ok(()), None) => continue,
+                (Err(text), id) => {
+                    self.health.health.put_back(reset.component, reset.before);
+                    Update::Failed(Failure {
+                        id,
+                        reason: "health-unwritable".to_owned(),
+                        text: text.clone(),
+                    })
+                }
+            };
+            outputs.deliveries.push(Delivery {
+                to: Recipients::One(client),
+                update,
+            });
+        }
+    }
+}
+
+fn view(health: &Health, component: Component) -> ComponentHealth {
+    let (gauge, verdict) = (health.gauge(component), health.verdict(component));
+    ComponentHealth {
+        component: component.name().to_owned(),
+        verdict: verdict.name().to_owned(),
+        minutes: gauge.minutes(),
+        load_a: gauge.present_a().map(f64::from),
+        usual_a: gauge.usual_a().map(f64::from),
+        share: gauge.share().map(f64::from),
+        text: component.remedy(verdict).unwrap_or_default().to_owned(),
+    }
+}

@@ -1,0 +1,73 @@
+//! The loads of motors on disk: `health.json` in the state folder.
+
+use std::io;
+use std::path::Path;
+
+use vthal_core::health::{Health, StoredHealth};
+
+use crate::newest_file::{Newest, newest};
+
+/// The loads as they were kept, and what is wrong with what was kept, for the log.
+pub(crate) fn load(path: &Path) -> (Health, Vec<String>) {
+    let Newest { value, complaints } = newest(path, "the loads of the motors", parse);
+    (value.unwrap_or_default(), complaints)
+}
+
+/// Keeps loads in place of those before.
+///
+/// # Errors
+/// What the file system says.
+pub(crate) fn save(path: &Path, health: &StoredHealth) -> io::Result<()> {
+    let text = serde_json::to_string(health).map_err(io::Error::other)?;
+    kept_file::replace(path, text.as_bytes())
+}
+
+fn parse(text: &str) -> Result<Health, String> {
+    let stored: StoredHealth = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    Health::try_from(stored).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{load, save};
+    use std::fs;
+    use vthal_core::health::{Component, Health, Load, StoredHealth};
+
+    fn measured() -> Health {
+        let mut health = Health::default();
+        for sample in 0..12_000_u64 {
+            health.take(&Load {
+                time_us: sample * 200_000,
+                wheels_a: Some([0.25, 0.5]),
+                brush_a: Some(0.75),
+            });
+        }
+        health
+    }
+
+    #[test]
+    fn what_was_kept_is_found_and_what_cannot_be_is_put_aside() {
+        let folder = std::env::temp_dir().join(format!("vthal-health-{}", std::process::id()));
+        fs::remove_dir_all(&folder).ok();
+        fs::create_dir_all(&folder).expect("creates");
+        let path = folder.join("health.json");
+        assert_eq!(load(&path), (Health::default(), Vec::new()));
+        save(&path, &StoredHealth::from(&measured())).expect("saves");
+        let (found, complaints) = load(&path);
+        assert_eq!(found.gauge(Component::BrushMain).usual_a(), Some(0.75));
+        assert_eq!(found.gauge(Component::WheelRight).share(), Some(1.0));
+        assert!(complaints.is_empty());
+
+        let text = fs::read_to_string(&path).expect("is there");
+        for wrong in [
+            text.replacen("0.75", "-0.75", 1),
+            text.replacen("\"version\":1", "\"version\":2", 1),
+        ] {
+            fs::write(&path, wrong).expect("writes");
+            let (found, complaints) = load(&path);
+            assert_eq!(found, Health::default());
+            assert!(complaints[0].contains("is kept as"), "{complaints:?}");
+        }
+        fs::remove_dir_all(&folder).expect("removes");
+    }
+}

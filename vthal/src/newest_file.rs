@@ -1,0 +1,59 @@
+//! The newest whole version of a kept file. What cannot be read is put aside, never overwritten.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What was found.
+#[derive(Debug)]
+pub(crate) struct Newest<T> {
+    /// The newest that is whole.
+    pub(crate) value: Option<T>,
+    /// What is wrong with newer ones, a sentence each.
+    pub(crate) complaints: Vec<String>,
+}
+
+/// Reads versions of `path`, the newest first, until one is whole. `what` is in the file, for people.
+pub(crate) fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<T, String>) -> Newest<T> {
+    let mut complaints = Vec::new();
+    for version in kept_file::versions(path)
+        .iter()
+        .filter(|version| version.exists())
+    {
+        let text = fs::read_to_string(version).map_err(|error| error.to_string());
+        match text.and_then(|text| parse(&text)) {
+            Ok(value) => {
+                return Newest {
+                    value: Some(value),
+                    complaints,
+                };
+            }
+            Err(error) => {
+                let aside = put_aside(version);
+                complaints.push(format!(
+                    "{what} in {} cannot be read: {error}; {aside}",
+                    version.display()
+                ));
+            }
+        }
+    }
+    Newest {
+        value: None,
+        complaints,
+    }
+}
+
+/// Renames a damaged file to a name that nothing has; says how that went.
+fn put_aside(path: &Path) -> String {
+    let name = |number: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".damaged-{number}"));
+        PathBuf::from(name)
+    };
+    let Some(free) = (1..1_000).map(name).find(|name| !name.exists()) else {
+        return "it stays where it is, for there are too many damaged ones".to_owned();
+    };
+    match fs::rename(path, &free) {
+        Ok(()) => format!("it is kept as {}", free.display()),
+        Err(error) => format!("it cannot be put aside: {error}"),
+    }
+}
