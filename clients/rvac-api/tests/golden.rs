@@ -6,14 +6,14 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPower, ComponentHealth, Decision, DeviceTable, DoorView, Estimate, Evidence, Failure,
-    Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate, JobOrder, JobPart,
-    KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlannedRun,
-    PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView, RoomHere,
-    RoomNaming, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording,
-    RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
-    Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update,
-    Versions, WallView, Weekday,
+    BatteryReading, BumpMark, CleaningPower, ComponentHealth, Decision, DeviceTable, DoorView, Estimate,
+    Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate,
+    JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView,
+    PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView,
+    RoomHere, RoomNaming, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord,
+    RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
+    ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic, TrackPose,
+    TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
