@@ -15,7 +15,7 @@ pub(crate) fn run(job: &HealthJob) -> anyhow::Result<ExitCode> {
         let component = component.clone();
         return control::send(RequestBody::ResetHealth { component }, &job.daemon);
     }
-    let mut connection = Connection::open(&job.daemon.socket)?;
+    let mut connection = Connection::open(&job.daemon)?;
     let request = (RequestBody::Health, control::ANSWER);
     let (parts, text) = control::answer(&mut connection, request, |update, text| match update {
         Update::Health { components, .. } => Some((components, text)),
