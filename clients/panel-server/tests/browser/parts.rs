@@ -42,9 +42,9 @@ async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
         let browser = &visit.browser;
         browser.click("#theme").await;
         browser.click("#tab-device").await;
-        browser.until(&says("runs hard: 160 %")).await;
+        browser.until(&says("runs hard: 160\u{a0}%")).await;
         browser.until(&says("Take hair and threads off it")).await;
-        browser.until(&says("as usual: 100 %")).await;
+        browser.until(&says("as usual: 100\u{a0}%")).await;
         browser
             .text("document.getElementById('parts').scrollIntoView({block: 'center'}); return ''")
             .await;
@@ -56,6 +56,6 @@ async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
         browser.until_state(&["idle", "docked"]).await;
         browser.click("#tab-device").await;
         browser.until(&says("0 of 10 minutes")).await;
-        browser.until(&says("as usual: 100 %")).await;
+        browser.until(&says("as usual: 100\u{a0}%")).await;
     }
 }

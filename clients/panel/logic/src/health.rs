@@ -74,7 +74,7 @@ mod tests {
             part("wheel-right", "learning", None),
         ];
         let rows = part_rows(Language::English.words(), &parts);
-        assert_eq!(rows[0].state, "runs hard: 162 %");
+        assert_eq!(rows[0].state, "runs hard: 162\u{a0}%");
         assert!(rows[0].remedy.contains("hair"));
         assert!(rows[1].remedy.contains("tyre"));
         assert!(rows[2].state.contains("4 of 10") && rows[2].remedy.is_empty());
