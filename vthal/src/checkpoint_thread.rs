@@ -228,14 +228,10 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                         .ok();
                 }
                 Kept::Schedules(order) => {
-                    let result = schedule_file::save(&paths.schedules, &order.book);
-                    let result = result.map_err(|error| unkept_schedules(&error));
-                    events.blocking_send(Event::Schedules(order.number, result)).ok();
+                    events.blocking_send(keep_schedules(&order, paths)).ok();
                 }
                 Kept::Health(order) => {
-                    let result = health_file::save(&paths.health, &order.health);
-                    let result = result.map_err(|error| unkept_health(&error));
-                    events.blocking_send(Event::Health(order.number, result)).ok();
+                    events.blocking_send(keep_health(&order, paths)).ok();
                 }
             }
         }
@@ -328,6 +324,16 @@ fn unkept(error: &io::Error) -> String {
         "The robot knows it now, but the map cannot be written: {error}. Check the disk and the state folder; after a \
          restart it would be forgotten."
     )
+}
+
+fn keep_schedules(order: &ScheduleOrder, paths: &KeptPaths) -> Event {
+    let result = schedule_file::save(&paths.schedules, &order.book);
+    Event::Schedules(order.number, result.map_err(|error| unkept_schedules(&error)))
+}
+
+fn keep_health(order: &HealthOrder, paths: &KeptPaths) -> Event {
+    let result = health_file::save(&paths.health, &order.health);
+    Event::Health(order.number, result.map_err(|error| unkept_health(&error)))
 }
 
 fn unkept_health(error: &io::Error) -> String {

@@ -42,14 +42,26 @@ impl Losses {
     }
 }
 
+/// A robot off its dock, and who sees where it is.
+async fn ready_to_drive() -> Option<(Visit, Witness)> {
+    let visit = Visit::begin(Screen::Desktop).await?;
+    leave_the_dock(&visit.browser).await;
+    let witness = Witness::watch(&visit.stack.simulator_socket());
+    Some((visit, witness))
+}
+
+/// What was held when the driver was lost drives no more when the driver is back.
+fn stays(witness: &Witness, what: &str) {
+    let moves = witness.moves_within(Duration::from_secs(1));
+    assert!(!moves, "{what} that was held meanwhile drives");
+}
+
 #[tokio::test]
 async fn a_hidden_tab_stops_the_wheels() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+    let Some((visit, witness)) = ready_to_drive().await else {
         return;
     };
     let browser = &visit.browser;
-    leave_the_dock(browser).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
     let mut losses = Losses::default();
     for trial in 0..times() {
         hold_until_it_turns(browser, &witness).await;
@@ -60,10 +72,7 @@ async fn a_hidden_tab_stops_the_wheels() {
         losses.watch(&witness, Instant::now());
         browser.close_tab_and_return().await;
         browser.release_key('a').await;
-        assert!(
-            !witness.moves_within(Duration::from_secs(1)),
-            "a key that was held while the tab was hidden drives"
-        );
+        stays(&witness, "a key");
         is_ready(browser).await;
     }
     losses.tell("the tab was hidden");
@@ -71,23 +80,18 @@ async fn a_hidden_tab_stops_the_wheels() {
 
 #[tokio::test]
 async fn a_lost_gamepad_stops_the_wheels() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+    let Some((visit, witness)) = ready_to_drive().await else {
         return;
     };
     let browser = &visit.browser;
-    leave_the_dock(browser).await;
     plug_in(browser).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
     let mut losses = Losses::default();
     for _ in 0..times() {
         turn_by_pad(browser, &witness).await;
         browser.text("window.plugged = false; return ''").await;
         losses.watch(&witness, Instant::now());
         browser.text("window.plugged = true; return ''").await;
-        assert!(
-            !witness.moves_within(Duration::from_secs(1)),
-            "a stick that was held while the pad came back drives"
-        );
+        stays(&witness, "a stick");
         browser.text("stick(0, 0); return ''").await;
         is_ready(browser).await;
     }
@@ -97,12 +101,10 @@ async fn a_lost_gamepad_stops_the_wheels() {
 /// The computer in front of which the person sits stops in the middle of a word: nothing says good-bye.
 #[tokio::test]
 async fn a_browser_that_freezes_stops_the_wheels() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+    let Some((visit, witness)) = ready_to_drive().await else {
         return;
     };
     let browser = &visit.browser;
-    leave_the_dock(browser).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
     let mut losses = Losses::default();
     for _ in 0..times() {
         hold_until_it_turns(browser, &witness).await;
