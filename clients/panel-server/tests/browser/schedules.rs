@@ -17,6 +17,30 @@ async fn until_list_says(browser: &Browser, list: &str, words: &str) {
     browser.until(&script).await;
 }
 
+/// A zone is chosen, another one refused because there is none of that name, and the choice taken back.
+async fn choose_a_zone(browser: &Browser) {
+    browser
+        .until("return document.querySelectorAll('#zones option').length > 300")
+        .await;
+    fill(browser, "zone", "Asia/Kathmandu").await;
+    browser.click("#set-zone").await;
+    until_list_says(browser, "schedule-zone", "those of Asia/Kathmandu").await;
+    browser
+        .text("document.getElementById('zone-title').scrollIntoView({block: 'center'}); return ''")
+        .await;
+    browser.shot("phone-zone").await;
+    fill(browser, "zone", "Mars/Base").await;
+    browser.click("#set-zone").await;
+    browser
+        .until("return document.querySelector('.alert') !== null")
+        .await;
+    until_list_says(browser, "schedule-zone", "those of Asia/Kathmandu").await;
+    browser.click("#system-zone").await;
+    browser
+        .until("return document.getElementById('system-zone') === null")
+        .await;
+}
+
 #[tokio::test]
 async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() {
     let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
@@ -61,6 +85,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
         .await;
     assert_eq!(width, "false", "the page is wider than the phone");
 
+    choose_a_zone(browser).await;
     browser.click("#remove-1").await;
     browser
         .until("return document.querySelectorAll('#schedules li').length === 0")

@@ -2,6 +2,7 @@
 
 mod form;
 mod quiet;
+mod zone;
 
 use leptos::prelude::*;
 use panel_logic::{
@@ -13,6 +14,7 @@ use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
 use form::FormView;
 use quiet::QuietView;
+use zone::ZoneView;
 
 /// Handles on all of it; cheap to copy.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +106,7 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
                 <FormView store />
             </Show>
             <QuietView store />
+            <ZoneView store />
             {list(("next-runs", words().schedule.next_runs, words().schedule.no_next), move || desk.with(|known| next_rows(words(), known)))}
             {list(("past-runs", words().schedule.past_runs, words().schedule.no_past), move || desk.with(|known| past_rows(words(), known)))}
         </div>

@@ -43,6 +43,10 @@ screen! {
         to: "To", "Kuni";
         set: "Set", "Määra";
         no_quiet: "None", "Puudub";
+        zone_title: "Time zone", "Ajavöönd";
+        zone_name: "Name, for example Europe/Tallinn", "Nimi, näiteks Europe/Tallinn";
+        device_zone[1]: "Take that of this device: {0}", "Võta selle seadme oma: {0}";
+        system_zone: "Take that of the robot's computer", "Võta roboti arvuti oma";
         next[1]: "Next: {0}", "Järgmine: {0}";
         no_run: "No run to come.", "Ühtki korda ei ole ees.";
         off: "Switched off.", "Välja lülitatud.";
