@@ -244,8 +244,9 @@ fn a_gap_has_one_place() {
     assert_eq!(ring.pop(), None);
 }
 
-/// One thread pushes, the other takes: nothing is lost, doubled or out of order, and after a loss there is one mark, at its
-/// place.
+/// One thread pushes, the other takes: nothing is lost, doubled or out of order, and at the place of a loss there is a mark. An
+/// interrupt runs to its end before the main loop goes on; a thread may lose an edge while the other one takes the mark of
+/// those before, so here two marks may follow each other, each for an edge of its own.
 #[test]
 fn queues_hold_between_two_threads() {
     static EDGES: EdgeRing<16> = EdgeRing::new();
@@ -278,7 +279,6 @@ fn queues_hold_between_two_threads() {
                 taken += 1;
             }
             Some(Queued::Overrun) => {
-                assert!(!after_gap, "two marks for one gap");
                 after_gap = true;
                 gaps += 1;
             }
@@ -288,7 +288,7 @@ fn queues_hold_between_two_threads() {
     }
     producer.join().expect("the producer ends well");
     assert!(
-        taken > 0 && (gaps > 0 || taken == COUNT),
+        taken > 0 && taken + gaps <= COUNT && (gaps > 0 || taken == COUNT),
         "{taken} taken, {gaps} gaps"
     );
 }
