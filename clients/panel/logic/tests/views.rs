@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Literals that look like words and are none, or are the same in every language.
-const ALLOWED: [&str; 13] = [
+const ALLOWED: [&str; 14] = [
     "ArrowDown",
     "ArrowLeft",
     "ArrowRight",
@@ -16,6 +16,7 @@ const ALLOWED: [&str; 13] = [
     "Enter",
     "Escape",
     "Home",
+    "Intl",
     "LibreRVAC",
     "Tab",
     "rvac pair",
