@@ -47,6 +47,10 @@ pub(crate) fn program(name: &str, profile: Profile) -> PathBuf {
     target().join(profile.folder()).join(name)
 }
 
+/// A small test to build beside programs: without any test cargo leaves development dependencies out, chooses other features for
+/// what all share, and most of the workspace would be built once for programs and once for tests.
+const BESIDE_TESTS: [&str; 2] = ["--test", "noisy_line"];
+
 /// Builds programs by their names. No package is named: with one cargo would choose other features for what all share, and
 /// build it a second time; and the other programs of a package are not waited for.
 pub(crate) fn build(programs: &[&str], profile: Profile) -> anyhow::Result<()> {
@@ -55,8 +59,9 @@ pub(crate) fn build(programs: &[&str], profile: Profile) -> anyhow::Result<()> {
     for program in programs {
         command.args(["--bin", program]);
     }
-    if profile == Profile::Release {
-        command.arg("--release");
-    }
+    match profile {
+        Profile::Dev => command.args(BESIDE_TESTS),
+        Profile::Release => command.arg("--release"),
+    };
     crate::process::run(&format!("build {}", programs.join(", ")), &mut command)
 }

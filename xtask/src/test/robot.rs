@@ -45,6 +45,10 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
     command
 }
 
+/// Tests that need the built firmware, its parts or other people's emulator and debugger. No package is named, so that all is
+/// built once for this stage and for the other tests.
+const BESIDE_OTHERS: [&str; 4] = ["gdb", "hal_examples", "image", "qemu"];
+
 /// The emulated chip beside qemu-user, and with the programs that are written for it.
 pub(super) fn of_emulator(_long: bool) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
@@ -63,7 +67,8 @@ pub(super) fn of_emulator(_long: bool) -> Result {
     let examples = build_others("the examples of pic32mx3-hal", &examples)?.join("examples");
     let mut command = workspace::cargo();
     command
-        .args(["test", "--locked", "--package", "pic32", "--no-fail-fast"])
+        .args(["test", "--locked", "--no-fail-fast"])
+        .args(BESIDE_OTHERS.map(|test| ["--test", test]).concat())
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf)

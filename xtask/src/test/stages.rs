@@ -151,20 +151,19 @@ fn clippy(_long: bool) -> Result {
     ]))
 }
 
-/// Prepares what tests start: programs of the workspace, a C compiler, Raku. The emulated chip has a stage of its own.
+/// Prepares what tests start: programs of the workspace, a C compiler, Raku. What needs the firmware of a robot or another
+/// emulator passes itself over here, and has a stage of its own.
 fn workspace_tests(_long: bool) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
     system::need("socat", &["socat"])?;
     system::need("curl", &["curl"])?;
-    let build = check(&mut cargo(&["build", "--workspace", "--locked"]));
+    let build = check(&mut cargo(&["build", "--workspace", "--locked", "--all-targets"]));
     let run = if system::find("cargo-nextest").is_some() {
         tests(&mut cargo(&[
             "nextest",
             "run",
             "--workspace",
-            "--exclude",
-            "pic32",
             "--locked",
             "--no-fail-fast",
         ]))
@@ -172,8 +171,6 @@ fn workspace_tests(_long: bool) -> Result {
         tests(&mut cargo(&[
             "test",
             "--workspace",
-            "--exclude",
-            "pic32",
             "--locked",
             "--all-targets",
             "--no-fail-fast",
@@ -327,6 +324,7 @@ fn browser(long: bool) -> Result {
         .env("RVAC_AXE", axe)
         .env("RVAC_BROWSER_TESTS", "1")
         .env("RVAC_LOSSES", if long { "100" } else { "1" })
+        .env("RVAC_WATCH_MINUTES", if long { "60" } else { "0.2" })
         .env("RVAC_PANEL", assets)
         .env("RVAC_FIRMWARE", elf)
         .env("RVAC_SCREENSHOTS", screenshots);

@@ -36,6 +36,7 @@ async fn main() -> ExitCode {
     report.elsewhere(
         "A4: 100,000 guesses on a virtual clock, and A5: 500 races (clients/pairing/tests/door.rs)",
     );
+    report.elsewhere("A8 to A12 by real pages in Chromium (panel-server's browser test of foreign pages)");
     report.elsewhere("A20: a name with HTML is text in Chromium (panel-server's browser test of pairing)");
     report.elsewhere(
         "A16: a second driver (vthal-core's tests); A17: a lost driver (vthal-core's and the browser tests)",
@@ -43,7 +44,6 @@ async fn main() -> ExitCode {
     report.elsewhere(
         "A23, A24: misuse of the authority, clocks that are wrong (panel-server's tests of identity)",
     );
-    report.not_there_yet("A8 to A12 from real pages in a browser: here only what a browser would send");
     report.not_there_yet("A26: updates of firmware and daemon");
     report.not_there_yet("A27: MQTT");
     let wants_json = std::env::args().any(|argument| argument == "--json");

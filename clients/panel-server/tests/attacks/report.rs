@@ -17,6 +17,7 @@ pub(crate) struct Report {
     rows: Vec<Row>,
     not_there_yet: Vec<&'static str>,
     elsewhere: Vec<&'static str>,
+    not_tried: Vec<String>,
     attacks: usize,
     unexpected: usize,
 }
@@ -50,6 +51,11 @@ impl Report {
         self.elsewhere.push(line);
     }
 
+    /// A try for which this machine is not fit.
+    pub(crate) fn not_tried(&mut self, line: String) {
+        self.not_tried.push(line);
+    }
+
     /// Whether everything came as it should.
     pub(crate) const fn is_good(&self) -> bool {
         self.unexpected == 0
@@ -70,6 +76,9 @@ impl Report {
         }
         for line in &self.elsewhere {
             text.push_str(&format!("elsewhere {line}\n"));
+        }
+        for line in &self.not_tried {
+            text.push_str(&format!("not tried {line}\n"));
         }
         for line in &self.not_there_yet {
             text.push_str(&format!("not there yet {line}\n"));

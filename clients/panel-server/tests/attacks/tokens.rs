@@ -1,10 +1,13 @@
 //! A7, A13 to A15, A25: false robots, stolen files, revoked and replayed words, other users of the computer.
 
 use std::os::unix::fs::PermissionsExt as _;
+use std::os::unix::net::UnixStream;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use pairing::console::Order;
 use pairing::{DeviceName, Role};
+use rustix::process::{Gid, Uid};
 use rustls::pki_types::CertificateDer;
 use rustls::pki_types::pem::PemObject as _;
 
@@ -135,4 +138,47 @@ async fn other_users(report: &mut Report) {
             format!("{mode:o}"),
         );
     }
+    as_somebody_else(report, rig.folder.join("state"));
+}
+
+/// The user `nobody` of Linux.
+const NOBODY: u32 = 65_534;
+
+/// Tries it as another user of the computer, which only root can become.
+fn as_somebody_else(report: &mut Report, state: PathBuf) {
+    let tries = move || {
+        let before = reached(&state);
+        rustix::thread::set_thread_groups(&[])?;
+        rustix::thread::set_thread_res_gid(
+            Gid::from_raw(NOBODY),
+            Gid::from_raw(NOBODY),
+            Gid::from_raw(NOBODY),
+        )?;
+        rustix::thread::set_thread_res_uid(
+            Uid::from_raw(NOBODY),
+            Uid::from_raw(NOBODY),
+            Uid::from_raw(NOBODY),
+        )?;
+        Ok::<_, rustix::io::Errno>((before, reached(&state)))
+    };
+    // The kernel keeps users by threads: only this one becomes somebody else, and it ends.
+    match std::thread::spawn(tries).join().unwrap() {
+        Ok((owner, other)) => {
+            report.row(
+                ("A25", "the owner, at the console and the files"),
+                "3 of 3",
+                owner,
+            );
+            report.row(("A25", "nobody, at the console and the files"), "0 of 3", other);
+        }
+        Err(error) => report.not_tried(format!("A25 as another user, which needs root: {error}")),
+    }
+}
+
+/// How much of what is kept can be used by the thread that asks.
+fn reached(state: &Path) -> String {
+    let console = UnixStream::connect(state.join("console.sock")).is_ok();
+    let files = ["clients.json", "identity.json"].map(|file| std::fs::read(state.join(file)).is_ok());
+    let count = usize::from(console) + files.into_iter().filter(|read| *read).count();
+    format!("{count} of 3")
 }

@@ -1,6 +1,6 @@
 //! Chromium, driven as a person drives it.
 
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use tokio::time::sleep;
 
 use crate::frozen::Frozen;
+use crate::processes;
 use crate::stack::Stack;
 
 /// Whatever is awaited comes within this time or the test fails. A busy machine draws slowly.
@@ -83,20 +84,72 @@ impl Browser {
     }
 
     fn end_session(&self) -> io::Result<()> {
+        self.ask_driver("DELETE", "", "").map(drop)
+    }
+
+    /// What the driver answers to a request that the client does not know.
+    fn ask_driver(&self, method: &str, below: &str, body: &str) -> io::Result<String> {
         let mut stream = TcpStream::connect(&self.driver_at)?;
-        let (session, host) = (&self.session, &self.driver_at);
+        let (session, host, length) = (&self.session, &self.driver_at, body.len());
         write!(
             stream,
-            "DELETE /session/{session} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+            "{method} /session/{session}{below} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\
+             Content-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"
         )?;
         stream.set_read_timeout(Some(PATIENCE))?;
-        // It answers when the browser has ended, and keeps the connection all the same.
-        BufReader::new(stream).read_line(&mut String::new())?;
-        Ok(())
+        // It keeps the connection all the same, so its answer is read by its length.
+        let mut answer = BufReader::new(stream);
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            answer.read_line(&mut line)?;
+            if line.trim_end().is_empty() {
+                break;
+            }
+            if let Some(told) = line.to_ascii_lowercase().strip_prefix("content-length:") {
+                length = told.trim().parse().unwrap_or(0);
+            }
+        }
+        let mut body = vec![0; length];
+        answer.read_exact(&mut body)?;
+        Ok(String::from_utf8_lossy(&body).into_owned())
+    }
+
+    /// A command of the developer tools, with what it gives.
+    pub(crate) fn devtools(&self, command: &str, parameters: &Value) -> Value {
+        let body = json!({ "cmd": command, "params": parameters }).to_string();
+        let answer = self.ask_driver("POST", "/goog/cdp/execute", &body).unwrap();
+        let answer: Value = serde_json::from_str(&answer).unwrap();
+        assert!(answer["value"]["error"].is_null(), "{command}: {answer}");
+        answer["value"].clone()
+    }
+
+    /// Memory of the process that shows the page, KiB.
+    pub(crate) fn memory_kib(&self) -> u64 {
+        let all = processes::descendants_of(self.driver.id()).into_iter();
+        let shows = all.filter(|process| processes::is_called_with(*process, "--type=renderer"));
+        shows.map(processes::memory_kib).max().unwrap_or(0)
     }
 
     pub(crate) async fn reload(&self) {
         self.client.refresh().await.unwrap();
+    }
+
+    pub(crate) async fn goto(&self, address: &str) {
+        self.client.goto(address).await.unwrap();
+    }
+
+    /// How many cookies the page that is seen would send, those included that no script can read.
+    pub(crate) async fn cookies(&self) -> usize {
+        self.client.get_all_cookies().await.unwrap().len()
+    }
+
+    /// Title of what the first frame of the page shows.
+    pub(crate) async fn title_in_frame(&self) -> String {
+        self.client.enter_frame(0).await.unwrap();
+        let title = self.text("return document.title").await;
+        self.client.enter_parent_frame().await.unwrap();
+        title
     }
 
     /// Clicks in the middle of an element, which is scrolled into the middle first: the driver takes one below a bar that
@@ -292,6 +345,8 @@ fn capabilities(screen: Screen) -> Value {
         "args": [
             "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
             "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1440,1043",
+            // Where the tests' strangers have their site.
+            "--host-resolver-rules=MAP *.example 127.0.0.1",
         ],
     });
     if matches!(screen, Screen::Phone) {

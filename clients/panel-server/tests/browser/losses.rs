@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::browser::Screen;
 use crate::mixes::{is_ready, plug_in, turn_by_pad};
+use crate::rival::Rival;
 use crate::robot::Witness;
 use crate::{Visit, hold_until_it_turns, leave_the_dock};
 
@@ -116,4 +117,37 @@ async fn a_browser_that_freezes_stops_the_wheels() {
         is_ready(browser).await;
     }
     losses.tell("the browser froze");
+}
+
+/// Of two who want to drive one does; the other has the seat when the first is lost, and loses it in the same way.
+#[tokio::test]
+async fn a_second_driver_waits_until_the_first_is_lost() {
+    let Some((visit, witness)) = ready_to_drive().await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let [mut of_first, mut of_second] = [Losses::default(), Losses::default()];
+    for _ in 0..times() {
+        hold_until_it_turns(browser, &witness).await;
+        let mut rival = Rival::at(&visit.stack.daemon_socket());
+        let (granted, refused) = rival.turn_for_a_second(-0.8);
+        assert_eq!(granted, 0, "two drive at once");
+        assert!(
+            refused.iter().all(|reason| reason == "driver-busy"),
+            "{refused:?}"
+        );
+        browser.hide_behind_a_new_tab().await;
+        of_first.watch(&witness, Instant::now());
+        let (granted, refused) = rival.turn_for_a_second(-0.8);
+        assert_eq!(granted, 11, "{refused:?}");
+        assert!(witness.moves_within(Duration::from_secs(1)), "the second drives");
+        drop(rival);
+        of_second.watch(&witness, Instant::now());
+        browser.close_tab_and_return().await;
+        browser.release_key('a').await;
+        stays(&witness, "a key");
+        is_ready(browser).await;
+    }
+    of_first.tell("the first of two drivers was lost");
+    of_second.tell("the second of them was lost");
 }

@@ -3,12 +3,14 @@
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
 //! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
-//! `RVAC_LOSSES` says how often the driver is lost in each way.
+//! `RVAC_LOSSES` says how often the driver is lost in each way, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod accessibility;
 mod browser;
+mod costs;
 mod edits;
+mod foreign;
 mod frozen;
 mod history;
 mod language;
@@ -18,11 +20,14 @@ mod mixes;
 mod offline;
 mod pairing;
 mod parts;
+mod processes;
 mod relief;
+mod rival;
 mod robot;
 mod schedules;
 #[path = "../stack/mod.rs"]
 mod stack;
+mod stranger;
 mod wire_tap;
 
 use std::time::{Duration, Instant};

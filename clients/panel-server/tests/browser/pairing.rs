@@ -36,6 +36,16 @@ async fn pair(browser: &Browser, code: &str) {
     browser.click("#pair-now").await;
 }
 
+/// Lets the browser in by a code of the console, and waits for the robot.
+pub(crate) async fn let_in(browser: &Browser, stack: &Stack, role: &str) {
+    browser
+        .until("return document.getElementById('pair') !== null")
+        .await;
+    fill(browser, "pair-name", "Mari's computer").await;
+    pair(browser, &open(stack, role)).await;
+    browser.until_state(&["idle", "docked"]).await;
+}
+
 /// What is no code, a code without a window, and a wrong one; gives the right one.
 async fn try_in_vain(browser: &Browser, stack: &Stack) -> String {
     fill(browser, "pair-name", "Mari's phone").await;
