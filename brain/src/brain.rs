@@ -308,6 +308,7 @@ impl Brain {
             Command::AddNoGo { no_go } => self.map.add_no_go(no_go.clone()).err(),
             Command::RemoveNoGo { number } => self.map.remove_no_go(*number).err(),
             Command::NameRoom { room, name } => self.map.name_room(*room, name.clone()).err(),
+            Command::SetRoom { room, settings } => self.map.set_room(*room, *settings).err(),
             Command::SplitRoom { room, line } => self.map.split_room(*room, *line).err(),
             Command::JoinRooms { rooms } => self.map.join_rooms(*rooms).err(),
             Command::UndoRoomChange { number } => self.map.undo_room_change(*number).err(),

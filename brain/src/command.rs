@@ -3,6 +3,7 @@
 use crate::mapping::CutLine;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::CleaningOrder;
+use crate::room_settings::RoomSettings;
 
 /// A request, already arbitrated (see `vthal-core`): at most one source speaks at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,13 @@ pub enum Command {
         room: u16,
         /// Its name.
         name: Option<RoomName>,
+    },
+    /// Say how a room is cleaned.
+    SetRoom {
+        /// Identity of the room.
+        room: u16,
+        /// How; `None` = as any other.
+        settings: Option<RoomSettings>,
     },
     /// Cut a room in two.
     SplitRoom {

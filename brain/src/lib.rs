@@ -23,6 +23,7 @@ pub mod observation;
 pub mod order;
 mod random;
 mod recovery;
+pub mod room_settings;
 mod spot;
 mod task;
 
@@ -43,3 +44,4 @@ pub use mapping::{
 pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;
 pub use order::{CleaningOrder, HomePart, Zone};
+pub use room_settings::{RoomPower, RoomSettings};

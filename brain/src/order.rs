@@ -2,7 +2,7 @@
 
 use crate::behavior::Reason;
 use crate::geometry::Point2;
-use crate::mapping::{Cell, CellKnowledge, Map, Rooms};
+use crate::mapping::{Annotations, Cell, CellKnowledge, Map, Rooms};
 use crate::no_go::NoGo;
 
 /// Most parts of an order.
@@ -12,7 +12,7 @@ pub(crate) const CORNERS_MAX: usize = 64;
 /// Most places that a job may be told to keep out of.
 const AVOID_MAX: usize = 16;
 /// Most passes over a part.
-const PASSES_MAX: u8 = 3;
+pub(crate) const PASSES_MAX: u8 = 3;
 /// Corners of a zone are nearer to the map's origin than this, metres.
 pub const FAR_M: f64 = 500.0;
 
@@ -166,10 +166,20 @@ impl CleaningOrder {
         &self.parts
     }
 
-    /// How often each part is cleaned.
+    /// How often each part is cleaned at least.
     #[must_use]
     pub const fn passes(&self) -> u8 {
         self.passes
+    }
+
+    /// How often a part is cleaned: as the order says, or more often if that is a setting of the room.
+    #[must_use]
+    pub fn passes_over(&self, part: Option<&HomePart>, words: &Annotations) -> u8 {
+        let of_room = match part {
+            Some(HomePart::Room(id)) => words.settings(*id).map(|settings| settings.passes()),
+            _ => None,
+        };
+        of_room.unwrap_or(0).max(self.passes)
     }
 
     /// Whether the map holds what is ordered.

@@ -4,7 +4,7 @@ mod plane;
 
 use brain::{
     BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
-    Raster, Reason, RoomName, StoredMap, Zone,
+    Raster, Reason, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
 };
 use plane::{Rectangle, Room, World, config, run};
 
@@ -291,6 +291,28 @@ fn forbid_again(brain: &mut Brain, world: &mut World, wall: &NoGo) {
         .map(|(number, _)| number)
         .collect();
     assert_eq!(numbers, [1, 3]);
+}
+
+#[test]
+fn a_room_that_is_set_so_is_cleaned_twice_when_a_job_names_it() {
+    let mut once = Stage::new();
+    let rooms = once.brain.map().rooms().rooms();
+    let small = rooms
+        .iter()
+        .min_by(|one, other| one.area_m2.total_cmp(&other.area_m2));
+    let room = small.expect("two rooms").id;
+    let order = CleaningOrder::new(vec![HomePart::Room(room)], 1).unwrap();
+    let once_s = once.clean(&order);
+    let mut twice = Stage::new();
+    let settings = RoomSettings::new(2, RoomPower::FULL).ok();
+    let set = Command::SetRoom { room, settings };
+    run(&mut twice.world, &mut twice.brain, Some(set), 0.1);
+    let stored = StoredMap::decode(&twice.brain.map().stored().encode()).unwrap();
+    assert_eq!(stored.annotations().settings(room).copied(), settings);
+    let twice_s = twice.clean(&order);
+    assert!(twice_s > 1.6 * once_s, "{twice_s} s and {once_s} s");
+    let unknown = Command::SetRoom { room: 99, settings };
+    assert_eq!(twice.brain.admit(&unknown), Err(Reason::NoSuchRoom));
 }
 
 #[test]

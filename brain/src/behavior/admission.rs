@@ -16,6 +16,7 @@ impl Behavior {
             Command::AddNoGo { no_go } => map.admit_no_go(no_go),
             Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
             Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
+            Command::SetRoom { room, .. } => map.admit_room_settings(*room),
             Command::SplitRoom { room, line } => map.admit_room_split(*room, line),
             Command::JoinRooms { rooms } => map.admit_room_join(*rooms),
             Command::UndoRoomChange { number } => map.admit_room_change_undo(*number),
@@ -148,6 +149,7 @@ impl Behavior {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameRoom { .. }
+            | Command::SetRoom { .. }
             | Command::SplitRoom { .. }
             | Command::JoinRooms { .. }
             | Command::UndoRoomChange { .. } => {}

@@ -171,6 +171,8 @@ reasons! {
     BadName => "bad-name",
     /// Another room is called so.
     NameTaken => "name-taken",
+    /// Settings of a room have 1 to 3 passes and shares up to 100 percent, one of them above 0.
+    BadSettings => "bad-settings",
     /// A line between rooms has two ends near the home.
     BadLine => "bad-line",
     /// A line that was to cut a room lies in none, or beside the one that is meant.

@@ -134,7 +134,7 @@ fn part_of(
     };
     let plan = at_once(plan_area(ground, (wanted, |_| false), from, &mut Pace::at_once()));
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
-    let passes = order.passes();
+    let passes = order.passes_over(part, map.annotations());
     let (kept, kept_low) = kept((map, &wanted), settings, passes);
     PartEstimate {
         end,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::room_changes::RoomChanges;
 use crate::behavior::Reason;
 use crate::no_go::{NoGo, RoomName};
+use crate::room_settings::RoomSettings;
 
 /// Most no-go zones and virtual walls of a home.
 pub(super) const NO_GO_MAX: usize = 64;
@@ -19,6 +20,7 @@ pub struct Annotations {
     pub(super) next_no_go: u16,
     pub(super) names: BTreeMap<u16, RoomName>,
     pub(super) rooms: RoomChanges,
+    pub(super) settings: BTreeMap<u16, RoomSettings>,
 }
 
 impl Default for Annotations {
@@ -28,6 +30,7 @@ impl Default for Annotations {
             next_no_go: 1,
             names: BTreeMap::new(),
             rooms: RoomChanges::default(),
+            settings: BTreeMap::new(),
         }
     }
 }
@@ -50,10 +53,16 @@ impl Annotations {
         &self.rooms
     }
 
+    /// How a room is cleaned, if anybody has said it.
+    #[must_use]
+    pub fn settings(&self, room: u16) -> Option<&RoomSettings> {
+        self.settings.get(&room)
+    }
+
     /// Whether nobody has said anything.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.no_go.is_empty() && self.names.is_empty() && self.rooms.is_empty()
+        self.no_go.is_empty() && self.names.is_empty() && self.rooms.is_empty() && self.settings.is_empty()
     }
 
     pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), Reason> {

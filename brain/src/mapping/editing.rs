@@ -1,5 +1,6 @@
-//! People change the map: no-go zones, virtual walls, names of rooms.
+//! People change the map: no-go zones, virtual walls, names and settings of rooms.
 
+use super::annotations::NAMES_MAX;
 use super::home::{Entry, HomeMap};
 use super::layers::{CellBox, Flag};
 use super::{Annotations, Cell, CellKnowledge, Map, Raster};
@@ -7,6 +8,7 @@ use crate::behavior::Reason;
 use crate::geometry::Point2;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::Zone;
+use crate::room_settings::RoomSettings;
 
 impl Map {
     /// What people have said of the home.
@@ -127,6 +129,38 @@ impl Map {
     pub fn name_room(&mut self, room: u16, name: Option<RoomName>) -> Result<(), Reason> {
         self.admit_room_name(room, name.as_ref())?;
         self.home.annotations.call(room, name);
+        self.home.touch();
+        Ok(())
+    }
+}
+
+impl Map {
+    /// Whether a room can have settings.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchRoom`], or [`Reason::BadSettings`] when more rooms have some than a home can have.
+    pub fn admit_room_settings(&self, room: u16) -> Result<(), Reason> {
+        if self.rooms().rooms().iter().all(|known| known.id != room) {
+            return Err(Reason::NoSuchRoom);
+        }
+        let settings = &self.home.annotations.settings;
+        if settings.len() >= NAMES_MAX && !settings.contains_key(&room) {
+            return Err(Reason::BadSettings);
+        }
+        Ok(())
+    }
+
+    /// Says how a room is cleaned; without settings as any other.
+    ///
+    /// # Errors
+    /// As [`Self::admit_room_settings`]; then nothing is changed.
+    pub fn set_room(&mut self, room: u16, settings: Option<RoomSettings>) -> Result<(), Reason> {
+        self.admit_room_settings(room)?;
+        let kept = &mut self.home.annotations.settings;
+        match settings.filter(|settings| *settings != RoomSettings::default()) {
+            Some(settings) => kept.insert(room, settings),
+            None => kept.remove(&room),
+        };
         self.home.touch();
         Ok(())
     }

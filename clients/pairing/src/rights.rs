@@ -75,7 +75,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 47] = [
+pub const VERBS: [(&str, Role); 48] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -104,6 +104,7 @@ pub const VERBS: [(&str, Role); 47] = [
     ("add-no-go",       Role::Admin),
     ("remove-no-go",    Role::Admin),
     ("name-room",       Role::Admin),
+    ("set-room",        Role::Admin),
     ("split-room",      Role::Admin),
     ("join-rooms",      Role::Admin),
     ("undo-room-change", Role::Admin),

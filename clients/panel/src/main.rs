@@ -18,6 +18,7 @@ mod log_view;
 mod map;
 mod mixes;
 mod parts_view;
+mod room_settings_view;
 mod rooms_view;
 mod schedules;
 mod status_view;

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use panel_logic::{Edit, NoGoRow, RoomChangeRow, RoomRow, Tool};
 
 use crate::language::words;
+use crate::room_settings_view::SettingsForm;
 use crate::store::Store;
 
 /// Longest name of a room, in characters.
@@ -13,6 +14,7 @@ const NAME_MAX: &str = "40";
 #[component]
 pub(crate) fn RoomList(store: Store) -> impl IntoView {
     let renamed = RwSignal::new(None::<u16>);
+    let set = RwSignal::new(None::<u16>);
     let joinable = Memo::new(move |_| store.joinable_rooms());
     view! {
         <h3 id="rooms-title">{words().home.rooms}</h3>
@@ -22,7 +24,7 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
                 key=|row| (row.id, row.name.clone(), row.words.clone())
                 let:row
             >
-                <Room store row renamed />
+                <Room store row opened=(renamed, set) />
             </For>
         </ul>
         <Show when=move || store.rooms.with(Vec::is_empty)>
@@ -102,7 +104,13 @@ fn room_change(store: Store, row: RoomChangeRow) -> impl IntoView {
 }
 
 #[component]
-fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
+fn Room(
+    store: Store,
+    row: RoomRow,
+    /// The room whose form for a name is open, and the same for settings.
+    opened: (RwSignal<Option<u16>>, RwSignal<Option<u16>>),
+) -> impl IntoView {
+    let (renamed, set) = opened;
     let RoomRow {
         id,
         name,
@@ -111,8 +119,10 @@ fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl Into
     let choice = store.orders.choice;
     let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
     let is_renamed = move || renamed.get() == Some(id);
+    let is_set = move || set.get() == Some(id);
+    let set_label = words().home.set_room_named.fill([&name]);
     let rename_label = words().home.rename_named.fill([&name]);
-    let shown = name.clone();
+    let (shown, for_form) = (name.clone(), name.clone());
     view! {
         <li>
             <button
@@ -135,7 +145,20 @@ fn Room(store: Store, row: RoomRow, renamed: RwSignal<Option<u16>>) -> impl Into
             >
                 {words().frame.rename}
             </button>
+            <button
+                type="button"
+                class="small"
+                id=format!("room-{id}-settings")
+                aria-label=set_label
+                aria-expanded=move || if is_set() { "true" } else { "false" }
+                on:click=move |_| set.update(|set| *set = (*set != Some(id)).then_some(id))
+            >
+                {words().home.set_room}
+            </button>
         </li>
+        <Show when=is_set>
+            <SettingsForm store id name=for_form.clone() opened=set />
+        </Show>
         <Show when=is_renamed>
             <RenameForm store id name=name.clone() renamed />
         </Show>

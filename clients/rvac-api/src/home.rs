@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{NoGoView, Pose, Rle, RoomChangeView};
+use crate::{NoGoView, Pose, Rle, RoomChangeView, RoomSettings};
 
 /// The home as far as the robot knows it, in the frame of its poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -69,6 +69,9 @@ pub struct RoomView {
     /// What people call it, if anybody has named it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    /// How it is cleaned, if anybody has said it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<RoomSettings>,
 }
 
 /// A door between two rooms.

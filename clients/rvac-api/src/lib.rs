@@ -27,7 +27,8 @@ pub use history::{
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{
-    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSplitting,
+    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSettings,
+    RoomSplitting,
 };
 pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use schedule::{

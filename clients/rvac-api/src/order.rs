@@ -4,6 +4,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
+use crate::CleaningPower;
+
 /// A job for parts of the home.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JobOrder {
@@ -77,6 +79,30 @@ pub struct NoGoView {
     pub number: u16,
     /// What it forbids.
     pub shape: NoGoShape,
+}
+
+/// How a room is cleaned.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomSettings {
+    /// How often at least, 1..=3, whenever a job names the room.
+    #[serde(default = "once")]
+    pub passes: u8,
+    /// How hard brushes and suction run in it, in whole percent. What a robot lacks is ignored.
+    #[serde(default = "full_power")]
+    pub power: CleaningPower,
+}
+
+fn full_power() -> CleaningPower {
+    CleaningPower::FULL
+}
+
+impl Default for RoomSettings {
+    fn default() -> Self {
+        Self {
+            passes: once(),
+            power: full_power(),
+        }
+    }
 }
 
 /// A line that cuts a room in two.

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, RoomSplitting, ScheduleEntry};
+use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting, ScheduleEntry};
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,7 +53,7 @@ pub enum Topic {
     Buttons,
 }
 
-/// How hard brushes and suction run while a person drives, each 0..=1. What a robot lacks is ignored.
+/// How hard brushes and suction run while a person drives or in a room, each 0..=1. What a robot lacks is ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CleaningPower {
     /// Suction.
@@ -62,6 +62,15 @@ pub struct CleaningPower {
     pub main_brush: f64,
     /// The side brushes.
     pub side_brushes: f64,
+}
+
+impl CleaningPower {
+    /// As hard as they can.
+    pub const FULL: Self = Self {
+        suction: 1.0,
+        main_brush: 1.0,
+        side_brushes: 1.0,
+    };
 }
 
 /// The closed set of requests; on the wire `{"c":"start","strategy":"bounce"}` and so on.
@@ -101,6 +110,14 @@ pub enum RequestBody {
     },
     /// Names a room. Answered when the map with the name is on the disk.
     NameRoom(RoomNaming),
+    /// Says how a room is cleaned. Answered when the map with it is on the disk.
+    SetRoom {
+        /// Identity of the room.
+        room: u16,
+        /// How; absent = as any other.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        settings: Option<RoomSettings>,
+    },
     /// Cuts a room in two along a line. Answered, as all changes of rooms, when the map with it is on the disk; refused while
     /// a job runs or waits.
     SplitRoom(RoomSplitting),

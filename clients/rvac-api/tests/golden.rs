@@ -10,10 +10,10 @@ use rvac_api::{
     Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate,
     JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView,
     PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView,
-    RoomHere, RoomNaming, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord,
-    RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
-    ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic, TrackPose,
-    TrackReading, Update, Versions, WallView, Weekday,
+    RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture,
+    RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime,
+    ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic,
+    TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -428,6 +428,7 @@ fn the_home() {
             x: 1.0,
             y: 2.0,
             name: None,
+            settings: None,
         }],
         doors: vec![DoorView {
             rooms: [1, 2],
@@ -471,6 +472,43 @@ fn the_home() {
     check(
         &Update::Home(told),
         r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}]}"#,
+    );
+}
+
+#[test]
+fn settings_of_rooms() {
+    let set = |settings| RequestBody::SetRoom { room: 3, settings };
+    let settings = RoomSettings {
+        passes: 2,
+        power: CleaningPower {
+            suction: 0.5,
+            main_brush: 1.0,
+            side_brushes: 0.0,
+        },
+    };
+    request(
+        set(Some(settings)),
+        r#"{"c":"set-room","room":3,"settings":{"passes":2,"power":{"suction":0.5,"main_brush":1.0,"side_brushes":0.0}}}"#,
+    );
+    request(set(None), r#"{"c":"set-room","room":3}"#);
+    let short: Request =
+        serde_json::from_str(r#"{"c":"set-room","room":3,"settings":{"passes":3}}"#).unwrap();
+    let passes = |passes| RoomSettings {
+        passes,
+        ..RoomSettings::default()
+    };
+    assert_eq!(short.body, set(Some(passes(3))));
+    let view = RoomView {
+        id: 3,
+        area_m2: 1.5,
+        x: 0.5,
+        y: 2.0,
+        name: None,
+        settings: Some(passes(1)),
+    };
+    assert_eq!(
+        serde_json::to_string(&view).unwrap(),
+        r#"{"id":3,"area_m2":1.5,"x":0.5,"y":2.0,"settings":{"passes":1,"power":{"suction":1.0,"main_brush":1.0,"side_brushes":1.0}}}"#
     );
 }
 

@@ -12,10 +12,10 @@ use std::thread::JoinHandle;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
-    Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
-    LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody,
-    RoomNaming, RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
-    Schedules, Status, Topic, Update, Weekday,
+    CleaningPower, Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder,
+    JobPart, KeptMap, LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request,
+    RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime,
+    ScheduleView, ScheduledJob, Schedules, Status, Topic, Update, Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -253,6 +253,7 @@ fn at_home(request: &Request) -> Vec<Update> {
                     x: 1.5,
                     y: 1.5,
                     name: Some("Hall".to_owned()),
+                    settings: None,
                 }],
                 ..HomeView::default()
             }),
@@ -303,7 +304,7 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         })
     };
     let add = |shape| RequestBody::AddNoGo { shape };
-    let cases: [(&[&str], RequestBody); 11] = [
+    let cases: [(&[&str], RequestBody); 8] = [
         (&["clean"], RequestBody::Clean(job(vec![], 1))),
         (
             &[
@@ -325,6 +326,19 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
             &["zone", "wall", "-1,0", "2,1.5"],
             add(NoGoShape::Wall([[-1.0, 0.0], [2.0, 1.5]])),
         ),
+        (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
+    ];
+    for (place, (arguments, body)) in cases.into_iter().enumerate() {
+        let (output, asked) = Daemon::start(&format!("order-{place}"), at_home).rvac(arguments, "");
+        assert!(output.status.success(), "{arguments:?}: {output:?}");
+        let last = asked.last().expect("asks");
+        assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
+    }
+}
+
+#[test]
+fn changes_of_rooms_go_out_under_their_names() {
+    let cases: [(&[&str], RequestBody); 5] = [
         (
             &["room", "split", "Hall", "-1,0", "2,1.5"],
             RequestBody::SplitRoom(RoomSplitting {
@@ -333,11 +347,30 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
             }),
         ),
         (
+            &["room", "set", "Hall", "--passes", "2", "--suction", "40"],
+            RequestBody::SetRoom {
+                room: 1,
+                settings: Some(RoomSettings {
+                    passes: 2,
+                    power: CleaningPower {
+                        suction: 0.4,
+                        ..CleaningPower::FULL
+                    },
+                }),
+            },
+        ),
+        (
+            &["rooms", "unset", "1"],
+            RequestBody::SetRoom {
+                room: 1,
+                settings: None,
+            },
+        ),
+        (
             &["room", "join", "Hall", "4"],
             RequestBody::JoinRooms { rooms: [1, 4] },
         ),
         (&["rooms", "undo", "3"], RequestBody::UndoRoomChange { number: 3 }),
-        (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
     ];
     for (place, (arguments, body)) in cases.into_iter().enumerate() {
         let (output, asked) = Daemon::start(&format!("order-{place}"), at_home).rvac(arguments, "");

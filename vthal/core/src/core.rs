@@ -14,6 +14,7 @@ mod orders;
 mod refusal;
 mod requests;
 mod room_edits;
+pub(crate) mod room_power;
 mod schedules;
 mod standstill;
 mod thinking;

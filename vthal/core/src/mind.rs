@@ -160,6 +160,7 @@ impl Mind {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameRoom { .. }
+            | Command::SetRoom { .. }
             | Command::SplitRoom { .. }
             | Command::JoinRooms { .. }
             | Command::UndoRoomChange { .. }

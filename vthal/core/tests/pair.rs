@@ -2,8 +2,8 @@
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, RoomSplitting,
-    Topic, Update,
+    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, RoomSettings,
+    RoomSplitting, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -268,6 +268,81 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.2), None);
 }
 
+/// How hard a motor was told to run last.
+fn power(pair: &Pair, wanted: Motor) -> Option<f64> {
+    pair.commands.iter().rev().find_map(|(_, command)| match command {
+        Command::Motor(order) if order.motor == wanted => Some(order.throttle.as_f64()),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
+    let mut pair = on_the_dock();
+    let set = |suction: f64, settings_passes: u8| RequestBody::SetRoom {
+        room: 1,
+        settings: Some(RoomSettings {
+            passes: settings_passes,
+            power: CleaningPower {
+                suction,
+                ..CleaningPower::FULL
+            },
+        }),
+    };
+    assert_eq!(pair.ask(ANNA, set(0.25, 2)), None);
+    pair.run_ms(200);
+    let kept = pair.edits[0].home.home.annotations().settings(1).copied();
+    assert_eq!(
+        kept.map(|settings| (settings.passes(), settings.power().suction)),
+        Some((2, 25))
+    );
+    for (suction, passes) in [(1.5, 1), (f64::NAN, 1), (0.5, 0), (0.5, 4)] {
+        assert_eq!(
+            pair.ask(ANNA, set(suction, passes)).as_deref(),
+            Some("bad-settings")
+        );
+    }
+    let elsewhere = RequestBody::SetRoom {
+        room: 9,
+        settings: None,
+    };
+    assert_eq!(pair.ask(ANNA, elsewhere).as_deref(), Some("no-such-room"));
+    let estimate = |pair: &mut Pair, part| {
+        assert_eq!(pair.ask(ANNA, RequestBody::Estimate(clean(vec![part], 1))), None);
+        let told = pair.updates.iter().rev().find_map(|update| match update {
+            Update::JobEstimate(found) => Some(found.time_s),
+            _ => None,
+        });
+        told.expect("an estimate")
+    };
+    let twice_s = estimate(&mut pair, JobPart::Room(1));
+    let whole = JobPart::Zone(vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
+    let once_s = estimate(&mut pair, whole);
+    assert!(twice_s > 1.8 * once_s, "{twice_s} s and {once_s} s");
+
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.state.docked = false;
+    for _ in 0..80 {
+        pair.handle(Input::BoardHeading { heading_urad: 0 });
+        pair.run_ms(50);
+    }
+    assert_eq!(
+        (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
+        (Some(0.25), Some(1.0))
+    );
+    let usual = RequestBody::SetRoom {
+        room: 1,
+        settings: None,
+    };
+    assert_eq!(pair.ask(BERT, usual), None);
+    pair.run_ms(200);
+    assert_eq!(
+        power(&pair, Motor::Vacuum),
+        Some(1.0),
+        "also in the middle of a job"
+    );
+}
+
 #[test]
 fn a_driver_chooses_how_hard_each_part_cleans_and_a_job_cleans_at_full_power() {
     let mut pair = Pair::new();
@@ -281,12 +356,6 @@ fn a_driver_chooses_how_hard_each_part_cleans_and_a_job_cleans_at_full_power() {
             main_brush,
             side_brushes: 1.0,
         }),
-    };
-    let power = |pair: &Pair, wanted: Motor| {
-        pair.commands.iter().rev().find_map(|(_, command)| match command {
-            Command::Motor(order) if order.motor == wanted => Some(order.throttle.as_f64()),
-            _ => None,
-        })
     };
     assert_eq!(pair.ask(ANNA, drive(0.5, 0.0)), None);
     pair.run_ms(200);

@@ -41,9 +41,9 @@ impl Assignment {
     }
 
     /// The present part is done once more.
-    pub(super) fn advance(&mut self) -> Next {
+    pub(super) fn advance(&mut self, map: &Map) -> Next {
         self.passes_done += 1;
-        if self.passes_done < self.order.passes() {
+        if self.passes_done < self.order.passes_over(self.part(), map.annotations()) {
             return Next::Again;
         }
         if self.part + 1 >= self.order.parts().len() {

@@ -25,7 +25,7 @@ use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Point2, Pose2};
 use crate::manoeuvre::{Evasion, FollowStep, Follower};
-use crate::mapping::{CELL_M, CellKnowledge};
+use crate::mapping::{CELL_M, CellKnowledge, Map};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
@@ -176,9 +176,9 @@ impl Systematic {
     }
 
     /// Turns to what comes after the present part; `false` when nothing does.
-    fn turns_to_next(&mut self, is_missed: bool, mind: &mut Mind) -> bool {
+    fn turns_to_next(&mut self, is_missed: bool, (map, mind): (&Map, &mut Mind)) -> bool {
         self.assignment.is_missed |= is_missed;
-        match self.assignment.advance() {
+        match self.assignment.advance(map) {
             Next::End => return false,
             Next::Part => {}
             Next::Again => {
@@ -357,7 +357,7 @@ impl Systematic {
             self.passed_at_start_m2 = plan.passed_m2();
         }
         if plan.floor_m2 <= 0.0 {
-            if self.turns_to_next(true, mind) {
+            if self.turns_to_next(true, (situation.map, mind)) {
                 return Some(Plan::Go(Motion::Halt));
             }
             let is_whole_home = self.assignment.is_whole_home();
@@ -391,7 +391,7 @@ impl Systematic {
         if is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
             return self.go_astray(situation, mind);
         }
-        if self.turns_to_next(is_cut_off, mind) {
+        if self.turns_to_next(is_cut_off, (situation.map, mind)) {
             return Plan::Go(Motion::Halt);
         }
         let reason = if self.assignment.is_missed {

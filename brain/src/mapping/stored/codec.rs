@@ -4,7 +4,7 @@
 //! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses and corners are micrometres and microradians.
 //!
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
-//! its rooms.
+//! its rooms, version 4 how rooms are cleaned.
 
 mod room_words;
 mod words;
@@ -15,7 +15,7 @@ use crate::mapping::{Annotations, Cell};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 3;
+const VERSION: u8 = 4;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -59,6 +59,8 @@ pub enum StoredMapError {
     Name,
     /// A change of rooms that no map can have.
     RoomChange,
+    /// Settings that no room can have.
+    RoomSettings,
     /// Something follows the end.
     Trailing,
 }
@@ -89,6 +91,7 @@ impl core::fmt::Display for StoredMapError {
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::RoomChange => formatter.write_str("it has a change of rooms that cannot be"),
+            Self::RoomSettings => formatter.write_str("it has settings of a room that cannot be"),
             Self::Trailing => formatter.write_str("something follows its end"),
         }
     }
@@ -125,6 +128,7 @@ impl StoredMap {
         }
         words::put_words(&mut bytes, &self.annotations);
         room_words::put_room_changes(&mut bytes, &self.annotations.rooms);
+        room_words::put_room_settings(&mut bytes, &self.annotations.settings);
         let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -181,6 +185,9 @@ impl Reader<'_> {
         };
         if version >= 3 {
             annotations.rooms = self.room_changes(next_room)?;
+        }
+        if version >= 4 {
+            annotations.settings = self.room_settings()?;
         }
         if !self.rest.is_empty() {
             return Err(StoredMapError::Trailing);
@@ -279,6 +286,7 @@ mod tests {
     };
     use crate::no_go::{NoGo, RoomName};
     use crate::order::Zone;
+    use crate::room_settings::{RoomPower, RoomSettings};
 
     fn map() -> StoredMap {
         let mut raster = Raster::filled(Cell { x: -7, y: 300 }, 9, 5, CellKnowledge::Unknown);
@@ -327,6 +335,11 @@ mod tests {
         words.rooms.take_back(1).unwrap();
         words.rooms.add(RoomChange::Split(split(6))).unwrap();
         words.rooms.add(RoomChange::Join(join)).unwrap();
+        let power = RoomPower {
+            suction: 25,
+            ..RoomPower::FULL
+        };
+        words.settings.insert(3, RoomSettings::new(2, power).unwrap());
         words
     }
 
@@ -380,6 +393,23 @@ mod tests {
         }
         for rest in bad {
             assert_eq!(read(rest), Err(StoredMapError::RoomChange), "{rest:?}");
+        }
+    }
+
+    #[test]
+    fn settings_that_no_room_can_have_are_refused() {
+        let read = |settings: &[u8]| {
+            let mut bytes = b"RVACMAP\x04".to_vec();
+            bytes.extend([0, 0, 0, 2, 3, 9, 1, 5, 6, 0, 1, 0, 0, 1, 0, 0, 1]);
+            bytes.extend(settings);
+            bytes.extend(crc32(&bytes).to_le_bytes());
+            StoredMap::decode(&bytes)
+        };
+        // Room, passes, suction, main brush, side brushes.
+        let map = read(&[2, 3, 50, 100, 0]).unwrap();
+        assert_eq!(map.annotations().settings(2).map(RoomSettings::passes), Some(3));
+        for bad in [[2, 4, 50, 100, 0], [2, 1, 101, 0, 0], [2, 1, 0, 0, 0]] {
+            assert_eq!(read(&bad), Err(StoredMapError::RoomSettings), "{bad:?}");
         }
     }
 

@@ -132,6 +132,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "add-no-go" => r#","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
         "name-room" => r#","room":1,"name":"x""#,
         "split-room" => r#","line":[[0.0,0.5],[1.0,0.5]]"#,
+        "set-room" => r#","room":1"#,
         "join-rooms" => r#","rooms":[1,2]"#,
         "remove-no-go" | "undo-room-change" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => {
             r#","number":1"#

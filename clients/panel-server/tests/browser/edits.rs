@@ -164,7 +164,7 @@ async fn rooms(browser: &Browser, count: usize) {
 }
 
 #[tokio::test]
-async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_and_joined_again() {
+async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_and_set() {
     let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
         return;
     };
@@ -229,4 +229,19 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_and_joined_agai
     rooms(browser, before + 1).await;
     browser.click("#undo").await;
     rooms(browser, before).await;
+    settings_are_undone(browser, halves[0]).await;
+}
+
+/// A room gets other settings, which are taken back.
+async fn settings_are_undone(browser: &Browser, room: u16) {
+    let shown = "document.getElementById('rooms').innerText.includes('suction 50')";
+    browser.click(&format!("#room-{room}-settings")).await;
+    let slide = "const field = document.getElementById('room-vacuum'); field.value = '50'; \
+                 field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
+    browser.text(slide).await;
+    browser.shot("phone-room-settings-dark").await;
+    browser.click("#save-settings").await;
+    browser.until(&format!("return {shown}")).await;
+    browser.click("#undo").await;
+    browser.until(&format!("return !{shown}")).await;
 }

@@ -3,7 +3,9 @@
 //! An edit is known by what it changed, not by the number under which the robot keeps it: what is brought back gets a new number,
 //! and another client may have been there in between. Nothing counts before the robot has confirmed it.
 
-use rvac_api::{HomeView, NoGoShape, Request, RequestBody, RoomChangeView, RoomNaming, RoomSplitting};
+use rvac_api::{
+    HomeView, NoGoShape, Request, RequestBody, RoomChangeView, RoomNaming, RoomSettings, RoomSplitting,
+};
 
 use crate::words::Words;
 
@@ -30,6 +32,15 @@ pub enum Edit {
         before: Option<String>,
         /// What it shall be called.
         after: Option<String>,
+    },
+    /// A room is cleaned otherwise.
+    Settings {
+        /// Its identity.
+        room: u16,
+        /// How it was cleaned.
+        before: Option<RoomSettings>,
+        /// How it shall be cleaned.
+        after: Option<RoomSettings>,
     },
     /// A room was cut in two along a line.
     Split([[f64; 2]; 2]),
@@ -73,6 +84,11 @@ impl Edit {
                 before: after,
                 after: before,
             },
+            Self::Settings { room, before, after } => Self::Settings {
+                room,
+                before: after,
+                after: before,
+            },
             Self::Split(line) => Self::Unsplit(line),
             Self::Unsplit(line) => Self::Split(line),
             Self::Join(rooms) => Self::Unjoin(rooms),
@@ -90,6 +106,7 @@ impl Edit {
             Self::Allow(NoGoShape::Wall(_)) => told.edit_no_wall,
             Self::Allow(NoGoShape::Zone(_)) => told.edit_no_zone,
             Self::Name { .. } => told.edit_name,
+            Self::Settings { .. } => told.edit_settings,
             Self::Split(_) => told.edit_split,
             Self::Unsplit(_) => told.edit_unsplit,
             Self::Join(_) => told.edit_join,
@@ -115,6 +132,16 @@ impl Edit {
                     room: *room,
                     name: after.clone(),
                 }))
+            }
+            Self::Settings { room, before, after } => {
+                let known = home.rooms.iter().find(|known| known.id == *room);
+                if known.is_none_or(|known| known.settings != *before) {
+                    return Err(EditError::ChangedMeanwhile);
+                }
+                Ok(RequestBody::SetRoom {
+                    room: *room,
+                    settings: *after,
+                })
             }
             Self::Split(line) => Ok(RequestBody::SplitRoom(RoomSplitting {
                 room: None,
@@ -309,6 +336,7 @@ mod tests {
                 x: 0.0,
                 y: 0.0,
                 name: name.map(str::to_owned),
+                settings: None,
             }],
             ..HomeView::default()
         }

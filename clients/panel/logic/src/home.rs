@@ -3,6 +3,7 @@
 use rvac_api::{HomeView, Pose, RoomView, SimulatedPlan};
 
 use crate::figures::area_text;
+use crate::room_settings::room_settings_text;
 use crate::words::Words;
 
 /// Kinds of cells of a plan that only the robot's own map has, beside those of [`SimulatedPlan`]: not to be entered, and
@@ -118,8 +119,11 @@ pub fn room_rows(words: &Words, home: &HomeView) -> Vec<RoomRow> {
             id: room.id,
             name: room_name(words, room),
             words: format!(
-                "{}{}",
+                "{}{}{}",
                 area_text(words, room.area_m2),
+                room.settings
+                    .map(|settings| room_settings_text(words, &settings))
+                    .unwrap_or_default(),
                 doors_text(words, home, room.id)
             ),
         })
@@ -216,6 +220,7 @@ mod tests {
             x: 0.0,
             y: 0.0,
             name: (id == 2).then(|| "Kitchen".to_owned()),
+            settings: None,
         };
         let door = |rooms| DoorView {
             rooms,

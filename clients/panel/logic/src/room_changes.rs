@@ -70,6 +70,7 @@ mod tests {
             x: 0.0,
             y: 0.0,
             name: name.map(str::to_owned),
+            settings: None,
         };
         HomeView {
             rooms: vec![room(1, Some("Hall")), room(2, None), room(6, None)],

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::Daemon;
 
@@ -60,6 +60,29 @@ pub(crate) enum RoomsVerb {
     },
     /// Take a room's name away.
     Unname {
+        /// Its name or number.
+        room: String,
+    },
+    /// Say how a room is cleaned; what is left out stays as it is.
+    #[command(group = ArgGroup::new("settings").required(true).multiple(true))]
+    Set {
+        /// Its name or number.
+        room: String,
+        /// How often at least, 1 to 3, whenever a job names the room.
+        #[arg(long, group = "settings", value_name = "N")]
+        passes: Option<u8>,
+        /// How hard suction runs in it, percent.
+        #[arg(long, group = "settings", value_name = "PERCENT")]
+        suction: Option<u8>,
+        /// The same for the main brush.
+        #[arg(long, group = "settings", value_name = "PERCENT")]
+        main_brush: Option<u8>,
+        /// The same for the side brushes.
+        #[arg(long, group = "settings", value_name = "PERCENT")]
+        side_brushes: Option<u8>,
+    },
+    /// Let a room be cleaned as any other: once, at full power.
+    Unset {
         /// Its name or number.
         room: String,
     },

@@ -147,6 +147,7 @@ mod tests {
             x: 0.75,
             y: 0.75,
             name: None,
+            settings: None,
         }];
         let robot = Pose {
             x: 1.75,

@@ -4,7 +4,7 @@ use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
 use anyhow::bail;
-use rvac_api::{HomeView, RequestBody, RoomNaming, RoomSplitting, RoomView};
+use rvac_api::{CleaningPower, HomeView, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView};
 
 use crate::arguments::{RoomsJob, RoomsVerb};
 use crate::control;
@@ -31,6 +31,35 @@ pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
             room: find(&home, room)?,
             name: None,
         }),
+        Some(RoomsVerb::Unset { room }) => RequestBody::SetRoom {
+            room: find(&home, room)?,
+            settings: None,
+        },
+        Some(RoomsVerb::Set {
+            room,
+            passes,
+            suction,
+            main_brush,
+            side_brushes,
+        }) => {
+            let room = find(&home, room)?;
+            let known = home.rooms.iter().find(|known| known.id == room);
+            let before = known.and_then(|known| known.settings).unwrap_or_default();
+            let share = |percent: &Option<u8>, before: f64| {
+                percent.map_or(before, |percent| f64::from(percent) / 100.0)
+            };
+            RequestBody::SetRoom {
+                room,
+                settings: Some(RoomSettings {
+                    passes: passes.unwrap_or(before.passes),
+                    power: CleaningPower {
+                        suction: share(suction, before.power.suction),
+                        main_brush: share(main_brush, before.power.main_brush),
+                        side_brushes: share(side_brushes, before.power.side_brushes),
+                    },
+                }),
+            }
+        }
         Some(RoomsVerb::Split { room, from, to }) => RequestBody::SplitRoom(RoomSplitting {
             room: Some(find(&home, room)?),
             line: [from, to].map(|end| [end.x_m, end.y_m]),
@@ -68,9 +97,26 @@ fn table(home: &HomeView) -> String {
     let mut text = "room  floor     name\n".to_owned();
     for room in &home.rooms {
         let name = room.name.as_deref().unwrap_or("-");
-        text += &format!("{:<5} {:>5.1} m2  {name}\n", room.id, room.area_m2);
+        let settings = room.settings.map(settings_text).unwrap_or_default();
+        text += &format!("{:<5} {:>5.1} m2  {name}{settings}\n", room.id, room.area_m2);
     }
     text
+}
+
+/// `, 2 passes, suction 50 %, main brush 100 %, side brushes 0 %`
+fn settings_text(settings: RoomSettings) -> String {
+    let CleaningPower {
+        suction,
+        main_brush,
+        side_brushes,
+    } = settings.power;
+    format!(
+        ", {} passes, suction {:.0} %, main brush {:.0} %, side brushes {:.0} %",
+        settings.passes,
+        100.0 * suction,
+        100.0 * main_brush,
+        100.0 * side_brushes
+    )
 }
 
 /// The identity of the room with this name or number.
@@ -105,7 +151,7 @@ fn called(room: &RoomView) -> String {
 #[cfg(test)]
 mod tests {
     use super::{changes, find, table};
-    use rvac_api::{HomeView, RoomChangeView, RoomView};
+    use rvac_api::{HomeView, RoomChangeView, RoomSettings, RoomView};
 
     fn home() -> HomeView {
         let room = |id, name: Option<&str>| RoomView {
@@ -114,6 +160,7 @@ mod tests {
             x: 0.0,
             y: 0.0,
             name: name.map(str::to_owned),
+            settings: None,
         };
         HomeView {
             rooms: vec![room(1, None), room(4, Some("Köök")), room(5, Some("1"))],
@@ -158,5 +205,15 @@ mod tests {
             table(&home())
         );
         assert!(table(&HomeView::default()).starts_with("no room"));
+        let mut home = home();
+        home.rooms[0].settings = Some(RoomSettings {
+            passes: 2,
+            ..RoomSettings::default()
+        });
+        assert!(
+            table(&home).contains("m2  -, 2 passes, suction 100 %"),
+            "{}",
+            table(&home)
+        );
     }
 }

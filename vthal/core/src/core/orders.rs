@@ -81,6 +81,9 @@ impl Core {
             RequestBody::AddNoGo { shape } => self.add_no_go(now_us, (asker, &shape), outputs),
             RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, (asker, number), outputs),
             RequestBody::NameRoom(naming) => self.name_room(now_us, (asker, &naming), outputs),
+            RequestBody::SetRoom { room, settings } => {
+                self.set_room(now_us, (asker, (room, settings)), outputs)
+            }
             RequestBody::SplitRoom(splitting) => self.split_room(now_us, (asker, &splitting), outputs),
             RequestBody::JoinRooms { rooms } => self.join_rooms(now_us, (asker, rooms), outputs),
             RequestBody::UndoRoomChange { number } => self.undo_room_change(now_us, (asker, number), outputs),

@@ -43,6 +43,7 @@ impl Core {
                 | RequestBody::AddNoGo { .. }
                 | RequestBody::RemoveNoGo { .. }
                 | RequestBody::NameRoom(_)
+                | RequestBody::SetRoom { .. }
                 | RequestBody::SplitRoom(_)
                 | RequestBody::JoinRooms { .. }
                 | RequestBody::UndoRoomChange { .. }
@@ -98,6 +99,7 @@ impl Core {
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }
             | RequestBody::NameRoom(_)
+            | RequestBody::SetRoom { .. }
             | RequestBody::SplitRoom(_)
             | RequestBody::JoinRooms { .. }
             | RequestBody::UndoRoomChange { .. }) => self.change_home(now_us, ((client, id), body), outputs),

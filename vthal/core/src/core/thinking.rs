@@ -8,7 +8,7 @@ use rvac_protocol::quality::Verdict;
 
 use super::standstill::is_standstill;
 use super::{Core, recorder};
-use crate::device::{CleanerDrive, CleanerPower, Device, DeviceCommand, LeaveDock};
+use crate::device::{CleanerDrive, Device, DeviceCommand, LeaveDock};
 use crate::journal::Part;
 use crate::observe::LinkView;
 use crate::outputs::{Delivery, Recipients};
@@ -118,16 +118,6 @@ impl Core {
             CleanerDrive::Off
         };
         self.device_command(now_us, DeviceCommand::Cleaners(cleaners), outputs);
-    }
-
-    /// A job cleans at full power, a person who drives as hard as they ask.
-    pub(super) fn cleaner_power(&self) -> CleanerPower {
-        let state = self.mind.as_ref().map(|mind| mind.brain().status().state);
-        if state == Some(BehaviorState::Manual) {
-            self.driver_power
-        } else {
-            CleanerPower::FULL
-        }
     }
 
     fn log_decision(&mut self, now_us: u64, decision: &Decision, outputs: &mut Outputs) {

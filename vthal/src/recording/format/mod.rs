@@ -14,7 +14,9 @@ pub use state::BrainState;
 
 use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{Body, BrainConfig, Command, Observation, Point2, RoomName, Speeds, StrategyName};
+use brain::{
+    Body, BrainConfig, Command, Observation, Point2, RoomName, RoomPower, RoomSettings, Speeds, StrategyName,
+};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -260,6 +262,13 @@ pub enum GivenCommand {
         /// Its name; absent = none any more.
         name: Option<String>,
     },
+    /// [`Command::SetRoom`]
+    SetRoom {
+        /// Identity of the room.
+        room: u16,
+        /// Passes, then percent of suction, main brush and side brushes; absent = as any other.
+        settings: Option<[u8; 4]>,
+    },
     /// [`Command::SplitRoom`]
     SplitRoom {
         /// Identity of the room.
@@ -308,6 +317,18 @@ impl From<&Command> for GivenCommand {
             Command::NameRoom { room, name } => Self::NameRoom {
                 room: *room,
                 name: name.as_ref().map(|name| name.as_str().to_owned()),
+            },
+            Command::SetRoom { room, settings } => Self::SetRoom {
+                room: *room,
+                settings: settings.map(|settings| {
+                    let power = settings.power();
+                    [
+                        settings.passes(),
+                        power.suction,
+                        power.main_brush,
+                        power.side_brushes,
+                    ]
+                }),
             },
             Command::SplitRoom { room, line } => Self::SplitRoom {
                 room: *room,
@@ -359,6 +380,20 @@ impl GivenCommand {
                     Some(name) => Some(RoomName::new(name).ok()?),
                 },
             },
+            Self::SetRoom { room, settings } => Command::SetRoom {
+                room: *room,
+                settings: match settings {
+                    None => None,
+                    Some([passes, suction, main_brush, side_brushes]) => {
+                        let power = RoomPower {
+                            suction: *suction,
+                            main_brush: *main_brush,
+                            side_brushes: *side_brushes,
+                        };
+                        Some(RoomSettings::new(*passes, power).ok()?)
+                    }
+                },
+            },
             Self::SplitRoom { room, line } => {
                 let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
                 Command::SplitRoom {
@@ -394,7 +429,9 @@ impl GivenCommand {
 mod tests {
     use brain::mapping::CutLine;
     use brain::observation::{BeaconRange, ChargeFlow};
-    use brain::{CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, Zone};
+    use brain::{
+        CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, RoomPower, RoomSettings, Zone,
+    };
 
     use super::{Given, GivenCommand, Seen};
 
@@ -456,6 +493,14 @@ mod tests {
                 line: CutLine::new(corners[0], corners[1]).expect("two places"),
             },
             Command::JoinRooms { rooms: [3, 4] },
+            Command::SetRoom {
+                room: 3,
+                settings: RoomSettings::new(2, RoomPower::FULL).ok(),
+            },
+            Command::SetRoom {
+                room: 3,
+                settings: None,
+            },
             Command::UndoRoomChange { number: 2 },
             Command::Clean {
                 strategy: brain::StrategyName::Bounce,

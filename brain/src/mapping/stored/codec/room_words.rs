@@ -1,9 +1,14 @@
-//! How people changed the rooms, as bytes: the number of the next change, the changes, and the splits that were taken back.
+//! How people changed the rooms, as bytes: the number of the next change, the changes, and the splits that were taken back;
+//! and how rooms are cleaned.
+
+use std::collections::BTreeMap;
 
 use super::{Reader, StoredMapError, put};
 use crate::geometry::Point2;
+use crate::mapping::annotations::NAMES_MAX;
 use crate::mapping::room_changes::CHANGES_MAX;
 use crate::mapping::{CutLine, PartSide, RoomChange, RoomChanges, RoomJoin, RoomSplit};
+use crate::room_settings::{RoomPower, RoomSettings};
 
 const LEFT: u64 = 0;
 const JOIN: u64 = 1;
@@ -22,6 +27,22 @@ pub(super) fn put_room_changes(bytes: &mut Vec<u8>, changes: &RoomChanges) {
     put(bytes, changes.taken_back.len() as u64);
     for split in &changes.taken_back {
         put_split(bytes, split);
+    }
+}
+
+pub(super) fn put_room_settings(bytes: &mut Vec<u8>, settings: &BTreeMap<u16, RoomSettings>) {
+    put(bytes, settings.len() as u64);
+    for (room, settings) in settings {
+        let power = settings.power();
+        put(bytes, u64::from(*room));
+        for value in [
+            settings.passes(),
+            power.suction,
+            power.main_brush,
+            power.side_brushes,
+        ] {
+            put(bytes, u64::from(value));
+        }
     }
 }
 
@@ -62,6 +83,23 @@ impl Reader<'_> {
             }
         }
         Ok(changes)
+    }
+
+    pub(super) fn room_settings(&mut self) -> Result<BTreeMap<u16, RoomSettings>, StoredMapError> {
+        let mut all = BTreeMap::new();
+        for _ in 0..self.count(NAMES_MAX)? {
+            let room = self.short()?;
+            let mut byte = || u8::try_from(self.number()?).map_err(|_| StoredMapError::RoomSettings);
+            let passes = byte()?;
+            let power = RoomPower {
+                suction: byte()?,
+                main_brush: byte()?,
+                side_brushes: byte()?,
+            };
+            let settings = RoomSettings::new(passes, power).map_err(|_| StoredMapError::RoomSettings)?;
+            all.insert(room, settings);
+        }
+        Ok(all)
     }
 
     fn room_change(&mut self, next_room: u16) -> Result<RoomChange, StoredMapError> {

@@ -116,6 +116,7 @@ pub(super) const REFUSALS: &[(&str, &str)] = &[
     ("not-removed", "Selle numbriga eemaldatud korrust ei ole."),
     ("no-heading", "See robot teab oma suunda ainult rataste järgi, seepärast ei ole tal kaarti, millelt tube leida."),
     ("too-many-no-gos", "Keelualasid ja virtuaalseinu on nii palju, kui kodus võib olla: eemalda enne mõni."),
+    ("bad-settings", "Korrata saab 1 kuni 3 korda, võimsus on 0 kuni 100 protsenti ja miski peab töötama."),
     ("bad-line", "Joon peab ühendama kahte kohta kodu lähedal."),
     ("line-misses-room", "Joon ei poolita ühtki tuba: tõmba see läbi toa ühest seinast teiseni."),
     ("line-ends-in-room", "Joonest saab mööda: tõmba see läbi kogu toa ühest seinast teiseni."),

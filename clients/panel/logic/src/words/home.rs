@@ -40,6 +40,18 @@ screen! {
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
         draw_avoid: "Keep out for one job", "Jäta koht ühel korral välja";
+        set_room: "Settings", "Seaded";
+        set_room_named[1]: "Settings of {0}", "Toa „{0}“ seaded";
+        set_passes: "Cleaned at least", "Koristatakse vähemalt";
+        set_usual: "As any other", "Nagu teised";
+        set_suction: "Suction", "Imemine";
+        set_main_brush: "Main brush", "Põhihari";
+        set_side_brushes: "Side brushes", "Külgharjad";
+        set_once: "once", "üks kord";
+        set_times[1]: "{0} times", "{0} korda";
+        set_hint: "Power holds in every job, how often it is cleaned in jobs that name the room.",
+            "Võimsus kehtib igal koristamisel, kordade arv siis, kui tuba on valitud.";
+        with_passes[1]: ", {0} times", ", {0} korda";
         draw_cut: "Split a room", "Poolita tuba";
         join_hint: "To make two rooms one, choose both: they must lie beside each other.",
             "Kahe toa ühendamiseks vali mõlemad: need peavad olema kõrvuti.";

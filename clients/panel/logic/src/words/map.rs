@@ -18,6 +18,7 @@ screen! {
         edit_no_wall: "removal of a virtual wall", "virtuaalseina eemaldamine";
         edit_no_zone: "removal of a no-go zone", "keeluala eemaldamine";
         edit_name: "name of a room", "toa nimi";
+        edit_settings: "settings of a room", "toa seaded";
         edit_split: "split of a room", "toa poolitamine";
         edit_unsplit: "removal of a split", "poolitamise tagasivõtmine";
         edit_join: "joining of rooms", "tubade ühendamine";
