@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::wire::{ClientRow, Opened, Refused};
+use crate::wire::{ClientRow, OpenedHere, Refused};
 use crate::{DeviceName, Role, TokenId};
 
 /// A question or an order of the person at the console.
@@ -54,13 +54,7 @@ pub enum Order {
 #[serde(tag = "is", rename_all = "kebab-case")]
 pub enum Reply {
     /// The window is open.
-    Opened {
-        /// Code and time.
-        #[serde(flatten)]
-        opened: Opened,
-        /// Where devices find the robot.
-        addresses: Vec<String>,
-    },
+    Opened(OpenedHere),
     /// The program was let in.
     Added {
         /// What it shows with each request.

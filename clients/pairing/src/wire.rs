@@ -174,13 +174,34 @@ pub struct OpenWindow {
     pub role: Role,
 }
 
-/// Its answer.
+/// The window that was opened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Opened {
     /// The code, in two groups of digits.
     pub code: String,
     /// How long it holds, seconds.
     pub seconds: u32,
+}
+
+/// The answer of the server, which knows where it is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OpenedHere {
+    /// Code and time.
+    #[serde(flatten)]
+    pub opened: Opened,
+    /// Where devices find the robot.
+    pub addresses: Vec<String>,
+}
+
+impl OpenedHere {
+    /// The address for a camera: one that phones find without anybody who knows the robot's name.
+    #[must_use]
+    pub fn to_scan(&self) -> Option<&str> {
+        self.addresses.iter().map(String::as_str).find(|address| {
+            let host = address.trim_start_matches("https://");
+            host.starts_with(|first: char| first == '[' || first.is_ascii_digit())
+        })
+    }
 }
 
 /// Why something was refused.

@@ -6,7 +6,7 @@ use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Duration;
 
 use pairing::console::Trust;
-use pairing::wire::{Forgotten, OpenWindow, Opened};
+use pairing::wire::{Forgotten, OpenWindow, OpenedHere};
 use rustls::ServerConfig;
 use rustls::server::{ClientHello, ResolvesServerCert};
 use rustls::sign::CertifiedKey;
@@ -179,10 +179,13 @@ impl Gate {
     }
 
     /// Opens the window, and lets the robot beep, so that whoever is near it knows.
-    pub(crate) async fn open(&self, wanted: OpenWindow) -> Result<Opened, NotDone> {
+    pub(crate) async fn open(&self, wanted: OpenWindow) -> Result<OpenedHere, NotDone> {
         let opened = self.guarded.open(wanted).await?;
         self.beep();
-        Ok(opened)
+        Ok(OpenedHere {
+            opened,
+            addresses: self.addresses(),
+        })
     }
 
     /// A connection to the daemon, to be made.

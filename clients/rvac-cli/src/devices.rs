@@ -23,36 +23,25 @@ pub(crate) fn pair(options: &PairOptions) -> anyhow::Result<ExitCode> {
     if let Some(robot) = &options.robot {
         return join(robot, options.name.as_ref());
     }
-    let Reply::Opened { opened, addresses } = ask(&options.console, &Order::Pair { role: options.role })?
-    else {
+    let Reply::Opened(invitation) = ask(&options.console, &Order::Pair { role: options.role })? else {
         bail!("panel-server gave another answer: both must be of one version");
     };
     let mut out = std::io::stdout().lock();
-    writeln!(out, "Code: {}", opened.code)?;
+    writeln!(out, "Code: {}", invitation.opened.code)?;
     writeln!(
         out,
         "Open the panel on the new device within {} s and type the code. The device gets the role {}.",
-        opened.seconds, options.role
+        invitation.opened.seconds, options.role
     )?;
-    for address in &addresses {
+    for address in &invitation.addresses {
         writeln!(out, "  {address}")?;
     }
     if out.is_terminal() {
-        for line in addresses
-            .iter()
-            .find(|address| is_numeric(address))
-            .map_or_else(Vec::new, |address| qr::lines(address))
-        {
+        for line in invitation.to_scan().map_or_else(Vec::new, qr::lines) {
             writeln!(out, "{line}")?;
         }
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Whether phones find the address without anybody who knows the robot's name.
-fn is_numeric(address: &str) -> bool {
-    let host = address.trim_start_matches("https://");
-    host.starts_with(|first: char| first == '[' || first.is_ascii_digit())
 }
 
 fn join(robot: &Address, name: Option<&DeviceName>) -> anyhow::Result<ExitCode> {

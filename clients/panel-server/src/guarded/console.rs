@@ -77,10 +77,7 @@ async fn answer(mut stream: UnixStream, gate: &Gate) -> io::Result<()> {
 async fn obey(order: Order, gate: &Gate) -> Result<Reply, NotDone> {
     let guarded = &gate.guarded;
     Ok(match order {
-        Order::Pair { role } => Reply::Opened {
-            opened: gate.open(OpenWindow { role }).await?,
-            addresses: gate.addresses(),
-        },
+        Order::Pair { role } => Reply::Opened(gate.open(OpenWindow { role }).await?),
         Order::Add { name, role } => Reply::Added {
             token: guarded.add(Wanted { name, role }).await?.text(),
         },

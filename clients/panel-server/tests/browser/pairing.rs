@@ -25,6 +25,14 @@ fn open(stack: &Stack, role: &str) -> String {
     code.expect("a code").to_owned()
 }
 
+/// The first address that has no name in it, as a window that is opened at the console tells it.
+fn address(stack: &Stack) -> Option<String> {
+    let said = stack.console(&["pair", "--role", "drive"]);
+    let host = |line: &str| line.strip_prefix("https://").map(str::to_owned);
+    let is_numeric = |host: &String| host.starts_with(|first: char| first == '[' || first.is_ascii_digit());
+    said.lines().map(str::trim).filter_map(host).find(is_numeric)
+}
+
 /// The number of the only device.
 fn number(stack: &Stack) -> String {
     let listed = stack.console(&["clients"]);
@@ -115,6 +123,16 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
     browser
         .until("return /Type [0-9]{4} [0-9]{4} on/.test(document.getElementById('pairing-code').textContent)")
         .await;
+    let caption = "return document.querySelector('#pairing-qr figcaption')?.textContent ?? ''";
+    let seen = browser.text(caption).await;
+    assert_eq!(
+        seen.split_once("https://").map(|(_, address)| address),
+        address(stack).as_deref(),
+        "{seen}"
+    );
+    crate::accessibility::expect_none(browser, "the devices").await;
+    let show = "document.getElementById('pairing-qr')?.scrollIntoView({ block: 'center' }); return ''";
+    browser.text(show).await;
     browser.shot("phone-devices").await;
     stack.console(&["clients", "add", "<b>script</b>", "--role", "view"]);
     browser

@@ -111,8 +111,15 @@ async fn an_administrator_does_from_the_panel_what_the_console_does() {
             &pairing::wire::OpenWindow { role: Role::View },
         )
         .await;
-    let opened: pairing::wire::Opened = serde_json::from_str(&answer.body).unwrap();
-    let code = pairing::Code::parse(&opened.code).unwrap();
+    let invitation: pairing::wire::OpenedHere = serde_json::from_str(&answer.body).unwrap();
+    assert!(
+        invitation
+            .addresses
+            .iter()
+            .all(|address| address.starts_with("https://")),
+        "{invitation:?}"
+    );
+    let code = pairing::Code::parse(&invitation.opened.code).unwrap();
     let finish = rig.begin(&code, "tablet", 3).await.unwrap();
     let view = rig.finish(&finish).await.cookie().unwrap();
     let id = rig.session(&view).await.client.unwrap();

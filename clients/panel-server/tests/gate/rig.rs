@@ -241,7 +241,7 @@ impl Rig {
     /// Opens a window at the console; gives the code.
     pub(crate) async fn open(&self, role: Role) -> Result<Code, String> {
         match self.console(&Order::Pair { role }).await {
-            Reply::Opened { opened, .. } => Ok(Code::parse(&opened.code).unwrap()),
+            Reply::Opened(invitation) => Ok(Code::parse(&invitation.opened.code).unwrap()),
             Reply::Refused(refused) => Err(refused.reason),
             other => panic!("{other:?}"),
         }

@@ -25,6 +25,7 @@ mod offers;
 mod orbit;
 mod plan;
 mod playout;
+mod qr;
 mod room_changes;
 mod room_choice;
 mod room_settings;
@@ -57,13 +58,14 @@ pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, 
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{
-    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LinePart, MixDraft, MixProblem,
-    OutputPart, SwitchPart, profile_problem_text,
+    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LinePart, MixDraft,
+    MixProblem, OutputPart, SwitchPart, profile_problem_text,
 };
 pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
+pub use qr::QrPicture;
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
 pub use room_choice::{PASSES_MAX, RoomChoice, job_estimate_text, room_at};
 pub use room_settings::{PowerPart, room_settings_text};

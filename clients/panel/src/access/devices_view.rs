@@ -2,7 +2,8 @@
 
 use leptos::prelude::*;
 use pairing::Role;
-use pairing::wire::{ClientRow, OpenWindow, Opened, Revoke, SetRole};
+use pairing::wire::{ClientRow, OpenedHere, OpenWindow, Revoke, SetRole};
+use panel_logic::QrPicture;
 
 use super::http::{self, Failed};
 use super::{Access, Entrance};
@@ -14,7 +15,7 @@ use crate::language::words;
 struct Devices {
     rows: RwSignal<Vec<ClientRow>>,
     wrong: RwSignal<String>,
-    opened: RwSignal<Option<Opened>>,
+    opened: RwSignal<Option<OpenedHere>>,
 }
 
 impl Devices {
@@ -80,7 +81,7 @@ pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
         devices
             .opened
             .get()
-            .map(|opened| words().access.type_code.fill([&opened.code, &opened.seconds]))
+            .map(|OpenedHere { opened, .. }| words().access.type_code.fill([&opened.code, &opened.seconds]))
     };
     view! {
         <section class="devices" aria-labelledby="devices-title">
@@ -101,8 +102,24 @@ pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
                 </button>
             </div>
             <p id="pairing-code" role="status" class="remark" hidden=move || code().is_none()>{code}</p>
+            {move || devices.opened.with(|opened| opened.as_ref().and_then(to_scan))}
         </section>
     }
+}
+
+/// The address for the camera of the new device.
+fn to_scan(invitation: &OpenedHere) -> Option<impl IntoView + use<>> {
+    let address = invitation.to_scan()?;
+    let QrPicture { size, path } = QrPicture::of(address)?;
+    let told = words().access.scan.fill([&address]);
+    Some(view! {
+        <figure class="qr" id="pairing-qr">
+            <svg role="img" aria-label=words().access.qr_code viewBox=format!("0 0 {size} {size}")>
+                <path d=path />
+            </svg>
+            <figcaption class="remark">{told}</figcaption>
+        </figure>
+    })
 }
 
 fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {

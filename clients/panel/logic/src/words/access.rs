@@ -51,9 +51,11 @@ screen! {
         new_may: "A new device may", "Uus seade võib";
         add: "Add a device", "Lisa seade";
         type_code[2]: "Type {0} on the new device within {1} seconds.", "Sisesta uues seadmes {0}; aega on {1} sekundit.";
+        qr_code: "QR code of the robot's address", "Roboti aadressi QR-kood";
+        scan[1]: "The camera of the new device finds the robot by this: {0}", "Uue seadme kaamera leiab selle järgi roboti: {0}";
         this_device: "this device", "see seade";
         may_named[1]: "What {0} may do", "Mida {0} võib teha";
-        shut_named[1]: "Shut {0} out", "Eemalda õigused: {0}";
+        shut_named[1]: "Shut out {0}", "Eemalda õigused: {0}";
         shut: "Shut out", "Eemalda";
         may_view: "look and stop", "vaadata ja peatada";
         may_drive: "drive and clean", "juhtida ja koristada";
