@@ -33,7 +33,7 @@ pub use defaults::standard_profile;
 pub use helm::{Helm, Order};
 pub use input::{Device, KeyCode, Source, SourceError};
 pub use line::{Line, Mix};
-pub use mixer::{GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer};
+pub use mixer::{GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer, response};
 pub use name::{Name, NameError};
 pub use output::{Output, OutputKind, OutputName};
 pub use pilot::{Pilot, STEP_EVERY_US, Steered, TopSpeeds};

@@ -342,7 +342,13 @@ fn idle(profile: &Profile, line: &Line) -> f64 {
     let centre = profile
         .calibration(&line.input)
         .map_or(0.0, |calibration| calibration.centre);
-    weigh(line, shape(line, calibrated(profile, &line.input, centre)))
+    response(profile, line, centre)
+}
+
+/// What a line of the profile makes of a reading in the end, when its delay is over and it needs to be slow no more.
+#[must_use]
+pub fn response(profile: &Profile, line: &Line, reading: f64) -> f64 {
+    weigh(line, shape(line, calibrated(profile, &line.input, reading)))
 }
 
 fn shape(line: &Line, input: f64) -> f64 {

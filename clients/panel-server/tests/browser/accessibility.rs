@@ -51,13 +51,22 @@ const VIEWS: [(&str, &[&str], &str); 9] = [
     ("drive", &["#tab-drive"], "#pad"),
     (
         "mixes",
-        &["#tab-drive", "#edit-mixes", ".output .unfold"],
-        "#mixes .lines",
+        &[
+            "#tab-drive",
+            "#edit-mixes",
+            "[data-output=turn] .unfold",
+            "#line-1-0",
+        ],
+        "#mixes .mix-curve",
     ),
     ("home", &["#edit-mixes", "#tab-home"], "#rooms .choose"),
     (
         "room",
-        &["#rooms .choose", "#rooms li button[aria-expanded]"],
+        &[
+            "#rooms .choose",
+            "#rooms li button[aria-expanded]",
+            "#rooms [id$=-settings]",
+        ],
         "#order-bar",
     ),
     (

@@ -58,7 +58,7 @@ pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, 
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{
-    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LinePart, MixDraft,
+    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
     MixProblem, OutputPart, SwitchPart, profile_problem_text,
 };
 pub use offers::{Offer, Offers, PauseKind, Wait};

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{Field, Group, LinePart};
 
 use super::bars::Bar;
+use super::curve_view::Curve;
 use super::field_view::FieldView;
 use super::group_parts::{GroupTools, Unfold};
 use super::{Bench, group_problem};
@@ -48,6 +49,7 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
             <Show when=move || open.get()>
                 <Stages bench output line />
                 <Bar label=words().mix.so_far value=total />
+                <Curve bench output line />
                 <div class="mix-fields">
                     {LinePart::ALL
                         .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })

@@ -2,6 +2,7 @@
 
 mod bars;
 mod bench;
+mod curve_view;
 mod field_view;
 mod group_parts;
 mod inputs_view;

@@ -1,5 +1,6 @@
 //! Editing of control mixes, without the browser: fields, the draft, learning and calibration.
 
+mod curve;
 mod draft;
 mod field;
 mod learning;
@@ -9,6 +10,7 @@ mod switch_part;
 #[cfg(test)]
 mod tests;
 
+pub use curve::LineCurve;
 pub use draft::MixDraft;
 pub use field::{Field, FieldKind, Group};
 pub use learning::{CalibrationRun, Learning};

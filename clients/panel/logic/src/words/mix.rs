@@ -60,6 +60,9 @@ screen! {
         offset: "Offset", "Nihe";
         expo: "Expo", "Kaardus";
         curve: "Curve points", "Kõvera punktid";
+        // Reading and value, and then all of these.
+        curve_gives[2]: "{0} gives {1}", "{0} annab {1}";
+        curve_told[1]: "Curve from input to value: {0}", "Kõver sisendist väärtuseni: {0}";
         joins_by: "Joins by", "Liitub";
         only_while: "Only while on", "Ainult kui sees";
         delay: "Delay, ms", "Viivitus, ms";
