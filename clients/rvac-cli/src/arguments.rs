@@ -122,8 +122,8 @@ pub(crate) struct TermOptions {
     #[arg(
         long,
         value_name = "PATH",
-        conflicts_with = "socket",
-        required_unless_present = "socket"
+        conflicts_with_all = ["socket", "robot"],
+        required_unless_present_any = ["socket", "robot"]
     )]
     pub(crate) port: Option<PathBuf>,
     /// Bits per second on the serial device.
@@ -132,8 +132,11 @@ pub(crate) struct TermOptions {
     /// Talk through the raw pass-through of the vthal that listens here (its configuration must allow it).
     #[arg(long, value_name = "PATH")]
     pub(crate) socket: Option<PathBuf>,
+    /// The same on a robot that this computer is paired with as its administrator; somebody must be beside it to press a button.
+    #[arg(long, value_name = "https://NAME[:PORT]", conflicts_with = "socket")]
+    pub(crate) robot: Option<Address>,
     /// Send what is typed as it is, without seal, as from a bare serial terminal.
-    #[arg(long, conflicts_with = "socket")]
+    #[arg(long, conflicts_with_all = ["socket", "robot"])]
     pub(crate) hand: bool,
     /// Leave packets of this word out of the view, for example `state`; may be given several times.
     #[arg(long, value_name = "WORD")]

@@ -9,7 +9,7 @@ use anyhow::{Context as _, bail};
 use rvac_api::{Request, RequestBody, SEPARATOR, Topic, Update};
 
 use crate::arguments::Daemon;
-use crate::remote;
+use crate::remote::{self, Address};
 
 /// A message longer than this is no message of ours.
 const MESSAGE_BYTES_MAX: usize = 64 << 20;
@@ -32,9 +32,14 @@ impl Connection {
     /// Connects to the daemon, here or on the network, and introduces this program.
     pub(crate) fn open(daemon: &Daemon) -> anyhow::Result<Self> {
         match &daemon.robot {
-            Some(robot) => Self::introduced(remote::connect(robot)?),
+            Some(robot) => Self::open_there(robot),
             None => Self::open_here(&daemon.socket),
         }
+    }
+
+    /// Connects to the daemon of a robot on the network.
+    pub(crate) fn open_there(robot: &Address) -> anyhow::Result<Self> {
+        Self::introduced(remote::connect(robot)?)
     }
 
     /// Connects to the daemon of this computer.

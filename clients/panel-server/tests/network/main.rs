@@ -84,6 +84,25 @@ fn kept(settings: &Path) -> PathBuf {
     files.next().unwrap().unwrap().path()
 }
 
+/// Packets of its own need somebody beside the robot, or at its console.
+fn types_packets(desk: &Computer, stack: &Stack) {
+    let words = ["term", "--linger", "3000", "--skip", "state"];
+    let refused = desk.rvac(&words, "{\"c\":\"info\"}\n");
+    assert!(
+        !refused.status.success() && told(&refused).contains("(not-present)"),
+        "{}",
+        told(&refused)
+    );
+    let listed = stack.console(&["clients"]);
+    stack.console(&["clients", "vouch", listed.split_whitespace().next().unwrap()]);
+    let typed = desk.rvac(&words, "{\"c\":\"info\"}\n");
+    assert!(
+        typed.status.success() && told(&typed).contains("> {\"c\":\"info\""),
+        "{}",
+        told(&typed)
+    );
+}
+
 #[test]
 fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot() {
     let page = std::env::temp_dir().join(format!("rvac-network-{}", std::process::id()));
@@ -129,6 +148,7 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
         assert_eq!(desk.says(words), here(&stack, words), "{words:?}");
     }
     desk.until("docked");
+    types_packets(&desk, &stack);
     assert!(desk.rvac(&["start"], "").status.success());
     desk.until("cleaning");
     assert!(desk.rvac(&["stop"], "").status.success());

@@ -149,8 +149,18 @@ impl Stack {
     /// In a home that the robot does not know, with a server that paired devices may use from all networks.
     pub(crate) fn start_on_network(panel: &Path) -> Self {
         let mut stack = Self::without_server(Home::Unknown, None);
+        stack.allow_packets();
         stack.serve_network(panel, ("0", "panel"));
         stack
+    }
+
+    /// Starts the daemon anew, with clients that may send packets of their own.
+    fn allow_packets(&mut self) {
+        let path = self.folder.join("vthal.toml");
+        let configuration = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, format!("{configuration}[socket]\nexpert = true\n")).unwrap();
+        self.kill_vthal();
+        self.start_vthal();
     }
 
     /// Another robot takes the place of this one.

@@ -10,12 +10,16 @@ use anyhow::bail;
 
 use crate::arguments::TermOptions;
 use crate::show::Shown;
+use crate::socket::Connection;
 
 pub(crate) fn run(options: &TermOptions) -> anyhow::Result<ExitCode> {
-    match (&options.port, &options.socket) {
-        (Some(port), _) => direct::run(port, options),
-        (None, Some(socket)) => relay::run(socket, options),
-        (None, None) => bail!("name the robot's serial device with --port, or vthal's socket with --socket"),
+    match (&options.port, &options.socket, &options.robot) {
+        (Some(port), ..) => direct::run(port, options),
+        (None, Some(socket), _) => relay::run(Connection::open_here(socket)?, options),
+        (None, None, Some(robot)) => relay::run(Connection::open_there(robot)?, options),
+        (None, None, None) => bail!(
+            "name the robot's serial device with --port, vthal's socket with --socket, or a robot on the network with --robot"
+        ),
     }
 }
 

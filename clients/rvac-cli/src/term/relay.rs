@@ -1,6 +1,5 @@
 //! Through the raw pass-through of vthal, which seals and numbers.
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
@@ -22,8 +21,7 @@ enum Event {
     Lost(anyhow::Error),
 }
 
-pub(super) fn run(socket: &Path, options: &TermOptions) -> anyhow::Result<ExitCode> {
-    let mut connection = Connection::open_here(socket)?;
+pub(super) fn run(mut connection: Connection, options: &TermOptions) -> anyhow::Result<ExitCode> {
     let mut sender = connection.sender()?;
     let (events, inbox) = channel();
     connection.watch(vec![Topic::Packets])?;
