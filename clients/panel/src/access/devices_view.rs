@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use pairing::Role;
-use pairing::wire::{ClientRow, OpenedHere, OpenWindow, Revoke, SetRole};
+use pairing::wire::{ClientRow, OpenWindow, OpenedHere, Revoke, SetRole};
 use panel_logic::QrPicture;
 
 use super::http::{self, Failed};
