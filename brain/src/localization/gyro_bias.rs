@@ -17,6 +17,8 @@ const SETTLE_S: f64 = 0.3;
 const REST_MIN_S: f64 = 0.3;
 /// Rests are weighed in pieces of this length at most.
 const REST_MAX_S: f64 = 2.0;
+/// A rest that differs by more deviations than this counts the less the more it does: the bias of a gyro wanders slowly.
+const GATE: f64 = 4.0;
 /// A faster turn at resting wheels is a person who turns the robot, or a bump that pushed it.
 const CARRIED_RAD_PER_S: f64 = 0.03;
 
@@ -113,8 +115,11 @@ impl GyroBias {
             return;
         }
         let noise = WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / rested_s;
-        let gain = self.variance / (self.variance + noise);
-        self.bias_rad_per_s += gain * (seen_rad_per_s - self.bias_rad_per_s);
+        let off_rad_per_s = seen_rad_per_s - self.bias_rad_per_s;
+        let surprise = off_rad_per_s * off_rad_per_s / (GATE * GATE * (self.variance + noise));
+        // A robot that slides along what it touches turns slowly, too, while its wheels rest.
+        let gain = self.variance / (self.variance + noise) / surprise.max(1.0);
+        self.bias_rad_per_s += gain * off_rad_per_s;
         self.variance *= 1.0 - gain;
     }
 }
@@ -146,6 +151,27 @@ mod tests {
             bias.observe(at(time_s, 1.0, 0.5 * time_s), 0.02);
         }
         assert!((bias.rad_per_s() - learnt).abs() < 5e-5, "{}", bias.rad_per_s());
+    }
+
+    #[test]
+    fn a_robot_that_is_turned_slowly_at_rest_does_not_unlearn_the_bias() {
+        let mut bias = GyroBias::default();
+        let rest = |bias: &mut GyroBias, from_s: f64, rested_s: f64, rad_per_s: f64| {
+            for step in 0..=(rested_s / 0.02) as u32 {
+                let time_s = from_s + f64::from(step) * 0.02;
+                bias.observe(at(time_s, from_s, rad_per_s * time_s), 0.02);
+            }
+            bias.end_rest(at(from_s + rested_s, from_s, rad_per_s * (from_s + rested_s)));
+        };
+        rest(&mut bias, 0.0, 5.0, 0.001);
+        let learnt = bias.rad_per_s();
+        rest(&mut bias, 100.0, 1.0, 0.02);
+        assert!((bias.rad_per_s() - learnt).abs() < 1e-4, "{}", bias.rad_per_s());
+        // One that has really changed is learnt all the same.
+        for minute in 2..20 {
+            rest(&mut bias, 100.0 * f64::from(minute), 2.0, 0.004);
+        }
+        assert!((bias.rad_per_s() - 0.004).abs() < 1e-3, "{}", bias.rad_per_s());
     }
 
     #[test]
