@@ -31,7 +31,7 @@ pub use floors::{Finding, FloorFinder, FloorPlace};
 pub use odometry::Advance;
 use odometry::Odometry;
 use retreat::Retreat;
-use survey::{Survey, TurnSigmas};
+use survey::{Survey, TurnCounting};
 use terrain::Terrain;
 use tracker::{Moved, Tracker};
 
@@ -272,14 +272,17 @@ impl Localization {
         // Below zero: it was put down, and nobody has drawn the consequences yet.
         self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
         let odom = self.odometry.odom_from_base();
+        let (scale, _) = self.odometry.gyro();
         let turns = match advance.gyro_turn_rad {
-            Some(_) => TurnSigmas {
-                scale: self.odometry.calibration.scale_sigma(),
-                bias_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
+            Some(_) => TurnCounting {
+                scale,
+                scale_sigma: self.odometry.calibration.scale_sigma(),
+                bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
             },
-            None => TurnSigmas {
-                scale: WHEEL_TURN_SCALE,
-                bias_rad_per_s: 0.0,
+            None => TurnCounting {
+                scale,
+                scale_sigma: WHEEL_TURN_SCALE,
+                bias_sigma_rad_per_s: 0.0,
             },
         };
         let Some(fix) = self

@@ -19,10 +19,17 @@ const OFF_MAX_RAD: f64 = 0.1;
 const MARKS_MIN: u32 = 4;
 
 /// Where the next gain begins.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct GainLog {
     /// Node from which on nothing was told yet.
     next: usize,
+}
+
+impl Default for GainLog {
+    /// From the second node on: no wall was seen from the first one.
+    fn default() -> Self {
+        Self { next: 1 }
+    }
 }
 
 impl GainLog {
@@ -60,7 +67,7 @@ impl GainLog {
         let ([began, ..], [.., ended]) = (between, between) else {
             return None;
         };
-        let counted_rad: f64 = between.iter().skip(1).map(|node| node.turn_rad).sum();
+        let counted_rad: f64 = between.iter().skip(1).map(|node| node.turns.sum_rad).sum();
         let turned_rad = ended.pose.heading_rad - began.pose.heading_rad;
         Some(Gain {
             time_s: ended.time_us.saturating_sub(began.time_us) as f64 * 1e-6,
@@ -91,7 +98,7 @@ mod tests {
         for (index, node) in graph.nodes.iter_mut().enumerate() {
             // A full turn and some more between two nodes.
             heading_rad += FULL_RAD + 0.1;
-            node.turn_rad = SCALE * (FULL_RAD + 0.1);
+            node.turns.sum_rad = SCALE * (FULL_RAD + 0.1);
             node.pose.heading_rad = normalize_rad(heading_rad);
             node.time_us = 15_000_000 * index as u64;
         }

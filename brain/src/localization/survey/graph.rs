@@ -22,8 +22,33 @@ pub(super) struct Node {
     /// From the node before, by odometry, and how sure that is.
     pub(super) step: Pose2,
     pub(super) variance: StepVariance,
-    /// Sum of the turns since the node before, full ones counted, radians.
-    pub(super) turn_rad: f64,
+    /// Since the node before.
+    pub(super) turns: Turns,
+}
+
+/// The turns of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Turns {
+    /// Sum, full ones counted, radians.
+    pub(super) sum_rad: f64,
+    /// By how much the end of the step moves for each unit of the scale with which they are counted.
+    pub(super) bend_m: Point2,
+    /// What was wrong with the scale and is put right, relative.
+    pub(super) scale: f64,
+}
+
+impl Node {
+    /// Counts the turns of the step with another scale: the first ones were counted before walls had told it.
+    pub(super) fn count_anew(&mut self, scale: f64) {
+        let before = core::mem::replace(&mut self.turns.scale, scale);
+        let more = (1.0 + scale) / (1.0 + before) - 1.0;
+        self.step = Pose2 {
+            x_m: self.step.x_m + more * self.turns.bend_m.x_m,
+            y_m: self.step.y_m + more * self.turns.bend_m.y_m,
+            heading_rad: normalize_rad(self.step.heading_rad + more * self.turns.sum_rad),
+        };
+        self.turns.sum_rad *= 1.0 + more;
+    }
 }
 
 /// A straight line, from its front.
@@ -259,7 +284,7 @@ impl Graph {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::{Graph, Mark, Node, Wall, direction};
+    use super::{Graph, Mark, Node, Turns, Wall, direction};
     use crate::geometry::{Point2, Pose2, normalize_rad};
     use crate::localization::survey::kalman::StepVariance;
     use crate::localization::survey::optimization::optimized;
@@ -322,7 +347,7 @@ pub(super) mod tests {
                 pose: believed,
                 step,
                 variance: VARIANCE,
-                turn_rad: 0.0,
+                turns: Turns::default(),
             });
             let side = match index % 32 {
                 0..10 => 0,

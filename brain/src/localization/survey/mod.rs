@@ -20,14 +20,14 @@ mod work;
 
 use fit::{Fit, Fitted};
 use gains::GainLog;
-use graph::{Graph, Node};
+use graph::{Graph, Node, Turns};
 use kalman::{Belief, StepVariance};
 use visit::{Visit, VisitLog};
 
 use super::Advance;
 use super::calibration::Gain;
 use crate::config::ProximityLayout;
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use crate::mapping::Keyframe;
 use crate::observation::Observation;
 
@@ -83,13 +83,14 @@ pub(super) struct Survey {
     outdated: bool,
 }
 
-/// Deviations of what counts turns.
+/// How well turns are counted.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TurnSigmas {
-    /// Of its scale, relative.
+pub(super) struct TurnCounting {
+    /// What was found wrong with the scale and is put right, relative, and its deviation.
     pub(super) scale: f64,
-    /// Of its bias, radians per second.
-    pub(super) bias_rad_per_s: f64,
+    pub(super) scale_sigma: f64,
+    /// Deviation of the bias, radians per second.
+    pub(super) bias_sigma_rad_per_s: f64,
 }
 
 /// What the robot moved since the last node.
@@ -97,12 +98,20 @@ pub(super) struct TurnSigmas {
 struct Pending {
     way_m: f64,
     turn_rad: f64,
+    /// By how much the end moves for each unit of the scale of turns, in the frame of odometry.
+    bend_m: Point2,
     noise_rad2: f64,
     time_s: f64,
 }
 
 impl Pending {
-    fn add(&mut self, advance: Advance) {
+    /// Adds an advance that ended at `odom`.
+    fn add(&mut self, advance: Advance, odom: Pose2) {
+        let heading_rad = odom.heading_rad - 0.5 * advance.turn_rad;
+        let (sin, cos) = libm::sincos(heading_rad);
+        let lever_m = (self.turn_rad + 0.5 * advance.turn_rad) * advance.distance_m;
+        self.bend_m.x_m -= lever_m * sin;
+        self.bend_m.y_m += lever_m * cos;
         self.way_m += advance.distance_m.abs();
         self.turn_rad += advance.turn_rad;
         self.time_s += advance.time_s;
@@ -112,9 +121,22 @@ impl Pending {
         };
     }
 
-    fn variance(self, step: Pose2, turns: TurnSigmas) -> StepVariance {
-        let bias_rad = turns.bias_rad_per_s * self.time_s;
-        let scale_rad = turns.scale * self.turn_rad;
+    /// The turns of a step that began at `odom`.
+    fn turns(self, odom: Pose2) -> Turns {
+        let from_odom = Pose2 {
+            heading_rad: -odom.heading_rad,
+            ..Pose2::IDENTITY
+        };
+        Turns {
+            sum_rad: self.turn_rad,
+            bend_m: from_odom.transform(self.bend_m),
+            scale: 0.0,
+        }
+    }
+
+    fn variance(self, step: Pose2, turns: TurnCounting) -> StepVariance {
+        let bias_rad = turns.bias_sigma_rad_per_s * self.time_s;
+        let scale_rad = turns.scale_sigma * self.turn_rad;
         let turn_rad2 = self.noise_rad2 + bias_rad * bias_rad + scale_rad * scale_rad + 1e-7;
         let slip_m2 = SLIP_M2_PER_M * self.way_m + STEP_M2;
         let length_m2 = step.x_m * step.x_m + step.y_m * step.y_m;
@@ -158,16 +180,17 @@ impl Survey {
     pub(super) fn follow(
         &mut self,
         odom: Pose2,
-        (advance, turns): (Advance, TurnSigmas),
+        (advance, turns): (Advance, TurnCounting),
         observation: &Observation,
     ) -> Option<Fix> {
-        self.pending.add(advance);
+        self.begin(observation.time_us, turns);
+        self.pending.add(advance, odom);
         let visit = self.log.follow((odom, advance), observation, &self.layout);
         let visit = visit.filter(|visit| !visit.strokes.is_empty());
         if let Some(visit) = &visit {
             self.take(visit, turns);
         }
-        let gains = self.fit_on();
+        let gains = self.fit_on(turns.scale);
         if visit.is_none() && gains.is_none() {
             return None;
         }
@@ -183,8 +206,27 @@ impl Survey {
         })
     }
 
+    /// The first node is where it began. What later ones tell of the scale of turns says how far the robot had turned until it
+    /// saw the first wall, too: without, the whole map stays turned about the start.
+    fn begin(&mut self, time_us: u64, turns: TurnCounting) {
+        if self.graph.nodes.is_empty() {
+            self.graph.nodes.push(Node {
+                time_us,
+                odom: self.odom,
+                pose: self.belief.pose,
+                step: Pose2::IDENTITY,
+                variance: StepVariance::default(),
+                turns: Turns {
+                    scale: turns.scale,
+                    ..Turns::default()
+                },
+            });
+            self.drawn.push(self.belief.pose);
+        }
+    }
+
     /// Takes in a visit.
-    fn take(&mut self, visit: &Visit, turns: TurnSigmas) {
+    fn take(&mut self, visit: &Visit, turns: TurnCounting) {
         self.step_to(visit, turns);
         self.place_strokes(&visit.strokes);
         if let Some(node) = self.graph.nodes.get_mut(self.here) {
@@ -194,8 +236,9 @@ impl Survey {
     }
 
     /// The belief moves to the visit's end, where there is a new node while there may be more.
-    fn step_to(&mut self, visit: &Visit, turns: TurnSigmas) {
+    fn step_to(&mut self, visit: &Visit, turns: TurnCounting) {
         let step = self.odom.inverse() * visit.odom;
+        let began = self.odom;
         let pending = core::mem::take(&mut self.pending);
         let variance = pending.variance(step, turns);
         self.belief.step(step, variance);
@@ -208,14 +251,17 @@ impl Survey {
                 pose: self.belief.pose,
                 step,
                 variance,
-                turn_rad: pending.turn_rad,
+                turns: Turns {
+                    scale: turns.scale,
+                    ..pending.turns(began)
+                },
             });
         }
     }
 
     /// Begins to fit all poses and walls anew when enough is new, and goes on with it. When the fit is taken up it gives what
     /// that tells of turns.
-    fn fit_on(&mut self) -> Option<Vec<Gain>> {
+    fn fit_on(&mut self, scale: f64) -> Option<Vec<Gain>> {
         match self.fit.take() {
             Some(fit) => match fit.go_on() {
                 Err(fit) => {
@@ -225,17 +271,20 @@ impl Survey {
                 Ok(fitted) => fitted.map(|fitted| self.take_up(fitted)),
             },
             None => {
-                self.begin_fit();
+                self.begin_fit(scale);
                 None
             }
         }
     }
 
-    fn begin_fit(&mut self) {
+    fn begin_fit(&mut self, scale: f64) {
         let marks = self.graph.marks.len();
         let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
         if marks >= self.marks_fitted + due {
             self.marks_fitted = marks;
+            for node in &mut self.graph.nodes {
+                node.count_anew(scale);
+            }
             self.fit = Fit::of(&self.graph);
         }
     }
@@ -275,5 +324,63 @@ impl Survey {
                 })
                 .collect(),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::graph::{Node, Turns};
+    use super::{Pending, StepVariance};
+    use crate::geometry::Pose2;
+    use crate::localization::Advance;
+
+    /// A step of a turn on the spot, a straight way and an arc, by a gyro that counts so much too much. It began at `odom`.
+    fn counted(error: f64, odom: Pose2) -> Node {
+        let (mut here, mut pending) = (odom, Pending::default());
+        for (pieces, distance_m, turn_rad) in [(40, 0.0, 0.06), (100, 0.01, 0.0), (50, 0.01, -0.04)] {
+            for _ in 0..pieces {
+                let turn_rad = turn_rad * (1.0 + error);
+                here = here.after_arc(distance_m, turn_rad);
+                let advance = Advance {
+                    distance_m,
+                    turn_rad,
+                    gyro_turn_rad: Some(turn_rad),
+                    ..Advance::default()
+                };
+                pending.add(advance, here);
+            }
+        }
+        Node {
+            time_us: 0,
+            odom: here,
+            pose: here,
+            step: odom.inverse() * here,
+            variance: StepVariance::default(),
+            turns: Turns {
+                scale: 0.0,
+                ..pending.turns(odom)
+            },
+        }
+    }
+
+    #[test]
+    fn turns_that_were_counted_with_a_wrong_scale_are_counted_anew() {
+        for heading_rad in [0.0, 1.3, -2.0] {
+            let began = Pose2 {
+                x_m: 3.0,
+                y_m: -1.0,
+                heading_rad,
+            };
+            let (right, mut wrong) = (counted(0.0, began).step, counted(0.02, began));
+            let off_m = |node: &Node| node.step.position().distance_m(right.position());
+            assert!(off_m(&wrong) > 0.03, "{} m", off_m(&wrong));
+            wrong.count_anew(1.0 / 1.02 - 1.0);
+            assert!(off_m(&wrong) < 0.002, "{} m", off_m(&wrong));
+            assert!((wrong.step.heading_rad - right.heading_rad).abs() < 1e-9);
+            assert!((wrong.turns.sum_rad - 0.4).abs() < 1e-9);
+            let once = wrong;
+            wrong.count_anew(1.0 / 1.02 - 1.0);
+            assert_eq!(wrong.step, once.step, "with the same scale nothing changes");
+        }
     }
 }
