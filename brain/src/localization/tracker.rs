@@ -50,6 +50,9 @@ const SEARCHED: Spread = Spread {
 const RIVAL_SHARE: f64 = 0.93;
 /// The trail of a find must fit this well.
 const FIND_SCORE: f64 = 0.45;
+/// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
+/// in what is known only, and a wrong find leads out of it soon.
+const PROBATION_BEAMS: u32 = 200;
 /// A cluster is at a searched place when it is this near, metres.
 const AT_PLACE_M: f64 = 0.4;
 
@@ -84,6 +87,8 @@ pub(super) struct Tracker {
     searching: Option<Box<Search>>,
     /// How the map fitted since the robot found itself.
     since_found: Fit,
+    /// Beams until a find is not on probation any more.
+    probation: u32,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -106,6 +111,7 @@ impl Tracker {
             search_in_m: 0.0,
             searching: None,
             since_found: Fit::default(),
+            probation: 0,
             radius_m,
             layout,
         }
@@ -117,6 +123,7 @@ impl Tracker {
         self.forget_motion();
         self.confidence = Confidence::default();
         self.searching = None;
+        self.probation = 0;
         self.lost = false;
     }
 
@@ -216,8 +223,14 @@ impl Tracker {
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
         let estimate = self.filter.estimate();
         let fit = self.filter.fit(map, estimate.pose);
-        self.confidence.take(fit);
         self.since_found = self.since_found.and(fit);
+        if self.probation > 0 {
+            let fit = self.filter.fit(&Whole(map), estimate.pose);
+            self.probation = self.probation.saturating_sub(fit.told);
+            self.confidence.take(fit);
+        } else {
+            self.confidence.take(fit);
+        }
         let verdict = self.confidence.verdict();
         if verdict == Verdict::Wrong || estimate.sigma_m > LOST_SIGMA_M {
             self.lose(estimate.pose);
@@ -244,6 +257,7 @@ impl Tracker {
             if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;
+                self.probation = PROBATION_BEAMS;
             } else if !gathered || !is_among(&places, estimate.pose) {
                 self.try_places(&places);
             }
