@@ -339,7 +339,11 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
                 "it knows that it was carried"
             );
             steps += 1;
-            known = if localization.estimate().lost { 0 } else { known + 1 };
+            known = if localization.estimate().lost {
+                0
+            } else {
+                known + 1
+            };
             assert!(steps < 15_000, "not found within five minutes");
         }
         let off_m = truth.off_m(&localization);
