@@ -153,7 +153,7 @@ fn clippy(_long: bool) -> Result {
 
 /// Prepares what tests start: programs of the workspace, a C compiler, Raku. What needs the firmware of a robot or another
 /// emulator passes itself over here, and has a stage of its own.
-fn workspace_tests(_long: bool) -> Result {
+fn workspace_tests(long: bool) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
     system::need("socat", &["socat"])?;
@@ -176,8 +176,20 @@ fn workspace_tests(_long: bool) -> Result {
             "--no-fail-fast",
         ]))
     };
-    all([build, run].into_iter())
+    let zones = long.then(|| tests(&mut cargo(&ALL_ZONES)));
+    all([build, run].into_iter().chain(zones))
 }
+
+/// Every change of the clock of every time zone, for every kind of schedule.
+const ALL_ZONES: [&str; 7] = [
+    "test",
+    "--release",
+    "--locked",
+    "--test",
+    "schedule",
+    "--",
+    "--ignored",
+];
 
 /// No package is named: with one cargo would choose other features for what all share, and build it a second time.
 const ATTACKS: [&str; 5] = ["test", "--quiet", "--locked", "--test", "attacks"];

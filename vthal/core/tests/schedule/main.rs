@@ -1,7 +1,7 @@
 //! The schedules against the clocks of the world.
 //!
-//! `cargo test -p vthal-core --test schedule` tries 5,000 sampled changes of clocks; all of them are tried by
-//! `cargo test --release -p vthal-core --test schedule -- --ignored`.
+//! `cargo test -p vthal-core --test schedule` tries 5,000 sampled changes of clocks,
+//! `cargo xtask test --only tests --long` all of them.
 
 mod clocks;
 mod decisions;
