@@ -5,15 +5,17 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
+use std::time::Instant;
 
 use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
-    Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder, KeptFloor, MapEdit, MapOrder,
-    MixOrder, MixTask, ScheduleOrder,
+    ArchiveOrder, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder, KeptFloor, MapEdit,
+    MapOrder, MixOrder, MixTask, ScheduleOrder,
 };
 
+use crate::archive_desk::ArchiveDesk;
 use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::floor_folder::{FloorError, FloorFolder};
@@ -43,6 +45,7 @@ enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<FloorHome>),
     FloorOrder(FloorOrder),
+    ArchiveOrder(ArchiveOrder),
     Edit(Box<MapEdit>),
     Order(MapOrder),
     MixOrder(MixOrder),
@@ -159,6 +162,12 @@ impl CheckpointHandle {
         self.try_send(Kept::FloorOrder(order))
     }
 
+    /// Hands an order for an archive of floors over; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn order_archive(&self, order: ArchiveOrder) -> bool {
+        self.try_send(Kept::ArchiveOrder(order))
+    }
+
     /// Hands an order for the control mixes over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn order_mix(&self, order: MixOrder) -> bool {
@@ -202,12 +211,14 @@ impl CheckpointHandle {
 
 fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
     let mut healthy = true;
+    let mut desk = ArchiveDesk::default();
     while let Ok(first) = queue.recv() {
         let (mut checkpoint, mut orders, mut runs) = (None, Vec::new(), Vec::new());
         // The newest one of each floor.
         let mut homes: BTreeMap<u16, StoredMap> = BTreeMap::new();
         // Whoever waits until the home is kept.
         let (mut waiting, mut floor_orders) = (Vec::new(), Vec::new());
+        let mut archive_orders = Vec::new();
         for kept in core::iter::once(first).chain(queue.try_iter()) {
             match kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
@@ -219,6 +230,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
                     waiting.push((edit.client, edit.id));
                 }
                 Kept::FloorOrder(order) => floor_orders.push(order),
+                Kept::ArchiveOrder(order) => archive_orders.push(order),
                 Kept::Order(order) => orders.push(order),
                 Kept::Run(record) => runs.push(record),
                 // Small, and never in a queue behind a map that waits to be written.
@@ -236,17 +248,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             }
         }
         if let Some(checkpoint) = checkpoint {
-            let result =
-                BootTime::now().and_then(|now| checkpoint_file::save(&paths.checkpoint, &checkpoint, now));
-            if let Err(error) = &result
-                && healthy
-            {
-                tracing::error!(
-                    "cannot write the checkpoint {}: {error}; a crash would end the job",
-                    paths.checkpoint.display()
-                );
-            }
-            healthy = result.is_ok();
+            healthy = keep_checkpoint((&checkpoint, healthy), paths);
         }
         let kept = keep(&homes, &paths.floors);
         for record in runs {
@@ -270,7 +272,25 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             let answer = obey_floor(order, &paths.floors);
             events.blocking_send(Event::Floors(Box::new(answer))).ok();
         }
+        for order in archive_orders {
+            let answer = desk.obey(order, (&paths.floors, Instant::now()));
+            events.blocking_send(Event::Archive(Box::new(answer))).ok();
+        }
     }
+}
+
+/// Whether that worked; a fault is told once, until it has worked again.
+fn keep_checkpoint((checkpoint, healthy): (&Checkpoint, bool), paths: &KeptPaths) -> bool {
+    let result = BootTime::now().and_then(|now| checkpoint_file::save(&paths.checkpoint, checkpoint, now));
+    if let Err(error) = &result
+        && healthy
+    {
+        tracing::error!(
+            "cannot write the checkpoint {}: {error}; a crash would end the job",
+            paths.checkpoint.display()
+        );
+    }
+    result.is_ok()
 }
 
 /// Writes the maps; the last thing that went wrong, if anything did.

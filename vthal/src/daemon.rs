@@ -148,6 +148,7 @@ impl Daemon {
             Event::ClientClosed(client) => self.disconnect(client),
             Event::Maps(answer) => self.take_map_answer(answer),
             Event::Floors(answer) => self.take_floor_answer(*answer),
+            Event::Archive(answer) => self.take_archive_answer(*answer),
             Event::Mixes(answer) => self.take_mix_answer(answer),
             Event::Runs(answer) => self.take_run_answer(answer),
             Event::RunKept(number, result) => self.handle(Input::RunKept { number, result }),
@@ -275,6 +276,9 @@ impl Daemon {
         }
         for order in std::mem::take(&mut self.outputs.floor_orders) {
             self.order_floor(order);
+        }
+        for order in std::mem::take(&mut self.outputs.archive_orders) {
+            self.order_archive(order);
         }
         for order in std::mem::take(&mut self.outputs.mix_orders) {
             self.order_mix(order);

@@ -4,6 +4,7 @@ use rvac_api::Run;
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
+use crate::archive_desk::ArchiveAnswer;
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
 use crate::run_thread::RunAnswer;
@@ -30,6 +31,8 @@ pub(crate) enum Event {
     Maps(MapAnswer),
     /// What came of an order for the floors.
     Floors(Box<FloorAnswer>),
+    /// What came of an order for an archive of floors.
+    Archive(Box<ArchiveAnswer>),
     /// What came of an order for the kept control mixes.
     Mixes(MixAnswer),
     /// What a client asked of the kept runs.

@@ -2,6 +2,8 @@
 //! first floor's versions lie in the folder of maps itself, where the only map lay before there were floors; those of floor 2
 //! in `floor-2` below it, and so on. A removed floor keeps its folder until its place is needed.
 
+mod taking_in;
+
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -31,6 +33,18 @@ pub(crate) enum FloorError {
     /// There are as many as may be.
     #[error("There are as many floors as may be, {FLOORS_MAX}: remove one first.")]
     Full,
+    /// There are not as many places as an archive has floors.
+    #[error(
+        "The archive has {wanted} floors, and {free} of {FLOORS_MAX} places are free; removed floors keep theirs, because \
+         they can come back. Take an archive of fewer floors: `rvac floor export FILE --floor NAME` writes one of a single \
+         floor."
+    )]
+    NoPlaces {
+        /// Floors of the archive.
+        wanted: usize,
+        /// Places that are free.
+        free: usize,
+    },
     /// There is none with this number.
     #[error("There is no floor {0}: ask which there are.")]
     Absent(u16),
@@ -45,7 +59,7 @@ impl FloorError {
     /// The reason's name for clients.
     pub(crate) fn name(&self) -> &'static str {
         match self {
-            Self::Full => "too-many-floors",
+            Self::Full | Self::NoPlaces { .. } => "too-many-floors",
             Self::Absent(_) => "no-such-floor",
             Self::Unwritable(_) => "floors-unwritable",
         }
@@ -101,7 +115,14 @@ impl FloorFolder {
 
     /// All floors with their newest maps that are whole, and what is wrong with what is not.
     pub(crate) fn load(&self) -> (Vec<KeptFloor>, Vec<String>) {
+        let unsettled = self.settle().err().map(|error| {
+            format!(
+                "cannot finish what an archive began in {}: {error}",
+                self.path.display()
+            )
+        });
         let (entries, mut complaints) = self.entries();
+        complaints.extend(unsettled);
         let mut floors = Vec::new();
         for entry in entries {
             let (home, wrong) = self.maps(entry.number).newest();

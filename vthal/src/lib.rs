@@ -5,6 +5,7 @@
 //! ([`recording`]) and checkpoints ([`checkpoint_file`]) are written by threads of their own.
 #![forbid(unsafe_code)]
 
+mod archive_desk;
 pub mod checkpoint_file;
 mod checkpoint_thread;
 mod client;
@@ -13,6 +14,7 @@ mod clock;
 pub mod config;
 mod daemon;
 mod event;
+mod floor_archive;
 mod floor_folder;
 mod health_file;
 pub mod imu;

@@ -66,8 +66,15 @@ impl MapFolder {
     /// # Errors
     /// What the file system says.
     pub(crate) fn save(&self, home: &StoredMap) -> io::Result<()> {
+        self.save_bytes(&home.encode())
+    }
+
+    /// As [`Self::save`], of a map that is bytes already.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn save_bytes(&self, bytes: &[u8]) -> io::Result<()> {
         fs::create_dir_all(&self.path)?;
-        let bytes = home.encode();
         let numbers = self.numbers();
         let newest = numbers.first().copied();
         if newest.is_some_and(|number| self.read(number).is_ok_and(|present| present == bytes)) {
@@ -75,7 +82,7 @@ impl MapFolder {
         }
         let number = newest.unwrap_or(0).checked_add(1);
         let number = number.ok_or_else(|| io::Error::other("the numbers of maps are used up"))?;
-        kept_file::replace(&self.file(number), &bytes)?;
+        kept_file::replace(&self.file(number), bytes)?;
         for oldest in numbers.iter().skip(VERSIONS_MAX - 1) {
             self.discard(*oldest)?;
         }
@@ -95,6 +102,13 @@ impl MapFolder {
             }
         }
         (None, complaints)
+    }
+
+    /// The bytes of the newest map that is whole.
+    pub(crate) fn newest_bytes(&self) -> Option<Vec<u8>> {
+        let read = |number| self.read(number).ok();
+        let mut versions = self.numbers().into_iter().filter_map(read);
+        versions.find(|bytes| StoredMap::decode(bytes).is_ok())
     }
 
     /// Number of the newest version.

@@ -75,7 +75,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 48] = [
+pub const VERBS: [(&str, Role); 50] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -87,6 +87,7 @@ pub const VERBS: [(&str, Role); 48] = [
     ("run",             Role::View),
     ("run-track",       Role::View),
     ("run-file",        Role::View),
+    ("export-floors",   Role::View),
     ("stop",            Role::View),
     ("start",           Role::Drive),
     ("clean",           Role::Drive),
@@ -114,6 +115,7 @@ pub const VERBS: [(&str, Role); 48] = [
     ("name-floor",      Role::Admin),
     ("remove-floor",    Role::Admin),
     ("restore-floor",   Role::Admin),
+    ("import-floors",   Role::Admin),
     ("save-mix",        Role::Admin),
     ("remove-mix",      Role::Admin),
     ("add-schedule",    Role::Admin),

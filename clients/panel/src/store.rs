@@ -314,6 +314,7 @@ impl Store {
             Message::RunTrack(track) => self.history.on_track(*track),
             Message::Packet { .. }
             | Message::RunFile { .. }
+            | Message::FloorArchive { .. }
             | Message::Evidence { .. }
             | Message::Button { .. } => {}
             Message::NewDevice { name, role, from } => {

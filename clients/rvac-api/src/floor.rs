@@ -5,6 +5,13 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
+/// Largest archive of floors that is written or taken. A floor of 150 square metres takes some ten kilobytes.
+pub const ARCHIVE_BYTES_MAX: u64 = 8 << 20;
+/// Piece of an archive that [`crate::RequestBody::ExportFloors`] gives at once, in bytes before they are spelled in base 64.
+pub const ARCHIVE_PIECE_BYTES: u64 = 48 << 10;
+/// The same of [`crate::RequestBody::ImportFloors`]: requests are shorter than answers may be.
+pub const ARCHIVE_UPLOAD_BYTES: u64 = 8 << 10;
+
 /// The floors of the home, and on which of them the robot is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FloorsView {

@@ -19,7 +19,9 @@ mod stop;
 mod thought;
 mod update;
 
-pub use floor::{FloorQuestion, FloorView, FloorsView};
+pub use floor::{
+    ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
+};
 pub use health::ComponentHealth;
 pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,

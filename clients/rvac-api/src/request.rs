@@ -226,6 +226,25 @@ pub enum RequestBody {
         /// Its number.
         floor: u16,
     },
+    /// Asks for a piece of an archive of floors with the newest versions of their maps; answered by
+    /// [`crate::Update::FloorArchive`].
+    ExportFloors {
+        /// Number of the only floor that it shall hold; absent = all that have a map.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        floor: Option<u16>,
+        /// First byte of the piece.
+        from: u64,
+    },
+    /// Hands over a piece of an archive of floors, one after the other, each when the one before it is answered. With the last
+    /// one the archive is checked, and its floors are kept beside those that there are; before that nothing is.
+    ImportFloors {
+        /// First byte of the piece; 0 begins anew.
+        from: u64,
+        /// Bytes of the whole archive, at most [`crate::ARCHIVE_BYTES_MAX`].
+        size: u64,
+        /// The bytes, at most [`crate::ARCHIVE_UPLOAD_BYTES`] of them, in base 64.
+        data: String,
+    },
     /// Asks which control mixes are kept; answered by [`crate::Update::Mixes`].
     Mixes,
     /// Keeps a control mix under the name that is in it.

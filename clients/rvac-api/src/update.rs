@@ -82,6 +82,17 @@ pub enum Update {
     },
     /// The floors of the home, and on which of them the robot is.
     Floors(FloorsView),
+    /// A piece of an archive of floors.
+    FloorArchive {
+        /// Its first byte.
+        from: u64,
+        /// Bytes of the whole archive.
+        size: u64,
+        /// Checksum of the whole archive: pieces with different ones do not belong together.
+        check: u32,
+        /// The bytes, at most [`crate::ARCHIVE_PIECE_BYTES`] of them, in base 64; none at the end.
+        data: String,
+    },
     /// The control mixes that are kept.
     Mixes {
         /// By their names, each as one line of JSON, see the crate `mixer`.

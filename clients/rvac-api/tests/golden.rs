@@ -146,6 +146,25 @@ fn requests_of_floors() {
         RequestBody::RestoreFloor { floor: 2 },
         r#"{"c":"restore-floor","floor":2}"#,
     );
+    request(
+        RequestBody::ExportFloors { floor: None, from: 0 },
+        r#"{"c":"export-floors","from":0}"#,
+    );
+    request(
+        RequestBody::ExportFloors {
+            floor: Some(2),
+            from: 49_152,
+        },
+        r#"{"c":"export-floors","floor":2,"from":49152}"#,
+    );
+    request(
+        RequestBody::ImportFloors {
+            from: 0,
+            size: 3,
+            data: "AAEC".to_owned(),
+        },
+        r#"{"c":"import-floors","from":0,"size":3,"data":"AAEC"}"#,
+    );
 }
 
 #[test]
@@ -185,6 +204,16 @@ fn floors() {
     check(
         &Update::Floors(asks),
         r#"{"e":"floors","floors":[],"sought":true,"question":{"reason":"which-dock","text":"Choose."}}"#,
+    );
+    let piece = Update::FloorArchive {
+        from: 0,
+        size: 3,
+        check: 7,
+        data: "AAEC".to_owned(),
+    };
+    check(
+        &piece,
+        r#"{"e":"floor-archive","from":0,"size":3,"check":7,"data":"AAEC"}"#,
     );
 }
 

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
-use rvac_api::{Request, RequestBody, Update};
+use rvac_api::{Request, RequestBody, Topic, Update};
 
 use crate::arguments::Daemon;
 use crate::socket::Connection;
@@ -41,6 +41,25 @@ pub(crate) fn answer<Found>(
         id: Some(REQUEST_ID),
         body,
     })?;
+    awaited(connection, patience, found)
+}
+
+/// Follows topics and waits for the view that `found` knows. The request has no number: its `done` would come after the view, and be
+/// taken for the answer to the next request.
+pub(crate) fn followed<Found>(
+    connection: &mut Connection,
+    topics: Vec<Topic>,
+    found: impl Fn(Update, String) -> Option<Found>,
+) -> anyhow::Result<Found> {
+    connection.watch(topics)?;
+    awaited(connection, ANSWER, found)
+}
+
+fn awaited<Found>(
+    connection: &mut Connection,
+    patience: Duration,
+    found: impl Fn(Update, String) -> Option<Found>,
+) -> anyhow::Result<Found> {
     let deadline = Instant::now() + patience;
     while let Some(message) = connection.receive_until(deadline)? {
         match message.update {

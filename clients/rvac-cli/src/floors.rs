@@ -1,5 +1,7 @@
 //! `rvac floor`: the floors of the home, and on which of them the robot is.
 
+mod archive;
+
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
@@ -21,37 +23,37 @@ pub(crate) fn run(job: &FloorJob) -> anyhow::Result<ExitCode> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    control::ask(&mut connection, request(verb, &floors)?)
-}
-
-fn request(verb: &FloorVerb, floors: &FloorsView) -> anyhow::Result<RequestBody> {
-    Ok(match verb {
+    let body = match verb {
+        FloorVerb::Export { file, floor } => {
+            let floor = floor.as_ref().map(|wanted| find(&floors, wanted)).transpose()?;
+            return archive::export(&mut connection, floor, file);
+        }
+        FloorVerb::Import { file } => return archive::import(&mut connection, &floors, file),
         FloorVerb::Choose { floor } => RequestBody::ChooseFloor {
-            floor: find(floors, floor)?,
+            floor: find(&floors, floor)?,
         },
         FloorVerb::New { name } => RequestBody::NewFloor { name: name.clone() },
         FloorVerb::Name { floor, name } => RequestBody::NameFloor {
-            floor: find(floors, floor)?,
+            floor: find(&floors, floor)?,
             name: Some(name.clone()),
         },
         FloorVerb::Unname { floor } => RequestBody::NameFloor {
-            floor: find(floors, floor)?,
+            floor: find(&floors, floor)?,
             name: None,
         },
         FloorVerb::Remove { floor } => RequestBody::RemoveFloor {
-            floor: find(floors, floor)?,
+            floor: find(&floors, floor)?,
         },
         FloorVerb::Restore { floor } => RequestBody::RestoreFloor {
-            floor: find(floors, floor)?,
+            floor: find(&floors, floor)?,
         },
-    })
+    };
+    control::ask(&mut connection, body)
 }
 
 /// The floors as the daemon tells them, and its own text.
 pub(crate) fn ask(connection: &mut Connection) -> anyhow::Result<(FloorsView, String)> {
-    let topics = vec![Topic::Floors];
-    let request = (RequestBody::Watch { topics }, control::ANSWER);
-    control::answer(connection, request, |update, text| match update {
+    control::followed(connection, vec![Topic::Floors], |update, text| match update {
         Update::Floors(floors) => Some((floors, text)),
         _ => None,
     })

@@ -12,10 +12,11 @@ use std::thread::JoinHandle;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
-    CleaningPower, Decision, DeviceTable, Estimate, Failure, HomeView, InQuiet, JobEstimate, JobOrder,
-    JobPart, KeptMap, LinkReading, LogEntry, LogLevel, NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request,
-    RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime,
-    ScheduleView, ScheduledJob, Schedules, Status, Topic, Update, Weekday,
+    ARCHIVE_PIECE_BYTES, CleaningPower, Decision, DeviceTable, Estimate, Failure, FloorsView, HomeView,
+    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, NoGoShape, Pose,
+    QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView,
+    SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update,
+    Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -378,6 +379,72 @@ fn changes_of_rooms_go_out_under_their_names() {
         let last = asked.last().expect("asks");
         assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
     }
+}
+
+/// A daemon with an archive of 50,000 bytes, that takes only archives which begin with an S.
+fn with_archive(request: &Request) -> Vec<Update> {
+    let id = request.id.unwrap_or_default();
+    match &request.body {
+        RequestBody::ExportFloors { from, .. } => {
+            let rest = 50_000 - from.min(&50_000);
+            vec![
+                Update::FloorArchive {
+                    from: *from,
+                    size: 50_000,
+                    check: 7,
+                    data: STANDARD.encode(vec![b'S'; rest.min(ARCHIVE_PIECE_BYTES) as usize]),
+                },
+                Update::Done { id },
+            ]
+        }
+        RequestBody::ImportFloors { data, .. } if !data.starts_with('U') => {
+            vec![Update::Failed(Failure {
+                id: request.id,
+                reason: "no-archive".to_owned(),
+                text: "The file is no archive.".to_owned(),
+            })]
+        }
+        RequestBody::Watch { topics } if !topics.is_empty() => {
+            let view = Update::Floors(FloorsView::default());
+            core::iter::once(view).chain(obedient(request)).collect()
+        }
+        _ => obedient(request),
+    }
+}
+
+#[test]
+fn floors_are_written_into_a_file_and_read_from_one() {
+    let file = std::env::temp_dir().join(format!("rvac-test-{}-floors", std::process::id()));
+    std::fs::remove_file(&file).ok();
+    let path = file.to_str().expect("plain");
+    let ask = |name: &str, verb: &str| {
+        let (output, asked) = Daemon::start(name, with_archive).rvac(&["floor", verb, path], "");
+        (output.status.success(), text(&output.stderr), asked)
+    };
+    let (is_good, told, _) = ask("archive-0", "import");
+    assert!(!is_good && told.contains("cannot read"), "{told}");
+    assert!(ask("archive-1", "export").0);
+    assert_eq!(std::fs::read(&file).expect("is there"), vec![b'S'; 50_000]);
+    let (is_good, told, _) = ask("archive-2", "export");
+    assert!(!is_good && told.contains("is it there already"), "{told}");
+    let (is_good, told, asked) = ask("archive-3", "import");
+    assert!(is_good, "{told}");
+    let handed: Vec<u8> = asked
+        .iter()
+        .filter_map(|request| match &request.body {
+            RequestBody::ImportFloors { data, .. } => Some(STANDARD.decode(data).expect("base 64")),
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    assert_eq!(handed, vec![b'S'; 50_000]);
+    std::fs::write(&file, "garbage").expect("writes");
+    let (is_good, told, _) = ask("archive-4", "import");
+    assert!(!is_good && told.contains("no-archive"), "{told}");
+    std::fs::write(&file, "").expect("writes");
+    let (is_good, told, _) = ask("archive-5", "import");
+    assert!(!is_good && told.contains("it has 0 bytes"), "{told}");
+    std::fs::remove_file(&file).expect("cleans up");
 }
 
 /// A daemon that keeps one run, whose recording has 70,000 bytes.

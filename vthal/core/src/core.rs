@@ -156,6 +156,7 @@ impl Core {
             Input::FloorsKept { task, floors, made } => {
                 self.floors_kept(now_us, (&task, floors, made), outputs);
             }
+            Input::FloorsTakenIn { floors, taken } => self.floors_taken_in(now_us, (floors, &taken), outputs),
             Input::ClientSilent(client) => self.client_silent(now_us, client, outputs),
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),

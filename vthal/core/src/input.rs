@@ -57,6 +57,13 @@ pub enum Input<'a> {
         /// The new floor, if there is one.
         made: Option<u16>,
     },
+    /// Floors of an archive are kept beside those that there were.
+    FloorsTakenIn {
+        /// All floors.
+        floors: Vec<KeptFloor>,
+        /// Numbers of those that came with the archive.
+        taken: Vec<u16>,
+    },
     /// The clock on the wall, seconds since 1970 (UTC), at least once a second. It may have been set, either way.
     WallClock {
         /// What it shows.

@@ -44,6 +44,7 @@ pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder, MapEdit, MapOrder, MixOrder, MixTask,
-    Outputs, Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask, ScheduleOrder,
+    ArchiveOrder, ArchiveTask, Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder, MapEdit,
+    MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask,
+    ScheduleOrder,
 };

@@ -29,6 +29,8 @@ pub struct Outputs {
     pub map_edits: Vec<MapEdit>,
     /// What clients want of the floors, in order.
     pub floor_orders: Vec<FloorOrder>,
+    /// What clients ask of archives of floors, in order.
+    pub archive_orders: Vec<ArchiveOrder>,
     /// What clients ask of the kept control mixes, in order.
     pub mix_orders: Vec<MixOrder>,
     /// Schedules for the disk.
@@ -158,6 +160,38 @@ pub enum FloorTask {
     Restore(u16),
 }
 
+/// Something that the shell does with archives of floors; it answers the client itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ArchiveOrder {
+    /// Who asks.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// What.
+    pub task: ArchiveTask,
+}
+
+/// See [`ArchiveOrder`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ArchiveTask {
+    /// Give a piece of an archive: [`Update::FloorArchive`].
+    Export {
+        /// The only floor in it; `None` = all that are not removed.
+        floor: Option<u16>,
+        /// First byte of the piece.
+        from: u64,
+    },
+    /// Take a piece; after the last one the floors are kept, and come back as [`crate::Input::FloorsTakenIn`].
+    Import {
+        /// First byte of the piece.
+        from: u64,
+        /// Bytes of the whole archive.
+        size: u64,
+        /// The bytes in base 64.
+        data: String,
+    },
+}
+
 /// Something that the shell does with the kept maps of the home; it answers the client itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapOrder {
@@ -205,6 +239,7 @@ impl Outputs {
         self.home = None;
         self.map_orders.clear();
         self.floor_orders.clear();
+        self.archive_orders.clear();
         self.mix_orders.clear();
         self.map_edits.clear();
         self.schedules = None;

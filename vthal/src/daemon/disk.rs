@@ -1,9 +1,12 @@
 //! What goes to the thread that writes and reads files, and what comes back from it.
 
 use rvac_api::{RunRecord, Update};
-use vthal_core::{ClientId, FloorOrder, HealthOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder};
+use vthal_core::{
+    ArchiveOrder, ClientId, FloorOrder, HealthOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder,
+};
 
 use super::{Daemon, refusal};
+use crate::archive_desk::{ArchiveAnswer, ArchiveOutcome};
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MapOutcome, MixAnswer, MixOutcome};
 use crate::client;
 use crate::outbox::Class;
@@ -50,6 +53,22 @@ impl Daemon {
         }
     }
 
+    pub(super) fn take_archive_answer(&mut self, ArchiveAnswer { client, id, outcome }: ArchiveAnswer) {
+        let answer = match outcome {
+            Ok(ArchiveOutcome::Piece(piece)) => Some(*piece),
+            Ok(ArchiveOutcome::Waits) => None,
+            Ok(ArchiveOutcome::TakenIn(floors, taken)) => {
+                self.handle(Input::FloorsTakenIn { floors, taken });
+                None
+            }
+            Err(error) => {
+                self.tell(client, &refusal(id, error.name(), error.to_string()));
+                return;
+            }
+        };
+        self.tell_done((client, id), answer);
+    }
+
     pub(super) fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
         let answer = match outcome {
             Ok(MixOutcome::Listed(mixes)) => Some(Update::Mixes { mixes }),
@@ -92,6 +111,13 @@ impl Daemon {
     pub(super) fn order_floor(&mut self, order: FloorOrder) {
         let (client, id) = (order.client, order.id);
         if !self.wiring.checkpoints.order_floor(order) {
+            self.tell_busy(client, id);
+        }
+    }
+
+    pub(super) fn order_archive(&mut self, order: ArchiveOrder) {
+        let (client, id) = (order.client, order.id);
+        if !self.wiring.checkpoints.order_archive(order) {
             self.tell_busy(client, id);
         }
     }

@@ -140,6 +140,8 @@ fn arguments_of(verb: &str) -> &'static str {
         "run-file" => r#","number":1,"from":0"#,
         "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,
+        "export-floors" => r#","from":0"#,
+        "import-floors" => r#","from":0,"size":3,"data":"AAEC""#,
         "save-mix" => r#","profile":"{}""#,
         "reset-health" => r#","component":"brush-main""#,
         "remove-mix" => r#","name":"x""#,

@@ -1,5 +1,7 @@
 //! `rvac floor`.
 
+use std::path::PathBuf;
+
 use clap::{Args, Subcommand};
 
 use super::Daemon;
@@ -48,5 +50,18 @@ pub(crate) enum FloorVerb {
     Restore {
         /// Its number or name.
         floor: String,
+    },
+    /// Write the floors with their newest maps, names and no-go zones into a file that another robot, or this one, takes.
+    Export {
+        /// Where to; nothing that is there is written over.
+        file: PathBuf,
+        /// Only this one: its number or name.
+        #[arg(long)]
+        floor: Option<String>,
+    },
+    /// Take the floors of such a file, beside those that there are.
+    Import {
+        /// The file.
+        file: PathBuf,
     },
 }

@@ -9,7 +9,7 @@ use super::{Core, explain, recorder};
 use crate::floors::{Floors, KeptFloor};
 use crate::journal::Part;
 use crate::mind::{FloorNews, Mind};
-use crate::{ClientId, FloorOrder, FloorTask, MapOrder, Outputs};
+use crate::{ArchiveOrder, ArchiveTask, ClientId, FloorOrder, FloorTask, MapOrder, Outputs};
 
 /// Who asks, and the number of the request.
 type Asker = (ClientId, Option<u32>);
@@ -81,6 +81,12 @@ impl Core {
             RequestBody::Maps { floor } => self.list_maps(asker, floor, outputs),
             RequestBody::RestoreMap { number, floor } => self.restore_map(asker, (floor, number), outputs),
             RequestBody::ChooseFloor { floor } => self.choose_floor(now_us, floor, outputs),
+            RequestBody::ExportFloors { floor, from } => self.export_floors(asker, (floor, from), outputs),
+            RequestBody::ImportFloors { from, size, data } => {
+                let task = ArchiveTask::Import { from, size, data };
+                order_archive(asker, task, outputs);
+                Ok(())
+            }
             body => self.change_floors((asker, body), outputs),
         }
     }
@@ -93,6 +99,19 @@ impl Core {
     ) -> Result<(), Refusal> {
         let floor = self.floor_meant(floor)?;
         outputs.map_orders.push(MapOrder::List { client, id, floor });
+        Ok(())
+    }
+
+    fn export_floors(
+        &self,
+        asker: Asker,
+        (floor, from): (Option<u16>, u64),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        if let Some(number) = floor {
+            self.floor_named(number)?;
+        }
+        order_archive(asker, ArchiveTask::Export { floor, from }, outputs);
         Ok(())
     }
 
@@ -206,6 +225,19 @@ impl Core {
         self.log(now_us, (LogLevel::Info, Part::Vthal, text), outputs);
     }
 
+    /// Floors of an archive are on the disk.
+    pub(super) fn floors_taken_in(
+        &mut self,
+        now_us: u64,
+        (floors, taken): (Vec<KeptFloor>, &[u16]),
+        outputs: &mut Outputs,
+    ) {
+        self.floors.renew(floors);
+        let titles: Vec<String> = taken.iter().map(|number| self.title(*number)).collect();
+        let text = format!("taken in from an archive: {}", titles.join(", "));
+        self.log(now_us, (LogLevel::Info, Part::Vthal, text), outputs);
+    }
+
     fn restore_map(
         &self,
         (client, id): Asker,
@@ -271,6 +303,11 @@ impl Core {
         };
         self.log(now_us, line, outputs);
     }
+}
+
+/// The shell does it, and answers the client.
+fn order_archive((client, id): Asker, task: ArchiveTask, outputs: &mut Outputs) {
+    outputs.archive_orders.push(ArchiveOrder { client, id, task });
 }
 
 fn no_such_floor(number: u16, floors: &Floors) -> Refusal {

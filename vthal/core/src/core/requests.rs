@@ -37,6 +37,8 @@ impl Core {
                 | RequestBody::RemoveFloor { .. }
                 | RequestBody::RestoreFloor { .. }
                 | RequestBody::RestoreMap { .. }
+                | RequestBody::ExportFloors { .. }
+                | RequestBody::ImportFloors { .. }
                 | RequestBody::Mixes
                 | RequestBody::SaveMix { .. }
                 | RequestBody::RemoveMix { .. }
@@ -130,7 +132,9 @@ impl Core {
             | RequestBody::NewFloor { .. }
             | RequestBody::NameFloor { .. }
             | RequestBody::RemoveFloor { .. }
-            | RequestBody::RestoreFloor { .. }) => self.ask_floors(now_us, ((client, id), body), outputs),
+            | RequestBody::RestoreFloor { .. }
+            | RequestBody::ExportFloors { .. }
+            | RequestBody::ImportFloors { .. }) => self.ask_floors(now_us, ((client, id), body), outputs),
             RequestBody::Mixes => order_mix((client, id), MixTask::List, outputs),
             RequestBody::SaveMix { profile } => order_mix((client, id), MixTask::Save(profile), outputs),
             RequestBody::RemoveMix { name } => order_mix((client, id), MixTask::Remove(name), outputs),
