@@ -1,7 +1,7 @@
 //! The log with a filter by level and a search.
 
 use leptos::prelude::*;
-use panel_logic::{LogFilter, clock_text};
+use panel_logic::{LogFilter, clock_text, log_text};
 use rvac_api::{LogEntry, LogLevel};
 
 use crate::language::words;
@@ -15,9 +15,12 @@ pub(crate) fn LogView(store: Store) -> impl IntoView {
     let filter = RwSignal::new(LogFilter::default());
     let entries = move || {
         let filter = filter.get();
-        store
-            .log
-            .with(|log| log.find(&filter, SHOWN).into_iter().cloned().collect::<Vec<_>>())
+        store.log.with(|log| {
+            log.find(words(), (&filter, SHOWN))
+                .into_iter()
+                .cloned()
+                .collect::<Vec<_>>()
+        })
     };
     let choose_level = move |event| {
         let level_min = level_named(&event_target_value(&event));
@@ -76,12 +79,13 @@ fn line(entry: LogEntry) -> impl IntoView {
         LogLevel::Warn => ("warn", words().log.warn),
         LogLevel::Error => ("error", words().log.error),
     };
+    let (text, is_told) = log_text(words(), &entry);
     view! {
         <li class=class>
             <span class="when">{clock_text(entry.t)}</span>
             <span class="level">{level}</span>
             <span class="part">{entry.part}</span>
-            <span class="what" lang="en">{entry.text}</span>
+            <span class="what" lang=(!is_told).then_some("en")>{text}</span>
         </li>
     }
 }

@@ -40,7 +40,8 @@ mod words;
 
 pub use camera::{Bounds, Camera, ScreenBox, View};
 pub use codes::{
-    Explanation, decision_text, explain, failure_text, question_text, refusal_text, run_text, state_title,
+    Explanation, decision_text, explain, failure_text, log_text, question_text, refusal_text, run_text,
+    state_title,
 };
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};

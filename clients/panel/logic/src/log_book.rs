@@ -4,6 +4,9 @@ use std::collections::VecDeque;
 
 use rvac_api::{LogEntry, LogLevel};
 
+use crate::codes::log_text;
+use crate::words::Words;
+
 /// Entries that are kept; older ones are in the daemon's files.
 const KEPT: usize = 2000;
 
@@ -61,12 +64,13 @@ impl LogBook {
 
     /// The newest `most` entries that fit the filter, newest first.
     #[must_use]
-    pub fn find(&self, filter: &LogFilter, most: usize) -> Vec<&LogEntry> {
+    pub fn find(&self, words: &Words, (filter, most): (&LogFilter, usize)) -> Vec<&LogEntry> {
         let wanted = filter.search.trim().to_lowercase();
         let fits = |entry: &&LogEntry| {
             entry.level >= filter.level_min
                 && (wanted.is_empty()
                     || entry.text.to_lowercase().contains(&wanted)
+                    || log_text(words, entry).0.to_lowercase().contains(&wanted)
                     || entry.part.to_lowercase().contains(&wanted))
         };
         self.entries.iter().rev().filter(fits).take(most).collect()
@@ -76,6 +80,7 @@ impl LogBook {
 #[cfg(test)]
 mod tests {
     use super::{KEPT, LogBook, LogFilter};
+    use crate::words::Language;
     use rvac_api::{LogEntry, LogLevel};
 
     fn entry(number: u64, level: LogLevel, text: &str) -> LogEntry {
@@ -93,7 +98,10 @@ mod tests {
             level_min,
             search: search.to_owned(),
         };
-        book.find(&filter, 100).iter().map(|entry| entry.number).collect()
+        book.find(Language::English.words(), (&filter, 100))
+            .iter()
+            .map(|entry| entry.number)
+            .collect()
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod diary;
 mod english;
 mod estonian;
 
-use rvac_api::{Decision, Failure, FloorQuestion, Run, RunResult, RunStop};
+use rvac_api::{Decision, Failure, FloorQuestion, LogEntry, Run, RunResult, RunStop};
 
 use crate::words::{Language, Words};
 
@@ -110,12 +110,13 @@ pub fn reading_text<'a>(words: &Words, code: &'a str) -> &'a str {
 /// What the robot decided, and why.
 #[must_use]
 pub fn decision_text(words: &Words, decision: &Decision) -> String {
-    let told = || {
-        let deed = find(deeds(words)?, &decision.what)?;
-        let cause = cause(words, &decision.reason)?;
-        Some(format!("{}: {cause}.", with_value(deed, decision)))
-    };
-    told().unwrap_or_else(|| decision.text.clone())
+    told_decision(words, decision).unwrap_or_else(|| decision.text.clone())
+}
+
+fn told_decision(words: &Words, decision: &Decision) -> Option<String> {
+    let deed = find(deeds(words)?, &decision.what)?;
+    let cause = cause(words, &decision.reason)?;
+    Some(format!("{}: {cause}.", with_value(deed, decision)))
 }
 
 fn deeds(words: &Words) -> Option<&'static [(&'static str, &'static str)]> {
@@ -139,6 +140,29 @@ fn with_value(deed: &str, decision: &Decision) -> String {
         _ => decision.value,
     };
     deed.replace("{}", &format!("{value:.0}"))
+}
+
+/// A line of the log, and whether it is in the language of the page. What the brain decided stands there as codes, `turn (bump-left)`; what
+/// the daemon says besides are sentences in English.
+#[must_use]
+pub fn log_text(words: &Words, entry: &LogEntry) -> (String, bool) {
+    let told = decided(entry).and_then(|decision| told_decision(words, &decision));
+    let is_told = told.is_some() || words.language == Language::English;
+    (told.unwrap_or_else(|| entry.text.clone()), is_told)
+}
+
+/// The decision that a line of the log tells, if it tells one.
+fn decided(entry: &LogEntry) -> Option<Decision> {
+    let (what, rest) = entry.text.split_once(" (").filter(|_| entry.part == "brain")?;
+    let (reason, value) = rest.split_once(')')?;
+    Some(Decision {
+        number: entry.number,
+        t: entry.t,
+        what: what.to_owned(),
+        reason: reason.to_owned(),
+        value: value.trim().parse().unwrap_or_default(),
+        text: String::new(),
+    })
 }
 
 /// What came of a run.
@@ -173,9 +197,9 @@ pub fn stop_cause_text(words: &Words, stop: &RunStop) -> String {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::Decision;
+    use rvac_api::{Decision, LogEntry, LogLevel};
 
-    use super::{decision_text, english, estonian, explain, find, state_title};
+    use super::{decision_text, english, estonian, explain, find, log_text, state_title};
     use crate::words::Language;
 
     #[test]
@@ -203,6 +227,76 @@ mod tests {
             assert_ne!(other.what, explanation.what, "{code}");
         }
         assert_eq!(english::CATALOGUE.len(), estonian::CATALOGUE.len());
+    }
+
+    #[test]
+    fn every_reason_of_the_brain_is_a_cause_in_estonian() {
+        let causes = super::diary::CAUSES;
+        let missing = |reason: &&brain::Reason| find(causes, reason.name()).is_none();
+        let missing: Vec<_> = brain::Reason::ALL.iter().filter(missing).collect();
+        assert!(missing.is_empty(), "{missing:?}");
+        for (code, _) in causes {
+            assert!(brain::Reason::from_name(code).is_some(), "nobody says {code}");
+        }
+    }
+
+    /// The book names every code with which a request is refused.
+    #[test]
+    fn every_refusal_of_the_book_is_told_in_estonian() {
+        let page = include_str!("../../../../../docs/book/src/socket-api.md");
+        let requests: Vec<&str> = quoted(page, r#"{"c":""#, '"').collect();
+        // A sentence about refusals begins with that word and ends with the row or the line.
+        let told = page
+            .split("efused")
+            .skip(1)
+            .filter_map(|rest| rest.split(['|', '\n']).next());
+        let codes = told.flat_map(|told| quoted(told, "`", '`').step_by(2));
+        let codes = codes.filter(|code| {
+            code.contains('-') && code.chars().all(|sign| sign.is_ascii_lowercase() || sign == '-')
+        });
+        let mut seen = 0;
+        for code in codes.filter(|code| !requests.contains(code)) {
+            let is_told =
+                find(estonian::REFUSALS, code).is_some() || find(estonian::CATALOGUE, code).is_some();
+            assert!(is_told, "{code} has no Estonian");
+            seen += 1;
+        }
+        assert!(seen > 30, "only {seen} were found: has the page another form?");
+    }
+
+    /// What stands behind each `begin`, up to `end`.
+    fn quoted<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
+        text.split(begin)
+            .skip(1)
+            .filter_map(move |rest| rest.split(end).next())
+    }
+
+    #[test]
+    fn the_log_tells_decisions_by_their_codes_and_says_what_is_english() {
+        let entry = |part: &str, text: &str| LogEntry {
+            number: 1,
+            t: 0.0,
+            level: LogLevel::Info,
+            part: part.to_owned(),
+            text: text.to_owned(),
+        };
+        let (english, estonian) = (Language::English.words(), Language::Estonian.words());
+        let decided = entry("brain", "plan (unswept-floor) 150.00");
+        assert_eq!(log_text(english, &decided), (decided.text.clone(), true));
+        assert_eq!(
+            log_text(estonian, &decided),
+            (
+                "Kavandas teekonna, 2 min: osa põrandast on veel koristamata.".to_owned(),
+                true
+            )
+        );
+        for other in [
+            entry("vthal", "plan (unswept-floor)"),
+            entry("brain", "odd (odd"),
+            entry("brain", "odd (odd)"),
+        ] {
+            assert_eq!(log_text(estonian, &other), (other.text.clone(), false));
+        }
     }
 
     #[test]
