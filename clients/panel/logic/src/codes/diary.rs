@@ -49,6 +49,7 @@ pub(super) const CAUSES: &[(&str, &str)] = &[
     ("restored", "ta jätkab taaskäivituse-eelset tööd"),
     ("link-lost", "robot ei vasta"),
     ("link-restored", "robot vastab jälle"),
+    ("bad-settings", "sellised seaded ei sobi"),
     ("stopped", "keegi käskis peatuda"),
     ("button-stop", "vajutati tema nuppu"),
     ("wheel-drop", "ratas ripub, ta tõsteti üles või kukkus"),
