@@ -46,7 +46,7 @@ pub struct Route {
 
 /// Every address below `/api/`; one that ends with `/` stands for all that begin so. The page and its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 12] = [
+pub const ROUTES: [Route; 13] = [
     Route { method: Method::Get,  path: "/api/pairing",        need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/begin",  need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/finish", need: Need::Nobody },
@@ -55,6 +55,7 @@ pub const ROUTES: [Route; 12] = [
     Route { method: Method::Get,  path: "/api/session",        need: Need::Role(Role::View) },
     Route { method: Method::Get,  path: "/api/ws",             need: Need::Role(Role::View) },
     Route { method: Method::Get,  path: "/api/runs/",          need: Need::Role(Role::View) },
+    Route { method: Method::Get,  path: "/api/floors/archive", need: Need::Role(Role::View) },
     Route { method: Method::Post, path: "/api/pairing/open",   need: Need::Role(Role::Admin) },
     Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },

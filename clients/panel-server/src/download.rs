@@ -1,4 +1,4 @@
-//! The recording of a run as a file for the browser, asked of vthal piece by piece as the browser takes it.
+//! The recording of a run, or all floors, as a file for the browser, asked of vthal piece by piece as the browser takes it.
 
 use std::io;
 use std::path::PathBuf;
@@ -20,13 +20,34 @@ const PIECE_TIME_MAX: Duration = Duration::from_secs(20);
 /// Number of our requests.
 const REQUEST_ID: u32 = 1;
 
+/// Name of the file with all floors.
+const FLOORS_NAME: &str = "home.rvacfloors";
+
 /// Which file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Wanted {
-    /// Number of the run.
-    pub(crate) number: u64,
-    /// Which of its recordings, from 0.
-    pub(crate) recording: u32,
+pub(crate) enum Wanted {
+    /// The recording of a run.
+    Recording {
+        /// Number of the run.
+        number: u64,
+        /// Which of its recordings, from 0.
+        recording: u32,
+    },
+    /// All floors.
+    Floors,
+}
+
+impl Wanted {
+    fn request(self, from: u64) -> RequestBody {
+        match self {
+            Self::Recording { number, recording } => RequestBody::RunFile {
+                number,
+                recording,
+                from,
+            },
+            Self::Floors => RequestBody::ExportFloors { floor: None, from },
+        }
+    }
 }
 
 /// Why there is no piece.
@@ -39,15 +60,23 @@ enum NoPiece {
 
 struct Piece {
     bytes: Vec<u8>,
-    size: u64,
     name: String,
+    whole: Whole,
+}
+
+/// What pieces of one file have in common.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Whole {
+    size: u64,
+    /// Of a file that is made anew for each piece; recordings only grow.
+    check: Option<u32>,
 }
 
 /// Answers with the file, or with a sentence that says why not.
 pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
     let mut upstream = Upstream::new(vthal);
     let first = piece(&mut upstream, wanted, 0).await;
-    let Piece { bytes, size, name } = match first {
+    let Piece { bytes, name, whole } = match first {
         Ok(first) => first,
         Err(NoPiece::Refused(failure)) => {
             return (StatusCode::NOT_FOUND, format!("{}\n", failure.text)).into_response();
@@ -57,6 +86,7 @@ pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
             return (StatusCode::BAD_GATEWAY, text).into_response();
         }
     };
+    let size = whole.size;
     let headers = [
         (header::CONTENT_TYPE, "application/octet-stream".to_owned()),
         (header::CONTENT_LENGTH, size.to_string()),
@@ -74,8 +104,8 @@ pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
         let mut bytes = match ready {
             Some(bytes) => bytes,
             None => match piece(&mut upstream, wanted, sent).await {
-                Ok(piece) => piece.bytes,
-                Err(_) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(piece) if piece.whole.check == whole.check => piece.bytes,
+                _ => return Err(io::ErrorKind::UnexpectedEof.into()),
             },
         };
         // A recording that grows meanwhile is as long as was promised.
@@ -98,11 +128,7 @@ async fn piece(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Pie
 async fn ask(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Piece, NoPiece> {
     let request = Request {
         id: Some(REQUEST_ID),
-        body: RequestBody::RunFile {
-            number: wanted.number,
-            recording: wanted.recording,
-            from,
-        },
+        body: wanted.request(from),
     };
     let text = serde_json::to_string(&request).map_err(|_| NoPiece::Silent)?;
     if from == 0 && upstream.next().await != Event::Connected {
@@ -114,19 +140,38 @@ async fn ask(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Piece
             return Err(NoPiece::Silent);
         };
         match serde_json::from_str(&text) {
-            Ok(Update::RunFile {
-                from: begins,
-                name,
-                size,
-                data,
-                ..
-            }) if begins == from => {
-                let bytes = STANDARD.decode(data).map_err(|_| NoPiece::Silent)?;
-                return Ok(Piece { bytes, size, name });
-            }
             Ok(Update::Failed(failure)) => return Err(NoPiece::Refused(failure)),
-            _ => {}
+            Ok(update) => {
+                if let Some((name, whole, data)) = parts(update, from) {
+                    let bytes = STANDARD.decode(data).map_err(|_| NoPiece::Silent)?;
+                    return Ok(Piece { bytes, name, whole });
+                }
+            }
+            Err(_) => {}
         }
+    }
+}
+
+/// Name, whole and data of the piece that begins at `from`, if the update is that.
+fn parts(update: Update, from: u64) -> Option<(String, Whole, String)> {
+    match update {
+        Update::RunFile {
+            from: begins,
+            name,
+            size,
+            data,
+            ..
+        } if begins == from => Some((name, Whole { size, check: None }, data)),
+        Update::FloorArchive {
+            from: begins,
+            size,
+            check,
+            data,
+        } if begins == from => {
+            let check = Some(check);
+            Some((FLOORS_NAME.to_owned(), Whole { size, check }, data))
+        }
+        _ => None,
     }
 }
 

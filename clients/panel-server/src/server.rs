@@ -172,6 +172,7 @@ impl Server {
                 "/api/runs/{number}/recording/{recording}",
                 get(download_recording),
             )
+            .route("/api/floors/archive", get(download_floors))
             .fallback(serve_asset)
             .layer(middleware::from_fn_with_state(Arc::clone(&self.site), guard))
             .with_state(Arc::clone(&self.site));
@@ -326,7 +327,12 @@ async fn download_recording(
     State(site): State<Arc<Site>>,
     Path((number, recording)): Path<(u64, u32)>,
 ) -> Response<Body> {
-    download::answer(site.vthal.clone(), Wanted { number, recording }).await
+    let wanted = Wanted::Recording { number, recording };
+    download::answer(site.vthal.clone(), wanted).await
+}
+
+async fn download_floors(State(site): State<Arc<Site>>) -> Response<Body> {
+    download::answer(site.vthal.clone(), Wanted::Floors).await
 }
 
 /// The robot's certificate for devices that shall trust it; everybody sees it in each TLS connection.

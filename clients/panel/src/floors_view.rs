@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use panel_logic::{area_text, question_text};
 use rvac_api::{FloorView, RequestBody};
 
+use crate::floor_files::FloorFiles;
 use crate::home_view::rooms_text;
 use crate::language::words;
 use crate::store::Store;
@@ -46,6 +47,7 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
                 {words().home.new_floor}
             </button>
         </div>
+        <FloorFiles store />
     }
 }
 

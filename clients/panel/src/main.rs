@@ -7,6 +7,7 @@ mod app;
 mod device_view;
 mod drive;
 mod evidence_view;
+mod floor_files;
 mod floors_view;
 mod header;
 mod history;

@@ -12,6 +12,7 @@ use rvac_api::Update as Message;
 
 use crate::access::{Entrance, Newcomer};
 use crate::drive::Seat;
+use crate::floor_files::FloorDesk;
 use crate::history::HistoryDesk;
 use crate::language::words;
 use crate::link::Link;
@@ -62,6 +63,8 @@ pub(crate) struct Store {
     pub(crate) standstill: RwSignal<Option<Standstill>>,
     /// The floors, and on which of them the robot is.
     pub(crate) floors: RwSignal<FloorsView>,
+    /// Floors as a file.
+    pub(crate) floor_desk: FloorDesk,
     /// Versions of the map of a floor that the daemon keeps, newest first.
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
     /// That floor.
@@ -106,6 +109,7 @@ impl Store {
             decisions: RwSignal::new(DecisionBook::default()),
             standstill: RwSignal::new(None),
             floors: RwSignal::new(FloorsView::default()),
+            floor_desk: FloorDesk::new(),
             maps: RwSignal::new(Vec::new()),
             maps_floor: RwSignal::new(None),
             orders: Orders::new(),
@@ -192,6 +196,7 @@ impl Store {
         }
         self.edits.on_done(id, &self.known_home());
         self.schedules.on_done(id);
+        self.on_floors_done(id);
         if id == MIX_ID
             && let Some(name) = self.bench.on_kept()
         {
@@ -243,6 +248,7 @@ impl Store {
     pub(crate) fn on_close(self) {
         // Nothing can be said any more: the lease ends by itself.
         self.seat.lose();
+        self.floor_desk.on_close();
         let status = Status {
             state: "disconnected".to_owned(),
             reason: "no-server".to_owned(),
@@ -336,6 +342,7 @@ impl Store {
         if self.orders.on_failed(&failure)
             || self.schedules.on_failed(&failure)
             || self.history.on_failed(&failure)
+            || self.floor_desk.on_failed(&failure)
         {
             return;
         }

@@ -160,9 +160,12 @@ pub struct RunStop {
     pub reason: String,
     /// The same as a sentence for people.
     pub text: String,
-    /// Name of the client that wanted it, if one did.
+    /// Who wanted it, if somebody did, in English words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
+    /// The same for programs; absent in older records.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asker: Option<RunAsker>,
     /// Where; its time is that of the daemon's clock.
     pub place: Pose,
     /// What the robot felt and tried before, unless somebody wanted it to stop.

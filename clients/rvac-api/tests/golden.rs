@@ -990,6 +990,7 @@ fn a_run_in_full() {
         reason: "command".to_owned(),
         text: "Paused: somebody asked for it.".to_owned(),
         by: Some("panel".to_owned()),
+        asker: Some(RunAsker::Client("panel".to_owned())),
         place: Pose {
             x: 1.0,
             y: -2.5,
@@ -1012,7 +1013,7 @@ fn a_run_in_full() {
     check(
         &Update::Run(Box::new(record)),
         &format!(
-            r#"{{"e":"run","run":{{{RUN}}},"stops":[{{"at_s":61.0,"state":"paused","reason":"command","text":"Paused: somebody asked for it.","by":"panel","place":{{"x":1.0,"y":-2.5,"heading":0.5,"t":64.0}}}}],"picture":{{"cell_m":0.025,"swept_rows":[0,-1,6],"path_mm":[0,0,100,0],"bumps":[]}}}}"#
+            r#"{{"e":"run","run":{{{RUN}}},"stops":[{{"at_s":61.0,"state":"paused","reason":"command","text":"Paused: somebody asked for it.","by":"panel","asker":{{"client":"panel"}},"place":{{"x":1.0,"y":-2.5,"heading":0.5,"t":64.0}}}}],"picture":{{"cell_m":0.025,"swept_rows":[0,-1,6],"path_mm":[0,0,100,0],"bumps":[]}}}}"#
         ),
     );
     check(

@@ -1391,3 +1391,23 @@ fn a_new_floor_takes_what_was_drawn_and_a_floor_that_is_gone_is_forgotten() {
     let back = RequestBody::RestoreFloor { floor: 1 };
     assert_eq!(pair.ask(ANNA, back).as_deref(), Some("not-removed"));
 }
+
+#[test]
+fn floors_of_an_archive_are_there_and_the_robot_stays_where_it_is() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    let here = pair.core.floors_view().here;
+    let export = |floor| RequestBody::ExportFloors { floor, from: 0 };
+    assert_eq!(pair.ask(ANNA, export(Some(7))).as_deref(), Some("no-such-floor"));
+    let cellar = KeptFloor {
+        name: Some(brain::RoomName::new("Cellar").expect("is a name")),
+        ..KeptFloor::new(2)
+    };
+    pair.handle(Input::FloorsTakenIn {
+        floors: vec![KeptFloor::new(1), cellar],
+        taken: vec![2],
+    });
+    let view = pair.core.floors_view();
+    assert_eq!((view.here, view.floors.len()), (here, 2));
+    assert_eq!(view.floors[1].name.as_deref(), Some("Cellar"));
+    assert_eq!(pair.ask(ANNA, export(Some(2))), None);
+}

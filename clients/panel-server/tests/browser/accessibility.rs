@@ -47,7 +47,7 @@ async fn dress(browser: &Browser, language: &str, look: &str) {
 }
 
 /// What is done on the way to a view, and a script that is true when it is there.
-const VIEWS: [(&str, &[&str], &str); 9] = [
+const VIEWS: [(&str, &[&str], &str); 11] = [
     ("drive", &["#tab-drive"], "#pad"),
     (
         "mixes",
@@ -60,9 +60,13 @@ const VIEWS: [(&str, &[&str], &str); 9] = [
         "#mixes .mix-curve",
     ),
     ("home", &["#edit-mixes", "#tab-home"], "#rooms .choose"),
+    ("rename", &["#rename-floor-1"], "#floor-name"),
+    // The only floor must stay.
+    ("refusal", &["#rename-floor-1", "#remove-floor-1"], "#refusal"),
     (
         "room",
         &[
+            "#refusal button",
             "#rooms .choose",
             "#rooms li button[aria-expanded]",
             "#rooms [id$=-settings]",

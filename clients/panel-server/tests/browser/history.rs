@@ -60,6 +60,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
         .text("document.getElementById('run-title').scrollIntoView(); return ''")
         .await;
     browser.shot("phone-run").await;
+    crate::accessibility::expect_none(browser, "an opened run").await;
     let width = browser
         .text("return document.documentElement.scrollWidth > document.documentElement.clientWidth")
         .await;

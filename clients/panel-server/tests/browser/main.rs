@@ -10,6 +10,7 @@ mod accessibility;
 mod browser;
 mod costs;
 mod edits;
+mod floors;
 mod foreign;
 mod frozen;
 mod history;

@@ -5,6 +5,7 @@ use std::time::Duration;
 use tokio::time::sleep;
 
 use crate::Visit;
+use crate::accessibility::expect_none;
 use crate::browser::{Browser, Screen};
 use crate::robot::Witness;
 use crate::stack::Stack;
@@ -77,6 +78,7 @@ async fn try_in_vain(browser: &Browser, stack: &Stack) -> String {
         ))
         .await;
     browser.shot("phone-pair-wrong").await;
+    expect_none(browser, "a wrong code").await;
     code
 }
 
@@ -90,6 +92,7 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
         .until("return document.getElementById('pair') !== null")
         .await;
     browser.shot("phone-pair").await;
+    expect_none(browser, "the pairing page").await;
     let code = try_in_vain(browser, stack).await;
     pair(browser, &code).await;
     browser.until_state(&["idle", "docked"]).await;
@@ -134,6 +137,7 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
     let show = "document.getElementById('pairing-qr')?.scrollIntoView({ block: 'center' }); return ''";
     browser.text(show).await;
     browser.shot("phone-devices").await;
+    expect_none(browser, "a pairing window").await;
     stack.console(&["clients", "add", "<b>script</b>", "--role", "view"]);
     browser
         .until("return document.getElementById('newcomer')?.textContent.includes('<b>script</b>')")
@@ -204,6 +208,7 @@ async fn let_in_by_presses(start: fn() -> Stack) {
         .until("return document.getElementById('pair-presses').textContent.includes('Press START')")
         .await;
     browser.shot("phone-pair-presses").await;
+    expect_none(browser, "the presses of pairing").await;
     press_as_shown(browser, stack).await;
     browser.until_state(&["idle", "docked"]).await;
     assert!(

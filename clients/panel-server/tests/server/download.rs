@@ -68,3 +68,26 @@ async fn a_page_of_another_site_gets_no_recording() {
     let wrong = ASK.replace("/7/", "/seven/");
     assert!(rig.raw(&wrong).await.starts_with("HTTP/1.1 400"));
 }
+
+#[tokio::test]
+async fn floors_come_as_one_file_and_not_if_a_map_changes_on_the_way() {
+    for (last_check, is_whole) in [(7, true), (8, false)] {
+        let rig = Rig::start().await;
+        let serve = async {
+            let mut vthal = rig.accept().await;
+            for (from, check, text) in [(0, 7, "twelve"), (6, last_check, " bytes")] {
+                let heard = vthal.hear().await.expect("asks");
+                assert_eq!(heard, format!(r#"{{"id":1,"c":"export-floors","from":{from}}}"#));
+                let data = STANDARD.encode(text);
+                let piece = format!(
+                    r#"{{"e":"floor-archive","from":{from},"size":12,"check":{check},"data":"{data}"}}"#
+                );
+                vthal.say(&piece).await;
+            }
+        };
+        let ask = ASK.replace("runs/7/recording/0", "floors/archive");
+        let (answer, ()) = tokio::join!(rig.raw(&ask), serve);
+        assert!(answer.contains("filename=\"home.rvacfloors\""), "{answer}");
+        assert_eq!(answer.ends_with("twelve bytes"), is_whole, "{answer}");
+    }
+}

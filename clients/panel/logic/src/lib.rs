@@ -14,6 +14,7 @@ mod driver;
 mod edits;
 mod evidence;
 mod figures;
+mod floor_upload;
 mod frame_meter;
 mod health;
 mod history;
@@ -49,6 +50,7 @@ pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use edits::{Edit, EditError, EditLog};
 pub use evidence::{FeltRow, felt_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
+pub use floor_upload::{FloorUpload, floor_file_problem};
 pub use frame_meter::FrameMeter;
 pub use health::{PartRow, part_rows};
 pub use history::{

@@ -38,12 +38,7 @@ pub(super) struct UnkeptRuns {
 impl Core {
     /// A command that somebody gives to the brain: an order begins a run with the next step.
     pub(super) fn order_run(&mut self, by: RunAsker, command: &Command) {
-        self.runs.commanded_by(match &by {
-            RunAsker::Client(name) => name.clone(),
-            RunAsker::Button => "the button on the robot".to_owned(),
-            RunAsker::Schedule { name, .. } => format!("the schedule {name}"),
-            RunAsker::Robot => "the robot".to_owned(),
-        });
+        self.runs.commanded_by(by.clone());
         let brain = self.mind.as_ref().map(|mind| mind.brain());
         if let Some(job) = brain.and_then(|brain| ordered_job(command, brain)) {
             self.runs.asked(Asked { by, job }, brain);

@@ -217,7 +217,8 @@ impl Core {
     /// Anybody may stop at any time; the wheels do not wait for the brain.
     fn stop(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         self.arbiter.preempt();
-        self.runs.commanded_by(self.clients.name(client));
+        let by = RunAsker::Client(self.clients.name(client));
+        self.runs.commanded_by(by);
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         self.command_brain(now_us, Command::Stop, outputs);
         let text = format!("stopped by {}", self.clients.name(client));

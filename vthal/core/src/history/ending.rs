@@ -1,6 +1,6 @@
 //! What came of a run, from the reasons that the brain named.
 
-use rvac_api::{RunJob, RunResult};
+use rvac_api::{RunAsker, RunJob, RunResult};
 
 use crate::diary::because;
 
@@ -24,7 +24,7 @@ pub(super) struct LastWords<'a> {
     /// Why the robot stood and could not go on by itself, if it did.
     pub(super) trouble: Option<&'a str>,
     /// Who wanted the end, if somebody did.
-    pub(super) by: Option<&'a str>,
+    pub(super) by: Option<&'a RunAsker>,
 }
 
 impl Ending {
@@ -54,11 +54,11 @@ impl Ending {
         }
     }
 
-    pub(super) fn stopped(by: Option<&str>) -> Self {
+    pub(super) fn stopped(by: Option<&RunAsker>) -> Self {
         Self {
             result: RunResult::Stopped,
             reason: "command".to_owned(),
-            text: format!("Stopped by {}.", by.unwrap_or("somebody")),
+            text: format!("Stopped by {}.", name_or_somebody(by)),
         }
     }
 
@@ -78,7 +78,7 @@ impl Ending {
             },
             ("docked", None) => Self::finished("docked"),
             ("docked", Some("command")) => Self {
-                text: format!("Sent to its dock by {}.", by.unwrap_or("somebody")),
+                text: format!("Sent to its dock by {}.", name_or_somebody(by)),
                 ..Self::stopped(by)
             },
             ("docked", Some(home)) if is_done(home) => Self::finished(home),
@@ -117,4 +117,18 @@ impl Ending {
 /// Reasons for which a cleaning job is over because nothing is left to do.
 fn is_done(reason: &str) -> bool {
     matches!(reason, "finished" | "rest-out-of-reach")
+}
+
+/// Whoever commands, within a sentence.
+pub(super) fn asker_name(asker: &RunAsker) -> String {
+    match asker {
+        RunAsker::Client(name) => name.clone(),
+        RunAsker::Button => "the button on the robot".to_owned(),
+        RunAsker::Schedule { name, .. } => format!("the schedule {name}"),
+        RunAsker::Robot => "the robot".to_owned(),
+    }
+}
+
+fn name_or_somebody(asker: Option<&RunAsker>) -> String {
+    asker.map_or_else(|| "somebody".to_owned(), asker_name)
 }

@@ -49,7 +49,7 @@ pub(crate) struct RunFollower {
     wall: Option<(u64, i64)>,
     asked: Option<Asked>,
     /// Whoever has commanded since the last step.
-    hand: Option<String>,
+    hand: Option<RunAsker>,
     /// The newest recording: its number and its name.
     recording: Option<(u32, String)>,
     open: Option<OpenRun>,
@@ -79,8 +79,8 @@ impl RunFollower {
     }
 
     /// Somebody commands, for the next step.
-    pub(crate) fn commanded_by(&mut self, name: String) {
-        self.hand = Some(name);
+    pub(crate) fn commanded_by(&mut self, asker: RunAsker) {
+        self.hand = Some(asker);
     }
 
     /// Somebody orders a run, with the next step.
@@ -128,8 +128,7 @@ impl RunFollower {
         let begins = moment.decisions.iter().any(has_begun);
         match asked {
             Some(asked) if begins => {
-                step.over
-                    .extend(self.end(moment, Ending::stopped(hand.as_deref())));
+                step.over.extend(self.end(moment, Ending::stopped(hand.as_ref())));
                 self.begin(asked, moment);
             }
             _ => {
@@ -141,7 +140,7 @@ impl RunFollower {
         }
         let Some(open) = &mut self.open else { return step };
         let was_over = open.over_us.is_some();
-        open.follow(moment, hand.as_deref());
+        open.follow(moment, hand.as_ref());
         let Some(over_us) = open.over_us else { return step };
         if !was_over {
             step.done = Some(open.so_far(moment.now_us, Some(moment.brain)));

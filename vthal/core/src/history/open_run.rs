@@ -2,9 +2,9 @@
 
 use brain::action::Decision;
 use brain::{Brain, JobFigures, JobKind};
-use rvac_api::{Evidence, Run, RunJob, RunPicture, RunRecord, RunRecording, RunStop};
+use rvac_api::{Evidence, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunStop};
 
-use super::ending::{Ending, LastWords};
+use super::ending::{Ending, LastWords, asker_name};
 use super::follower::{Asked, Moment};
 use super::picture;
 use crate::diary::sentence;
@@ -144,7 +144,7 @@ impl OpenRun {
     }
 
     /// Takes in a step of the brain in which the run went on.
-    pub(super) fn follow(&mut self, moment: &Moment<'_>, hand: Option<&str>) {
+    pub(super) fn follow(&mut self, moment: &Moment<'_>, hand: Option<&RunAsker>) {
         self.picture = None;
         self.look_at_battery(moment.charge);
         let kind = moment.brain.job_kind();
@@ -181,7 +181,7 @@ impl OpenRun {
         &mut self,
         moment: &Moment<'_>,
         (decision, kind): (&Decision, Option<JobKind>),
-        hand: Option<&str>,
+        hand: Option<&RunAsker>,
     ) {
         let is_job_for_dock = self.record.run.job == RunJob::Dock;
         match decision.what {
@@ -210,7 +210,7 @@ impl OpenRun {
         &mut self,
         (now_us, brain): (u64, &Brain),
         (decision, evidence): (&Decision, &Evidence),
-        hand: Option<&str>,
+        hand: Option<&RunAsker>,
     ) {
         self.go_on(now_us);
         let state = decision.what.strip_prefix("state-").unwrap_or(decision.what);
@@ -224,13 +224,15 @@ impl OpenRun {
         let stops = self.record.stops.iter();
         let is_felt = stops.filter(|stop| !stop.evidence.is_empty()).count() < EVIDENCE_MAX;
         if is_told {
+            let asker = hand.filter(|_| decision.reason == "command");
             let stop = RunStop {
                 at_s: self.at_s(now_us),
                 lasted_s: None,
                 state: state.to_owned(),
                 reason: decision.reason.to_owned(),
                 text: sentence(decision),
-                by: hand.filter(|_| decision.reason == "command").map(str::to_owned),
+                by: asker.map(asker_name),
+                asker: asker.cloned(),
                 place: to_api::pose(brain.pose(), now_us),
                 evidence: if is_felt {
                     evidence.clone()
@@ -254,7 +256,7 @@ impl OpenRun {
     }
 
     /// The brain has no job any more.
-    fn end(&mut self, moment: &Moment<'_>, hand: Option<&str>) {
+    fn end(&mut self, moment: &Moment<'_>, hand: Option<&RunAsker>) {
         let mut states = moment
             .decisions
             .iter()

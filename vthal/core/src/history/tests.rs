@@ -1,6 +1,6 @@
 //! What came of runs, from the words of the brain.
 
-use rvac_api::{RunJob, RunResult};
+use rvac_api::{RunAsker, RunJob, RunResult};
 
 use super::ending::{Ending, LastWords};
 
@@ -17,12 +17,13 @@ fn clean() -> RunJob {
 fn results_follow_from_the_last_words() {
     use RunResult::{Finished, GaveUp, Stopped};
     let clean = clean();
+    let anna = RunAsker::Client("Anna".to_owned());
     let words = |reason, turned_home| LastWords {
         job: &clean,
         reason,
         turned_home,
         trouble: None,
-        by: Some("Anna"),
+        by: Some(&anna),
     };
     for (words, result, reason) in [
         (words("finished", None), Finished, "finished"),

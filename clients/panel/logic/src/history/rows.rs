@@ -79,16 +79,29 @@ pub fn room_here_text(words: &Words, room: &RoomHere) -> String {
         .unwrap_or_else(|| words.schedule.room.fill([&room.id]))
 }
 
-/// All figures of a run: what they are and what they say.
-#[must_use]
-pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
+/// Who wanted something.
+fn asker_text(words: &Words, asker: &RunAsker) -> String {
     let told = &words.history;
-    let asker = match &run.by {
+    match asker {
         RunAsker::Client(name) => name.clone(),
         RunAsker::Button => told.by_button.to_owned(),
         RunAsker::Schedule { name, .. } => told.by_schedule.fill([name]),
         RunAsker::Robot => told.by_robot.to_owned(),
-    };
+    }
+}
+
+/// For within a sentence.
+fn uncapitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_lowercase);
+    first.chain(letters).collect()
+}
+
+/// All figures of a run: what they are and what they say.
+#[must_use]
+pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
+    let told = &words.history;
+    let asker = asker_text(words, &run.by);
     let share = run.share.map_or_else(String::new, |share| {
         told.of_floor.fill([&percent_text(words, share)])
     });
@@ -143,7 +156,13 @@ fn stop_text(words: &Words, stop: &RunStop) -> String {
         Some(lasted_s) => told.lasted.fill([&clock_text(lasted_s)]),
         None => told.until_end.to_owned(),
     };
-    let by = stop.by.as_ref().map_or_else(String::new, |by| told.by.fill([by]));
+    // Older records have the robot's own English words only.
+    let asker = stop.asker.as_ref().map(|asker| match asker {
+        RunAsker::Client(name) => name.clone(),
+        other => uncapitalized(&asker_text(words, other)),
+    });
+    let asker = asker.or_else(|| stop.by.clone());
+    let by = asker.map_or_else(String::new, |by| told.by.fill([&by]));
     let (cause, at) = (stop_cause_text(words, stop), clock_text(stop.at_s));
     told.stop.fill([&cause, &by, &at, &lasted])
 }
@@ -196,6 +215,7 @@ mod tests {
                 reason: "command".to_owned(),
                 text: "Paused: somebody asked for it.".to_owned(),
                 by: Some("panel".to_owned()),
+                asker: None,
                 place: rvac_api::Pose::default(),
                 evidence: rvac_api::Evidence::default(),
             }],
@@ -228,6 +248,13 @@ mod tests {
         assert_eq!(
             stop_rows(estonian, &record)[0].words,
             "Pausil: keegi palus seda. Andis panel. Ajal 1:01, kestis 0:12."
+        );
+        let mut pressed = record;
+        pressed.stops[0].by = Some("the button on the robot".to_owned());
+        pressed.stops[0].asker = Some(RunAsker::Button);
+        assert_eq!(
+            stop_rows(estonian, &pressed)[0].words,
+            "Pausil: keegi palus seda. Andis nupp robotil. Ajal 1:01, kestis 0:12."
         );
     }
 }

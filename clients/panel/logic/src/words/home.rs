@@ -32,6 +32,17 @@ screen! {
         no_map: "no map yet", "kaarti veel ei ole";
         removed: ", removed", ", eemaldatud";
         floor_name[1]: "New name of floor {0}; empty for its number", "Korruse {0} uus nimi; tühjana jääb number";
+        export_floors: "Save all floors as a file", "Salvesta kõik korrused faili";
+        import_floors: "Take floors from a file", "Võta korrused failist";
+        floors_file: "File with floors", "Korruste fail";
+        floors_sent[1]: "{0} % of the file has gone to the robot.", "Robotile on saadetud {0} % failist.";
+        floors_taken: "The floors of the file are kept beside those that were there.",
+            "Faili korrused on nüüd varasemate kõrval alles.";
+        floors_lost: "The connection broke, and nothing was taken: choose the file again.",
+            "Ühendus katkes ja midagi ei võetud: vali fail uuesti.";
+        floors_unreadable: "The file cannot be read: choose it again.", "Faili ei saa lugeda: vali see uuesti.";
+        floors_file_size[1]: "This is no file with floors: such files have up to {0} MB and are not empty.",
+            "See ei ole korruste fail: selline fail ei ole tühi ja selles on kuni {0} MB.";
         rooms: "Rooms", "Toad";
         room[1]: "Room {0}", "Tuba {0}";
         no_rooms: "No room is known yet: the robot finds them while it cleans.",
