@@ -8,7 +8,10 @@ use crate::browser::{Browser, Screen};
 /// Gives a line for each fault: the rule, what is wrong, and where.
 const RUN: &str = "
     const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'];
-    return axe.run(document, { runOnly: tags, resultTypes: ['violations'] }).then(
+    // A colour on its way to another one is not what is read.
+    const moving = document.getAnimations().filter(motion => motion.effect.getComputedTiming().endTime < Infinity);
+    const still = Promise.allSettled(moving.map(motion => motion.finished));
+    return still.then(() => axe.run(document, { runOnly: tags, resultTypes: ['violations'] })).then(
         found => found.violations.map(fault => `${fault.id}: ${fault.help}: `
             + fault.nodes.map(node => `${node.target} ${node.any.concat(node.all).map(check => check.message)}`).join(' | ')).join('\\n'))";
 
