@@ -103,10 +103,13 @@ fn rule(kind: RuleKind, day: Date, at: Time) -> When {
     }
 }
 
+/// Minutes around a change in which each is looked at: the largest step back, three hours of Antarctica, and the largest distance.
+const NEAR_MIN: i64 = 3 * 60 + 60 + 20;
+
 /// Instants at which a daemon looks at its clock: each half hour, and each minute around the change and a day before and after.
 fn looks(at_s: i64) -> Vec<i64> {
     let near = |centre_s: i64| {
-        let minutes = -230..=230;
+        let minutes = -NEAR_MIN..=NEAR_MIN;
         minutes.map(move |minute| centre_s - centre_s.rem_euclid(MINUTE_S) + minute * MINUTE_S)
     };
     let days = [-48, -24, 0, 24, 48]
