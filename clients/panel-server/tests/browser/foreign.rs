@@ -95,7 +95,7 @@ impl Attack<'_> {
     }
 
     /// All that a page of another site can try.
-    async fn from_page(&mut self, by: (&str, &str), address: &str) {
+    async fn try_page(&mut self, by: (&str, &str), address: &str) {
         self.browser.goto(address).await;
         for tried in [
             ("reading", READ),
@@ -109,7 +109,7 @@ impl Attack<'_> {
         self.try_script(by, ("a form", OPEN_BY_FORM), "sent").await;
     }
 
-    async fn from_sandbox(&mut self, address: &str) {
+    async fn try_sandbox(&mut self, address: &str) {
         self.browser.goto(address).await;
         let tried = ("reading, opening, a WebSocket", FROM_A_SANDBOX);
         self.try_script(("A11", "a sandboxed frame"), tried, "refused refused refused")
@@ -156,7 +156,7 @@ impl Attack<'_> {
     }
 
     /// The panel's own page can do all of it: what was refused was refused to strangers, and what was sent came to nothing.
-    async fn from_own_page(&mut self) {
+    async fn try_own_page(&mut self) {
         let own = ("A8", "the panel itself");
         self.browser.goto(&format!("{}/", self.robot)).await;
         self.try_script(own, ("a window that a stranger opened", IS_OPEN), "false")
@@ -185,18 +185,18 @@ async fn pages_of_other_sites_can_do_nothing_to_a_robot() {
     };
     let stranger = Stranger::start().await;
     let elsewhere = format!("https://{NAME}:{}/", stranger.port);
-    attack.from_page(("A8", "another site"), &elsewhere).await;
+    attack.try_page(("A8", "another site"), &elsewhere).await;
     let beside = format!("https://{host}:{}/", stranger.port);
     attack
-        .from_page(("A9", "the same host at another port"), &beside)
+        .try_page(("A9", "the same host at another port"), &beside)
         .await;
     let file = stack.folder().join("stranger.html");
     std::fs::write(&file, "<!doctype html><title>A stranger</title>").unwrap();
     let file = format!("file://{}", file.display());
-    attack.from_page(("A11", "a file"), &file).await;
-    attack.from_sandbox(&beside).await;
+    attack.try_page(("A11", "a file"), &file).await;
+    attack.try_sandbox(&beside).await;
     attack.in_frame(&beside).await;
     attack.by_another_name(&port).await;
-    attack.from_own_page().await;
+    attack.try_own_page().await;
     assert!(attack.unexpected.is_empty(), "{:#?}", attack.unexpected);
 }
