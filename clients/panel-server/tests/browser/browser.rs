@@ -139,6 +139,13 @@ impl Browser {
         self.client.goto(address).await.unwrap();
     }
 
+    /// Takes the dark look.
+    pub(crate) async fn darken(&self) {
+        self.click("#theme").await;
+        self.until("return document.documentElement.dataset.theme === 'dark'")
+            .await;
+    }
+
     /// How many cookies the page that is seen would send, those included that no script can read.
     pub(crate) async fn cookies(&self) -> usize {
         self.client.get_all_cookies().await.unwrap().len()

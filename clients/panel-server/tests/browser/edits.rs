@@ -169,10 +169,7 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_an
         return;
     };
     let browser = &visit.browser;
-    browser.click("#theme").await;
-    browser
-        .until("return document.documentElement.dataset.theme === 'dark'")
-        .await;
+    browser.darken().await;
     let mut onlooker = Onlooker::watch(&visit.stack.daemon_socket());
     browser.click("#tab-home").await;
     browser

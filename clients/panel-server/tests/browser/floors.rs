@@ -44,7 +44,7 @@ async fn floors_are_saved_as_a_file_and_taken_again_on_a_phone_in_the_dark() {
         return;
     };
     let browser = &visit.browser;
-    browser.click("#theme").await;
+    browser.darken().await;
     browser.click("#tab-home").await;
     browser
         .until("return document.getElementById('export-floors') !== null")

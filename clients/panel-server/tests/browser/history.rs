@@ -1,7 +1,8 @@
 //! The history in the page: a run is stopped, found, seen again and saved.
 
 use crate::Visit;
-use crate::browser::Screen;
+use crate::accessibility::expect_none;
+use crate::browser::{Browser, Screen};
 
 #[tokio::test]
 async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_dark() {
@@ -9,10 +10,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
         return;
     };
     let browser = &visit.browser;
-    browser.click("#theme").await;
-    browser
-        .until("return document.documentElement.dataset.theme === 'dark'")
-        .await;
+    browser.darken().await;
     browser.click("#start").await;
     browser.until_state(&["cleaning"]).await;
     browser
@@ -37,6 +35,22 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
     browser
         .until("return document.querySelectorAll('.plot .line').length > 0 && document.getElementById('replay-time') !== null")
         .await;
+    see_again(browser).await;
+    browser
+        .text("document.getElementById('run-title').scrollIntoView(); return ''")
+        .await;
+    browser.shot("phone-run").await;
+    expect_none(browser, "an opened run").await;
+    let width = browser
+        .text("return document.documentElement.scrollWidth > document.documentElement.clientWidth")
+        .await;
+    assert_eq!(width, "false", "the page is wider than the phone");
+
+    save(browser).await;
+}
+
+/// Moves the slider to the begin, and lets the run go on to its end.
+async fn see_again(browser: &Browser) {
     let place = "return document.getElementById('replay-robot').getAttribute('transform')";
     let end = browser.text(place).await;
     let slide = "const slider = document.getElementById('replay-time'); slider.value = 0; \
@@ -56,16 +70,10 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
             "return document.getElementById('replay-robot').getAttribute('transform') === '{end}'"
         ))
         .await;
-    browser
-        .text("document.getElementById('run-title').scrollIntoView(); return ''")
-        .await;
-    browser.shot("phone-run").await;
-    crate::accessibility::expect_none(browser, "an opened run").await;
-    let width = browser
-        .text("return document.documentElement.scrollWidth > document.documentElement.clientWidth")
-        .await;
-    assert_eq!(width, "false", "the page is wider than the phone");
+}
 
+/// Fetches what the link gives: a recording.
+async fn save(browser: &Browser) {
     let fetch = "const link = document.getElementById('save-0'); window.saved = ''; \
                  fetch(link.href).then(async answer => { \
                      const bytes = new Uint8Array(await answer.arrayBuffer()); \

@@ -242,10 +242,7 @@ async fn the_dark_look_is_kept() {
     let browser = &visit.browser;
     let background = "return getComputedStyle(document.body).backgroundColor";
     let light = browser.text(background).await;
-    browser.click("#theme").await;
-    browser
-        .until("return document.documentElement.dataset.theme === 'dark'")
-        .await;
+    browser.darken().await;
     let dark = browser.text(background).await;
     assert_ne!(light, dark);
     browser.reload().await;

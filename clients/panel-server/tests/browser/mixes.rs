@@ -243,7 +243,7 @@ async fn a_phone_in_the_dark_edits_mixes_without_sideways_scrolling() {
         return;
     };
     let browser = &visit.browser;
-    browser.click("#theme").await;
+    browser.darken().await;
     open_line(browser).await;
     learn_tilt(browser).await;
     browser.shot("phone-mixes-dark").await;

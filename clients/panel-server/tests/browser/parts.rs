@@ -40,7 +40,7 @@ async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
             return;
         };
         let browser = &visit.browser;
-        browser.click("#theme").await;
+        browser.darken().await;
         browser.click("#tab-device").await;
         browser.until(&says("runs hard: 160\u{a0}%")).await;
         browser.until(&says("Take hair and threads off it")).await;

@@ -41,7 +41,7 @@ async fn the_map_is_seen_in_3d_turned_and_kept_so() {
         browser
             .until(&format!("return localStorage.getItem('map-view') !== '{before}'"))
             .await;
-        browser.click("#theme").await;
+        browser.darken().await;
         browser.shot(&format!("{shots}-3d-dark-turned")).await;
         let turned = browser.text(kept).await;
         browser.reload().await;
