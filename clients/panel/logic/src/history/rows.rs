@@ -169,7 +169,7 @@ fn stop_text(words: &Words, stop: &RunStop) -> String {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::RunRecord;
+    use rvac_api::{RunAsker, RunRecord};
 
     use super::{run_figures, run_rows, stop_rows};
     use crate::words::{Language, Words};
