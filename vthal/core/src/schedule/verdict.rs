@@ -11,8 +11,10 @@ pub const GRACE_S: i64 = 120;
 /// A robot that is not there is waited for, for as long as the entry may be late; so long before the end of that time it is
 /// refused, so that the reason has its name.
 const GIVES_UP_S: i64 = 30;
-/// The reason that is waited for.
+/// There is no robot at the serial line.
 pub const NO_ROBOT: &str = "no-robot";
+/// What is waited for: a robot that does not answer at this moment may do so at the next.
+const WAITED_FOR: [&str; 2] = [NO_ROBOT, "link-lost"];
 
 /// What becomes of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -161,7 +163,7 @@ fn judge(
     }
     match ready(entry) {
         Ok(()) => Some(Outcome::Starting),
-        Err(NO_ROBOT) if late_s < late_max_s(entry) - GIVES_UP_S => None,
+        Err(reason) if WAITED_FOR.contains(&reason) && late_s < late_max_s(entry) - GIVES_UP_S => None,
         Err(reason) => Some(Outcome::Refused(reason.to_owned())),
     }
 }

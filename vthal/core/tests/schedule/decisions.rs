@@ -156,14 +156,19 @@ fn what_keeps_the_robot_has_its_name_and_a_robot_that_is_not_there_is_waited_for
         ask(&book, eight, "wheel-drop"),
         Some(Outcome::Refused("wheel-drop".to_owned()))
     );
-    assert_eq!(ask(&book, eight, "no-robot"), None);
+    let gone = ["no-robot", "link-lost"];
+    for reason in gone {
+        assert_eq!(ask(&book, eight, reason), None);
+    }
     let entry = book.entry(1).expect("is there").clone();
     assert_eq!(
         planned(&book, &entry, (&zone, eight + 60))[0].held,
         Some(Held::NoRobot)
     );
-    let gives_up = Some(Outcome::Refused("no-robot".to_owned()));
-    assert_eq!(ask(&book, eight + 11 * 60 + 45, "no-robot"), gives_up);
+    for reason in gone {
+        let gives_up = Some(Outcome::Refused(reason.to_owned()));
+        assert_eq!(ask(&book, eight + 11 * 60 + 45, reason), gives_up);
+    }
     assert_eq!(
         outcomes(&decide(&mut book, &zone, eight + 300)),
         [&Outcome::Starting]
