@@ -22,11 +22,11 @@ screen! {
             "Robot ei tunne korrust ära: vali, millel ta on, või ütle, et see on uus.";
         new_floor: "It is on a new floor", "Robot on uuel korrusel";
         floor[1]: "Floor {0}", "Korrus {0}";
-        is_on[1]: "The robot is on {0}", "Robot on siin: {0}";
+        is_on[1]: "It is here: {0}", "Robot on siin: {0}";
         it_is_here: "It is here", "Robot on siin";
         is_here: "the robot is here", "robot on siin";
         remove_named[1]: "Remove {0}", "Eemalda {0}";
-        bring_back_named[1]: "Bring {0} back", "Too {0} tagasi";
+        bring_back_named[1]: "Bring back {0}", "Too tagasi: {0}";
         bring_back: "Bring back", "Too tagasi";
         rename_named[1]: "Rename {0}", "Nimeta ümber: {0}";
         no_map: "no map yet", "kaarti veel ei ole";
