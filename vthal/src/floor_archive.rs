@@ -149,11 +149,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Vec<ArchivedFloor>, ArchiveError> {
 fn floor(reader: &mut Reader<'_>, place: usize) -> Result<ArchivedFloor, ArchiveError> {
     let length = usize::from(reader.byte()?);
     let at = reader.at;
-    let name = match core::str::from_utf8(reader.take(length)?) {
-        Ok("") => None,
-        Ok(text) => Some(RoomName::new(text).map_err(|_| ArchiveError::Wrong(at))?),
-        Err(_) => return Err(ArchiveError::Wrong(at)),
-    };
+    let name = name(reader.take(length)?).map_err(|_| ArchiveError::Wrong(at))?;
     let at = reader.at;
     let length = reader.take(size_of::<u32>())?;
     let length = length.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));
@@ -166,6 +162,20 @@ fn floor(reader: &mut Reader<'_>, place: usize) -> Result<ArchivedFloor, Archive
             name,
             what: error.to_string(),
         }),
+    }
+}
+
+/// A name is written in one way, so that what is read is written as it was: without spaces around it.
+struct NotAName;
+
+fn name(bytes: &[u8]) -> Result<Option<RoomName>, NotAName> {
+    if bytes.is_empty() {
+        return Ok(None);
+    }
+    let text = core::str::from_utf8(bytes).map_err(|_| NotAName)?;
+    match RoomName::new(text) {
+        Ok(name) if name.as_str() == text => Ok(Some(name)),
+        _ => Err(NotAName),
     }
 }
 

@@ -78,6 +78,18 @@ fn each_fault_has_its_reason_and_its_remedy() {
     assert_eq!(reason(&endless), "archive-damaged");
     let name = headed(&[1, 1, b'\n', 0, 0, 0, 0]);
     assert_eq!(decode(&name), Err(ArchiveError::Wrong(11)), "a name of one line");
+    let spaced = headed(
+        &[
+            &[1, 2, b' ', b'A', map(4).len() as u8, 0, 0, 0],
+            map(4).as_slice(),
+        ]
+        .concat(),
+    );
+    assert_eq!(
+        decode(&spaced),
+        Err(ArchiveError::Wrong(11)),
+        "nothing around a name"
+    );
 }
 
 #[test]
