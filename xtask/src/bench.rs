@@ -16,7 +16,7 @@ enum Subject {
     Panel,
     /// The daemon killed at random moments while a robot drives.
     Kill,
-    /// The daemon killed at random moments while it writes schedules, control mixes and maps.
+    /// Daemon and panel's server killed at random moments while they write what people entrusted to them.
     Writes,
     /// The simulator against real time.
     Sim,
@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         arguments.subject,
         Subject::Relay | Subject::Kill | Subject::Writes
     ) {
-        workspace::build(&["vthal", "rvac-sim"], workspace::Profile::Release)?;
+        workspace::build(&["vthal", "rvac-sim", "panel-server"], workspace::Profile::Release)?;
     }
     let firmware = match arguments.subject {
         Subject::Firmware => Some(Firmwares::build()?),

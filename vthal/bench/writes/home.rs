@@ -1,21 +1,37 @@
-//! What people say of the home: virtual walls and names of rooms, each change a new version of the map.
+//! Virtual walls, each change of them a new version of the map.
 
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
-use rvac_api::{NoGoShape, RequestBody, Topic, Update};
+use rvac_api::{HomeView, NoGoShape, RequestBody, Topic, Update};
 
-use crate::store::{Change, Desk, Kept, Store, replaced};
+use crate::life::{Kept, replaced};
+use crate::store::{Change, Desk, Store};
 
 /// Virtual walls at a time.
 const WALLS_MAX: usize = 6;
 
 pub(crate) struct Home;
 
-impl Home {
-    /// A room of 4 by 3 metres with the dock in it.
-    pub(crate) fn first_version() -> Vec<u8> {
-        let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
-        StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY)).encode()
-    }
+/// A room of 4 by 3 metres with the dock in it.
+pub(crate) fn first_version() -> Vec<u8> {
+    let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
+    StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY)).encode()
+}
+
+/// Waits until the daemon has taken the map up: the robot stands on its dock.
+pub(crate) fn is_taken_up(desk: &mut Desk) -> anyhow::Result<()> {
+    desk.wait("that it takes up the map", |update| match update {
+        Update::Log(entry) if entry.text.contains("takes up the map of the home that was kept") => Some(()),
+        _ => None,
+    })
+}
+
+/// The home as it is now.
+pub(crate) fn look_at(desk: &mut Desk) -> anyhow::Result<HomeView> {
+    desk.look_at(Topic::Home)?;
+    desk.wait("the home", |update| match update {
+        Update::Home(home) => Some(home),
+        _ => None,
+    })
 }
 
 impl Store for Home {
@@ -23,24 +39,13 @@ impl Store for Home {
         "maps"
     }
 
-    /// The robot stands on its dock, so that the daemon takes the map up.
     fn get_ready(&self, desk: &mut Desk) -> anyhow::Result<()> {
-        desk.wait("that it takes up the map", |update| match update {
-            Update::Log(entry) if entry.text.contains("takes up the map of the home that was kept") => {
-                Some(())
-            }
-            _ => None,
-        })
+        is_taken_up(desk)
     }
 
     fn read(&self, desk: &mut Desk) -> anyhow::Result<Kept> {
-        desk.look_at(Topic::Home)?;
-        let home = desk.wait("the home", |update| match update {
-            Update::Home(home) => Some(home),
-            _ => None,
-        })?;
-        home.no_go
-            .iter()
+        let walls = look_at(desk)?.no_go.into_iter();
+        walls
             .map(|view| Ok((view.number.to_string(), serde_json::to_string(&view.shape)?)))
             .collect()
     }

@@ -1,39 +1,47 @@
-//! Kills the daemon at random moments while it writes what people entrusted to it, and looks whether anything of that is lost.
+//! Kills programs at random moments while they write what people entrusted to them, and looks whether anything of that is lost.
 //!
-//! Each life of the daemon takes some changes that are acknowledged, and one during which it is killed. The next life must know
+//! Each life of a program takes some changes that are acknowledged, and one during which it is killed. The next life must know
 //! all that was acknowledged; the last change is whole or not there at all.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::thread::{self, ScopedJoinHandle};
 
-use anyhow::{Context, bail};
+use anyhow::Context;
 use clap::Parser;
-use rvac_protocol::message::BinaryKinds;
+use vthal_bench::built_beside;
 
+mod daemon;
+mod devices;
+mod figures;
+mod floors;
 mod home;
+mod life;
 mod mixes;
+mod robot;
+mod rooms;
 mod schedules;
 mod store;
+mod trial;
 
+use daemon::AtDaemon;
+use devices::AtServer;
+use figures::{Figures, json};
+use floors::Floors;
 use home::Home;
+use life::Keeper;
 use mixes::Mixes;
+use rooms::Rooms;
 use schedules::Schedules;
-use store::{Desk, Store, texts};
-use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot, built_beside, next_random};
+use store::Store;
 
-/// Acknowledged changes of a life, at most.
-const WHOLE_CHANGES_MAX: u64 = 3;
-/// The kill comes within this many times the usual time of a change.
-const KILL_WITHIN: u32 = 2;
+/// What the daemon keeps.
+const OF_DAEMON: [&(dyn Store + Sync); 5] = [&Schedules, &Mixes, &Home, &Rooms, &Floors];
 
 #[derive(Parser)]
 #[command(
-    about = "Kills vthal with SIGKILL at random moments while it writes schedules, control mixes and maps"
+    about = "Kills vthal and panel-server with SIGKILL at random moments while they write schedules, control mixes, maps, \
+             settings of rooms, floors and paired devices"
 )]
 struct Arguments {
     /// Number of kills, shared by the kinds of files
@@ -58,240 +66,45 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let vthal =
-        built_beside("vthal")?.context("vthal is not built beside this program: cargo build -p vthal")?;
-    let stores: [&dyn Store; 3] = [&Schedules, &Mixes, &Home];
-    let mut all = Vec::new();
-    for (index, store) in (0..).zip(stores) {
-        let kills = (arguments.kills + index) / 3;
-        let figures = try_store(store, &vthal, kills, arguments.seed)
-            .with_context(|| format!("{} (seed {})", store.name(), arguments.seed))?;
-        if !arguments.json {
-            println!("{}", figures.sentence(store.name()));
-        }
-        all.push((store.name(), figures));
-    }
-    let bad: u32 = all
-        .iter()
-        .map(|(_, figures)| figures.corrupt + figures.lost)
-        .sum();
+    let (vthal, server) = (program("vthal")?, program("panel-server")?);
+    let at_daemon = |store| measure(arguments, &AtDaemon::new(store, &vthal)?);
+    let at_server = || measure(arguments, &AtServer::new(server)?);
+    // A life is mostly waiting for the disk and for each other's starts: the kinds take it side by side.
+    let all = thread::scope(|scope| {
+        let of_daemon = OF_DAEMON.map(|store| scope.spawn(move || at_daemon(store)));
+        let of_server = scope.spawn(at_server);
+        let ended = of_daemon
+            .into_iter()
+            .chain([of_server])
+            .map(ScopedJoinHandle::join);
+        ended.collect::<Vec<_>>()
+    });
+    let all = all
+        .into_iter()
+        .map(|ended| ended.map_err(|_| anyhow::anyhow!("a trial panicked"))?)
+        .collect::<anyhow::Result<Vec<_>>>()?;
     if arguments.json {
         println!("{}", json(&all));
     }
-    Ok(if bad == 0 {
+    for (name, figures) in all.iter().filter(|_| !arguments.json) {
+        println!("{}", figures.sentence(name));
+    }
+    Ok(if all.iter().all(|(_, figures)| figures.is_good()) {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
     })
 }
 
-/// What was seen of one kind.
-#[derive(Debug, Default)]
-struct Figures {
-    kills: u32,
-    acknowledged: u32,
-    /// Kills before the acknowledgement, and how many of the changes that they cut off were there afterwards.
-    cut_off: u32,
-    cut_off_there: u32,
-    corrupt: u32,
-    lost: u32,
-    ready_within: Duration,
+/// Kills the keeper of one kind as often as is its share.
+fn measure(arguments: &Arguments, keeper: &dyn Keeper) -> anyhow::Result<(&'static str, Figures)> {
+    let kinds = u32::try_from(OF_DAEMON.len() + 1)?;
+    let figures = trial::try_keeper(keeper, arguments.kills.div_ceil(kinds), arguments.seed)
+        .with_context(|| format!("{} (seed {})", keeper.name(), arguments.seed))?;
+    Ok((keeper.name(), figures))
 }
 
-impl Figures {
-    fn sentence(&self, name: &str) -> String {
-        format!(
-            "{name}: {} kills, {} before an acknowledgement ({} of these changes were there, whole); {} changes acknowledged, {} lost; {} starts told of damage; ready within {:.2} s",
-            self.kills,
-            self.cut_off,
-            self.cut_off_there,
-            self.acknowledged,
-            self.lost,
-            self.corrupt,
-            self.ready_within.as_secs_f64(),
-        )
-    }
-}
-
-fn json(all: &[(&str, Figures)]) -> serde_json::Value {
-    let sum = |figure: fn(&Figures) -> u32| all.iter().map(|(_, figures)| figure(figures)).sum::<u32>();
-    let kinds = all.iter().map(|(name, figures)| {
-        serde_json::json!({
-            "kind": name,
-            "kills": figures.kills,
-            "cut_off": figures.cut_off,
-            "cut_off_there": figures.cut_off_there,
-            "acknowledged": figures.acknowledged,
-            "lost": figures.lost,
-            "corrupt": figures.corrupt,
-            "ready_within_s": figures.ready_within.as_secs_f64(),
-        })
-    });
-    serde_json::json!({
-        "kills": sum(|figures| figures.kills),
-        "acknowledged": sum(|figures| figures.acknowledged),
-        "acknowledged_and_lost": sum(|figures| figures.lost),
-        "corrupt": sum(|figures| figures.corrupt),
-        "kinds": kinds.collect::<Vec<_>>(),
-    })
-}
-
-fn try_store(store: &dyn Store, vthal: &Path, kills: u32, seed: u64) -> anyhow::Result<Figures> {
-    let scratch = Scratch::new()?;
-    let maps = scratch.join("state/maps");
-    fs::create_dir_all(&maps)?;
-    fs::write(maps.join("000001.map"), Home::first_version())?;
-    let _robot = Robot::switch_on(scratch.join("tty"))?;
-    let mut trial = Trial {
-        store,
-        vthal,
-        scratch: &scratch,
-        random: seed,
-        numbers: 0,
-        usual: Duration::from_millis(10),
-        figures: Figures::default(),
-    };
-    let mut possible = None;
-    for kill in 1..=kills {
-        possible = Some(
-            trial
-                .live_once(possible)
-                .with_context(|| format!("life {kill} of the daemon"))?,
-        );
-    }
-    Ok(trial.figures)
-}
-
-/// What the next life may find: what was acknowledged, or that and the change that was cut off.
-struct Possible {
-    acknowledged: Vec<String>,
-    cut_off: Option<Vec<String>>,
-}
-
-struct Trial<'a> {
-    store: &'a dyn Store,
-    vthal: &'a Path,
-    scratch: &'a Scratch,
-    random: u64,
-    /// Numbers given to changes.
-    numbers: u64,
-    /// Time of the last acknowledged change.
-    usual: Duration,
-    figures: Figures,
-}
-
-impl Trial<'_> {
-    /// One life of the daemon, from its start to its kill.
-    fn live_once(&mut self, possible: Option<Possible>) -> anyhow::Result<Possible> {
-        let started = Instant::now();
-        let daemon = Daemon::start(self.vthal, self.scratch, &["--seed", "1"])?;
-        self.figures.ready_within = self.figures.ready_within.max(started.elapsed());
-        let mut desk = Desk::new(Client::watching(&self.scratch.join("vthal.sock"), r#"["log"]"#)?);
-        self.store.get_ready(&mut desk)?;
-        self.compare(&mut desk, possible.as_ref())?;
-        for _ in 0..next_random(&mut self.random) % (WHOLE_CHANGES_MAX + 1) {
-            self.change_and_look(&mut desk)?;
-        }
-        self.kill_in_a_change(daemon, &mut desk)
-    }
-
-    fn compare(&mut self, desk: &mut Desk, possible: Option<&Possible>) -> anyhow::Result<()> {
-        let found = texts(&self.store.read(desk)?);
-        if !desk.errors.is_empty() {
-            self.figures.corrupt += 1;
-            eprintln!("damage: {}", desk.errors.join("; "));
-        }
-        let Some(possible) = possible else { return Ok(()) };
-        if possible.cut_off.as_ref() == Some(&found) {
-            self.figures.cut_off_there += 1;
-        } else if possible.acknowledged != found {
-            self.figures.lost += 1;
-            eprintln!("acknowledged: {:#?}\nfound: {found:#?}", possible.acknowledged);
-        }
-        Ok(())
-    }
-
-    fn change_and_look(&mut self, desk: &mut Desk) -> anyhow::Result<()> {
-        let kept = self.store.read(desk)?;
-        let change = self.store.change(&kept, self.next_number());
-        let started = Instant::now();
-        desk.carry_out(9, change.request)?;
-        self.usual = started.elapsed();
-        self.figures.acknowledged += 1;
-        let found = texts(&self.store.read(desk)?);
-        if found != change.after {
-            bail!(
-                "after a change was done it keeps {found:#?} in place of {:#?}",
-                change.after
-            );
-        }
-        Ok(())
-    }
-
-    fn kill_in_a_change(&mut self, daemon: Daemon, desk: &mut Desk) -> anyhow::Result<Possible> {
-        let kept = self.store.read(desk)?;
-        let change = self.store.change(&kept, self.next_number());
-        let within_us = u64::try_from((self.usual * KILL_WITHIN).as_micros()).unwrap_or(u64::MAX);
-        let pause = Duration::from_micros(next_random(&mut self.random) % within_us.max(1));
-        desk.send(9, change.request)?;
-        thread::sleep(pause);
-        daemon.kill()?;
-        self.figures.kills += 1;
-        if desk.was_acknowledged(9)? {
-            self.figures.acknowledged += 1;
-            return Ok(Possible {
-                acknowledged: change.after,
-                cut_off: None,
-            });
-        }
-        self.figures.cut_off += 1;
-        Ok(Possible {
-            acknowledged: texts(&kept),
-            cut_off: Some(change.after),
-        })
-    }
-
-    fn next_number(&mut self) -> u64 {
-        self.numbers += 1;
-        self.numbers
-    }
-}
-
-/// A robot on its dock, which outlives the daemons.
-struct Robot {
-    ends: Arc<AtomicBool>,
-    life: Option<JoinHandle<()>>,
-}
-
-impl Robot {
-    fn switch_on(link: PathBuf) -> anyhow::Result<Self> {
-        let ends = Arc::new(AtomicBool::new(false));
-        let mut robot = SyntheticRobot::switch_on(&link, BinaryKinds::ALL, 1)?;
-        robot.dock();
-        let told = Arc::clone(&ends);
-        let life = thread::spawn(move || {
-            while !told.load(Ordering::Relaxed) {
-                let deadline = Instant::now() + Duration::from_millis(200);
-                if let Err(error) = robot.live_until(deadline, |_| false) {
-                    eprintln!("bench-writes: the robot: {error}");
-                    return;
-                }
-            }
-        });
-        Ok(Self {
-            ends,
-            life: Some(life),
-        })
-    }
-}
-
-impl Drop for Robot {
-    fn drop(&mut self) {
-        self.ends.store(true, Ordering::Relaxed);
-        if let Some(life) = self.life.take()
-            && life.join().is_err()
-        {
-            eprintln!("bench-writes: the robot's thread panicked");
-        }
-    }
+fn program(name: &str) -> anyhow::Result<PathBuf> {
+    built_beside(name)?
+        .with_context(|| format!("{name} is not built beside this program: cargo build --bin {name}"))
 }

@@ -3,7 +3,8 @@
 use mixer::{Name, Profile, standard_profile};
 use rvac_api::{RequestBody, Update};
 
-use crate::store::{Change, Desk, Kept, Store, replaced};
+use crate::life::{Kept, replaced};
+use crate::store::{Change, Desk, Store};
 
 /// Profiles of which one is written at a time.
 const PROFILES: u64 = 5;

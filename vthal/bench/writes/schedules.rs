@@ -2,7 +2,8 @@
 
 use rvac_api::{RequestBody, ScheduleEntry, ScheduleTime, ScheduledJob, Topic, Update, Weekday};
 
-use crate::store::{Change, Desk, Kept, Store, replaced};
+use crate::life::{Kept, replaced};
+use crate::store::{Change, Desk, Store};
 
 /// Entries kept at a time.
 const ENTRIES_MAX: usize = 6;

@@ -1,16 +1,13 @@
-//! What is kept of one kind, as the daemon tells it, and changes of it.
+//! One kind of what the daemon keeps, as it tells it, and changes of it.
 
-use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use rvac_api::{LogEntry, LogLevel, Request, RequestBody, Topic, Update};
 
 use vthal_bench::Client;
 
-/// What is kept: each item as text, whole, with the number or name by which the daemon knows it. Two states are the same when
-/// their texts are.
-pub(crate) type Kept = BTreeMap<String, String>;
+use crate::life::Kept;
 
 /// A request, and the texts of what is kept when it is done.
 #[derive(Debug)]
@@ -86,14 +83,10 @@ impl Desk {
         bail!("the daemon did not tell {what}")
     }
 
-    /// Sends a change and waits until it is acknowledged.
-    pub(crate) fn carry_out(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
-        let text = format!("{body:?}");
-        self.send(id, body)?;
+    /// Waits until a request is answered, which must not be a refusal.
+    pub(crate) fn wait_for_acknowledgement(&mut self, id: u32) -> anyhow::Result<()> {
         let answer = self.wait("whether a change was done", |update| answer_to(id, update))?;
-        answer
-            .map_err(anyhow::Error::msg)
-            .with_context(|| format!("refused: {text}"))
+        answer.map_err(|text| anyhow::anyhow!("a change was refused: {text}"))
     }
 
     /// Whether the answer came before the daemon ended.
@@ -119,17 +112,4 @@ fn answer_to(id: u32, update: Update) -> Option<Result<(), String>> {
         Update::Failed(failure) if failure.id == Some(id) => Some(Err(failure.text)),
         _ => None,
     }
-}
-
-/// The texts of `kept` without the one of `key`, and with `fresh`.
-pub(crate) fn replaced(kept: &Kept, key: Option<&str>, fresh: Option<String>) -> Vec<String> {
-    let others = kept.iter().filter(|(other, _)| Some(other.as_str()) != key);
-    let mut texts: Vec<String> = others.map(|(_, text)| text.clone()).chain(fresh).collect();
-    texts.sort_unstable();
-    texts
-}
-
-/// The texts, sorted.
-pub(crate) fn texts(kept: &Kept) -> Vec<String> {
-    replaced(kept, None, None)
 }

@@ -97,7 +97,7 @@ pub(super) const STAGES: [Stage; 17] = [
     },
     Stage {
         name: "writes",
-        does: "nothing acknowledged is lost when the daemon is killed while it writes",
+        does: "nothing acknowledged is lost when what keeps it is killed while it writes",
         run: writes,
     },
     Stage {
@@ -315,7 +315,7 @@ fn kill(long: bool) -> Result {
 }
 
 fn writes(long: bool) -> Result {
-    workspace::build(&["vthal", "bench-writes"], Profile::Dev)?;
+    workspace::build(&["vthal", "panel-server", "bench-writes"], Profile::Dev)?;
     let mut command = Command::new(program("bench-writes", Profile::Dev));
     command.args(["--kills", if long { "100000" } else { "2000" }]);
     check(&mut command)

@@ -98,7 +98,7 @@ const DIRECTIONS: [Direction; 29] = [
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
     Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "vthal-bench"], never: &[] },
-    Direction { of: "vthal-bench",   knows: &["brain", "mixer", "rvac-api", "rvac-protocol", "rvac-units"], never: &["tokio"] },
+    Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &[] },

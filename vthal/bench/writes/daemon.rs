@@ -1,0 +1,90 @@
+//! The daemon, with a robot on its dock and a client.
+
+use std::fs;
+use std::path::Path;
+
+use vthal_bench::{Client, Daemon, Scratch};
+
+use crate::home;
+use crate::life::{Keeper, Kept, Life};
+use crate::robot::Robot;
+use crate::store::{Desk, Store};
+
+/// The request that is a change.
+const CHANGE_ID: u32 = 9;
+
+/// The daemon as the keeper of one kind.
+pub(crate) struct AtDaemon<'a> {
+    store: &'a dyn Store,
+    vthal: &'a Path,
+    scratch: Scratch,
+    _robot: Robot,
+}
+
+impl<'a> AtDaemon<'a> {
+    /// On a folder of its own, in which the daemon finds the map of a home.
+    pub(crate) fn new(store: &'a dyn Store, vthal: &'a Path) -> anyhow::Result<Self> {
+        let scratch = Scratch::new()?;
+        let maps = scratch.join("state/maps");
+        fs::create_dir_all(&maps)?;
+        fs::write(maps.join("000001.map"), home::first_version())?;
+        Ok(Self {
+            store,
+            vthal,
+            _robot: Robot::switch_on(&scratch.join("tty"))?,
+            scratch,
+        })
+    }
+}
+
+impl Keeper for AtDaemon<'_> {
+    fn name(&self) -> &'static str {
+        self.store.name()
+    }
+
+    fn start(&self) -> anyhow::Result<Box<dyn Life + '_>> {
+        let daemon = Daemon::start(self.vthal, &self.scratch, &["--seed", "1"])?;
+        let client = Client::watching(&self.scratch.join("vthal.sock"), r#"["log"]"#)?;
+        Ok(Box::new(OfDaemon {
+            store: self.store,
+            daemon,
+            desk: Desk::new(client),
+        }))
+    }
+}
+
+struct OfDaemon<'a> {
+    store: &'a dyn Store,
+    daemon: Daemon,
+    desk: Desk,
+}
+
+impl Life for OfDaemon<'_> {
+    fn get_ready(&mut self) -> anyhow::Result<()> {
+        self.store.get_ready(&mut self.desk)
+    }
+
+    fn read(&mut self) -> anyhow::Result<Kept> {
+        self.store.read(&mut self.desk)
+    }
+
+    fn begin_change(&mut self, kept: &Kept, number: u64) -> anyhow::Result<Vec<String>> {
+        let change = self.store.change(kept, number);
+        self.desk.send(CHANGE_ID, change.request)?;
+        Ok(change.after)
+    }
+
+    fn finish_change(&mut self) -> anyhow::Result<()> {
+        self.desk.wait_for_acknowledgement(CHANGE_ID)
+    }
+
+    fn kill(self: Box<Self>) -> anyhow::Result<bool> {
+        let Self { daemon, mut desk, .. } = *self;
+        daemon.kill()?;
+        desk.was_acknowledged(CHANGE_ID)
+    }
+
+    fn damage(&self) -> &[String] {
+        &self.desk.errors
+    }
+}
