@@ -1,9 +1,9 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
-use crate::firmware::{self, build::Options};
-use crate::{process, workspace};
+use crate::{firmware, process, workspace};
 use anyhow::Context;
 use clap::ValueEnum;
+use std::path::PathBuf;
 
 /// What to measure.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -62,7 +62,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         arguments.subject,
         Subject::Relay | Subject::Kill | Subject::Writes
     ) {
-        workspace::build(&["vthal", "rvac-sim", "panel-server"], workspace::Profile::Release)?;
+        workspace::build(
+            &["vthal", "rvac-sim", "panel-server"],
+            workspace::Profile::Release,
+        )?;
     }
     let firmware = match arguments.subject {
         Subject::Firmware => Some(Firmwares::build()?),
@@ -106,25 +109,21 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
 
 /// What is measured in the emulated chip: the robot's firmware, and the one whose main loop does not sleep.
 struct Firmwares {
-    usual: firmware::Files,
-    free_running: firmware::Files,
+    usual: PathBuf,
+    free_running: PathBuf,
 }
 
 impl Firmwares {
     fn build() -> anyhow::Result<Self> {
-        let board = firmware::board(firmware::ROBOT)?;
-        let free_running = Options {
-            features: vec!["free-running".to_owned()],
-        };
         Ok(Self {
-            usual: firmware::build(board, &Options::default(), None)?,
-            free_running: firmware::build(board, &free_running, None)?,
+            usual: firmware::usual_elf()?,
+            free_running: firmware::free_running_elf()?,
         })
     }
 
     fn hand_over(&self, command: &mut std::process::Command) {
-        command.arg("--firmware").arg(&self.usual.elf);
-        command.arg("--free-running").arg(&self.free_running.elf);
+        command.arg("--firmware").arg(&self.usual);
+        command.arg("--free-running").arg(&self.free_running);
     }
 
     /// Prints one object with what was measured in the chip and what the firmware takes of it; fails when the measurement
@@ -133,7 +132,7 @@ impl Firmwares {
         let output = process::finish(command.stderr(std::process::Stdio::inherit()))?;
         let mut object: serde_json::Value =
             serde_json::from_slice(&output.stdout).context("the measurement gave no figures")?;
-        let taken = firmware::report(&self.usual.elf)?;
+        let taken = firmware::report(&self.usual)?;
         for key in ["flash_bytes", "ram_static_bytes", "stack_worst_bytes"] {
             object[key] = taken[key].clone();
         }

@@ -3,10 +3,10 @@
 use leptos::prelude::*;
 use panel_logic::{FloorUpload, floor_file_problem, refusal_text};
 use rvac_api::{Failure, FloorView};
-use wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{File, HtmlInputElement};
+use web_sys::File;
 
+use crate::file_button::FileButton;
 use crate::language::words;
 use crate::store::Store;
 
@@ -109,46 +109,16 @@ pub(crate) fn FloorFiles(store: Store) -> impl IntoView {
             <Show when=move || has_map.get()>
                 <a class="small link" id="export-floors" href=ADDRESS download=FILE_NAME>{words().home.export_floors}</a>
             </Show>
-            <ImportButton store />
+            <FileButton
+                id="import-floors"
+                file_id="floors-file"
+                text=words().home.import_floors
+                label=words().home.floors_file
+                accept=".rvacfloors"
+                disabled=Signal::derive(move || desk.upload.with(Option::is_some))
+                on_file=move |file| leptos::task::spawn_local(desk.read(store, file))
+            />
         </div>
         <p class="hint" id="floors-remark" role="status">{told}</p>
-    }
-}
-
-#[component]
-fn ImportButton(store: Store) -> impl IntoView {
-    let desk = store.floor_desk;
-    let field = NodeRef::<leptos::html::Input>::new();
-    let open = move |_| {
-        if let Some(field) = field.get_untracked() {
-            field.click();
-        }
-    };
-    let read = move |event: leptos::ev::Event| {
-        let field = event
-            .target()
-            .and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
-        let Some(field) = field else { return };
-        if let Some(file) = field.files().and_then(|files| files.get(0)) {
-            leptos::task::spawn_local(desk.read(store, file));
-        }
-        // The same file can be chosen again.
-        field.set_value("");
-    };
-    let is_busy = move || desk.upload.with(Option::is_some);
-    view! {
-        <button type="button" class="small" id="import-floors" disabled=is_busy on:click=open>
-            {words().home.import_floors}
-        </button>
-        <input
-            node_ref=field
-            type="file"
-            id="floors-file"
-            accept=".rvacfloors"
-            class="visually-hidden"
-            tabindex="-1"
-            aria-label=words().home.floors_file
-            on:change=read
-        />
     }
 }

@@ -1,6 +1,5 @@
 //! The floors of the home: on which the robot is, and what a person can say of them.
 
-use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 use panel_logic::{area_text, question_text};
 use rvac_api::{FloorView, RequestBody};
@@ -8,10 +7,8 @@ use rvac_api::{FloorView, RequestBody};
 use crate::floor_files::FloorFiles;
 use crate::home_view::rooms_text;
 use crate::language::words;
+use crate::rename_form::RenameForm;
 use crate::store::Store;
-
-/// Longest name of a floor, in characters.
-const NAME_MAX: &str = "40";
 
 #[component]
 pub(crate) fn FloorList(store: Store) -> impl IntoView {
@@ -116,7 +113,16 @@ fn row(
             {choose} {rename} {remove} {restore}
         </li>
         <Show when=move || renamed.get() == Some(number)>
-            <RenameForm store number named=named.clone() renamed />
+            <RenameForm
+                label=words().home.floor_name.fill([&number])
+                field_id="floor-name"
+                button_id="save-floor-name"
+                name=named.clone()
+                on_save=move |name| {
+                    store.ask(RequestBody::NameFloor { floor: number, name });
+                    renamed.set(None);
+                }
+            />
         </Show>
     }
 }
@@ -147,32 +153,4 @@ fn extent_text(floor: &FloorView) -> String {
         area_text(words(), floor.area_m2),
         rooms_text(floor.rooms)
     )
-}
-
-#[component]
-fn RenameForm(store: Store, number: u16, named: String, renamed: RwSignal<Option<u16>>) -> impl IntoView {
-    let text = RwSignal::new(named);
-    let save = move |event: SubmitEvent| {
-        event.prevent_default();
-        let name = Some(text.get_untracked()).filter(|name| !name.trim().is_empty());
-        store.ask(RequestBody::NameFloor { floor: number, name });
-        renamed.set(None);
-    };
-    view! {
-        <li>
-            <form class="rename" on:submit=save>
-                <label class="field grow">
-                    {words().home.floor_name.fill([&number])}
-                    <input
-                        id="floor-name"
-                        maxlength=NAME_MAX
-                        autocomplete="off"
-                        prop:value=move || text.get()
-                        on:input=move |event| text.set(event_target_value(&event))
-                    />
-                </label>
-                <button type="submit" class="small" id="save-floor-name">{words().frame.save}</button>
-            </form>
-        </li>
-    }
 }

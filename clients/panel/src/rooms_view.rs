@@ -1,15 +1,12 @@
 //! The rooms as a list with actions, and what is forbidden: all that can be done on the map, for keyboard and screen reader.
 
-use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 use panel_logic::{Edit, NoGoRow, RoomChangeRow, RoomRow, Tool};
 
 use crate::language::words;
+use crate::rename_form::RenameForm;
 use crate::room_settings_view::SettingsForm;
 use crate::store::Store;
-
-/// Longest name of a room, in characters.
-const NAME_MAX: &str = "40";
 
 #[component]
 pub(crate) fn RoomList(store: Store) -> impl IntoView {
@@ -160,47 +157,33 @@ fn Room(
             <SettingsForm store id name=for_form.clone() opened=set />
         </Show>
         <Show when=is_renamed>
-            <RenameForm store id name=name.clone() renamed />
+            <RenameForm
+                label=words().home.room_name.fill([&name])
+                field_id="room-name"
+                button_id="save-name"
+                name=name.clone()
+                on_save=move |name| {
+                    rename(store, id, name);
+                    renamed.set(None);
+                }
+            />
         </Show>
     }
 }
 
-#[component]
-fn RenameForm(store: Store, id: u16, name: String, renamed: RwSignal<Option<u16>>) -> impl IntoView {
-    let text = RwSignal::new(name.clone());
-    let save = move |event: SubmitEvent| {
-        event.prevent_default();
-        let name = Some(text.get_untracked()).filter(|name| !name.trim().is_empty());
-        let home = store.known_home();
-        let before = home
-            .rooms
-            .iter()
-            .find(|room| room.id == id)
-            .and_then(|room| room.name.clone());
-        store.edit(Edit::Name {
-            room: id,
-            before,
-            after: name,
-        });
-        renamed.set(None);
-    };
-    view! {
-        <li>
-            <form class="rename" on:submit=save>
-                <label class="field grow">
-                    {words().home.room_name.fill([&name])}
-                    <input
-                        id="room-name"
-                        maxlength=NAME_MAX
-                        autocomplete="off"
-                        prop:value=move || text.get()
-                        on:input=move |event| text.set(event_target_value(&event))
-                    />
-                </label>
-                <button type="submit" class="small" id="save-name">{words().frame.save}</button>
-            </form>
-        </li>
-    }
+/// Names a room, or takes its name away, so that it can be undone.
+fn rename(store: Store, id: u16, after: Option<String>) {
+    let home = store.known_home();
+    let before = home
+        .rooms
+        .iter()
+        .find(|room| room.id == id)
+        .and_then(|room| room.name.clone());
+    store.edit(Edit::Name {
+        room: id,
+        before,
+        after,
+    });
 }
 
 #[component]

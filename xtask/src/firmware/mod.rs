@@ -116,8 +116,17 @@ pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
 
 /// The same for a board on which the link's input must be sampled.
 pub(crate) fn sampled_elf() -> anyhow::Result<PathBuf> {
+    elf_with("link-sampled")
+}
+
+/// The same with a main loop that does not sleep.
+pub(crate) fn free_running_elf() -> anyhow::Result<PathBuf> {
+    elf_with("free-running")
+}
+
+fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
     let options = Options {
-        features: vec!["link-sampled".to_owned()],
+        features: vec![feature.to_owned()],
     };
     Ok(build(board(ROBOT)?, &options, None)?.elf)
 }

@@ -2,7 +2,8 @@
 
 use super::runner::{Result, all, check, tests};
 use crate::firmware::build::build_others;
-use crate::{firmware, system, workspace};
+use crate::workspace::{self, Profile, program};
+use crate::{firmware, system};
 use std::path::Path;
 use std::process::Command;
 
@@ -73,14 +74,13 @@ pub(super) fn of_emulator(_long: bool) -> Result {
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled);
-    let pace = ["xtask", "bench", "firmware", "--", "--flood-seconds", "10"];
-    let mut pace = robot_command(&pace);
+    let mut programs = vec!["rvac", "bench-firmware"];
+    programs.extend(TRIALS.map(|(program, _)| program));
+    workspace::build(&programs, Profile::Dev)?;
+    let pace = check(&mut pace(&elf)?);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
-    workspace::build(&["rvac"], workspace::Profile::Dev)?;
     let owner = tests(&mut owner(&elf));
-    all([tests(&mut command), owner, check(&mut pace)]
-        .into_iter()
-        .chain(trials))
+    all([tests(&mut command), owner, pace].into_iter().chain(trials))
 }
 
 /// An owner calibrates the emulated robot with `rvac`. Each robot keeps the pace of the clock on the wall, so not more at once than two cores
@@ -91,10 +91,7 @@ fn owner(elf: &Path) -> Command {
         .args(["test", "--locked", "--test", "owner"])
         .args(["--no-fail-fast", "--", "--test-threads", "3"])
         .env("RVAC_FIRMWARE", elf)
-        .env(
-            "RVAC_PROGRAM",
-            workspace::program("rvac", workspace::Profile::Dev),
-        );
+        .env("RVAC_PROGRAM", program("rvac", Profile::Dev));
     command
 }
 
@@ -108,10 +105,17 @@ const TRIALS: [(&str, &[&str]); 3] = [
     ("bench-charges", &["--count", "4"]),
 ];
 
-fn trial(program: &str, words: &[&str], elf: &Path) -> Command {
-    let mut command = workspace::cargo();
-    command.args(["run", "--release", "--quiet", "--locked", "--bin"]);
-    command.args([program, "--"]).args(words);
-    command.arg("--firmware").arg(elf);
+fn trial(name: &str, words: &[&str], elf: &Path) -> Command {
+    let mut command = Command::new(program(name, Profile::Dev));
+    command.current_dir(workspace::root());
+    command.args(words).arg("--firmware").arg(elf);
     command
+}
+
+/// What `cargo xtask bench firmware` measures, for a moment.
+fn pace(elf: &Path) -> anyhow::Result<Command> {
+    let words = ["--home", "homes/two-room-flat.toml", "--flood-seconds", "10"];
+    let mut command = trial("bench-firmware", &words, elf);
+    command.arg("--free-running").arg(firmware::free_running_elf()?);
+    Ok(command)
 }

@@ -244,19 +244,13 @@ fn fuzz(_long: bool) -> Result {
 }
 
 fn link(long: bool) -> Result {
-    let mut command = cargo(&[
-        "run",
-        "--release",
-        "--quiet",
-        "--locked",
-        "--bin",
-        "bench-link",
-        "--",
-    ]);
+    workspace::build(&["bench-link"], Profile::Dev)?;
+    let mut command = Command::new(program("bench-link", Profile::Dev));
+    command.current_dir(workspace::root()).arg("--json");
     command.args(if long {
-        ["--json", "--long"].as_slice()
+        ["--long"].as_slice()
     } else {
-        ["--json", "--packets", "1000000"].as_slice()
+        ["--packets", "1000000"].as_slice()
     });
     check(&mut command)
 }
@@ -264,10 +258,10 @@ fn link(long: bool) -> Result {
 /// Many runs of the logic built for this machine, some of them for the other robot, and a few of the real firmware, which take
 /// two thousand times as long.
 fn faults(long: bool) -> Result {
-    workspace::build(&["rvac-sim"], Profile::Release)?;
+    workspace::build(&["rvac-sim"], Profile::Dev)?;
     let elf = firmware::usual_elf()?;
     let run = |words: &[&str]| {
-        let mut command = Command::new(program("rvac-sim", Profile::Release));
+        let mut command = Command::new(program("rvac-sim", Profile::Dev));
         command.current_dir(workspace::root()).arg("faults").args(words);
         command
     };

@@ -208,6 +208,14 @@ impl Browser {
         }
     }
 
+    /// Waits until the element `id` is there and says this.
+    pub(crate) async fn says(&self, id: &str, words: &str) {
+        self.until(&format!(
+            "return document.getElementById('{id}')?.textContent.includes('{words}') === true"
+        ))
+        .await;
+    }
+
     /// Waits until the robot is in one of these states.
     pub(crate) async fn until_state(&self, states: &[&str]) {
         let states = json!(states);

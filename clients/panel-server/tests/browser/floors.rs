@@ -30,14 +30,6 @@ async fn choose(browser: &Browser, change: &str) {
     browser.text(&script).await;
 }
 
-async fn says(browser: &Browser, words: &str) {
-    browser
-        .until(&format!(
-            "return document.getElementById('floors-remark')?.textContent.includes('{words}') === true"
-        ))
-        .await;
-}
-
 #[tokio::test]
 async fn floors_are_saved_as_a_file_and_taken_again_on_a_phone_in_the_dark() {
     let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
@@ -51,11 +43,11 @@ async fn floors_are_saved_as_a_file_and_taken_again_on_a_phone_in_the_dark() {
         .await;
     save(browser).await;
     choose(browser, "bytes[bytes.length >> 1] ^= 1;").await;
-    says(browser, "is cut or damaged").await;
+    browser.says("floors-remark", "is cut or damaged").await;
     let count = "return String(document.querySelectorAll('#floors li').length)";
     assert_eq!(browser.text(count).await, "1", "nothing was taken");
     choose(browser, "").await;
-    says(browser, "are kept beside those").await;
+    browser.says("floors-remark", "are kept beside those").await;
     browser
         .until("return document.getElementById('rename-floor-2') !== null")
         .await;

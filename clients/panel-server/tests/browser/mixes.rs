@@ -156,14 +156,6 @@ async fn open_line(browser: &Browser) {
         .await;
 }
 
-async fn says(browser: &Browser, id: &str, words: &str) {
-    browser
-        .until(&format!(
-            "return document.getElementById('{id}')?.textContent.includes('{words}')"
-        ))
-        .await;
-}
-
 #[tokio::test]
 async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
     let Some(visit) = Visit::begin(Screen::Desktop).await else {
@@ -181,7 +173,9 @@ async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
     stick(browser, RIGHT_ALONG, 0.0).await;
 
     write(browser, "line-1-0-weight", "3").await;
-    says(browser, "line-1-0-weight-problem", "write a number from -2 to 2").await;
+    browser
+        .says("line-1-0-weight-problem", "write a number from -2 to 2")
+        .await;
     browser
         .until("return document.getElementById('mix-save').disabled")
         .await;
@@ -203,7 +197,7 @@ async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
     stick(browser, RIGHT_ALONG, 0.0).await;
 
     browser.click("#mix-save").await;
-    says(browser, "mix-remark", "is kept by the robot").await;
+    browser.says("mix-remark", "is kept by the robot").await;
     write(browser, "line-1-0-weight", "1").await;
     browser.click("#mix-revert").await;
     holds(browser, "line-1-0-weight", "0.5").await;
@@ -220,7 +214,7 @@ async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
         r#"{"version":1,"name":"a","outputs":[{"output":"fly"}]}"#,
     )
     .await;
-    says(browser, "mix-remark", "broken.json: line 1, column").await;
+    browser.says("mix-remark", "broken.json: line 1, column").await;
     browser.click("#mix-delete").await;
     browser
         .until("return [...document.querySelectorAll('#mix option')].length === 1")

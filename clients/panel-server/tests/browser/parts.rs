@@ -28,10 +28,6 @@ fn wound() -> String {
     )
 }
 
-fn says(words: &str) -> String {
-    format!("return document.getElementById('parts')?.textContent.includes('{words}') === true")
-}
-
 #[tokio::test]
 async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
     let start = || Stack::start_with_state("health.json", &wound());
@@ -42,20 +38,20 @@ async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
         let browser = &visit.browser;
         browser.darken().await;
         browser.click("#tab-device").await;
-        browser.until(&says("runs hard: 160\u{a0}%")).await;
-        browser.until(&says("Take hair and threads off it")).await;
-        browser.until(&says("as usual: 100\u{a0}%")).await;
+        browser.says("parts", "runs hard: 160\u{a0}%").await;
+        browser.says("parts", "Take hair and threads off it").await;
+        browser.says("parts", "as usual: 100\u{a0}%").await;
         browser
             .text("document.getElementById('parts').scrollIntoView({block: 'center'}); return ''")
             .await;
         browser.shot(&format!("{name}-parts-dark")).await;
         crate::accessibility::expect_none(browser, "parts").await;
         browser.click("#cleaned-brush-main").await;
-        browser.until(&says("0 of 10 minutes")).await;
+        browser.says("parts", "0 of 10 minutes").await;
         browser.reload().await;
         browser.until_state(&["idle", "docked"]).await;
         browser.click("#tab-device").await;
-        browser.until(&says("0 of 10 minutes")).await;
-        browser.until(&says("as usual: 100\u{a0}%")).await;
+        browser.says("parts", "0 of 10 minutes").await;
+        browser.says("parts", "as usual: 100\u{a0}%").await;
     }
 }

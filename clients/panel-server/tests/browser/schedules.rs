@@ -12,11 +12,6 @@ async fn fill(browser: &Browser, id: &str, text: &str) {
     browser.text(&typed).await;
 }
 
-async fn until_list_says(browser: &Browser, list: &str, words: &str) {
-    let script = format!("return document.getElementById('{list}').textContent.includes('{words}')");
-    browser.until(&script).await;
-}
-
 /// A zone is chosen, another one refused because there is none of that name, and the choice taken back.
 async fn choose_a_zone(browser: &Browser) {
     browser
@@ -24,7 +19,7 @@ async fn choose_a_zone(browser: &Browser) {
         .await;
     fill(browser, "zone", "Asia/Kathmandu").await;
     browser.click("#set-zone").await;
-    until_list_says(browser, "schedule-zone", "those of Asia/Kathmandu").await;
+    browser.says("schedule-zone", "those of Asia/Kathmandu").await;
     browser
         .text("document.getElementById('zone-title').scrollIntoView({block: 'center'}); return ''")
         .await;
@@ -34,7 +29,7 @@ async fn choose_a_zone(browser: &Browser) {
     browser
         .until("return document.querySelector('.alert') !== null")
         .await;
-    until_list_says(browser, "schedule-zone", "those of Asia/Kathmandu").await;
+    browser.says("schedule-zone", "those of Asia/Kathmandu").await;
     browser.click("#system-zone").await;
     browser
         .until("return document.getElementById('system-zone') === null")
@@ -53,7 +48,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser.click("#tab-schedules").await;
     browser.click("#add-schedule").await;
     browser.click("#save-schedule").await;
-    until_list_says(browser, "schedule-wrong", "Give it a name.").await;
+    browser.says("schedule-wrong", "Give it a name.").await;
     fill(browser, "schedule-name", "Every morning").await;
     browser
         .until("return document.getElementById('schedule-wrong').innerText === ''")
@@ -64,8 +59,10 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser.shot("phone-schedule-form").await;
     browser.click("#save-schedule").await;
 
-    until_list_says(browser, "next-runs", "Every morning: ").await;
-    until_list_says(browser, "schedules", "Mon, Tue, Wed, Thu, Fri, Sat at 07:30").await;
+    browser.says("next-runs", "Every morning: ").await;
+    browser
+        .says("schedules", "Mon, Tue, Wed, Thu, Fri, Sat at 07:30")
+        .await;
     assert_eq!(
         browser
             .text("return document.querySelectorAll('#next-runs li').length")
@@ -73,9 +70,9 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
         "10"
     );
     browser.click("#skip-1").await;
-    until_list_says(browser, "next-runs", "07:30, left out").await;
+    browser.says("next-runs", "07:30, left out").await;
     browser.click("#set-quiet").await;
-    until_list_says(browser, "quiet-words", "from 22:00 to 07:00").await;
+    browser.says("quiet-words", "from 22:00 to 07:00").await;
     browser
         .text("document.getElementById('schedules-title').scrollIntoView(); return ''")
         .await;
@@ -90,5 +87,5 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser
         .until("return document.querySelectorAll('#schedules li').length === 0")
         .await;
-    until_list_says(browser, "sheet-schedules", "Nothing starts by itself.").await;
+    browser.says("sheet-schedules", "Nothing starts by itself.").await;
 }

@@ -24,8 +24,10 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
-/// Whatever is awaited comes within this time or the test fails.
-pub(crate) const DEADLINE: Duration = Duration::from_secs(20);
+pub(crate) use daemon::{DEADLINE, Daemon};
+
+#[path = "../daemon/mod.rs"]
+mod daemon;
 
 static FOLDERS: AtomicU32 = AtomicU32::new(0);
 
@@ -312,11 +314,7 @@ impl Rig {
 
     /// The connection that the daemon gets for the next WebSocket; connections that only beep are answered with patience.
     pub(crate) async fn daemon(&self) -> Daemon {
-        let (stream, _) = timeout(DEADLINE, self.vthal.accept())
-            .await
-            .expect("in time")
-            .unwrap();
-        Daemon(stream)
+        Daemon::accept(&self.vthal).await
     }
 }
 
@@ -330,8 +328,7 @@ fn cookie_line(cookie: &str) -> String {
 /// The connection of a server that has just begun to listen for the buttons; beeps of the one before may wait still.
 async fn ears(vthal: &UnixListener) -> Daemon {
     loop {
-        let (stream, _) = timeout(DEADLINE, vthal.accept()).await.expect("in time").unwrap();
-        let mut daemon = Daemon(stream);
+        let mut daemon = Daemon::accept(vthal).await;
         let hello = daemon.hear().await;
         if hello.is_some_and(|hello| hello.contains("panel-server")) {
             assert_eq!(
@@ -410,33 +407,5 @@ impl Socket {
     /// Waits for the end, whatever is said before it.
     pub(crate) async fn until_ended(&mut self) {
         while self.hear().await.is_some() {}
-    }
-}
-
-/// The end of the daemon.
-#[derive(Debug)]
-pub(crate) struct Daemon(UnixStream);
-
-impl Daemon {
-    pub(crate) async fn say(&mut self, text: &str) {
-        self.0
-            .write_all(format!("{text}\u{1f}").as_bytes())
-            .await
-            .unwrap();
-    }
-
-    /// The next message; none when the other end is gone.
-    pub(crate) async fn hear(&mut self) -> Option<String> {
-        let mut text = Vec::new();
-        loop {
-            match timeout(DEADLINE, self.0.read_u8())
-                .await
-                .expect("a message in time")
-            {
-                Ok(0x1f) => return Some(String::from_utf8(text).unwrap()),
-                Ok(byte) => text.push(byte),
-                Err(_) => return None,
-            }
-        }
     }
 }

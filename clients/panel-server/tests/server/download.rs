@@ -3,11 +3,11 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::rig::{Rig, Vthal};
+use crate::rig::{Daemon, Rig};
 
 const ASK: &str = "GET /api/runs/7/recording/0 HTTP/1.1\r\nHost: localhost:PORT\r\nConnection: close\r\n\r\n";
 
-async fn give(vthal: &mut Vthal, from: usize, whole: &[u8]) {
+async fn give(vthal: &mut Daemon, from: usize, whole: &[u8]) {
     let heard = vthal.hear().await.expect("asks");
     let wanted = format!(r#"{{"id":1,"c":"run-file","number":7,"recording":0,"from":{from}}}"#);
     assert_eq!(heard, wanted);

@@ -1,6 +1,6 @@
 //! What passes between browsers and vthal, over real sockets.
 
-use crate::rig::{Folder, Rig, settings};
+use crate::rig::{Daemon, Folder, Rig, settings};
 use panel_server::{Guard, Server, StartError};
 use tokio::net::UnixListener;
 
@@ -87,8 +87,7 @@ async fn the_simulator_is_heard_but_never_spoken_to() {
         folder,
     };
     let mut browser = rig.browser().await;
-    let (stream, _) = simulator.accept().await.unwrap();
-    let mut simulator = crate::rig::Vthal(stream);
+    let mut simulator = Daemon::accept(&simulator).await;
     let mut vthal = rig.accept().await;
     simulator.say(r#"{"e":"simulated-truth","n":1}"#).await;
     assert_eq!(browser.hear().await, r#"{"e":"simulated-truth","n":1}"#);

@@ -3,19 +3,20 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::Duration;
 
 use futures_util::{SinkExt, StreamExt};
 use panel_server::{Server, Settings};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::{TcpStream, UnixListener, UnixStream};
+use tokio::net::{TcpStream, UnixListener};
 use tokio::time::timeout;
 use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest;
 use tokio_tungstenite::tungstenite::{Error, Message};
 
-/// Whatever is awaited comes within this time or the test fails.
-pub(crate) const DEADLINE: Duration = Duration::from_secs(10);
+pub(crate) use daemon::{DEADLINE, Daemon};
+
+#[path = "../daemon/mod.rs"]
+mod daemon;
 
 static FOLDERS: AtomicU32 = AtomicU32::new(0);
 
@@ -125,12 +126,8 @@ impl Rig {
     }
 
     /// The connection that vthal sees.
-    pub(crate) async fn accept(&self) -> Vthal {
-        let (stream, _) = timeout(DEADLINE, self.vthal.accept())
-            .await
-            .expect("a connection in time")
-            .unwrap();
-        Vthal(stream)
+    pub(crate) async fn accept(&self) -> Daemon {
+        Daemon::accept(&self.vthal).await
     }
 }
 
@@ -168,34 +165,6 @@ impl Browser {
                     Err(Error::ConnectionClosed | Error::Protocol(_) | Error::Io(_)) | Ok(Message::Close(_)),
                 ) => return,
                 Some(_) => {}
-            }
-        }
-    }
-}
-
-/// Vthal's end.
-#[derive(Debug)]
-pub(crate) struct Vthal(pub(crate) UnixStream);
-
-impl Vthal {
-    pub(crate) async fn say(&mut self, text: &str) {
-        self.0
-            .write_all(format!("{text}\u{1f}").as_bytes())
-            .await
-            .unwrap();
-    }
-
-    /// The next message; none when the other end is gone.
-    pub(crate) async fn hear(&mut self) -> Option<String> {
-        let mut text = Vec::new();
-        loop {
-            match timeout(DEADLINE, self.0.read_u8())
-                .await
-                .expect("a message in time")
-            {
-                Ok(0x1f) => return Some(String::from_utf8(text).unwrap()),
-                Ok(byte) => text.push(byte),
-                Err(_) => return None,
             }
         }
     }

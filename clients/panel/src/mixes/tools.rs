@@ -4,11 +4,11 @@ use leptos::prelude::*;
 use mixer::{PROFILE_BYTES_MAX, Profile, ProfileError, standard_profile};
 use panel_logic::{MixDraft, profile_problem_text};
 use rvac_api::RequestBody;
-use wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{File, HtmlInputElement};
+use web_sys::File;
 
 use super::Bench;
+use crate::file_button::FileButton;
 use crate::language::words;
 use crate::store::Store;
 
@@ -59,7 +59,15 @@ pub(super) fn Tools(store: Store) -> impl IntoView {
             <button type="button" class="small" id="mix-new" disabled=move || is_changed.get() on:click=new>{words().mix.new}</button>
             <button type="button" class="small" id="mix-copy" disabled=move || is_changed.get() on:click=copy>{words().mix.copy}</button>
             <DeleteButton store />
-            <ImportButton bench is_changed />
+            <FileButton
+                id="mix-import"
+                file_id="mix-file"
+                text=words().mix.import
+                label=words().mix.file
+                accept="application/json,.json"
+                disabled=is_changed.into()
+                on_file=move |file| leptos::task::spawn_local(import(bench, file))
+            />
             <ExportLink bench />
         </div>
         <Show when=move || bench.remark.with(Option::is_some)>
@@ -100,43 +108,8 @@ fn DeleteButton(store: Store) -> impl IntoView {
     }
 }
 
-#[component]
-fn ImportButton(bench: Bench, is_changed: Memo<bool>) -> impl IntoView {
-    let field = NodeRef::<leptos::html::Input>::new();
-    let open = move |_| {
-        if let Some(field) = field.get_untracked() {
-            field.click();
-        }
-    };
-    let read = move |event: leptos::ev::Event| {
-        let field = event
-            .target()
-            .and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
-        let Some(field) = field else { return };
-        let file = field.files().and_then(|files| files.get(0));
-        if let Some(file) = file {
-            leptos::task::spawn_local(async move { import(bench, &file).await });
-        }
-        // The same file can be chosen again after it was corrected.
-        field.set_value("");
-    };
-    view! {
-        <button type="button" class="small" id="mix-import" disabled=move || is_changed.get() on:click=open>{words().mix.import}</button>
-        <input
-            node_ref=field
-            type="file"
-            id="mix-file"
-            accept="application/json,.json"
-            class="visually-hidden"
-            tabindex="-1"
-            aria-label=words().mix.file
-            on:change=read
-        />
-    }
-}
-
-async fn import(bench: Bench, file: &File) {
-    let outcome = match read_text(file).await {
+async fn import(bench: Bench, file: File) {
+    let outcome = match read_text(&file).await {
         Ok(text) => MixDraft::import(&text).map_err(|error| profile_problem_text(words(), &error)),
         Err(sentence) => Err(sentence),
     };
