@@ -113,17 +113,23 @@ fn row(
             {choose} {rename} {remove} {restore}
         </li>
         <Show when=move || renamed.get() == Some(number)>
-            <RenameForm
-                label=words().home.floor_name.fill([&number])
-                field_id="floor-name"
-                button_id="save-floor-name"
-                name=named.clone()
-                on_save=move |name| {
-                    store.ask(RequestBody::NameFloor { floor: number, name });
-                    renamed.set(None);
-                }
-            />
+            {rename_form(store, (number, named.clone()), renamed)}
         </Show>
+    }
+}
+
+fn rename_form(store: Store, (number, name): (u16, String), renamed: RwSignal<Option<u16>>) -> impl IntoView {
+    view! {
+        <RenameForm
+            label=words().home.floor_name.fill([&number])
+            field_id="floor-name"
+            button_id="save-floor-name"
+            name
+            on_save=move |name| {
+                store.ask(RequestBody::NameFloor { floor: number, name });
+                renamed.set(None);
+            }
+        />
     }
 }
 

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod client;
+mod living;
 mod process;
 mod pty;
 mod random;
@@ -9,6 +10,7 @@ mod robot;
 mod usage;
 
 pub use client::Client;
+pub use living::LivingRobot;
 pub use process::{Daemon, Scratch, built_beside};
 pub use pty::Pty;
 pub use random::next_random;

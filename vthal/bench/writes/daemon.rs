@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use vthal_bench::{Client, Daemon, Scratch};
+use rvac_protocol::message::BinaryKinds;
+use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
 
 use crate::home;
 use crate::life::{Keeper, Kept, Life};
-use crate::robot::Robot;
 use crate::store::{Desk, Store};
 
 /// The request that is a change.
@@ -18,7 +18,7 @@ pub(crate) struct AtDaemon<'a> {
     store: &'a dyn Store,
     vthal: &'a Path,
     scratch: Scratch,
-    _robot: Robot,
+    _robot: LivingRobot,
 }
 
 impl<'a> AtDaemon<'a> {
@@ -28,10 +28,12 @@ impl<'a> AtDaemon<'a> {
         let maps = scratch.join("state/maps");
         fs::create_dir_all(&maps)?;
         fs::write(maps.join("000001.map"), home::first_version())?;
+        let mut robot = SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1)?;
+        robot.dock();
         Ok(Self {
             store,
             vthal,
-            _robot: Robot::switch_on(&scratch.join("tty"))?,
+            _robot: LivingRobot::new(robot),
             scratch,
         })
     }

@@ -18,7 +18,6 @@ mod floors;
 mod home;
 mod life;
 mod mixes;
-mod robot;
 mod rooms;
 mod schedules;
 mod store;

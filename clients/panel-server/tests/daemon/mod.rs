@@ -1,5 +1,6 @@
 //! The end of a daemon's socket that a test answers, and the connections it takes.
 
+use std::io;
 use std::time::Duration;
 
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
@@ -24,10 +25,12 @@ impl Daemon {
     }
 
     pub(crate) async fn say(&mut self, text: &str) {
-        self.0
-            .write_all(format!("{text}\u{1f}").as_bytes())
-            .await
-            .unwrap();
+        self.try_say(text).await.unwrap();
+    }
+
+    /// The same to a server that may be gone.
+    pub(crate) async fn try_say(&mut self, text: &str) -> io::Result<()> {
+        self.0.write_all(format!("{text}\u{1f}").as_bytes()).await
     }
 
     /// The next message; none when the other end is gone.

@@ -107,10 +107,7 @@ async fn a_stalled_browser_is_dropped_and_hurts_nobody() {
     let line = format!(r#"{{"e":"log","text":"{}"}}"#, "x".repeat(60_000));
     let flood = tokio::spawn(async move {
         for _ in 0..2000 {
-            if tokio::io::AsyncWriteExt::write_all(&mut stalled_vthal.0, format!("{line}\u{1f}").as_bytes())
-                .await
-                .is_err()
-            {
+            if stalled_vthal.try_say(&line).await.is_err() {
                 return true;
             }
         }
