@@ -198,14 +198,19 @@ impl Browser {
             Ok(Value::Bool(true))
         ) {
             if Instant::now() > deadline {
-                self.shot("failed").await;
-                panic!(
-                    "not before the deadline: {script}; page: {}",
-                    self.text("return document.body.innerText").await
-                );
+                self.fail(&format!("not before the deadline: {script}")).await;
             }
             sleep(LOOK_EVERY).await;
         }
+    }
+
+    /// Ends the test with what the page shows.
+    pub(crate) async fn fail(&self, what: &str) -> ! {
+        self.shot("failed").await;
+        panic!(
+            "{what}; page: {}",
+            self.text("return document.body.innerText").await
+        );
     }
 
     /// Waits until the element `id` is there and says this.

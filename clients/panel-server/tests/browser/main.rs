@@ -169,7 +169,7 @@ async fn hold_until_it_turns(browser: &Browser, witness: &Witness) {
         }
         browser.release_key('a').await;
     }
-    panic!("the robot does not turn");
+    browser.fail("the robot does not turn").await
 }
 
 /// A robot on the dock does not let itself be driven off it by hand: a short job takes it away from there.
