@@ -156,6 +156,10 @@ async fn open_line(browser: &Browser) {
         .await;
 }
 
+/// Whether the page has the browser ask before it is left.
+const IS_ASKED_FIRST: &str =
+    "return String(!window.dispatchEvent(new Event('beforeunload', { cancelable: true })))";
+
 #[tokio::test]
 async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
     let Some(visit) = Visit::begin(Screen::Desktop).await else {
@@ -196,8 +200,14 @@ async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
     browser.shot("desktop-mixes").await;
     stick(browser, RIGHT_ALONG, 0.0).await;
 
+    assert_eq!(
+        browser.text(IS_ASKED_FIRST).await,
+        "true",
+        "changes would be lost"
+    );
     browser.click("#mix-save").await;
     browser.says("mix-remark", "is kept by the robot").await;
+    assert_eq!(browser.text(IS_ASKED_FIRST).await, "false");
     write(browser, "line-1-0-weight", "1").await;
     browser.click("#mix-revert").await;
     holds(browser, "line-1-0-weight", "0.5").await;

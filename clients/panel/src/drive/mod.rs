@@ -11,7 +11,7 @@ use leptos::prelude::*;
 use panel_logic::{Driver, Offer};
 
 use crate::language::words;
-use crate::mixes::MixEditor;
+use crate::mixes::{MixEditor, ask_before_leaving};
 use crate::store::Store;
 use choice::MixChoice;
 use pad::Pad;
@@ -22,6 +22,7 @@ pub(crate) use seat::Seat;
 #[component]
 pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
     guard::watch(store);
+    ask_before_leaving(store.bench);
     let seat = store.seat;
     let offer = Memo::new(move |_| store.offers().drive);
     let why = move || match offer.get() {

@@ -14,7 +14,7 @@ mod tools;
 use leptos::ev;
 use leptos::prelude::*;
 use mixer::MixState;
-use panel_logic::{Field, Group};
+use panel_logic::{Field, Group, MixDraft};
 
 use crate::language::words;
 use crate::store::Store;
@@ -69,6 +69,19 @@ fn listen_to_keys(bench: Bench) {
         down.remove();
         up.remove();
     });
+}
+
+/// A page that is left, or loaded anew in another language, has the browser ask first while a mix is not saved.
+pub(crate) fn ask_before_leaving(bench: Bench) {
+    let leaving = window_event_listener(ev::beforeunload, move |event| {
+        if bench
+            .draft
+            .with_untracked(|draft| draft.as_ref().is_some_and(MixDraft::is_changed))
+        {
+            event.prevent_default();
+        }
+    });
+    on_cleanup(move || leaving.remove());
 }
 
 /// What is wrong with a group as a whole.
