@@ -23,6 +23,10 @@ pub struct Plot {
     pub high: String,
 }
 
+/// What a measured value can be.
+const PERCENT: (f64, f64) = (0.0, 100.0);
+const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
 type Reading = fn(&TrackReading) -> Option<f32>;
 
 /// The plots of a run that lasted `end_s`; only of what was measured.
@@ -45,19 +49,28 @@ pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
     ];
     let link: [(&str, Reading); 1] = [(told.bad_packets, |reading| Some(100.0 * reading.bad_share))];
     [
-        plot(words, (told.plot_charge, &battery), (track, end_s)),
-        plot(words, (told.plot_battery, &battery_a), (track, end_s)),
-        plot(words, (told.plot_motors, &motors), (track, end_s)),
-        plot(words, (told.plot_link, &link), (track, end_s)),
+        plot(words, (told.plot_charge, &battery, PERCENT), (track, end_s)),
+        plot(words, (told.plot_battery, &battery_a, ANY), (track, end_s)),
+        plot(words, (told.plot_motors, &motors, ANY), (track, end_s)),
+        plot(words, (told.plot_link, &link, PERCENT), (track, end_s)),
     ]
     .into_iter()
     .flatten()
     .collect()
 }
 
+/// The values at the edges of a plot from those that it shows: a line that hardly moves is drawn as one, not as its last
+/// digits, and no edge is a value that cannot be.
+fn edges((low, high): (f64, f64), (least, most): (f64, f64)) -> (f64, f64) {
+    let middle = 0.5 * (low + high);
+    let half = (0.5 * (high - low)).max(0.5);
+    let inwards = (least - (middle - half)).max(0.0) - (middle + half - most).max(0.0);
+    (middle - half + inwards, middle + half + inwards)
+}
+
 fn plot(
     words: &Words,
-    (title, lines): (&'static str, &[(&'static str, Reading)]),
+    (title, lines, range): (&'static str, &[(&'static str, Reading)], (f64, f64)),
     (track, end_s): (&RunTrack, f64),
 ) -> Option<Plot> {
     let values = |reading: Reading| {
@@ -77,10 +90,7 @@ fn plot(
     if low > high {
         return None;
     }
-    // A line that hardly moves is drawn as one, not as its last digits.
-    let middle = 0.5 * (low + high);
-    let half = (0.5 * (high - low)).max(0.5);
-    let (low, high) = (middle - half, middle + half);
+    let (low, high) = edges((low, high), range);
     let place = |(t, value): (f32, f32)| {
         let x = WIDTH * (f64::from(t) / end_s.max(1.0)).clamp(0.0, 1.0);
         (x, HEIGHT * (high - f64::from(value)) / (high - low))
@@ -137,5 +147,13 @@ mod tests {
         assert_eq!((plots[0].low.as_str(), plots[0].high.as_str()), ("70.0", "90.0"));
         assert_eq!(plots[1].lines[0].1, "M0.0 30.0L150.0 30.0L300.0 30.0");
         assert!(super::plots(ENGLISH, &RunTrack::default(), 5.0).is_empty());
+    }
+
+    #[test]
+    fn no_edge_is_a_share_that_cannot_be() {
+        assert_eq!(super::edges((0.0, 0.0), super::PERCENT), (0.0, 1.0));
+        assert_eq!(super::edges((99.75, 100.0), super::PERCENT), (99.0, 100.0));
+        assert_eq!(super::edges((0.0, 100.0), super::PERCENT), (0.0, 100.0));
+        assert_eq!(super::edges((0.0, 0.0), super::ANY), (-0.5, 0.5));
     }
 }
