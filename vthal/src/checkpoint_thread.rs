@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
@@ -11,8 +13,8 @@ use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
-    ArchiveOrder, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder, KeptFloor, MapEdit,
-    MapOrder, MixOrder, MixTask, ScheduleOrder,
+    ArchiveOrder, ArchiveTask, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder,
+    KeptFloor, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder,
 };
 
 use crate::archive_desk::ArchiveDesk;
@@ -38,6 +40,38 @@ pub(crate) struct KeptPaths {
     pub(crate) health: PathBuf,
     /// The records of runs.
     pub(crate) runs: RunFolder,
+}
+
+/// What waits for the thread, at most.
+const QUEUE_MAX: usize = 16;
+/// Of these questions, at most: who asks without end must not keep others from changing something.
+const QUESTIONS_MAX: usize = 12;
+
+/// Something in the queue.
+struct Queued {
+    kept: Kept,
+    /// Held until it is answered.
+    place: Option<Place>,
+}
+
+/// One of the places that questions may have.
+#[derive(Debug)]
+struct Place(Arc<AtomicUsize>);
+
+impl Place {
+    fn take(taken: &Arc<AtomicUsize>) -> Option<Self> {
+        let one_more = |count| (count < QUESTIONS_MAX).then_some(count + 1);
+        taken
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more)
+            .ok()?;
+        Some(Self(Arc::clone(taken)))
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 /// Something to be kept, or asked of what is kept.
@@ -114,8 +148,9 @@ pub(crate) struct FloorAnswer {
 /// Sends checkpoints, maps and orders to the thread.
 #[derive(Debug)]
 pub(crate) struct CheckpointHandle {
-    queue: Option<SyncSender<Kept>>,
+    queue: Option<SyncSender<Queued>>,
     thread: Option<JoinHandle<()>>,
+    questions: Arc<AtomicUsize>,
 }
 
 /// Starts the thread. Answers to orders become events.
@@ -123,13 +158,14 @@ pub(crate) struct CheckpointHandle {
 /// # Errors
 /// When the system gives no thread.
 pub(crate) fn start(paths: KeptPaths, events: Sender<Event>) -> io::Result<CheckpointHandle> {
-    let (sender, queue) = sync_channel(8);
+    let (sender, queue) = sync_channel(QUEUE_MAX);
     let thread = std::thread::Builder::new()
         .name("checkpoint".to_owned())
         .spawn(move || serve(&paths, &queue, &events))?;
     Ok(CheckpointHandle {
         queue: Some(sender),
         thread: Some(thread),
+        questions: Arc::default(),
     })
 }
 
@@ -153,7 +189,10 @@ impl CheckpointHandle {
     /// Hands an order over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn order(&self, order: MapOrder) -> bool {
-        self.try_send(Kept::Order(order))
+        match order {
+            MapOrder::List { .. } => self.try_ask(Kept::Order(order)),
+            MapOrder::Restore { .. } => self.try_send(Kept::Order(order)),
+        }
     }
 
     /// Hands an order for the floors over; `false` when the disk is too slow to take it now.
@@ -165,13 +204,19 @@ impl CheckpointHandle {
     /// Hands an order for an archive of floors over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn order_archive(&self, order: ArchiveOrder) -> bool {
-        self.try_send(Kept::ArchiveOrder(order))
+        match order.task {
+            ArchiveTask::Export { .. } => self.try_ask(Kept::ArchiveOrder(order)),
+            ArchiveTask::Import { .. } => self.try_send(Kept::ArchiveOrder(order)),
+        }
     }
 
     /// Hands an order for the control mixes over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn order_mix(&self, order: MixOrder) -> bool {
-        self.try_send(Kept::MixOrder(order))
+        match order.task {
+            MixTask::List => self.try_ask(Kept::MixOrder(order)),
+            MixTask::Save(_) | MixTask::Remove(_) => self.try_send(Kept::MixOrder(order)),
+        }
     }
 
     /// Hands schedules over; `false` when the disk is too slow to take them now.
@@ -192,10 +237,19 @@ impl CheckpointHandle {
         self.try_send(Kept::Run(record))
     }
 
+    fn try_ask(&self, kept: Kept) -> bool {
+        let place = Place::take(&self.questions);
+        place.is_some() && self.queue_up(Queued { kept, place })
+    }
+
     fn try_send(&self, kept: Kept) -> bool {
+        self.queue_up(Queued { kept, place: None })
+    }
+
+    fn queue_up(&self, queued: Queued) -> bool {
         self.queue
             .as_ref()
-            .is_some_and(|queue| queue.try_send(kept).is_ok())
+            .is_some_and(|queue| queue.try_send(queued).is_ok())
     }
 
     /// Waits until the newest ones are on disk. Nobody must wait for answers any more: the receiver of events is gone.
@@ -209,7 +263,7 @@ impl CheckpointHandle {
     }
 }
 
-fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
+fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
     let mut healthy = true;
     let mut desk = ArchiveDesk::default();
     while let Ok(first) = queue.recv() {
@@ -219,8 +273,11 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
         // Whoever waits until the home is kept.
         let (mut waiting, mut floor_orders) = (Vec::new(), Vec::new());
         let mut archive_orders = Vec::new();
-        for kept in core::iter::once(first).chain(queue.try_iter()) {
-            match kept {
+        let mut places = Vec::new();
+        // What comes faster than it is carried out must not keep the rest from the disk.
+        for queued in core::iter::once(first).chain(queue.try_iter().take(QUEUE_MAX)) {
+            places.extend(queued.place);
+            match queued.kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
                 Kept::Home(newer) => {
                     homes.insert(newer.floor, newer.home);
@@ -276,6 +333,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Kept>, events: &Sender<Event>) {
             let answer = desk.obey(order, (&paths.floors, Instant::now()));
             events.blocking_send(Event::Archive(Box::new(answer))).ok();
         }
+        drop(places);
     }
 }
 
@@ -399,3 +457,6 @@ fn obey_mix(MixOrder { client, id, task }: MixOrder, mixes: &MixFolder) -> MixAn
     };
     MixAnswer { client, id, outcome }
 }
+
+#[cfg(test)]
+mod tests;
