@@ -194,7 +194,12 @@ fn sources(pad: u8, code: AbsoluteAxisCode, share: f64) -> Vec<(Source, f64)> {
     let axis = |axis| vec![(Source::PadAxis { pad, axis }, stick)];
     let pull = |button| vec![(Source::PadButton { pad, button }, share)];
     let cross = |low, high| {
-        let press = |button, value: f64| (Source::PadButton { pad, button }, value.max(0.0).round());
+        let press = |button, value: f64| {
+            (
+                Source::PadButton { pad, button },
+                f64::from(u8::from(value >= 0.5)),
+            )
+        };
         vec![press(low, -stick), press(high, stick)]
     };
     match code {
