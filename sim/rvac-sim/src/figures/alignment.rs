@@ -3,8 +3,13 @@
 
 use home::Pose;
 
-/// Sums over pairs of believed and true places.
-#[derive(Clone, Copy, Debug, Default)]
+use super::honesty::WRONG_M;
+
+/// Places are kept once in so long, milliseconds.
+const KEEP_MS: u64 = 1_000;
+
+/// Sums over pairs of believed and true places, and some of the pairs.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Alignment {
     count: f64,
     believed: [f64; 2],
@@ -13,10 +18,29 @@ pub(super) struct Alignment {
     /// Of the products along, and of those across.
     dot: f64,
     cross: f64,
+    kept: Vec<Kept>,
+}
+
+/// One moment.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    time_ms: u64,
+    believed: [f64; 2],
+    is: [f64; 2],
+    says_lost: bool,
+}
+
+/// What is left of the error at single moments.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LeftOver {
+    /// The largest distance, metres.
+    pub(super) max_m: f64,
+    /// Seconds with a wrong place of which the robot said that it knows it.
+    pub(super) unnoticed_s: f64,
 }
 
 impl Alignment {
-    pub(super) fn sample(&mut self, believed: Pose, is: Pose) {
+    pub(super) fn sample(&mut self, now_ms: u64, (believed, says_lost): (Pose, bool), is: Pose) {
         let ([a, b], [x, y]) = ([believed.x_m, believed.y_m], [is.x_m, is.y_m]);
         self.count += 1.0;
         self.believed = [self.believed[0] + a, self.believed[1] + b];
@@ -24,6 +48,15 @@ impl Alignment {
         self.squares += a * a + b * b + x * x + y * y;
         self.dot += a * x + b * y;
         self.cross += a * y - b * x;
+        let last = self.kept.last();
+        if last.is_none_or(|last| now_ms >= last.time_ms + KEEP_MS) {
+            self.kept.push(Kept {
+                time_ms: now_ms,
+                believed: [a, b],
+                is: [x, y],
+                says_lost,
+            });
+        }
     }
 
     /// Root mean square of the distances that are left; `None` without samples.
@@ -33,32 +66,91 @@ impl Alignment {
         }
         let ([a, b], [x, y]) = (self.believed, self.is);
         let squares = self.squares - (a * a + b * b + x * x + y * y) / self.count;
-        let dot = self.dot - (a * x + b * y) / self.count;
-        let cross = self.cross - (a * y - b * x) / self.count;
+        let (dot, cross) = self.turn();
         Some(((squares - 2.0 * dot.hypot(cross)) / self.count).max(0.0).sqrt())
+    }
+
+    /// Cosine and sine of the turn that lays the believed way over the true one, times a common length.
+    fn turn(&self) -> (f64, f64) {
+        let ([a, b], [x, y]) = (self.believed, self.is);
+        (
+            self.dot - (a * x + b * y) / self.count,
+            self.cross - (a * y - b * x) / self.count,
+        )
+    }
+
+    /// What is left at single moments.
+    pub(super) fn left_over(&self) -> LeftOver {
+        let (dot, cross) = self.turn();
+        let length = dot.hypot(cross);
+        let (cos, sin) = if length > 0.0 {
+            (dot / length, cross / length)
+        } else {
+            (1.0, 0.0)
+        };
+        let [a, b] = self.believed.map(|sum| sum / self.count);
+        let [x, y] = self.is.map(|sum| sum / self.count);
+        let mut left = LeftOver::default();
+        let mut before_ms = 0;
+        for kept in &self.kept {
+            let (from_a, from_b) = (kept.believed[0] - a, kept.believed[1] - b);
+            let off_x = x + cos * from_a - sin * from_b - kept.is[0];
+            let off_y = y + sin * from_a + cos * from_b - kept.is[1];
+            let off_m = off_x.hypot(off_y);
+            left.max_m = left.max_m.max(off_m);
+            if off_m > WRONG_M && !kept.says_lost {
+                left.unnoticed_s += (kept.time_ms - before_ms) as f64 / 1000.0;
+            }
+            before_ms = kept.time_ms;
+        }
+        left
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Alignment;
+    use super::{Alignment, LeftOver};
     use home::Pose;
+
+    fn way(bend: f64, says_lost: impl Fn(u64) -> bool) -> Alignment {
+        let mut alignment = Alignment::default();
+        for step in 0..100_u32 {
+            let (x_m, y_m) = (0.1 * f64::from(step), 3.0 * f64::from(step % 2));
+            let (sin, cos) = 0.3_f64.sin_cos();
+            let turned = Pose::new(x_m * cos - y_m * sin + 5.0, x_m * sin + y_m * cos - 1.0, 0.0);
+            let is = Pose::new(x_m, y_m + bend * x_m * x_m, 0.0);
+            let now_ms = 2_000 * u64::from(step + 1);
+            alignment.sample(now_ms, (turned, says_lost(now_ms)), is);
+            // So soon after it is not kept.
+            alignment.sample(now_ms + 1, (turned, false), is);
+        }
+        alignment
+    }
 
     #[test]
     fn a_frame_that_is_turned_and_shifted_is_no_error_and_what_bends_is() {
-        let way = |bend: f64| {
-            let mut alignment = Alignment::default();
-            for step in 0..100 {
-                let (x_m, y_m) = (0.1 * f64::from(step), 3.0 * f64::from(step % 2));
-                let (sin, cos) = 0.3_f64.sin_cos();
-                let turned = Pose::new(x_m * cos - y_m * sin + 5.0, x_m * sin + y_m * cos - 1.0, 0.0);
-                let is = Pose::new(x_m, y_m + bend * x_m * x_m, 0.0);
-                alignment.sample(turned, is);
-            }
-            alignment.rmse_m().unwrap()
-        };
-        assert!(way(0.0) < 1e-5, "{}", way(0.0));
-        assert!(way(0.02) > 0.1, "{}", way(0.02));
+        let straight = way(0.0, |_| false);
+        assert!(straight.rmse_m().unwrap() < 1e-5, "{straight:?}");
+        let LeftOver { max_m, unnoticed_s } = straight.left_over();
+        assert!(max_m < 1e-5, "{max_m} m");
+        assert_eq!(unnoticed_s, 0.0);
+        let rmse_m = way(0.02, |_| false).rmse_m().unwrap();
+        assert!(rmse_m > 0.1, "{rmse_m} m");
         assert_eq!(Alignment::default().rmse_m(), None);
+        assert_eq!(Alignment::default().left_over(), LeftOver::default());
+    }
+
+    #[test]
+    fn what_is_left_counts_while_the_robot_does_not_say_that_it_is_lost() {
+        let unaware = way(0.1, |_| false).left_over();
+        assert!(unaware.max_m > 0.5 && unaware.unnoticed_s > 20.0, "{unaware:?}");
+        let aware = way(0.1, |_| true).left_over();
+        assert_eq!(aware.max_m, unaware.max_m);
+        assert_eq!(aware.unnoticed_s, 0.0);
+        let late = way(0.1, |now_ms| now_ms > 100_000).left_over();
+        assert!(
+            0.0 < late.unnoticed_s && late.unnoticed_s < unaware.unnoticed_s,
+            "{late:?}"
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Whether the robot knows when it does not know its place.
 
 /// Wrong by more than this, metres.
-const WRONG_M: f64 = 0.5;
+pub(super) const WRONG_M: f64 = 0.5;
 
 /// Time in which what the robot says of its place is not so.
 #[derive(Clone, Copy, Debug, Default)]

@@ -65,6 +65,8 @@ pub struct Figures {
     pub pose_rmse_aligned_m: Option<f64>,
     /// Largest distance between believed and true place.
     pub pose_error_max_m: f64,
+    /// The same when the believed way is laid over the true one as a whole.
+    pub pose_error_max_aligned_m: f64,
     /// Root mean square of the error of the heading, degrees.
     pub heading_rmse_deg: Option<f64>,
     /// Seconds in stretches of more than a minute with the place wrong by more than half a metre.
@@ -73,6 +75,8 @@ pub struct Figures {
     pub lost_times: u32,
     /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
     pub lost_unnoticed_s: f64,
+    /// The same when the believed way is laid over the true one as a whole.
+    pub lost_unnoticed_aligned_s: f64,
     /// Seconds in which the robot said that it is lost, and its place was right within half a metre.
     pub lost_false_alarm_s: f64,
     /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
@@ -202,7 +206,8 @@ impl Collector {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
-        self.alignment.sample(belief.pose, truth_in_map);
+        self.alignment
+            .sample(now_ms, (belief.pose, belief.lost), truth_in_map);
         self.lost.sample(now_ms, error_m);
         self.honesty.sample(now_ms, error_m, belief.lost);
     }
@@ -237,6 +242,7 @@ impl Collector {
         let [t80, t90, t95] = self.reached_s.map(|reached| reached.map(|s| s / t0_s));
         let per_m2 = |value: f64| value / self.floor.reachable_m2;
         let [at_10, at_30, at_60, at_120] = self.pose_error.at_marks();
+        let left_over = self.alignment.left_over();
         Figures {
             t80_over_t0: t80,
             t90_over_t0: t90,
@@ -254,10 +260,12 @@ impl Collector {
             pose_rmse_120_min_m: at_120,
             pose_rmse_aligned_m: self.alignment.rmse_m(),
             pose_error_max_m: self.pose_error.max_m(),
+            pose_error_max_aligned_m: left_over.max_m,
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
             lost_seconds: self.lost.seconds(),
             lost_times: self.lost.times(),
             lost_unnoticed_s: self.honesty.unnoticed_s(),
+            lost_unnoticed_aligned_s: left_over.unnoticed_s,
             lost_false_alarm_s: self.honesty.false_alarm_s(),
             map_iou: None,
             wall_error_m: None,

@@ -30,7 +30,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 25] = [
+const FIGURES: [Figure; 27] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -44,9 +44,13 @@ const FIGURES: [Figure; 25] = [
     less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
     less("pose_rmse_30_min_m", |run| run.figures.pose_rmse_30_min_m),
     less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),
+    less("pose_rmse_aligned_m", |run| run.figures.pose_rmse_aligned_m),
     less("heading_rmse_deg", |run| run.figures.heading_rmse_deg),
     less("lost_seconds", |run| Some(run.figures.lost_seconds)),
     less("lost_unnoticed_s", |run| Some(run.figures.lost_unnoticed_s)),
+    less("lost_unnoticed_aligned_s", |run| {
+        Some(run.figures.lost_unnoticed_aligned_s)
+    }),
     less("lost_false_alarm_s", |run| Some(run.figures.lost_false_alarm_s)),
     more("docked", |run| Some(f64::from(u8::from(run.figures.docked)))),
     less("stuck", |run| Some(f64::from(run.stuck))),
