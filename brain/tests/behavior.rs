@@ -292,6 +292,6 @@ fn a_robot_with_a_gyro_rests_for_it_now_and_then() {
             rests.push(stage.observation.time_us);
         }
     }
-    assert_eq!(rests.len(), 1, "{rests:?}");
+    assert_eq!(rests.len(), 2, "{rests:?}");
     assert!(matches!(stage.motion, Motion::Drive { .. }), "and drives on");
 }

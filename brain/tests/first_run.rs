@@ -219,7 +219,7 @@ fn the_edge_of_stairs_is_followed_and_never_crossed() {
 fn lanes_that_end_at_an_unknown_hole_wait_before_they_meet_it_a_third_time() {
     let mut room = Room::empty((4.0, 4.0));
     room.holes.push(Rectangle::new((1.8, 1.8), (2.4, 2.4)));
-    let mut run = Run::new(room, at(1.0, 1.0), Some(ring()));
+    let mut run = Run::new(room, at(1.0, 1.1), Some(ring()));
     run.start(StrategyName::Systematic);
     let reason = until_by_edges(&mut run, "state-idle", 900.0);
     assert_eq!(reason, Some("finished"), "{:?}", run.decisions);

@@ -1,5 +1,6 @@
 //! A job: what it is for, who drives for it, what it has done.
 
+use super::gyro_rest::GyroRest;
 use super::{JobFigures, JobKind};
 use crate::coverage;
 use crate::docking::Docking;
@@ -32,7 +33,7 @@ pub(super) struct Job {
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
     /// When to stand still next for the gyro's sake.
-    pub(super) gyro_rest_us: Option<u64>,
+    pub(super) gyro_rest: GyroRest,
     /// Brushes may run: the bumper was free since the job last started (S29).
     pub(super) brushes: bool,
     /// On its way back to where it was put off: brushes stay off over floor that was swept before.
@@ -78,7 +79,7 @@ impl Job {
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
             detour: None,
-            gyro_rest_us: None,
+            gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,
         }

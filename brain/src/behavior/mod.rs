@@ -7,6 +7,7 @@
 mod admission;
 mod contacts;
 mod facts;
+mod gyro_rest;
 mod job;
 mod machine;
 mod manual;

@@ -13,10 +13,6 @@ use crate::task::{Mind, Plan, Situation};
 
 /// The firmware may be out of reach of `arm` for this long before the job is put off.
 const STARVE_US: u64 = 3_000_000;
-/// A gyro's bias is learnt at rest; a robot with one stands still for `REST_US` every `REST_EVERY_US` of work.
-const REST_EVERY_US: u64 = 120_000_000;
-/// As `REST_EVERY_US`.
-const REST_US: u64 = 1_500_000;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
 /// A place that took so many rungs to leave is not entered again in this job.
@@ -85,20 +81,14 @@ impl Behavior {
         }
     }
 
-    /// Whether it is time to stand still for the gyro's sake: only on a straight way ahead, where nothing is lost by it.
+    /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.
     fn rests_for_gyro(&mut self, motion: Motion, situation: &Situation<'_>) -> bool {
-        let straight =
-            matches!(motion, Motion::Drive { speed_m_per_s, turn_rad_per_s: 0.0 } if speed_m_per_s > 0.0);
+        let is_ahead = matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
         let Some(job) = &mut self.job else { return false };
-        if situation.observation.gyro_heading_rad.is_none() || !straight {
+        if situation.observation.gyro_heading_rad.is_none() {
             return false;
         }
-        let now_us = self.facts.now_us;
-        let due_us = *job.gyro_rest_us.get_or_insert(now_us + REST_EVERY_US);
-        if now_us >= due_us + REST_US {
-            job.gyro_rest_us = Some(now_us + REST_EVERY_US);
-        }
-        (due_us..due_us + REST_US).contains(&now_us)
+        job.gyro_rest.follow(self.facts.now_us, is_ahead)
     }
 
     fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {

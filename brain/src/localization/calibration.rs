@@ -1,16 +1,24 @@
-//! Scale and bias of the gyro, learnt from a filter that knows the heading by the walls.
+//! Scale and bias of the gyro, learnt at rest and from a filter that knows the heading by the walls.
 //!
 //! Over some ten seconds the heading that the filter gained and the heading that the gyro counted differ by what is wrong
-//! with the gyro: `gained = (1 + scale) * counted - bias * time`. A Kalman filter of these two numbers takes the difference
-//! of each such window. What zero-rate updates learn ([`super::gyro_bias`]) is taken off before.
+//! with the gyro: `gained = (1 + scale) * (counted - bias * time)`. A Kalman filter of these two numbers takes the difference
+//! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
+//! bias that walls have told and a later rest denies would stay otherwise.
 
 use super::Advance;
+use super::rest::Rested;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
-/// Deviations before anything is known: 1 % and what a zero-rate update leaves.
+/// Deviations before anything is known: 1 %, and some tenths of a degree a second.
 const SCALE_SIGMA: f64 = 0.008;
-const BIAS_SIGMA_RAD_PER_S: f64 = 5.0e-4;
+const BIAS_SIGMA_RAD_PER_S: f64 = 5.0e-3;
+/// Noise of the heading, rad per square root of a second: 0.03 degrees, between a usual gyro and a bad one.
+const WALK_RAD_PER_SQRT_S: f64 = 5.0e-4;
+/// What the robot swings out and what the gyro's steps hide in any rest, radians.
+const SWING_RAD: f64 = 8.0e-4;
+/// A rest that differs by more deviations than this counts the less the more it does: the bias of a gyro wanders slowly.
+const REST_GATE: f64 = 4.0;
 /// Deviation of a scale that was learnt before: the gyro was perhaps colder then.
 const RESUMED_SIGMA: f64 = 0.002;
 /// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
@@ -19,7 +27,7 @@ const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
 const GATE: f64 = 3.5;
 /// Largest scale error and bias that are believed.
 const SCALE_MAX: f64 = 0.05;
-const BIAS_MAX_RAD_PER_S: f64 = 0.01;
+const BIAS_MAX_RAD_PER_S: f64 = 0.03;
 
 /// What is wrong with the gyro, and the window that is being filled.
 #[derive(Clone, Copy, Debug)]
@@ -66,21 +74,20 @@ impl Default for Calibration {
 }
 
 impl Calibration {
-    /// Goes on with a scale that was learnt before.
-    pub(super) fn resumed(scale: f64) -> Self {
-        let believable = scale.abs() <= SCALE_MAX;
-        if !believable {
-            return Self::default();
+    /// Goes on with a scale and a bias that were learnt before; the bias may have wandered since.
+    pub(super) fn resumed(scale: f64, bias_rad_per_s: f64) -> Self {
+        let mut resumed = Self::default();
+        if scale.abs() <= SCALE_MAX {
+            resumed.scale = scale;
+            resumed.covariance[0] = RESUMED_SIGMA * RESUMED_SIGMA;
         }
-        let [_, both, bias] = Self::default().covariance;
-        Self {
-            scale,
-            covariance: [RESUMED_SIGMA * RESUMED_SIGMA, both, bias],
-            ..Self::default()
+        if bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S {
+            resumed.bias_rad_per_s = bias_rad_per_s;
         }
+        resumed
     }
 
-    /// Error of the scale, relative, and bias that zero-rate updates have left, rad/s.
+    /// Error of the scale, relative, and bias, rad/s.
     pub(super) fn found(&self) -> (f64, f64) {
         (self.scale, self.bias_rad_per_s)
     }
@@ -97,7 +104,36 @@ impl Calibration {
 
     /// The true turn for one that was counted in `time_s`.
     pub(super) fn corrected_rad(&self, counted_rad: f64, time_s: f64) -> f64 {
-        counted_rad * (1.0 + self.scale) - self.bias_rad_per_s * time_s
+        (counted_rad - self.bias_rad_per_s * time_s) * (1.0 + self.scale)
+    }
+
+    /// Takes in what the gyro showed while the wheels stood still.
+    pub(super) fn rest(&mut self, rested: Rested) {
+        let [ss, sb, bb] = self.covariance;
+        let swing_rad_per_s = SWING_RAD / rested.time_s;
+        let noise =
+            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / rested.time_s + swing_rad_per_s * swing_rad_per_s;
+        let off_rad_per_s = rested.rad_per_s - self.bias_rad_per_s;
+        let variance = bb + noise;
+        let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
+        // A robot that slides along what it touches turns slowly, too, while its wheels rest.
+        let weight = 1.0 / (variance * surprise.max(1.0));
+        let (gain_scale, gain_bias) = (sb * weight, bb * weight);
+        self.move_by(gain_scale * off_rad_per_s, gain_bias * off_rad_per_s);
+        self.covariance = [ss - gain_scale * sb, sb - gain_scale * bb, bb - gain_bias * bb];
+    }
+
+    /// Somebody who has weighed all that was seen knows the scale this well.
+    pub(super) fn know_scale(&mut self, scale: f64, sigma: f64) {
+        self.scale = scale.clamp(-SCALE_MAX, SCALE_MAX);
+        let [_, _, bias] = self.covariance;
+        self.covariance = [sigma * sigma, 0.0, bias];
+    }
+
+    fn move_by(&mut self, scale: f64, bias_rad_per_s: f64) {
+        self.scale = (self.scale + scale).clamp(-SCALE_MAX, SCALE_MAX);
+        self.bias_rad_per_s =
+            (self.bias_rad_per_s + bias_rad_per_s).clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
     }
 
     /// What the gyro counted (already corrected) in one step.
@@ -168,13 +204,79 @@ impl Calibration {
             return;
         }
         let (gain_scale, gain_bias) = (by_scale / variance, by_bias / variance);
-        self.scale = (self.scale + gain_scale * off_rad).clamp(-SCALE_MAX, SCALE_MAX);
-        self.bias_rad_per_s =
-            (self.bias_rad_per_s + gain_bias * off_rad).clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
+        self.move_by(gain_scale * off_rad, gain_bias * off_rad);
         self.covariance = [
             ss - gain_scale * by_scale,
             sb - gain_scale * by_bias,
             bb - gain_bias * by_bias,
         ];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Calibration, Gain, Rested};
+
+    fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
+        for _ in 0..times {
+            calibration.covariance[2] += 100.0 * super::BIAS_DRIFT_RAD2_PER_S3;
+            calibration.rest(Rested {
+                rad_per_s,
+                time_s: 2.0,
+            });
+        }
+    }
+
+    #[test]
+    fn a_robot_that_is_turned_slowly_at_rest_does_not_unlearn_the_bias() {
+        let mut calibration = Calibration::default();
+        rests(&mut calibration, 3, 0.001);
+        let (_, learnt) = calibration.found();
+        assert!((learnt - 0.001).abs() < 1e-4, "{learnt}");
+        rests(&mut calibration, 1, 0.02);
+        let (_, after) = calibration.found();
+        assert!((after - learnt).abs() < 2e-4, "{after} after {learnt}");
+        // One that has really changed is learnt all the same.
+        rests(&mut calibration, 20, 0.004);
+        let (_, changed) = calibration.found();
+        assert!((changed - 0.004).abs() < 5e-4, "{changed}");
+    }
+
+    #[test]
+    fn a_bias_that_walls_have_told_goes_when_rests_deny_it() {
+        let mut calibration = Calibration::default();
+        rests(&mut calibration, 3, 0.001);
+        for _ in 0..60 {
+            calibration.learn(Gain {
+                time_s: 20.0,
+                counted_rad: 0.1,
+                gained_rad: 0.1 - 20.0 * 0.001,
+                variance_rad2: 0.002,
+            });
+        }
+        let (_, told) = calibration.found();
+        assert!(told > 0.0014, "{told}");
+        rests(&mut calibration, 20, 0.001);
+        let (_, denied) = calibration.found();
+        assert!((denied - 0.001).abs() < 2e-4, "{denied}");
+    }
+
+    #[test]
+    fn the_scale_is_learnt_from_turns_and_the_bias_from_ways() {
+        let mut calibration = Calibration::default();
+        for number in 0..40 {
+            let counted_rad = if number % 2 == 0 { 6.0 } else { 0.0 };
+            let (scale, bias) = calibration.found();
+            let gained_rad = counted_rad * (1.0 + 0.01 - scale) - 20.0 * (0.002 - bias);
+            calibration.learn(Gain {
+                time_s: 20.0,
+                counted_rad,
+                gained_rad,
+                variance_rad2: 1e-4,
+            });
+        }
+        let (scale, bias) = calibration.found();
+        assert!((scale - 0.01).abs() < 5e-4, "{scale}");
+        assert!((bias - 0.002).abs() < 5e-5, "{bias}");
     }
 }

@@ -10,13 +10,13 @@ mod calibration;
 mod confidence;
 mod estimate;
 mod floors;
-mod gyro_bias;
 #[cfg(test)]
 mod known_floors;
 #[cfg(test)]
 mod known_home;
 mod odometry;
 mod particles;
+mod rest;
 mod retreat;
 mod search;
 mod survey;
@@ -272,15 +272,14 @@ impl Localization {
         // Below zero: it was put down, and nobody has drawn the consequences yet.
         self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
         let odom = self.odometry.odom_from_base();
-        let (scale, _) = self.odometry.gyro();
         let turns = match advance.gyro_turn_rad {
             Some(_) => TurnCounting {
-                scale,
+                scale: self.odometry.gyro().0,
                 scale_sigma: self.odometry.calibration.scale_sigma(),
                 bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
             },
             None => TurnCounting {
-                scale,
+                scale: 0.0,
                 scale_sigma: WHEEL_TURN_SCALE,
                 bias_sigma_rad_per_s: 0.0,
             },
@@ -292,10 +291,10 @@ impl Localization {
         else {
             return;
         };
-        if advance.gyro_turn_rad.is_some() {
-            for gain in fix.gains {
-                self.odometry.calibration.learn(gain);
-            }
+        if advance.gyro_turn_rad.is_some()
+            && let Some((scale, sigma)) = fix.scale
+        {
+            self.odometry.calibration.know_scale(scale, sigma);
         }
         self.correct(fix.map_from_odom);
         self.drift = Drift {

@@ -1,7 +1,7 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
 use super::calibration::Calibration;
-use super::gyro_bias::GyroBias;
+use super::rest::RestWatch;
 use crate::geometry::Pose2;
 use crate::observation::Observation;
 
@@ -42,7 +42,7 @@ pub(super) struct Odometry {
     rim_max_m_per_s: f64,
     odom_from_base: Pose2,
     last: Option<Totals>,
-    gyro_bias: GyroBias,
+    rest: RestWatch,
     pub(super) calibration: Calibration,
 }
 
@@ -58,7 +58,7 @@ impl Odometry {
             rim_max_m_per_s,
             odom_from_base: Pose2::IDENTITY,
             last: None,
-            gyro_bias: GyroBias::default(),
+            rest: RestWatch::default(),
             calibration: Calibration::default(),
         }
     }
@@ -69,14 +69,12 @@ impl Odometry {
 
     /// Error of the gyro's scale, relative, and its bias in rad/s.
     pub(super) fn gyro(&self) -> (f64, f64) {
-        let (scale, left_rad_per_s) = self.calibration.found();
-        (scale, self.gyro_bias.rad_per_s() + left_rad_per_s)
+        self.calibration.found()
     }
 
     /// Takes up what [`Self::gyro`] said before a restart.
     pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
-        self.calibration = Calibration::resumed(scale);
-        self.gyro_bias = GyroBias::resumed(bias_rad_per_s);
+        self.calibration = Calibration::resumed(scale, bias_rad_per_s);
     }
 
     pub(super) fn update(&mut self, observation: &Observation) -> Advance {
@@ -103,11 +101,14 @@ impl Odometry {
     }
 
     fn watch_rest(&mut self, last: Totals, now: Totals) {
-        if !last.wheels_agree_with(now) {
-            self.gyro_bias.end_rest(last);
+        let ended = if last.wheels_agree_with(now) {
+            None
+        } else {
+            self.rest.end(last)
+        };
+        if let Some(rested) = ended.or(self.rest.observe(now)) {
+            self.calibration.rest(rested);
         }
-        let time_s = now.time_us.saturating_sub(last.time_us) as f64 * 1e-6;
-        self.gyro_bias.observe(now, time_s);
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {
@@ -135,11 +136,10 @@ impl Odometry {
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
         let seen_rad = now.gyro_rad? - last.gyro_rad?;
-        if self.gyro_bias.stands_still(now, seen_rad, time_s) {
+        if self.rest.stands_still(now, seen_rad, time_s) {
             return Some(0.0);
         }
-        let turn_rad = seen_rad - self.gyro_bias.rad_per_s() * time_s;
-        let turn_rad = self.calibration.corrected_rad(turn_rad, time_s);
+        let turn_rad = self.calibration.corrected_rad(seen_rad, time_s);
         let rim_turn_max_rad =
             2.0 * (JUMP_FLOOR_M + JUMP_FACTOR * self.rim_max_m_per_s * time_s) / self.track_m;
         (turn_rad.abs() <= rim_turn_max_rad).then_some(turn_rad)

@@ -190,7 +190,7 @@ fn a_relax_without_gyro_keeps_no_map_and_with_beacons_it_knows_its_place() {
     let alone = relax(&["--minutes", "15"]);
     assert_eq!(alone["map_iou"], Value::Null);
     assert!(alone["covered"].as_f64().unwrap() > 0.5, "it cleans all the same");
-    let heard = relax(&["--minutes", "15", "--beacons", "4", "--seed", "2"]);
+    let heard = relax(&["--minutes", "15", "--beacons", "4"]);
     let rmse_m = |report: &Value| report["pose_rmse_m"].as_f64().unwrap();
     assert!(
         rmse_m(&heard) < 0.5 * rmse_m(&alone),

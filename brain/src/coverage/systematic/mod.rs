@@ -68,6 +68,9 @@ const FRESH_WON_M2: f64 = 0.5;
 /// place is known to centimetres only loses a little floor along all walls.
 const WHOLE_SHARE: f64 = 0.85;
 
+/// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
+const SHUT_IN_SHARE: f64 = 0.4;
+
 /// A robot that sees nothing plans in a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
 /// Floor is hoped for so far beyond what is known, metres, after a lap along the walls that closed and after one that did not.
@@ -384,7 +387,8 @@ impl Systematic {
         is_blocked: bool,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Plan {
-        let is_cut_off = self.is_cut_off;
+        let is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
+        self.is_cut_off = is_cut_off;
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_afresh();
         }
@@ -401,6 +405,12 @@ impl Systematic {
         };
         mind.decide("covered", reason, plan.passed_m2() / self.floor_m2);
         Plan::Finished(reason)
+    }
+
+    /// Whether a robot that has gone along all walls can hardly get anywhere on the map that it has drawn: it came there.
+    fn is_shut_in(&self, plan: &CoveragePlan, situation: &Situation<'_>) -> bool {
+        let is_drawn_now = matches!(self.outline, Some(Outline::Growing { .. }));
+        is_drawn_now && self.assignment.is_whole_home() && shuts_in(plan.floor_m2, situation.map.free_m2())
     }
 
     /// Forgets what stood in the way: perhaps it is gone, or never was there.
@@ -432,6 +442,11 @@ impl Systematic {
     }
 }
 
+/// Whether floor that can be reached is next to nothing of the free floor that is known.
+fn shuts_in(reachable_m2: f64, free_m2: f64) -> bool {
+    reachable_m2 < SHUT_IN_SHARE * free_m2
+}
+
 /// Whether the map was good enough to plan in it when the job began.
 fn knows_home(situation: &Situation<'_>) -> bool {
     let is_blind = situation.config.sensors.proximity.sensors().is_empty();
@@ -461,5 +476,20 @@ pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
         Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shuts_in;
+
+    #[test]
+    fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {
+        assert!(shuts_in(0.8, 9.0));
+        assert!(
+            !shuts_in(7.0, 9.0),
+            "what is too narrow for the body is free, too"
+        );
+        assert!(!shuts_in(0.0, 0.0), "nothing is known");
     }
 }

@@ -105,11 +105,6 @@ pub(super) struct Fitted {
 }
 
 impl Fitted {
-    /// How many nodes it knows.
-    pub(super) fn nodes(&self) -> usize {
-        self.graph.nodes.len()
-    }
-
     /// The fitted graph with what has come to `since` after the fit began.
     pub(super) fn with_news_of(mut self, since: &Graph) -> Graph {
         let known = self.graph.nodes.len();
@@ -118,6 +113,8 @@ impl Fitted {
             node.pose = self.moved * node.pose;
             self.graph.nodes.push(node);
         }
+        let spells = &mut self.graph.turn_errors.spells;
+        spells.extend(since.turn_errors.spells.iter().skip(spells.len()).copied());
         for wall in since.walls.iter().skip(self.became.len()) {
             let mut wall = *wall;
             wall.anchor = self.moved.transform(wall.anchor);

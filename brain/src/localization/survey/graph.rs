@@ -8,6 +8,7 @@
 use super::kalman::StepVariance;
 use super::linear::System;
 use super::stroke::Stroke;
+use super::turns::{TurnErrors, TurnUnknowns, Turns};
 use crate::geometry::{Point2, Pose2, normalize_rad};
 use core::f64::consts::FRAC_PI_2;
 
@@ -26,28 +27,10 @@ pub(super) struct Node {
     pub(super) turns: Turns,
 }
 
-/// The turns of a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Turns {
-    /// Sum, full ones counted, radians.
-    pub(super) sum_rad: f64,
-    /// By how much the end of the step moves for each unit of the scale with which they are counted.
-    pub(super) bend_m: Point2,
-    /// What was wrong with the scale and is put right, relative.
-    pub(super) scale: f64,
-}
-
 impl Node {
-    /// Counts the turns of the step with another scale: the first ones were counted before walls had told it.
+    /// Counts the turns of the step with another scale.
     pub(super) fn count_anew(&mut self, scale: f64) {
-        let before = core::mem::replace(&mut self.turns.scale, scale);
-        let more = (1.0 + scale) / (1.0 + before) - 1.0;
-        self.step = Pose2 {
-            x_m: self.step.x_m + more * self.turns.bend_m.x_m,
-            y_m: self.step.y_m + more * self.turns.bend_m.y_m,
-            heading_rad: normalize_rad(self.step.heading_rad + more * self.turns.sum_rad),
-        };
-        self.turns.sum_rad *= 1.0 + more;
+        self.step = self.turns.count_anew(self.step, scale);
     }
 }
 
@@ -110,6 +93,7 @@ pub(super) struct Graph {
     pub(super) marks: Vec<Mark>,
     /// Direction of the first quarter; `None` = the home has no right angles, as far as is known.
     pub(super) square_rad: Option<f64>,
+    pub(super) turn_errors: TurnErrors,
 }
 
 /// Places of the unknowns.
@@ -118,7 +102,7 @@ pub(super) struct Unknowns {
     square: usize,
     /// For each wall the place of its offset; a direction of its own comes right after it.
     walls: Vec<usize>,
-    count: usize,
+    turns: TurnUnknowns,
 }
 
 impl Graph {
@@ -130,7 +114,11 @@ impl Graph {
             walls.push(count);
             count += if wall.quarter.is_some() { 1 } else { 2 };
         }
-        Unknowns { square, walls, count }
+        let turns = TurnUnknowns {
+            first_spell: count,
+            scale: count + self.turn_errors.spells.len(),
+        };
+        Unknowns { square, walls, turns }
     }
 
     /// The empty system, with what keeps every unknown from flying off.
@@ -147,44 +135,53 @@ impl Graph {
                 first.push(3 * wall.first);
             }
         }
+        for spell in &self.turn_errors.spells {
+            first.push(3 * spell.first.saturating_sub(1));
+        }
+        first.push(0);
         let mut system = System::new(first);
         for unknown in 0..3 {
             system.add_residual(&[(unknown, 1.0)], 0.0, 1e7);
         }
-        for unknown in unknowns.square..unknowns.count {
+        for unknown in unknowns.square..unknowns.turns.first_spell {
             system.add_residual(&[(unknown, 1.0)], 0.0, 1e-2);
         }
+        self.turn_errors.add_knowledge(unknowns.turns, &mut system);
         system
     }
 
     /// Adds the step from a node to the next one.
-    pub(super) fn add_step(&self, index: usize, system: &mut System) {
+    pub(super) fn add_step(&self, index: usize, unknowns: &Unknowns, system: &mut System) {
         if let (Some(before), Some(after)) = (self.nodes.get(index), self.nodes.get(index + 1)) {
             let (from, to) = (3 * index, 3 * index + 3);
             let made = before.pose.inverse() * after.pose;
+            let step = self.turn_errors.unbiased(after.step, &after.turns);
+            let [x, y, turn] = TurnErrors::slopes(&after.turns, unknowns.turns);
             let (sin, cos) = libm::sincos(before.pose.heading_rad);
             let weight = |variance: f64| 1.0 / variance.max(1e-8);
-            let slopes = [
+            let along = [
                 (from, -cos),
                 (from + 1, -sin),
                 (from + 2, made.y_m),
                 (to, cos),
                 (to + 1, sin),
+                x[0],
+                x[1],
             ];
-            let along = made.x_m - after.step.x_m;
-            system.add_residual(&slopes, along, weight(after.variance.along_m2));
-            let slopes = [
+            system.add_residual(&along, made.x_m - step.x_m, weight(after.variance.along_m2));
+            let across = [
                 (from, sin),
                 (from + 1, -cos),
                 (from + 2, -made.x_m),
                 (to, -sin),
                 (to + 1, cos),
+                y[0],
+                y[1],
             ];
-            let across = made.y_m - after.step.y_m;
-            system.add_residual(&slopes, across, weight(after.variance.across_m2));
-            let turn = normalize_rad(made.heading_rad - after.step.heading_rad);
-            let slopes = [(from + 2, -1.0), (to + 2, 1.0)];
-            system.add_residual(&slopes, turn, weight(after.variance.turn_rad2));
+            system.add_residual(&across, made.y_m - step.y_m, weight(after.variance.across_m2));
+            let off_rad = normalize_rad(made.heading_rad - step.heading_rad);
+            let turned = [(from + 2, -1.0), (to + 2, 1.0), turn[0], turn[1]];
+            system.add_residual(&turned, off_rad, weight(after.variance.turn_rad2));
         }
     }
 
@@ -226,6 +223,13 @@ impl Graph {
         system.add_residual(&slopes, off_m, weight / variance_m2);
     }
 
+    /// Counts all turns with this scale.
+    pub(super) fn count_anew(&mut self, scale: f64) {
+        for node in &mut self.nodes {
+            node.count_anew(scale);
+        }
+    }
+
     pub(super) fn apply(&mut self, unknowns: &Unknowns, change: &[f64]) {
         let step = |unknown: usize| {
             change
@@ -242,6 +246,8 @@ impl Graph {
         if let Some(square_rad) = &mut self.square_rad {
             *square_rad += step(unknowns.square);
         }
+        self.turn_errors.apply(unknowns.turns, step);
+        self.count_anew(self.turn_errors.scale);
         for (wall, place) in self.walls.iter_mut().zip(&unknowns.walls) {
             wall.offset_m += step(*place);
             wall.normal_rad = match (wall.quarter, self.square_rad) {

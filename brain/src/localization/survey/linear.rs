@@ -159,6 +159,14 @@ pub(super) struct Solving {
     row: usize,
 }
 
+/// What solves a system.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Solution {
+    pub(super) values: Vec<f64>,
+    /// Standard deviation of the last unknown, if weights are inverse variances: all others are free to follow it.
+    pub(super) last_sigma: f64,
+}
+
 #[derive(Clone, Copy, Debug)]
 enum Stage {
     /// Cholesky's factor; `None` = a row begins.
@@ -171,10 +179,16 @@ enum Stage {
 
 impl Solving {
     /// Goes on while work is left. Gives the solution, or `None` when the matrix is not positive.
-    pub(super) fn go_on(&mut self, work: &mut Work) -> Poll<Option<Vec<f64>>> {
+    pub(super) fn go_on(&mut self, work: &mut Work) -> Poll<Option<Solution>> {
         while work.is_left() {
             match self.piece(work) {
-                Some(true) => return Poll::Ready(Some(core::mem::take(&mut self.system.right))),
+                Some(true) => {
+                    let last = self.system.values.last();
+                    return Poll::Ready(Some(Solution {
+                        last_sigma: last.map_or(f64::INFINITY, |last| 1.0 / last),
+                        values: core::mem::take(&mut self.system.right),
+                    }));
+                }
                 Some(false) => {}
                 None => return Poll::Ready(None),
             }
@@ -212,12 +226,12 @@ impl Solving {
 
 #[cfg(test)]
 mod tests {
-    use super::{System, Work};
+    use super::{Solution, System, Work};
     use crate::random::Random;
     use core::task::Poll;
 
     /// The solution, made in steps of so much work, and how many steps that took.
-    fn solved(system: System, step: usize) -> (Option<Vec<f64>>, u32) {
+    fn solved(system: System, step: usize) -> (Option<Solution>, u32) {
         let mut solving = system.solve();
         let mut steps = 1;
         loop {
@@ -254,10 +268,20 @@ mod tests {
         assert!(steps > 30, "{steps} steps");
         let (found, _) = solved(system, usize::MAX);
         assert_eq!(in_steps, found, "steps change nothing");
-        let found = found.unwrap();
+        let found = found.unwrap().values;
         for (found, truth) in found.iter().zip(&truth) {
             assert!((found - truth).abs() < 1e-9, "{found} instead of {truth}");
         }
+    }
+
+    #[test]
+    fn the_last_unknown_is_as_sure_as_all_that_leads_to_it() {
+        let mut system = System::new(vec![0, 0]);
+        system.add_residual(&[(0, 1.0)], -3.0, 1.0 / 16.0);
+        system.add_residual(&[(0, -1.0), (1, 1.0)], -2.0, 1.0 / 9.0);
+        let found = solved(system, usize::MAX).0.unwrap();
+        assert!((found.values[1] - 5.0).abs() < 1e-9, "{found:?}");
+        assert!((found.last_sigma - 5.0).abs() < 1e-9, "{found:?}");
     }
 
     #[test]

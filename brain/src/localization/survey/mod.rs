@@ -6,7 +6,6 @@
 //! The map is then drawn again with the better poses.
 
 mod fit;
-mod gains;
 mod graph;
 mod kalman;
 mod linear;
@@ -14,18 +13,18 @@ mod optimization;
 mod square;
 mod stroke;
 mod tidy;
+mod turns;
 mod visit;
 mod walls;
 mod work;
 
 use fit::{Fit, Fitted};
-use gains::GainLog;
-use graph::{Graph, Node, Turns};
+use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
+use turns::{TurnErrors, Turns};
 use visit::{Visit, VisitLog};
 
 use super::Advance;
-use super::calibration::Gain;
 use crate::config::ProximityLayout;
 use crate::geometry::{Point2, Pose2};
 use crate::mapping::Keyframe;
@@ -55,8 +54,8 @@ const REDRAW_SHARE: u64 = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Fix {
     pub(super) map_from_odom: Pose2,
-    /// How much the robot turned in times that lie behind it.
-    pub(super) gains: Vec<Gain>,
+    /// What is wrong with the scale with which turns are counted, relative, and its deviation, when a fit has told it.
+    pub(super) scale: Option<(f64, f64)>,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
@@ -75,7 +74,6 @@ pub(super) struct Survey {
     pending: Pending,
     marks_fitted: usize,
     fit: Option<Box<Fit>>,
-    gains: GainLog,
     drawn_us: u64,
     /// Poses of the nodes with which the map was drawn.
     drawn: Vec<Pose2>,
@@ -100,6 +98,8 @@ struct Pending {
     turn_rad: f64,
     /// By how much the end moves for each unit of the scale of turns, in the frame of odometry.
     bend_m: Point2,
+    /// The same for each radian per second that it turned more.
+    lag_m: Point2,
     noise_rad2: f64,
     time_s: f64,
 }
@@ -112,6 +112,9 @@ impl Pending {
         let lever_m = (self.turn_rad + 0.5 * advance.turn_rad) * advance.distance_m;
         self.bend_m.x_m -= lever_m * sin;
         self.bend_m.y_m += lever_m * cos;
+        let lever_m = (self.time_s + 0.5 * advance.time_s) * advance.distance_m;
+        self.lag_m.x_m -= lever_m * sin;
+        self.lag_m.y_m += lever_m * cos;
         self.way_m += advance.distance_m.abs();
         self.turn_rad += advance.turn_rad;
         self.time_s += advance.time_s;
@@ -130,7 +133,9 @@ impl Pending {
         Turns {
             sum_rad: self.turn_rad,
             bend_m: from_odom.transform(self.bend_m),
-            scale: 0.0,
+            time_s: self.time_s,
+            lag_m: from_odom.transform(self.lag_m),
+            ..Turns::default()
         }
     }
 
@@ -164,7 +169,6 @@ impl Survey {
             pending: Pending::default(),
             marks_fitted: 0,
             fit: None,
-            gains: GainLog::default(),
             drawn_us: 0,
             drawn: Vec::new(),
             outdated: false,
@@ -190,8 +194,8 @@ impl Survey {
         if let Some(visit) = &visit {
             self.take(visit, turns);
         }
-        let gains = self.fit_on(turns.scale);
-        if visit.is_none() && gains.is_none() {
+        let is_fitted = self.fit_on();
+        if visit.is_none() && !is_fitted {
             return None;
         }
         let mut now = self.belief;
@@ -200,7 +204,7 @@ impl Survey {
         let (sigma_m, sigma_rad) = now.sigmas();
         Some(Fix {
             map_from_odom: now.pose * odom.inverse(),
-            gains: gains.unwrap_or_default(),
+            scale: self.graph.turn_errors.found().filter(|_| is_fitted),
             sigma_m,
             sigma_rad,
         })
@@ -210,6 +214,7 @@ impl Survey {
     /// saw the first wall, too: without, the whole map stays turned about the start.
     fn begin(&mut self, time_us: u64, turns: TurnCounting) {
         if self.graph.nodes.is_empty() {
+            self.graph.turn_errors = TurnErrors::new(turns);
             self.graph.nodes.push(Node {
                 time_us,
                 odom: self.odom,
@@ -240,57 +245,63 @@ impl Survey {
         let step = self.odom.inverse() * visit.odom;
         let began = self.odom;
         let pending = core::mem::take(&mut self.pending);
-        let variance = pending.variance(step, turns);
-        self.belief.step(step, variance);
+        self.belief.step(step, pending.variance(step, turns));
         self.odom = visit.odom;
         self.here = self.graph.nodes.len();
         if self.here < NODES_MAX {
+            let sigma_rad_per_s = turns.bias_sigma_rad_per_s;
+            let spell = self
+                .graph
+                .turn_errors
+                .spell(self.here, visit.time_us, sigma_rad_per_s);
+            // What is wrong with scale and bias is unknown by itself.
+            let by_chance = TurnCounting::default();
             self.graph.nodes.push(Node {
                 time_us: visit.time_us,
                 odom: visit.odom,
                 pose: self.belief.pose,
                 step,
-                variance,
+                variance: pending.variance(step, by_chance),
                 turns: Turns {
                     scale: turns.scale,
+                    spell,
                     ..pending.turns(began)
                 },
             });
         }
     }
 
-    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. When the fit is taken up it gives what
-    /// that tells of turns.
-    fn fit_on(&mut self, scale: f64) -> Option<Vec<Gain>> {
-        match self.fit.take() {
-            Some(fit) => match fit.go_on() {
-                Err(fit) => {
-                    self.fit = Some(fit);
-                    None
-                }
-                Ok(fitted) => fitted.map(|fitted| self.take_up(fitted)),
-            },
-            None => {
-                self.begin_fit(scale);
-                None
+    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. Says whether a fit was taken up.
+    fn fit_on(&mut self) -> bool {
+        let Some(fit) = self.fit.take() else {
+            self.begin_fit();
+            return false;
+        };
+        match fit.go_on() {
+            Err(fit) => {
+                self.fit = Some(fit);
+                false
             }
+            Ok(Some(fitted)) => {
+                self.take_up(fitted);
+                true
+            }
+            Ok(None) => false,
         }
     }
 
-    fn begin_fit(&mut self, scale: f64) {
+    fn begin_fit(&mut self) {
         let marks = self.graph.marks.len();
         let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
         if marks >= self.marks_fitted + due {
             self.marks_fitted = marks;
-            for node in &mut self.graph.nodes {
-                node.count_anew(scale);
-            }
+            self.graph.count_anew(self.graph.turn_errors.scale);
             self.fit = Fit::of(&self.graph);
         }
     }
 
-    fn take_up(&mut self, fitted: Fitted) -> Vec<Gain> {
-        let (moved, known) = (fitted.moved, fitted.nodes());
+    fn take_up(&mut self, fitted: Fitted) {
+        let moved = fitted.moved;
         self.graph = fitted.with_news_of(&self.graph);
         self.belief.pose = moved * self.belief.pose;
         self.marks_fitted = self.marks_fitted.min(self.graph.marks.len());
@@ -300,7 +311,6 @@ impl Survey {
             .iter()
             .zip(&self.drawn)
             .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
-        self.gains.take(&self.graph, known)
     }
 
     /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
@@ -329,7 +339,8 @@ impl Survey {
 
 #[cfg(test)]
 mod tests {
-    use super::graph::{Node, Turns};
+    use super::graph::Node;
+    use super::turns::Turns;
     use super::{Pending, StepVariance};
     use crate::geometry::Pose2;
     use crate::localization::Advance;

@@ -63,8 +63,10 @@ impl Optimization {
                 } => match solving.go_on(work) {
                     Poll::Pending => self.round = Round::Solve { unknowns, solving },
                     Poll::Ready(None) => return Poll::Ready(false),
-                    Poll::Ready(Some(change)) => {
+                    Poll::Ready(Some(solution)) => {
+                        let change = solution.values;
                         graph.apply(&unknowns, &change);
+                        graph.turn_errors.scale_sigma = Some(solution.last_sigma);
                         work.spend(MOVE_WORK * graph.nodes.len());
                         self.rounds += 1;
                         let is_still = change.iter().all(|step| step.abs() < STILL);
@@ -89,7 +91,7 @@ fn gather(
     let steps = graph.nodes.len().saturating_sub(1);
     while work.is_left() {
         if next < steps {
-            graph.add_step(next, &mut system);
+            graph.add_step(next, &unknowns, &mut system);
             work.spend(STEP_WORK);
         } else if let Some(mark) = graph.marks.get(next - steps) {
             graph.add_mark(mark, &unknowns, &mut system);

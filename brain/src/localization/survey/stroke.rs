@@ -55,6 +55,11 @@ const STROKES_MAX: usize = 4;
 /// Deviations that no number of glimpses makes smaller: walls reflect differently along their length.
 const SIGMA_M: f64 = 0.012;
 const SIGMA_RAD: f64 = 0.015;
+/// By how much one end of a stroke is off against the other one, metres.
+const TURN_M: f64 = 0.02;
+/// The same two in scatters of the glimpses: noise shows in them, and walls that reflect more differently.
+const SIGMA_SCATTERS: f64 = 1.6;
+const TURN_SCATTERS: f64 = 3.0;
 
 /// A line: points whose way along the normal is `offset_m`.
 #[derive(Clone, Copy, Debug)]
@@ -217,7 +222,7 @@ fn stroke(glimpses: &[Glimpse], line: Line, cone: f64) -> Option<Stroke> {
     }
     let (sin, cos) = libm::sincos(line.normal_rad);
     let along_m = 0.5 * (low_m + high_m);
-    let turn_rad = 0.02 / length_m;
+    let turn_rad = (TURN_SCATTERS * scatter_m).max(TURN_M) / length_m;
     Some(Stroke {
         middle: Point2 {
             x_m: cos * line.offset_m - sin * along_m,
@@ -226,7 +231,7 @@ fn stroke(glimpses: &[Glimpse], line: Line, cone: f64) -> Option<Stroke> {
         normal_rad: line.normal_rad,
         half_m: 0.5 * length_m,
         sigma_rad: libm::sqrt(turn_rad * turn_rad + SIGMA_RAD * SIGMA_RAD),
-        sigma_m: SIGMA_M,
+        sigma_m: (SIGMA_SCATTERS * scatter_m).max(SIGMA_M),
     })
 }
 
@@ -307,6 +312,31 @@ mod tests {
         assert!((found[0].normal_rad + FRAC_PI_2).abs() < 0.02, "{found:?}");
         assert!((found[0].middle.y_m - 0.25).abs() < 0.005, "{found:?}");
         assert!((found[1].middle.x_m - 1.0).abs() < 0.006, "{found:?}");
+    }
+
+    #[test]
+    fn a_stroke_is_the_less_sure_the_more_its_glimpses_scatter() {
+        let sure = |noise_m: f64| {
+            let mut random = crate::random::Random::new(4);
+            let mut glimpses = Vec::new();
+            for step in 0..15 {
+                let pose = Pose2 {
+                    x_m: 0.65 + 0.01 * f64::from(step),
+                    y_m: 0.0,
+                    heading_rad: 0.35,
+                };
+                look(pose, 9.0, &mut glimpses);
+            }
+            for glimpse in &mut glimpses {
+                glimpse.seen_m += noise_m * random.normal();
+            }
+            let found = strokes(&glimpses, &RESPONSE);
+            (found[0].sigma_m, found[0].sigma_rad)
+        };
+        let (calm, noisy) = (sure(0.003), sure(0.011));
+        assert_eq!(calm.0, super::SIGMA_M);
+        assert!(noisy.0 > 1.1 * calm.0, "{noisy:?} after {calm:?}");
+        assert!(noisy.1 > 1.1 * calm.1, "{noisy:?} after {calm:?}");
     }
 
     #[test]
