@@ -1,9 +1,35 @@
 //! When a robot at work stands still for its gyro's sake: the bias is learnt at rest.
 
-/// Time between two rests, microseconds.
-const EVERY_US: u64 = 60_000_000;
-/// Length of a rest, microseconds.
-const REST_US: u64 = 2_000_000;
+/// How often and how long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RestPace {
+    /// Time between two rests, microseconds.
+    every_us: u64,
+    /// Length of a rest, microseconds.
+    rest_us: u64,
+}
+
+impl RestPace {
+    /// Where nothing but rests tells a turn from a bias.
+    const SURVEYING: Self = Self {
+        every_us: 60_000_000,
+        rest_us: 2_000_000,
+    };
+    /// Where a map tells the heading, too: more rest takes longer and brings no better place.
+    const TRACKED: Self = Self {
+        every_us: 120_000_000,
+        rest_us: 1_500_000,
+    };
+
+    /// For a robot whose place a known map tells, and for any other.
+    pub(super) const fn of(is_tracked: bool) -> Self {
+        if is_tracked {
+            Self::TRACKED
+        } else {
+            Self::SURVEYING
+        }
+    }
+}
 
 /// The next rest, or the one that is taken.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,21 +41,22 @@ pub(super) struct GyroRest {
 impl GyroRest {
     /// Whether the robot shall stand still now. It is kept waiting only on a way ahead; what comes in between ends a rest, and
     /// that is taken anew as soon as the robot is on its way again.
-    pub(super) fn follow(&mut self, now_us: u64, is_ahead: bool) -> bool {
+    pub(super) fn follow(&mut self, now_us: u64, is_ahead: bool, pace: RestPace) -> bool {
+        let RestPace { every_us, rest_us } = pace;
         if !is_ahead {
             self.until_us = None;
             return false;
         }
-        let due_us = *self.due_us.get_or_insert(now_us + EVERY_US);
+        let due_us = *self.due_us.get_or_insert(now_us + every_us);
         if now_us < due_us {
             return false;
         }
-        let until_us = *self.until_us.get_or_insert(now_us + REST_US);
+        let until_us = *self.until_us.get_or_insert(now_us + rest_us);
         if now_us < until_us {
             return true;
         }
         *self = Self {
-            due_us: Some(now_us + EVERY_US),
+            due_us: Some(now_us + every_us),
             until_us: None,
         };
         false
@@ -38,21 +65,35 @@ impl GyroRest {
 
 #[cfg(test)]
 mod tests {
-    use super::{EVERY_US, GyroRest, REST_US};
+    use super::{GyroRest, RestPace};
+
+    const EVERY_US: u64 = RestPace::SURVEYING.every_us;
+    const REST_US: u64 = RestPace::SURVEYING.rest_us;
 
     #[test]
     fn a_rest_is_taken_on_the_first_way_ahead_after_it_is_due_and_whole() {
         let mut rest = GyroRest::default();
-        assert!(!rest.follow(0, true));
-        assert!(!rest.follow(EVERY_US - 1, true));
+        let mut follow = |now_us, is_ahead| rest.follow(now_us, is_ahead, RestPace::of(false));
+        assert!(!follow(0, true));
+        assert!(!follow(EVERY_US - 1, true));
         let late_us = EVERY_US + 20_000_000;
-        assert!(!rest.follow(late_us, false), "it turns");
-        assert!(rest.follow(late_us + 1, true));
-        assert!(!rest.follow(late_us + 2, false), "something was met");
-        assert!(rest.follow(late_us + 3, true));
-        assert!(rest.follow(late_us + 2 + REST_US, true));
-        assert!(!rest.follow(late_us + 3 + REST_US, true));
-        assert!(!rest.follow(late_us + EVERY_US, true));
-        assert!(rest.follow(late_us + 3 + REST_US + EVERY_US, true));
+        assert!(!follow(late_us, false), "it turns");
+        assert!(follow(late_us + 1, true));
+        assert!(!follow(late_us + 2, false), "something was met");
+        assert!(follow(late_us + 3, true));
+        assert!(follow(late_us + 2 + REST_US, true));
+        assert!(!follow(late_us + 3 + REST_US, true));
+        assert!(!follow(late_us + EVERY_US, true));
+        assert!(follow(late_us + 3 + REST_US + EVERY_US, true));
+    }
+
+    #[test]
+    fn a_map_makes_rests_rare() {
+        let mut rest = GyroRest::default();
+        let mut follow = |now_us| rest.follow(now_us, true, RestPace::of(true));
+        assert!(!follow(0));
+        assert!(!follow(2 * EVERY_US - 1));
+        assert!(follow(2 * EVERY_US));
+        assert!(!follow(2 * EVERY_US + REST_US));
     }
 }

@@ -1,5 +1,6 @@
 //! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
 
+use super::gyro_rest::RestPace;
 use super::job::{Detour, Job, Purpose};
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
@@ -88,7 +89,8 @@ impl Behavior {
         if situation.observation.gyro_heading_rad.is_none() {
             return false;
         }
-        job.gyro_rest.follow(self.facts.now_us, is_ahead)
+        let pace = RestPace::of(situation.is_tracked);
+        job.gyro_rest.follow(self.facts.now_us, is_ahead, pace)
     }
 
     fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {
