@@ -387,15 +387,14 @@ impl Systematic {
         is_blocked: bool,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Plan {
-        let is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
-        self.is_cut_off = is_cut_off;
+        self.is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_afresh();
         }
-        if is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
+        if self.is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
             return self.go_astray(situation, mind);
         }
-        if self.turns_to_next(is_cut_off, (situation.map, mind)) {
+        if self.turns_to_next(self.is_cut_off, (situation.map, mind)) {
             return Plan::Go(Motion::Halt);
         }
         let reason = if self.assignment.is_missed {

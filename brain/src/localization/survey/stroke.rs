@@ -275,17 +275,23 @@ mod tests {
         }
     }
 
+    /// What is seen on a way of so many centimetres from `x_m` on.
+    fn driven((x_m, steps): (f64, u32), heading_rad: f64, left_m: f64) -> Vec<Glimpse> {
+        let mut glimpses = Vec::new();
+        for step in 0..steps {
+            let pose = Pose2 {
+                x_m: x_m + 0.01 * f64::from(step),
+                y_m: 0.0,
+                heading_rad,
+            };
+            look(pose, left_m, &mut glimpses);
+        }
+        glimpses
+    }
+
     #[test]
     fn a_robot_that_drives_at_a_wall_askew_sees_where_it_is() {
-        let mut glimpses = Vec::new();
-        for step in 0..15 {
-            let pose = Pose2 {
-                x_m: 0.65 + 0.01 * f64::from(step),
-                y_m: 0.0,
-                heading_rad: 0.35,
-            };
-            look(pose, 9.0, &mut glimpses);
-        }
+        let glimpses = driven((0.65, 15), 0.35, 9.0);
         let found = strokes(&glimpses, &RESPONSE);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
@@ -297,15 +303,7 @@ mod tests {
 
     #[test]
     fn a_corner_is_two_strokes() {
-        let mut glimpses = Vec::new();
-        for step in 0..60 {
-            let pose = Pose2 {
-                x_m: 0.2 + 0.01 * f64::from(step),
-                y_m: 0.0,
-                heading_rad: 0.0,
-            };
-            look(pose, 0.25, &mut glimpses);
-        }
+        let glimpses = driven((0.2, 60), 0.0, 0.25);
         let mut found = strokes(&glimpses, &RESPONSE);
         found.sort_by(|one, other| one.normal_rad.abs().total_cmp(&other.normal_rad.abs()));
         assert_eq!(found.len(), 2, "{found:?}");
@@ -318,15 +316,7 @@ mod tests {
     fn a_stroke_is_the_less_sure_the_more_its_glimpses_scatter() {
         let sure = |noise_m: f64| {
             let mut random = crate::random::Random::new(4);
-            let mut glimpses = Vec::new();
-            for step in 0..15 {
-                let pose = Pose2 {
-                    x_m: 0.65 + 0.01 * f64::from(step),
-                    y_m: 0.0,
-                    heading_rad: 0.35,
-                };
-                look(pose, 9.0, &mut glimpses);
-            }
+            let mut glimpses = driven((0.65, 15), 0.35, 9.0);
             for glimpse in &mut glimpses {
                 glimpse.seen_m += noise_m * random.normal();
             }
