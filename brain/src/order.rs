@@ -4,6 +4,7 @@ use crate::behavior::Reason;
 use crate::geometry::Point2;
 use crate::mapping::{Annotations, Cell, CellKnowledge, Map, Rooms};
 use crate::no_go::NoGo;
+use crate::spot::DISC_M;
 
 /// Most parts of an order.
 const PARTS_MAX: usize = 32;
@@ -95,6 +96,8 @@ pub enum HomePart {
     Room(u16),
     /// A zone.
     Zone(Zone),
+    /// The disc of [`DISC_M`] around a place.
+    Spot(Point2),
 }
 
 impl HomePart {
@@ -103,6 +106,7 @@ impl HomePart {
         match self {
             Self::Room(id) => rooms.labels().get(cell) == Some(id),
             Self::Zone(zone) => zone.contains(cell.middle()),
+            Self::Spot(place) => cell.middle().distance_m(*place) <= DISC_M,
         }
     }
 }
@@ -195,7 +199,7 @@ impl CleaningOrder {
                 HomePart::Room(id) if map.rooms().rooms().iter().all(|room| room.id != *id) => {
                     return Err(Reason::NoSuchRoom);
                 }
-                HomePart::Zone(_) if !has_floor(part) => return Err(Reason::NoFloorThere),
+                HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => return Err(Reason::NoFloorThere),
                 _ => {}
             }
         }

@@ -12,7 +12,7 @@ use crate::manoeuvre::{Evasion, EvasionStep};
 use crate::task::{Mind, Plan, Situation, Task};
 
 /// Radius of the disc in metres.
-const DISC_M: f64 = 0.5;
+pub const DISC_M: f64 = 0.5;
 /// Radius of curvature at the start.
 const START_M: f64 = 0.06;
 /// Share of the swath by which neighbouring turns lie apart.

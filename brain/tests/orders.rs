@@ -1,4 +1,4 @@
-//! Jobs for parts of a known home: rooms, zones, passes, no-go zones, and what a job is expected to take.
+//! Jobs for parts of a known home: rooms, zones, spots, passes, no-go zones, and what a job is expected to take.
 
 mod plane;
 
@@ -98,6 +98,33 @@ fn a_zone_is_cleaned_and_little_else() {
     assert_eq!(stage.brain.status().reason, Reason::Finished);
     assert!(stage.swept((3.5, 0.5), (5.5, 2.5)) > 0.95);
     assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nobody asked for this");
+}
+
+/// A place in the frame of the room, as a spot of the map.
+fn spot(x_m: f64, y_m: f64) -> HomePart {
+    HomePart::Spot(Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    })
+}
+
+#[test]
+fn a_spot_in_the_other_room_is_cleaned_to_its_rim_and_little_else() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::new(vec![spot(4.6, 2.0)], 1).unwrap();
+    let expected = stage.brain.estimate_order(&order).unwrap();
+    assert!((expected.floor_m2 - 0.785).abs() < 0.05, "{expected:?}");
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    // The largest square in the disc.
+    assert!(stage.swept((4.25, 1.65), (4.95, 2.35)) > 0.95);
+    assert!(stage.swept((3.3, 2.9), (5.9, 3.8)) < 0.1, "nobody asked for this");
+    assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nor for this");
+    for nowhere in [spot(20.0, 0.0), spot(f64::NAN, 1.0)] {
+        let order = CleaningOrder::new(vec![nowhere], 1).unwrap();
+        let refused = stage.brain.admit(&Command::CleanParts { order });
+        assert_eq!(refused, Err(Reason::NoFloorThere));
+    }
 }
 
 #[test]

@@ -33,6 +33,9 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
                 <button type="button" class="small" id="draw-clean" on:click=move |_| store.take_tool(Tool::CleanZone)>
                     {words().home.draw_clean}
                 </button>
+                <button type="button" class="small" id="draw-spot" on:click=move |_| store.take_tool(Tool::Spot)>
+                    {words().home.draw_spot}
+                </button>
                 <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().home.draw_avoid}
                 </button>

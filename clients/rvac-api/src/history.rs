@@ -70,12 +70,15 @@ pub enum RunJob {
     Clean {
         /// Strategy by name.
         strategy: String,
-        /// Rooms that were named; with no zones either, the whole home.
+        /// Rooms that were named; with no zones and spots either, the whole home.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         rooms: Vec<RoomHere>,
         /// How many zones were given.
         #[serde(default)]
         zones: u32,
+        /// How many spots were given.
+        #[serde(default, skip_serializing_if = "is_none")]
+        spots: u32,
         /// How often each part.
         passes: u8,
     },
@@ -83,6 +86,10 @@ pub enum RunJob {
     Spot,
     /// To go to the dock.
     Dock,
+}
+
+fn is_none(count: &u32) -> bool {
+    *count == 0
 }
 
 /// Who asked for a run.

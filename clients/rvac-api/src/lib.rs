@@ -29,7 +29,7 @@ pub use history::{
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{
-    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSettings,
+    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSettings, SPOT_RADIUS_M,
     RoomSplitting,
 };
 pub use request::{CleaningPower, Request, RequestBody, Topic};

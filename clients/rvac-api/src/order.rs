@@ -42,7 +42,12 @@ pub enum JobPart {
     Room(u16),
     /// A polygon of 3 to 64 corners, metres in the frame of the map.
     Zone(Vec<[f64; 2]>),
+    /// The disc of [`SPOT_RADIUS_M`] around a place, metres.
+    Spot([f64; 2]),
 }
+
+/// Radius of a spot, metres.
+pub const SPOT_RADIUS_M: f64 = 0.5;
 
 /// What a job will take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

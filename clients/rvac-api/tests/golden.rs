@@ -573,6 +573,7 @@ fn orders() {
         parts: vec![
             JobPart::Room(3),
             JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
+            JobPart::Spot([2.5, -0.5]),
         ],
         passes: 2,
         avoid: Vec::new(),
@@ -583,15 +584,15 @@ fn orders() {
     };
     request(
         RequestBody::Clean(avoiding),
-        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2,"avoid":[{"wall":[[0.0,0.5],[1.0,0.5]]}]}"#,
+        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]},{"spot":[2.5,-0.5]}],"passes":2,"avoid":[{"wall":[[0.0,0.5],[1.0,0.5]]}]}"#,
     );
     request(
         RequestBody::Clean(order.clone()),
-        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2}"#,
+        r#"{"c":"clean","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]},{"spot":[2.5,-0.5]}],"passes":2}"#,
     );
     request(
         RequestBody::Estimate(order),
-        r#"{"c":"estimate","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}],"passes":2}"#,
+        r#"{"c":"estimate","parts":[{"room":3},{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]},{"spot":[2.5,-0.5]}],"passes":2}"#,
     );
     let short: Request = serde_json::from_str(r#"{"c":"clean","later":1,"id":4}"#).unwrap();
     assert_eq!(short.body, RequestBody::Clean(JobOrder::default()));
@@ -883,6 +884,7 @@ fn run() -> Run {
             strategy: "systematic".to_owned(),
             rooms: vec![RoomHere { id: 2, name: None }],
             zones: 1,
+            spots: 0,
             passes: 2,
         },
         by: RunAsker::Schedule {

@@ -309,9 +309,16 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         (&["clean"], RequestBody::Clean(job(vec![], 1))),
         (
             &[
-                "clean", "--room", "hall", "--zone", "-1,0", "2,1.5", "--passes", "2",
+                "clean", "--spot", "-0.5,2", "--room", "hall", "--zone", "-1,0", "2,1.5", "--passes", "2",
             ],
-            RequestBody::Clean(job(vec![JobPart::Room(1), JobPart::Zone(rectangle())], 2)),
+            RequestBody::Clean(job(
+                vec![
+                    JobPart::Room(1),
+                    JobPart::Zone(rectangle()),
+                    JobPart::Spot([-0.5, 2.0]),
+                ],
+                2,
+            )),
         ),
         (&["rooms", "name", "1", "Entrance"], naming(Some("Entrance"))),
         (&["rooms", "unname", "Hall"], naming(None)),

@@ -1088,6 +1088,7 @@ fn an_order_that_cannot_be_says_what_is_wrong_with_it() {
         })
     };
     let far = || JobPart::Zone(vec![[90.0, 0.0], [91.0, 0.0], [91.0, 1.0]]);
+    let spot = || JobPart::Spot([90.0, 0.0]);
     let thin = || JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0]]);
     let cases = [
         (
@@ -1100,6 +1101,11 @@ fn an_order_that_cannot_be_says_what_is_wrong_with_it() {
             RequestBody::Clean(clean(vec![far()], 1)),
             "no-floor-there",
             "x 0.0 to 4.0 m",
+        ),
+        (
+            RequestBody::Clean(clean(vec![JobPart::Room(1), spot()], 1)),
+            "no-floor-there",
+            "zones and spots",
         ),
         (
             RequestBody::Estimate(clean(vec![thin()], 1)),

@@ -1,4 +1,4 @@
-//! What people draw on the map and say of rooms, taken back and done again; rooms split and joined; and zones for one job.
+//! What people draw on the map and say of rooms, taken back and done again; rooms split and joined; and zones and spots for one job.
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
@@ -151,6 +151,51 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
         .until("return document.getElementById('order-bar') === null")
         .await;
     forbidden(browser, 0).await;
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+}
+
+/// How many zones and spots are in the bar, and how many numbers stand on the map.
+async fn drawn_parts(browser: &Browser, count: usize) {
+    for labels in ["#drawn-parts button", ".room-names .number"] {
+        let script = format!("return document.querySelectorAll('{labels}').length === {count}");
+        browser.until(&script).await;
+    }
+}
+
+#[tokio::test]
+async fn a_spot_is_set_taken_out_by_a_tap_and_by_its_button_and_cleaned() {
+    let Some(visit) = at_home().await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#draw-spot").await;
+    keys(browser, &["ArrowLeft", "Enter"]).await;
+    drawn_parts(browser, 1).await;
+    browser.click("#draw-spot").await;
+    keys(browser, &["ArrowRight", "ArrowRight", "ArrowRight"]).await;
+    browser.shot("desktop-spot-drawn").await;
+    keys(browser, &["Enter"]).await;
+    drawn_parts(browser, 2).await;
+    browser
+        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
+        .await;
+    browser.darken().await;
+    browser.shot("desktop-spots-dark").await;
+    keys(browser, &["Enter"]).await;
+    drawn_parts(browser, 1).await;
+    browser.click("#part-1").await;
+    browser
+        .until("return document.getElementById('order-bar') === null")
+        .await;
+    browser.click("#draw-spot").await;
+    browser.click("#map").await;
+    drawn_parts(browser, 1).await;
+    browser.click("#clean-chosen").await;
+    browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return Number(document.getElementById('map').dataset.sweptCells) > 20")
+        .await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;
 }

@@ -1,16 +1,16 @@
-//! Which rooms and zones a person has chosen, in which order, and what cleaning them takes.
+//! Which rooms, zones and spots a person has chosen, in which order, and what cleaning them takes.
 
-use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape};
+use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, SPOT_RADIUS_M};
 
 use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
-use crate::sketch::extent;
+use crate::sketch::{extent, spot_border};
 use crate::words::Words;
 
 /// Most passes over a room.
 pub const PASSES_MAX: u8 = 3;
 
-/// Rooms and zones in the order in which they were chosen, how often each is cleaned, and where the robot keeps out meanwhile.
+/// Rooms, zones and spots in the order in which they were chosen, how often each is cleaned, and where the robot keeps out meanwhile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomChoice {
     parts: Vec<JobPart>,
@@ -28,6 +28,17 @@ impl Default for RoomChoice {
     }
 }
 
+/// A zone or spot of the choice, which is no room that can be pressed again to take it out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnPart {
+    /// Its place in the order, from 1.
+    pub place: usize,
+    /// What it is, for people.
+    pub name: String,
+    /// Its middle.
+    pub middle: [f64; 2],
+}
+
 impl RoomChoice {
     /// Chooses a room as the last one, or takes it out.
     pub fn toggle(&mut self, room: u16) {
@@ -41,6 +52,28 @@ impl RoomChoice {
     /// Chooses a zone as the last part.
     pub fn add_zone(&mut self, corners: Vec<[f64; 2]>) {
         self.parts.push(JobPart::Zone(corners));
+    }
+
+    /// Chooses a spot as the last part.
+    pub fn add_spot(&mut self, middle: [f64; 2]) {
+        self.parts.push(JobPart::Spot(middle));
+    }
+
+    /// Takes out the part at a place in the order, from 1.
+    pub fn take_out(&mut self, place: usize) {
+        if (1..=self.parts.len()).contains(&place) {
+            self.parts.remove(place - 1);
+        }
+    }
+
+    /// Takes out the spot that was chosen last of those that cover a place of the map. `false` when none does.
+    pub fn take_spot_out_at(&mut self, (x, y): (f64, f64)) -> bool {
+        let is_under = |part: &JobPart| matches!(part, JobPart::Spot(at) if (at[0] - x).hypot(at[1] - y) <= SPOT_RADIUS_M);
+        let found = self.parts.iter().rposition(is_under);
+        if let Some(index) = found {
+            self.parts.remove(index);
+        }
+        found.is_some()
     }
 
     /// Keeps the robot out of a place, for this job.
@@ -60,17 +93,36 @@ impl RoomChoice {
     pub fn rooms(&self) -> Vec<u16> {
         let room = |part: &JobPart| match part {
             JobPart::Room(room) => Some(*room),
-            JobPart::Zone(_) => None,
+            JobPart::Zone(_) | JobPart::Spot(_) => None,
         };
         self.parts.iter().filter_map(room).collect()
     }
 
-    /// The chosen zones in their order.
-    pub fn zones(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+    /// Borders of the chosen zones and spots in their order.
+    pub fn borders(&self) -> impl Iterator<Item = Vec<[f64; 2]>> + '_ {
         self.parts.iter().filter_map(|part| match part {
-            JobPart::Zone(corners) => Some(corners.as_slice()),
+            JobPart::Zone(corners) => Some(corners.clone()),
+            JobPart::Spot(middle) => Some(spot_border(*middle)),
             JobPart::Room(_) => None,
         })
+    }
+
+    /// The chosen zones and spots in their order.
+    #[must_use]
+    pub fn drawn(&self, words: &Words) -> Vec<DrawnPart> {
+        let drawn = |(index, part): (usize, &JobPart)| {
+            let (name, middle) = match part {
+                JobPart::Room(_) => return None,
+                JobPart::Zone(corners) => (words.map.zone_of.fill([&extent(words, corners)]), middle_of(corners)),
+                JobPart::Spot(middle) => (words.map.spot.to_owned(), *middle),
+            };
+            Some(DrawnPart {
+                place: index + 1,
+                name,
+                middle,
+            })
+        };
+        self.parts.iter().enumerate().filter_map(drawn).collect()
     }
 
     /// Where the robot keeps out.
@@ -85,15 +137,22 @@ impl RoomChoice {
         self.parts.is_empty() && self.avoid.is_empty()
     }
 
-    /// `Kitchen, zone of 1.5 x 0.8 m, keeping out of 2 places`
+    /// `Kitchen, zone of 1.5 x 0.8 m, 2 spots, keeping out of 2 places`
     #[must_use]
     pub fn text(&self, words: &Words, rows: &[RoomRow]) -> String {
         let told = &words.map;
         let word = |part: &JobPart| match part {
             JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
             JobPart::Zone(corners) => Some(told.zone_of.fill([&extent(words, corners)])),
+            JobPart::Spot(_) => None,
         };
-        let parts: Vec<String> = self.parts.iter().filter_map(word).collect();
+        let is_spot = |part: &&JobPart| matches!(part, JobPart::Spot(_));
+        let spots = match self.parts.iter().filter(is_spot).count() {
+            0 => None,
+            1 => Some(told.spot.to_owned()),
+            count => Some(told.spots.fill([&count])),
+        };
+        let parts: Vec<String> = self.parts.iter().filter_map(word).chain(spots).collect();
         let parts = if self.parts.is_empty() {
             told.whole_home.to_owned()
         } else {
@@ -111,7 +170,7 @@ impl RoomChoice {
         let before = self.parts.len();
         self.parts.retain(|part| match part {
             JobPart::Room(chosen) => home.rooms.iter().any(|room| room.id == *chosen),
-            JobPart::Zone(_) => true,
+            JobPart::Zone(_) | JobPart::Spot(_) => true,
         });
         self.parts.len() != before
     }
@@ -142,6 +201,13 @@ impl RoomChoice {
             avoid: self.avoid.clone(),
         })
     }
+}
+
+fn middle_of(corners: &[[f64; 2]]) -> [f64; 2] {
+    let share = 1.0 / corners.len().max(1) as f64;
+    corners.iter().fold([0.0, 0.0], |[x, y], corner| {
+        [x + share * corner[0], y + share * corner[1]]
+    })
 }
 
 /// `18.2 m², about 25 min, 41 % of a full battery; 97 % of the floor will be swept, 91 % if the robot is less sure of its
@@ -213,14 +279,37 @@ mod tests {
         );
         assert_eq!(order.avoid.len(), 1);
         assert_eq!(
-            (choice.rooms(), choice.zones().count(), choice.place(4)),
+            (choice.rooms(), choice.borders().count(), choice.place(4)),
             (vec![3, 4], 1, Some(3))
         );
         assert!(choice.text(ENGLISH, &[]).starts_with("zone of 1.5 x 0.8 m"));
         choice.retain_known(&HomeView::default());
-        assert_eq!((choice.rooms().len(), choice.zones().count()), (0, 1));
+        assert_eq!((choice.rooms().len(), choice.borders().count()), (0, 1));
         choice.clear();
         assert!(choice.is_empty() && choice.order().is_none());
+    }
+
+    #[test]
+    fn a_spot_has_its_place_in_the_order_and_is_taken_out_again() {
+        let mut choice = RoomChoice::default();
+        choice.toggle(3);
+        choice.add_spot([1.0, 2.0]);
+        choice.add_zone(vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+        choice.add_spot([1.3, 2.0]);
+        let places: Vec<(usize, [f64; 2])> = choice
+            .drawn(ENGLISH)
+            .iter()
+            .map(|part| (part.place, part.middle))
+            .collect();
+        assert_eq!(places, [(2, [1.0, 2.0]), (3, [1.0, 0.5]), (4, [1.3, 2.0])]);
+        assert!(choice.text(ENGLISH, &[]).ends_with(", 2 spots"));
+        assert!(!choice.take_spot_out_at((0.2, 2.0)));
+        assert!(choice.take_spot_out_at((1.1, 2.1)), "the one that lies above");
+        choice.take_out(3);
+        choice.take_out(9);
+        choice.take_out(0);
+        let order = choice.order().expect("something is chosen");
+        assert_eq!(order.parts, [JobPart::Room(3), JobPart::Spot([1.0, 2.0])]);
     }
 
     #[test]

@@ -147,7 +147,7 @@ impl ScheduleForm {
         })
     }
 
-    /// Zones, strategies and places to keep out of stay as they are as long as nobody chooses other rooms.
+    /// Zones, spots, strategies and places to keep out of stay as they are as long as nobody chooses other rooms.
     fn job(&self) -> ScheduledJob {
         let passes = self.passes.clamp(1, PASSES_MAX);
         if (self.rooms.clone(), passes) == rooms_of(&self.job) {
@@ -170,7 +170,7 @@ fn rooms_of(job: &ScheduledJob) -> (Vec<u16>, u8) {
         ScheduledJob::Clean(order) => {
             let room = |part: &JobPart| match part {
                 JobPart::Room(room) => Some(*room),
-                JobPart::Zone(_) => None,
+                JobPart::Zone(_) | JobPart::Spot(_) => None,
             };
             (order.parts.iter().filter_map(room).collect(), order.passes)
         }
@@ -246,7 +246,10 @@ mod tests {
     #[test]
     fn what_the_fields_cannot_say_is_not_lost() {
         let job = ScheduledJob::Clean(JobOrder {
-            parts: vec![JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])],
+            parts: vec![
+                JobPart::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+                JobPart::Spot([1.0, 2.0]),
+            ],
             passes: 2,
             avoid: vec![],
         });

@@ -136,6 +136,7 @@ fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow]) -> String {
             known.map_or_else(|| told.room.fill([id]), |row| row.name.clone())
         }
         JobPart::Zone(_) => told.a_zone.to_owned(),
+        JobPart::Spot(_) => told.a_spot.to_owned(),
     };
     let mut parts: Vec<String> = order.parts.iter().map(part).collect();
     if parts.is_empty() {

@@ -1,11 +1,13 @@
-//! Drawing zones and virtual walls by two places.
+//! Drawing zones and virtual walls by two places, and spots by one.
 
-use rvac_api::{HomeView, NoGoShape};
+use rvac_api::{HomeView, NoGoShape, SPOT_RADIUS_M};
 
 use crate::words::Words;
 
 /// Corners nearer to each other than this are one place that was tapped twice, metres.
 const APART_MIN_M: f64 = 0.05;
+/// Corners of a spot that is drawn.
+const SPOT_CORNERS: u32 = 48;
 
 /// What taps on the map do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +23,8 @@ pub enum Tool {
     Cut,
     /// Draw a zone to be cleaned.
     CleanZone,
+    /// Set a spot to be cleaned.
+    Spot,
     /// Draw a zone out of which the robot keeps for one job.
     AvoidZone,
 }
@@ -32,6 +36,8 @@ pub enum Drawn {
     Forbidden(NoGoShape),
     /// A zone to be cleaned, by its corners.
     Clean(Vec<[f64; 2]>),
+    /// A spot to be cleaned, by its middle.
+    Spot([f64; 2]),
     /// Floor that is forbidden for one job.
     Avoid(NoGoShape),
     /// A line that cuts a room in two.
@@ -57,6 +63,12 @@ impl Sketch {
         matches!(self.tool, Tool::Wall | Tool::Cut)
     }
 
+    /// Whether one place is all that is drawn.
+    #[must_use]
+    pub fn is_place(self) -> bool {
+        self.tool == Tool::Spot
+    }
+
     /// The tool in hand.
     #[must_use]
     pub fn tool(self) -> Tool {
@@ -69,8 +81,12 @@ impl Sketch {
         self.first
     }
 
-    /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down.
+    /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down. A spot has only one.
     pub fn point(&mut self, place: (f64, f64)) -> Option<Drawn> {
+        if self.is_place() {
+            self.take(Tool::Choose);
+            return Some(Drawn::Spot(place.into()));
+        }
         let Some(first) = self.first else {
             self.first = (self.tool != Tool::Choose).then_some(place);
             return None;
@@ -84,7 +100,7 @@ impl Sketch {
         let (wide, high) = ((far_x - x).abs(), (far_y - y).abs());
         let corners = || vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]];
         let drawn = match self.tool {
-            Tool::Choose => return None,
+            Tool::Choose | Tool::Spot => return None,
             Tool::Wall | Tool::Cut => {
                 let line = [[x, y], [far_x, far_y]];
                 let drawn = if self.tool == Tool::Cut {
@@ -107,6 +123,7 @@ impl Sketch {
         let told = &words.map;
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
+            (Tool::Spot, _) => Some(told.spot_place),
             (Tool::Wall, None) => Some(told.wall_first),
             (Tool::Wall, Some(_)) => Some(told.wall_second),
             (Tool::Cut, None) => Some(told.cut_first),
@@ -115,6 +132,16 @@ impl Sketch {
             (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(told.zone_second),
         }
     }
+}
+
+/// Corners of the border of a spot: enough of them to look round.
+#[must_use]
+pub fn spot_border([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+    let corner = |corner: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(SPOT_CORNERS)).sin_cos();
+        [x + SPOT_RADIUS_M * cos, y + SPOT_RADIUS_M * sin]
+    };
+    (0..SPOT_CORNERS).map(corner).collect()
 }
 
 /// The border of a zone as strokes `[x0,y0,x1,y1,...]` in metres.
@@ -184,7 +211,7 @@ pub(crate) fn extent(words: &Words, corners: &[[f64; 2]]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Drawn, Sketch, Tool, no_go_rows, no_go_strokes};
+    use super::{Drawn, Sketch, Tool, no_go_rows, no_go_strokes, spot_border};
     use crate::words::{Language, Words};
     use rvac_api::{HomeView, NoGoShape, NoGoView};
 
@@ -203,6 +230,18 @@ mod tests {
         assert_eq!(no_go_strokes(&drawn), [1.0, 1.0, 1.0, 2.0]);
         assert_eq!(wall, Some(Drawn::Forbidden(drawn)));
         assert_eq!(sketch, Sketch::default());
+    }
+
+    #[test]
+    fn one_place_makes_a_spot_of_a_metre() {
+        let mut sketch = Sketch::default();
+        sketch.take(Tool::Spot);
+        assert!(sketch.is_place() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("spot")));
+        assert_eq!(sketch.point((1.0, 2.0)), Some(Drawn::Spot([1.0, 2.0])));
+        assert_eq!(sketch, Sketch::default());
+        for [x, y] in spot_border([1.0, 2.0]) {
+            assert!(((x - 1.0).hypot(y - 2.0) - 0.5).abs() < 1e-9);
+        }
     }
 
     #[test]

@@ -185,14 +185,14 @@ fn begin_press(store: Store, gestures: StoredValue<Gestures>, event: &PointerEve
         && store
             .orders
             .sketch
-            .with_untracked(|sketch| sketch.first().is_none());
+            .with_untracked(|sketch| sketch.first().is_none() && !sketch.is_place());
     if has_begun {
         store.point_at(map_place(store, at));
     }
     Some(Press { at, has_begun })
 }
 
-/// Two taps draw, and so does one drag.
+/// Two taps draw, and so does one drag. A spot lies where the finger leaves the map.
 fn end_press(store: Store, press: Press, (x, y): (f64, f64)) {
     let is_tap = (x - press.at.0).hypot(y - press.at.1) < TAP_PX;
     let points = if draws(store) {

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use leptos::prelude::{request_animation_frame, window};
-use panel_logic::FrameMeter;
+use panel_logic::{FrameMeter, RoomChoice};
 use rvac_api::{
     Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, RobotDescription, SimulatedPlan,
 };
@@ -119,6 +119,12 @@ impl MapHandle {
     pub(crate) fn on_home(&self, home: &HomeView) {
         self.shared.labels.borrow_mut().name(&home.rooms);
         self.change(|scene| scene.on_home(home));
+    }
+
+    /// Takes what a person has chosen.
+    pub(crate) fn choose(&self, choice: &RoomChoice) {
+        self.shared.labels.borrow_mut().number(&choice.drawn(words()));
+        self.change(|scene| scene.choose(choice));
     }
 
     pub(crate) fn on_way(&self, way: &PlannedWay) {

@@ -1,8 +1,8 @@
-//! Names of rooms over the canvas: text that the browser draws, moved along with the camera. Who cannot see the map finds the
-//! rooms as a list on the page, so these are hidden from screen readers.
+//! Names of rooms, and the places of zones and spots in the order, over the canvas: text that the browser draws, moved along with the camera. Who cannot see the map finds
+//! them as lists on the page, so these are hidden from screen readers.
 
 use leptos::prelude::document;
-use panel_logic::{ITEMS_MAX, room_name};
+use panel_logic::{DrawnPart, ITEMS_MAX, room_name};
 use rvac_api::RoomView;
 use wasm_bindgen::JsCast;
 use web_sys::HtmlElement;
@@ -14,55 +14,96 @@ use crate::language::words;
 /// Rooms smaller than this on the screen have no room for their name, CSS pixels squared.
 const SMALL_PX2: f64 = 900.0;
 
-/// The names.
+/// What is written over the map.
 #[derive(Debug, Default)]
 pub(crate) struct Labels {
     place: Option<HtmlElement>,
-    rooms: Vec<RoomView>,
-    names: Vec<HtmlElement>,
+    rooms: Vec<Label>,
+    parts: Vec<Label>,
+    elements: Vec<HtmlElement>,
+}
+
+#[derive(Clone, Debug)]
+struct Label {
+    text: String,
+    at: (f64, f64),
+    /// Area of the room whose name it is.
+    room_m2: Option<f64>,
+}
+
+impl Label {
+    fn is_seen(&self, scene: &Scene) -> bool {
+        let scale = scene.camera.scale();
+        self.room_m2.is_none_or(|area_m2| {
+            scene.ground() == Ground::Known && area_m2 * scale * scale > SMALL_PX2
+        })
+    }
 }
 
 impl Labels {
-    /// From now on the names are in this element.
+    /// From now on the labels are in this element.
     pub(crate) fn put_into(&mut self, place: HtmlElement) {
         self.place = Some(place);
-        self.names.clear();
-        let rooms = std::mem::take(&mut self.rooms);
-        self.name(&rooms);
+        self.elements.clear();
+        self.write();
     }
 
     /// Takes the rooms that there are.
     pub(crate) fn name(&mut self, rooms: &[RoomView]) {
-        self.rooms = rooms.iter().take(ITEMS_MAX).cloned().collect();
+        let label = |room: &RoomView| Label {
+            text: room_name(words(), room),
+            at: (room.x, room.y),
+            room_m2: Some(room.area_m2),
+        };
+        self.rooms = rooms.iter().take(ITEMS_MAX).map(label).collect();
+        self.write();
+    }
+
+    /// Takes the zones and spots that are to be cleaned.
+    pub(crate) fn number(&mut self, parts: &[DrawnPart]) {
+        let label = |part: &DrawnPart| Label {
+            text: part.place.to_string(),
+            at: part.middle.into(),
+            room_m2: None,
+        };
+        self.parts = parts.iter().map(label).collect();
+        self.write();
+    }
+
+    fn labels(&self) -> impl Iterator<Item = &Label> {
+        self.rooms.iter().chain(&self.parts)
+    }
+
+    fn write(&mut self) {
         let Some(place) = &self.place else { return };
-        while self.names.len() > self.rooms.len() {
-            if let Some(name) = self.names.pop() {
-                name.remove();
+        let count = self.labels().count();
+        while self.elements.len() > count {
+            if let Some(element) = self.elements.pop() {
+                element.remove();
             }
         }
-        while self.names.len() < self.rooms.len() {
+        while self.elements.len() < count {
             let element = document().create_element("span").ok();
-            let Some(name) = element.and_then(|element| element.dyn_into::<HtmlElement>().ok()) else {
+            let Some(element) = element.and_then(|element| element.dyn_into::<HtmlElement>().ok()) else {
                 return;
             };
-            place.append_child(&name).ok(); // A new element can always be added.
-            self.names.push(name);
+            place.append_child(&element).ok(); // A new element can always be added.
+            self.elements.push(element);
         }
-        for (name, room) in self.names.iter().zip(&self.rooms) {
-            name.set_text_content(Some(&room_name(words(), room)));
+        for (element, label) in self.elements.iter().zip(self.labels()) {
+            element.set_text_content(Some(&label.text));
+            element.set_class_name(if label.room_m2.is_some() { "" } else { "number" });
         }
     }
 
-    /// Moves the names to where the camera sees their rooms.
+    /// Moves the labels to where the camera sees what they name.
     pub(crate) fn place(&self, scene: &Scene) {
-        let scale = scene.camera.scale();
-        for (name, room) in self.names.iter().zip(&self.rooms) {
-            let (x, y) = scene.camera.screen_from_map(room.x, room.y);
-            let shown = scene.ground() == Ground::Known && room.area_m2 * scale * scale > SMALL_PX2;
-            let style = name.style();
+        for (element, label) in self.elements.iter().zip(self.labels()) {
+            let (x, y) = scene.camera.screen_from_map(label.at.0, label.at.1);
+            let style = element.style();
             // Neither property can be refused.
             style
-                .set_property("display", if shown { "block" } else { "none" })
+                .set_property("display", if label.is_seen(scene) { "block" } else { "none" })
                 .ok();
             style
                 .set_property(

@@ -1,9 +1,10 @@
-//! Over the map: the chosen rooms and zones with what cleaning them takes, and what to do next while something is drawn.
+//! Over the map: the chosen rooms, zones and spots with what cleaning them takes, and what to do next while something is drawn.
 
 use leptos::prelude::*;
-use panel_logic::{Offer, PASSES_MAX, Tool};
+use panel_logic::{DrawnPart, Offer, PASSES_MAX, Tool};
 use rvac_api::RequestBody;
 
+use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
 
@@ -76,6 +77,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     view! {
         <div class="order-bar" id="order-bar" role="group" aria-label=words().map.chosen>
             <p><strong id="chosen-rooms">{names}</strong></p>
+            <DrawnParts store />
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
             <div class="order-tools">
                 <Passes store />
@@ -103,6 +105,37 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                 </button>
             </div>
         </div>
+    }
+}
+
+/// Zones and spots, each to be taken out. Rooms are taken out where they were chosen.
+#[component]
+fn DrawnParts(store: Store) -> impl IntoView {
+    let choice = store.orders.choice;
+    let parts = Memo::new(move |_| choice.with(|choice| choice.drawn(words())));
+    let part = move |DrawnPart { place, name, .. }: DrawnPart| {
+        let label = format!("{place}. {name}");
+        let take_out = words().map.take_out.fill([&label]);
+        view! {
+            <button
+                type="button"
+                class="small part"
+                id=format!("part-{place}")
+                aria-label=take_out.clone()
+                title=take_out
+                on:click=move |_| choice.update(|choice| choice.take_out(place))
+            >
+                {label}
+                {icon(Icon::Close)}
+            </button>
+        }
+    };
+    view! {
+        <Show when=move || parts.with(|parts| !parts.is_empty())>
+            <div class="order-tools" id="drawn-parts">
+                {move || parts.get().into_iter().map(part).collect_view()}
+            </div>
+        </Show>
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a person wants of the home: rooms and zones to be cleaned, floor that is forbidden.
+//! What a person wants of the home: rooms, zones and spots to be cleaned, floor that is forbidden.
 
 use leptos::prelude::*;
 use panel_logic::{
@@ -17,7 +17,7 @@ const FIRST_ESTIMATE: u32 = 1_000;
 /// Handles on all of it; cheap to copy.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Orders {
-    /// Rooms and zones that are chosen.
+    /// Rooms, zones and spots that are chosen.
     pub(crate) choice: RwSignal<RoomChoice>,
     /// What cleaning them takes, or why nobody knows; nothing while the robot reckons.
     pub(crate) prospect: RwSignal<Option<String>>,
@@ -107,6 +107,9 @@ impl Store {
     /// A person pointed at a place of the map.
     pub(crate) fn point_at(self, place: (f64, f64)) {
         if self.orders.sketch.with_untracked(|sketch| sketch.tool()) == Tool::Choose {
+            if self.take_spot_out_at(place) {
+                return;
+            }
             let room = self.map.with_value(|map| map.with(|scene| scene.room_at(place)));
             if let Some(room) = room {
                 self.toggle_room(room);
@@ -124,9 +127,21 @@ impl Store {
             Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(shape)),
             Some(Drawn::Cut(line)) => self.edit(Edit::Split(line)),
             Some(Drawn::Clean(corners)) => choice.update(|choice| choice.add_zone(corners)),
+            Some(Drawn::Spot(middle)) => choice.update(|choice| choice.add_spot(middle)),
             Some(Drawn::Avoid(shape)) => choice.update(|choice| choice.keep_out_of(shape)),
         }
         self.orders.pointer.set(None);
+    }
+
+    /// Takes a chosen spot out that was pointed at; `false` when there is none.
+    fn take_spot_out_at(self, place: (f64, f64)) -> bool {
+        let choice = self.orders.choice;
+        let mut without = choice.get_untracked();
+        let is_one = without.take_spot_out_at(place);
+        if is_one {
+            choice.set(without);
+        }
+        is_one
     }
 
     /// The chosen rooms, if they are two that can be made one. Read anew when the choice or a room changes.

@@ -80,7 +80,7 @@ pub(crate) struct Scene {
     /// Walls as strokes, and the planned way as dashes.
     pub(crate) walls: Vec<f32>,
     pub(crate) way: Vec<f32>,
-    /// Borders of zones that are to be cleaned, of what is forbidden for the next job, and of what is for good.
+    /// Borders of zones and spots that are to be cleaned, of what is forbidden for the next job, and of what is for good.
     pub(crate) wanted: Vec<f32>,
     pub(crate) avoided: Vec<f32>,
     pub(crate) forbidden: Vec<f32>,
@@ -175,7 +175,7 @@ impl Scene {
             self.draw_home();
             self.plan_changed = true;
         }
-        self.wanted = choice.zones().flat_map(zone_strokes).collect();
+        self.wanted = choice.borders().flat_map(|border| zone_strokes(&border)).collect();
         self.avoided = choice.avoid().iter().flat_map(no_go_strokes).collect();
         self.strokes_changed = true;
     }

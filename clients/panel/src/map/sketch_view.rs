@@ -1,26 +1,38 @@
-//! What is being drawn, over the map: a line or a rectangle from the first place to the pointer, and the middle of the map
+//! What is being drawn, over the map: a spot under the pointer, a line or a rectangle from the first place to it, and the middle of the map
 //! for those who draw with keys.
 
 use leptos::prelude::*;
-use panel_logic::Tool;
+use panel_logic::{Sketch, Tool, spot_border};
 
 use crate::store::Store;
+
+/// Corners of what would be drawn if the pointer's place were the last one.
+fn corners(sketch: Sketch, pointer: Option<(f64, f64)>) -> Vec<(f64, f64)> {
+    if sketch.is_place() {
+        let border = pointer.map(|place| spot_border(place.into())).unwrap_or_default();
+        let again = border.first().copied();
+        return border.into_iter().chain(again).map(Into::into).collect();
+    }
+    let Some((x, y)) = sketch.first() else {
+        return Vec::new();
+    };
+    let (far_x, far_y) = pointer.unwrap_or((x, y));
+    if sketch.is_line() {
+        vec![(x, y), (far_x, far_y)]
+    } else {
+        vec![(x, y), (far_x, y), (far_x, far_y), (x, far_y), (x, y)]
+    }
+}
 
 #[component]
 pub(crate) fn SketchView(store: Store) -> impl IntoView {
     let orders = store.orders;
     let draws = move || orders.sketch.with(|sketch| sketch.tool() != Tool::Choose);
     let path = move || {
-        let Some((x, y)) = orders.sketch.with(|sketch| sketch.first()) else {
+        let corners = corners(orders.sketch.get(), orders.pointer.get());
+        if corners.is_empty() {
             return String::new();
-        };
-        let (far_x, far_y) = orders.pointer.get().unwrap_or((x, y));
-        let is_line = orders.sketch.with(|sketch| sketch.is_line());
-        let corners = if is_line {
-            vec![(x, y), (far_x, far_y)]
-        } else {
-            vec![(x, y), (far_x, y), (far_x, far_y), (x, far_y), (x, y)]
-        };
+        }
         let on_screen = |(x, y): (f64, f64)| {
             let (px, py) = store
                 .map

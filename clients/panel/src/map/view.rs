@@ -28,9 +28,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
     refresh(store, (mode, ground, orbit), footer);
     Effect::new(move |_| {
         store.orders.choice.with(|choice| {
-            store
-                .map
-                .with_value(|map| map.change(|scene| scene.choose(choice)));
+            store.map.with_value(|map| map.choose(choice));
         });
     });
     view! {

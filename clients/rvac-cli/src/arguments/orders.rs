@@ -23,11 +23,14 @@ pub(crate) struct OrderParts {
     /// A rectangle between two opposite corners, metres in the map; may be given several times, zones come after rooms.
     #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
     pub(crate) zone: Vec<Place>,
+    /// A place, metres in the map: the metre around it is cleaned; may be given several times, spots come after zones.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub(crate) spot: Vec<Place>,
     /// A rectangle between two opposite corners, metres in the map, that the robot keeps out of until the next job begins; may be
     /// given several times. `rvac zone` forbids floor for good.
     #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
     pub(crate) avoid: Vec<Place>,
-    /// How often each room and zone is cleaned before the next, 1 to 3.
+    /// How often each room, zone and spot is cleaned before the next, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) passes: u8,
 }

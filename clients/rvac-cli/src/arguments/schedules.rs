@@ -24,7 +24,7 @@ pub(crate) enum ScheduleVerb {
     Next,
     /// What came of the last runs, newest last.
     Past,
-    /// Add one: a name, a time, and days or a date; without rooms and zones it cleans all.
+    /// Add one: a name, a time, and days or a date; without rooms, zones and spots it cleans all.
     Add {
         /// Its name.
         name: String,
@@ -97,10 +97,10 @@ pub(crate) struct ScheduleOptions {
     #[command(flatten)]
     pub(crate) parts: OrderParts,
     /// Clean all, by this strategy.
-    #[arg(long, conflicts_with_all = ["room", "zone", "avoid"])]
+    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid"])]
     pub(crate) strategy: Option<String>,
     /// Clean all, not what it cleaned before.
-    #[arg(long, conflicts_with_all = ["room", "zone", "avoid"])]
+    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid"])]
     pub(crate) all: bool,
     /// Start up to so many minutes late when the daemon did not run, or had no robot, at its time.
     #[arg(long, value_name = "MINUTES")]

@@ -130,7 +130,12 @@ fn charge(run: &Run) -> String {
 
 fn job_name(job: &RunJob) -> &'static str {
     match job {
-        RunJob::Clean { rooms, zones: 0, .. } if rooms.is_empty() => "clean",
+        RunJob::Clean {
+            rooms,
+            zones: 0,
+            spots: 0,
+            ..
+        } if rooms.is_empty() => "clean",
         RunJob::Clean { .. } => "clean in",
         RunJob::Spot => "spot",
         RunJob::Dock => "dock",
@@ -142,6 +147,7 @@ fn job(job: &RunJob) -> String {
         strategy,
         rooms,
         zones,
+        spots,
         passes,
     } = job
     else {
@@ -152,6 +158,11 @@ fn job(job: &RunJob) -> String {
         0 => {}
         1 => parts.push("a zone".to_owned()),
         count => parts.push(format!("{count} zones")),
+    }
+    match spots {
+        0 => {}
+        1 => parts.push("a spot".to_owned()),
+        count => parts.push(format!("{count} spots")),
     }
     if parts.is_empty() {
         parts.push("all".to_owned());
@@ -180,7 +191,7 @@ mod tests {
 
     fn kept() -> RunRecord {
         let text = r#"{"run":{"number":7,"job":{"clean":{"strategy":"systematic","rooms":[{"id":2,"name":"Köök"}],
-            "zones":1,"passes":2}},"by":{"schedule":{"number":3,"name":"Morning"}},"duration_s":3905.0,
+            "zones":1,"spots":2,"passes":2}},"by":{"schedule":{"number":3,"name":"Morning"}},"duration_s":3905.0,
             "moving_s":1800.0,"swept_m2":12.34,"share":0.955,"path_m":151.6,"bumps":12,"charge_start":0.98,
             "charge_end":0.71,"result":"gave-up","reason":"slip","text":"Gave up: its wheels slip.","stop_count":3,
             "map":12,"recordings":[{"name":"run-a.mcap","zero_s":1.0,"bytes":2500000},
@@ -195,7 +206,7 @@ mod tests {
         assert_eq!(
             record(&kept()),
             "run 7: Gave up: its wheels slip.\nbegan     clock not set\nended     clock not set\n\
-             order     clean Köök, a zone, 2 times, systematic, by schedule 3 (Morning)\n\
+             order     clean Köök, a zone, 2 spots, 2 times, systematic, by schedule 3 (Morning)\n\
              time      1 h 05, 30 min of it in motion\nswept     12.3 m2, 96 % of that floor as its map tells\n\
              way       152 m, 12 bumps\nbattery   98-71 %\nmap       version 12\n\
              stop at   1 min  paused for 12 s, at x 1.00 m, y -2.50 m: Paused: somebody asked for it. (command) (panel)\n\

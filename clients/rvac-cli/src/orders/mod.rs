@@ -59,7 +59,7 @@ fn in_words(estimate: &JobEstimate) -> String {
     )
 }
 
-/// Rooms first, then zones, each in the order in which they were given.
+/// Rooms first, then zones, then spots, each in the order in which they were given.
 pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> anyhow::Result<JobOrder> {
     let mut parts = Vec::new();
     if !options.room.is_empty() {
@@ -69,6 +69,7 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
         }
     }
     parts.extend(rectangles(&options.zone).map(JobPart::Zone));
+    parts.extend(options.spot.iter().map(|place| JobPart::Spot([place.x_m, place.y_m])));
     Ok(JobOrder {
         parts,
         passes: options.passes,

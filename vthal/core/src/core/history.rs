@@ -194,6 +194,7 @@ fn ordered_job(command: &Command, brain: &Brain) -> Option<RunJob> {
             strategy: strategy.name().to_owned(),
             rooms: Vec::new(),
             zones: 0,
+            spots: 0,
             passes: 1,
         }),
         Command::CleanParts { order } => {
@@ -203,12 +204,17 @@ fn ordered_job(command: &Command, brain: &Brain) -> Option<RunJob> {
                     id: *id,
                     name: names.name(*id).map(|name| name.as_str().to_owned()),
                 }),
-                HomePart::Zone(_) => None,
+                HomePart::Zone(_) | HomePart::Spot(_) => None,
+            };
+            let count = |is_it: fn(&HomePart) -> bool| {
+                let parts = order.parts().iter().filter(|part| is_it(part));
+                u32::try_from(parts.count()).unwrap_or(u32::MAX)
             };
             let rooms: Vec<RoomHere> = order.parts().iter().filter_map(room).collect();
             Some(RunJob::Clean {
                 strategy: brain::StrategyName::Systematic.name().to_owned(),
-                zones: u32::try_from(order.parts().len() - rooms.len()).unwrap_or(u32::MAX),
+                zones: count(|part| matches!(part, HomePart::Zone(_))),
+                spots: count(|part| matches!(part, HomePart::Spot(_))),
                 rooms,
                 passes: order.passes(),
             })

@@ -13,6 +13,9 @@ use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
 use crate::{ClientId, MapEdit, Outputs};
 
+/// A client draws a spot as large as the brain cleans it.
+const _: () = assert!(rvac_api::SPOT_RADIUS_M == brain::SPOT_RADIUS_M);
+
 /// Who asks, and the number of the request.
 pub(super) type Asker = (ClientId, Option<u32>);
 
@@ -206,6 +209,10 @@ pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
     let part = |(place, part): (usize, &JobPart)| match part {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
+        JobPart::Spot([x_m, y_m]) => Ok(HomePart::Spot(Point2 {
+            x_m: *x_m,
+            y_m: *y_m,
+        })),
     };
     let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
     let whole = CleaningOrder::new(parts?, order.passes).map_err(|reason| {

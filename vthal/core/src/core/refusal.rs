@@ -95,7 +95,7 @@ impl Refusal {
         };
         match (reason, order.parts().iter().find_map(is_missing)) {
             (Reason::NoSuchRoom, Some(room)) => Self::no_such_room(room, brain),
-            (Reason::NoFloorThere, _) => Self::no_floor_there("one of the zones", brain),
+            (Reason::NoFloorThere, _) => Self::no_floor_there("one of the zones and spots", brain),
             _ => Self::from(reason),
         }
     }

@@ -199,6 +199,7 @@ fn job_of(kind: JobKind) -> RunJob {
             strategy: strategy.name().to_owned(),
             rooms: Vec::new(),
             zones: 0,
+            spots: 0,
             passes: 1,
         },
         JobKind::Spot => RunJob::Spot,

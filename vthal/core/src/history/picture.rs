@@ -170,7 +170,13 @@ fn farthest(way: &[PathPoint], (from, to): (usize, usize)) -> Option<(usize, f64
 
 /// Floor that a job was to sweep, as far as the map tells it.
 pub(super) fn floor_m2(map: &Map, job: &RunJob) -> Option<f64> {
-    let RunJob::Clean { rooms, zones: 0, .. } = job else {
+    let RunJob::Clean {
+        rooms,
+        zones: 0,
+        spots: 0,
+        ..
+    } = job
+    else {
         return None;
     };
     let floor_m2 = if rooms.is_empty() {

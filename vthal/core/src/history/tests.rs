@@ -9,6 +9,7 @@ fn clean() -> RunJob {
         strategy: "systematic".to_owned(),
         rooms: Vec::new(),
         zones: 0,
+        spots: 0,
         passes: 1,
     }
 }

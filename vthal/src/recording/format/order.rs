@@ -19,6 +19,8 @@ enum GivenPart {
     Room(u16),
     /// Corners, x and y in metres.
     Zone(Vec<[f64; 2]>),
+    /// A place, x and y in metres.
+    Spot([f64; 2]),
 }
 
 impl From<&CleaningOrder> for GivenOrder {
@@ -26,6 +28,7 @@ impl From<&CleaningOrder> for GivenOrder {
         let part = |part: &HomePart| match part {
             HomePart::Room(id) => GivenPart::Room(*id),
             HomePart::Zone(zone) => GivenPart::Zone(from_zone(zone)),
+            HomePart::Spot(place) => GivenPart::Spot([place.x_m, place.y_m]),
         };
         Self {
             parts: order.parts().iter().map(part).collect(),
@@ -42,6 +45,10 @@ impl GivenOrder {
             Some(match part {
                 GivenPart::Room(id) => HomePart::Room(*id),
                 GivenPart::Zone(corners) => HomePart::Zone(to_zone(corners)?),
+                GivenPart::Spot([x_m, y_m]) => HomePart::Spot(Point2 {
+                    x_m: *x_m,
+                    y_m: *y_m,
+                }),
             })
         };
         let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();

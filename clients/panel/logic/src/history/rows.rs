@@ -47,10 +47,14 @@ fn row(words: &Words, run: &Run) -> RunRow {
 
 fn job_text(words: &Words, job: &RunJob) -> String {
     let told = &words.history;
-    let (rooms, zones, passes) = match job {
+    let (rooms, zones, spots, passes) = match job {
         RunJob::Clean {
-            rooms, zones, passes, ..
-        } => (rooms, zones, passes),
+            rooms,
+            zones,
+            spots,
+            passes,
+            ..
+        } => (rooms, zones, spots, passes),
         RunJob::Spot => return told.spot.to_owned(),
         RunJob::Dock => return told.to_dock.to_owned(),
     };
@@ -59,6 +63,11 @@ fn job_text(words: &Words, job: &RunJob) -> String {
         0 => {}
         1 => parts.push(told.a_zone.to_owned()),
         count => parts.push(told.zones.fill([count])),
+    }
+    match spots {
+        0 => {}
+        1 => parts.push(told.a_spot.to_owned()),
+        count => parts.push(told.spots.fill([count])),
     }
     let place = if parts.is_empty() {
         told.everything.to_owned()
@@ -187,6 +196,7 @@ mod tests {
                         name: Some("Köök".to_owned()),
                     }],
                     zones: 1,
+                    spots: 0,
                     passes: 2,
                 },
                 by: rvac_api::RunAsker::Button,

@@ -47,6 +47,8 @@ screen! {
         to_dock: "To the dock", "Dokki";
         a_zone: "a zone", "üks ala";
         zones[1]: "{0} zones", "{0} ala";
+        a_spot: "a spot", "üks koht";
+        spots[1]: "{0} spots", "{0} kohta";
         everything: "All", "Kõik";
         times[2]: "{0}, {1} times", "{0}, {1} korda";
         by_button: "Button on the robot", "Nupp robotil";

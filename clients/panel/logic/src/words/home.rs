@@ -50,6 +50,7 @@ screen! {
         choose_rooms: "Press a room here or tap it on the map to choose it for cleaning.",
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
+        draw_spot: "Set a spot to clean", "Märgi koristatav koht";
         draw_avoid: "Keep out for one job", "Jäta koht ühel korral välja";
         set_room: "Settings", "Seaded";
         set_room_named[1]: "Settings of {0}", "Toa „{0}“ seaded";

@@ -29,6 +29,11 @@ screen! {
             "Robot ei ole sellest muudatusest veel teatanud. Proovi mõne sekundi pärast uuesti.";
         unsure: "Not known", "Teadmata";
         zone_of[1]: "zone of {0}", "ala {0}";
+        spot: "spot", "koht";
+        spots[1]: "{0} spots", "{0} kohta";
+        take_out[1]: "Take out: {0}", "Võta välja: {0}";
+        spot_place: "Tap the middle of the spot, or move it to the cross and press Enter. A circle of one metre is cleaned.",
+            "Puuduta koha keskpunkti või nihuta see ristile ja vajuta Enter. Koristatakse meetrilaiune ring.";
         whole_home: "The whole home", "Kogu kodu";
         out_of_one[1]: "{0}, keeping out of 1 place", "{0}, välja arvatud 1 koht";
         out_of_many[2]: "{0}, keeping out of {1} places", "{0}, välja arvatud {1} kohta";
@@ -59,7 +64,7 @@ screen! {
         zone_first: "Tap one corner of the zone, or move it to the cross and press Enter.",
             "Puuduta ala üht nurka või nihuta see ristile ja vajuta Enter.";
         zone_second: "Now the opposite corner.", "Nüüd vastasnurk.";
-        chosen: "Chosen rooms and zones", "Valitud toad ja alad";
+        chosen: "Chosen rooms, zones and spots", "Valitud toad, alad ja kohad";
         reckons: "The robot reckons what this takes.", "Robot arvutab, kui palju see võtab.";
         join_these: "Join these rooms", "Ühenda need toad";
         choose_none: "Choose none", "Tühista valik";

@@ -67,6 +67,7 @@ screen! {
         whole_home_by[1]: "the whole home, {0}", "kogu kodu, {0}";
         room[1]: "room {0}", "tuba {0}";
         a_zone: "a zone", "üks ala";
+        a_spot: "a spot", "üks koht";
         times[1]: "{0} times", "{0} korda";
     }
 }
