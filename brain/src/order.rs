@@ -199,7 +199,9 @@ impl CleaningOrder {
                 HomePart::Room(id) if map.rooms().rooms().iter().all(|room| room.id != *id) => {
                     return Err(Reason::NoSuchRoom);
                 }
-                HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => return Err(Reason::NoFloorThere),
+                HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => {
+                    return Err(Reason::NoFloorThere);
+                }
                 _ => {}
             }
         }

@@ -113,7 +113,10 @@ impl RoomChoice {
         let drawn = |(index, part): (usize, &JobPart)| {
             let (name, middle) = match part {
                 JobPart::Room(_) => return None,
-                JobPart::Zone(corners) => (words.map.zone_of.fill([&extent(words, corners)]), middle_of(corners)),
+                JobPart::Zone(corners) => (
+                    words.map.zone_of.fill([&extent(words, corners)]),
+                    middle_of(corners),
+                ),
                 JobPart::Spot(middle) => (words.map.spot.to_owned(), *middle),
             };
             Some(DrawnPart {

@@ -34,9 +34,8 @@ struct Label {
 impl Label {
     fn is_seen(&self, scene: &Scene) -> bool {
         let scale = scene.camera.scale();
-        self.room_m2.is_none_or(|area_m2| {
-            scene.ground() == Ground::Known && area_m2 * scale * scale > SMALL_PX2
-        })
+        self.room_m2
+            .is_none_or(|area_m2| scene.ground() == Ground::Known && area_m2 * scale * scale > SMALL_PX2)
     }
 }
 

@@ -175,7 +175,10 @@ impl Scene {
             self.draw_home();
             self.plan_changed = true;
         }
-        self.wanted = choice.borders().flat_map(|border| zone_strokes(&border)).collect();
+        self.wanted = choice
+            .borders()
+            .flat_map(|border| zone_strokes(&border))
+            .collect();
         self.avoided = choice.avoid().iter().flat_map(no_go_strokes).collect();
         self.strokes_changed = true;
     }

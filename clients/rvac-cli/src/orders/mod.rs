@@ -69,7 +69,12 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
         }
     }
     parts.extend(rectangles(&options.zone).map(JobPart::Zone));
-    parts.extend(options.spot.iter().map(|place| JobPart::Spot([place.x_m, place.y_m])));
+    parts.extend(
+        options
+            .spot
+            .iter()
+            .map(|place| JobPart::Spot([place.x_m, place.y_m])),
+    );
     Ok(JobOrder {
         parts,
         passes: options.passes,

@@ -209,10 +209,7 @@ pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
     let part = |(place, part): (usize, &JobPart)| match part {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
-        JobPart::Spot([x_m, y_m]) => Ok(HomePart::Spot(Point2 {
-            x_m: *x_m,
-            y_m: *y_m,
-        })),
+        JobPart::Spot([x_m, y_m]) => Ok(HomePart::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
     };
     let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
     let whole = CleaningOrder::new(parts?, order.passes).map_err(|reason| {

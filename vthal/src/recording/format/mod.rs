@@ -472,9 +472,16 @@ mod tests {
             Command::Spot,
             manual,
             Command::CleanParts {
-                order: CleaningOrder::new(vec![HomePart::Room(3), HomePart::Zone(zone.clone()), HomePart::Spot(corners[0])], 2)
-                    .and_then(|order| order.avoiding(vec![NoGo::zone(&zone)?]))
-                    .expect("a good order"),
+                order: CleaningOrder::new(
+                    vec![
+                        HomePart::Room(3),
+                        HomePart::Zone(zone.clone()),
+                        HomePart::Spot(corners[0]),
+                    ],
+                    2,
+                )
+                .and_then(|order| order.avoiding(vec![NoGo::zone(&zone)?]))
+                .expect("a good order"),
             },
             Command::AddNoGo {
                 no_go: NoGo::zone(&zone).expect("a good zone"),

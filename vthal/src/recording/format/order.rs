@@ -45,10 +45,7 @@ impl GivenOrder {
             Some(match part {
                 GivenPart::Room(id) => HomePart::Room(*id),
                 GivenPart::Zone(corners) => HomePart::Zone(to_zone(corners)?),
-                GivenPart::Spot([x_m, y_m]) => HomePart::Spot(Point2 {
-                    x_m: *x_m,
-                    y_m: *y_m,
-                }),
+                GivenPart::Spot([x_m, y_m]) => HomePart::Spot(Point2 { x_m: *x_m, y_m: *y_m }),
             })
         };
         let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();
