@@ -14,6 +14,7 @@ use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap}
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::order::CleaningOrder;
 use crate::random::Random;
+use crate::room_settings::RoomPower;
 use crate::task::{Mind, Situation};
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
@@ -198,6 +199,17 @@ impl Brain {
             .rooms()
             .room_at(estimate.pose.position())
             .filter(|_| estimate.is_sure())
+    }
+
+    /// How hard brushes and suction run in a job where the robot is: as the job says, else as is set for the room.
+    #[must_use]
+    pub fn power_here(&self) -> RoomPower {
+        let of_room = || {
+            let settings = self.map.annotations().settings(self.room()?)?;
+            Some(settings.power())
+        };
+        let of_job = self.behavior.order().and_then(CleaningOrder::power);
+        of_job.or_else(of_room).unwrap_or(RoomPower::FULL)
     }
 
     /// The map of the running or last job.

@@ -44,5 +44,5 @@ pub use mapping::{
 pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;
 pub use order::{CleaningOrder, HomePart, Zone};
-pub use room_settings::{RoomPower, RoomSettings};
+pub use room_settings::{Pattern, RoomPower, RoomSettings};
 pub use spot::DISC_M as SPOT_RADIUS_M;

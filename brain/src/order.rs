@@ -4,6 +4,7 @@ use crate::behavior::Reason;
 use crate::geometry::Point2;
 use crate::mapping::{Annotations, Cell, CellKnowledge, Map, Rooms};
 use crate::no_go::NoGo;
+use crate::room_settings::{Pattern, RoomPower, RoomSettings};
 use crate::spot::DISC_M;
 
 /// Most parts of an order.
@@ -117,6 +118,8 @@ pub struct CleaningOrder {
     parts: Vec<HomePart>,
     passes: u8,
     avoid: Vec<NoGo>,
+    power: Option<RoomPower>,
+    pattern: Option<Pattern>,
 }
 
 impl Default for CleaningOrder {
@@ -125,6 +128,8 @@ impl Default for CleaningOrder {
             parts: Vec::new(),
             passes: 1,
             avoid: Vec::new(),
+            power: None,
+            pattern: None,
         }
     }
 }
@@ -139,7 +144,7 @@ impl CleaningOrder {
             Ok(Self {
                 parts,
                 passes,
-                avoid: Vec::new(),
+                ..Self::default()
             })
         } else {
             Err(Reason::BadOrder)
@@ -156,6 +161,42 @@ impl CleaningOrder {
         } else {
             Err(Reason::TooManyNoGos)
         }
+    }
+
+    /// The same, with brushes and suction running so wherever the job cleans, whatever is set for the rooms.
+    ///
+    /// # Errors
+    /// [`Reason::BadSettings`] for more than 100 percent, or when nothing would run.
+    pub fn with_power(self, power: RoomPower) -> Result<Self, Reason> {
+        if power.is_possible() {
+            Ok(Self {
+                power: Some(power),
+                ..self
+            })
+        } else {
+            Err(Reason::BadSettings)
+        }
+    }
+
+    /// The same, swept by this pattern, whatever is set for the rooms.
+    #[must_use]
+    pub fn with_pattern(self, pattern: Pattern) -> Self {
+        Self {
+            pattern: Some(pattern),
+            ..self
+        }
+    }
+
+    /// How hard brushes and suction run if the order says it.
+    #[must_use]
+    pub const fn power(&self) -> Option<RoomPower> {
+        self.power
+    }
+
+    /// By which pattern floor is swept if the order says it.
+    #[must_use]
+    pub const fn pattern(&self) -> Option<Pattern> {
+        self.pattern
     }
 
     /// Where the robot does not go in this job.
@@ -184,6 +225,25 @@ impl CleaningOrder {
             _ => None,
         };
         of_room.unwrap_or(0).max(self.passes)
+    }
+
+    /// In which way a part is swept: as the order says, else as is set for the room.
+    #[must_use]
+    pub fn pattern_over(&self, part: Option<&HomePart>, words: &Annotations) -> Pattern {
+        let of_room = || match part {
+            Some(HomePart::Room(id)) => words.settings(*id).map(RoomSettings::pattern),
+            Some(HomePart::Zone(_) | HomePart::Spot(_)) | None => None,
+        };
+        self.pattern.or_else(of_room).unwrap_or_default()
+    }
+
+    /// Rooms that are swept in rings when the whole home is cleaned and the order does not say how.
+    pub(crate) fn contour_rooms(&self, words: &Annotations) -> Vec<u16> {
+        let is_contour = |settings: &RoomSettings| settings.pattern() == Pattern::Contour;
+        match self.pattern {
+            Some(_) => Vec::new(),
+            None => words.rooms_with(is_contour).collect(),
+        }
     }
 
     /// Whether the map holds what is ordered.

@@ -8,6 +8,17 @@ use crate::order::PASSES_MAX;
 pub struct RoomSettings {
     passes: u8,
     power: RoomPower,
+    pattern: Pattern,
+}
+
+/// In which way floor is swept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pattern {
+    /// Straight lanes side by side.
+    #[default]
+    Lines,
+    /// Rings along walls and furniture, from the wall inwards.
+    Contour,
 }
 
 /// How hard brushes and suction run, in percent. What a robot lacks is ignored.
@@ -28,6 +39,12 @@ impl RoomPower {
         main_brush: 100,
         side_brushes: 100,
     };
+
+    /// Whether a robot can clean so: no share beyond 100 percent, and something runs.
+    pub(crate) fn is_possible(self) -> bool {
+        let shares = [self.suction, self.main_brush, self.side_brushes];
+        shares.iter().all(|share| *share <= 100) && shares.iter().any(|share| *share > 0)
+    }
 }
 
 impl Default for RoomSettings {
@@ -35,23 +52,38 @@ impl Default for RoomSettings {
         Self {
             passes: 1,
             power: RoomPower::FULL,
+            pattern: Pattern::Lines,
         }
     }
 }
 
 impl RoomSettings {
-    /// 1 to 3 passes at least, whenever a job names the room, and this power.
+    /// 1 to 3 passes at least, whenever a job names the room, and this power; swept in lines.
     ///
     /// # Errors
     /// [`Reason::BadSettings`] for another number of passes, more than 100 percent, or when nothing would run.
     pub fn new(passes: u8, power: RoomPower) -> Result<Self, Reason> {
-        let shares = [power.suction, power.main_brush, power.side_brushes];
-        let is_power = shares.iter().all(|share| *share <= 100) && shares.iter().any(|share| *share > 0);
-        if is_power && (1..=PASSES_MAX).contains(&passes) {
-            Ok(Self { passes, power })
+        if power.is_possible() && (1..=PASSES_MAX).contains(&passes) {
+            Ok(Self {
+                passes,
+                power,
+                pattern: Pattern::Lines,
+            })
         } else {
             Err(Reason::BadSettings)
         }
+    }
+
+    /// The same, swept by this pattern.
+    #[must_use]
+    pub const fn with_pattern(self, pattern: Pattern) -> Self {
+        Self { pattern, ..self }
+    }
+
+    /// In which way it is swept.
+    #[must_use]
+    pub const fn pattern(&self) -> Pattern {
+        self.pattern
     }
 
     /// How often it is cleaned at least.

@@ -1,11 +1,13 @@
 //! Plans over known ground, and a robot that follows them in a paper world.
 
+mod passed;
 mod plane;
 
-use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_coverage};
+use brain::coverage::plan::{PlanSettings, plan_coverage};
 use brain::{
     BehaviorState, Brain, CELL_M, Cell, CellKnowledge, Command, Pose2, Raster, StoredMap, StrategyName,
 };
+use passed::passed;
 use plane::{BODY, Rectangle, Room, SPEEDS, World, config, run};
 
 const SETTINGS: PlanSettings = PlanSettings {
@@ -34,31 +36,6 @@ fn start() -> Pose2 {
         y_m: 0.3,
         heading_rad: 1.0,
     }
-}
-
-/// Share of free cells that the way passes nearer than half a swath.
-fn passed(plan: &CoveragePlan, ground: &Raster<bool>) -> f64 {
-    let mut near = Raster::filled(ground.origin(), ground.width(), ground.height(), false);
-    let reach = (0.5 * BODY.swath_m / CELL_M) as i32;
-    for piece in &plan.pieces {
-        for step in 0..=(piece.length_m / 0.02) as i32 + 1 {
-            let share = f64::from(step) / f64::from((piece.length_m / 0.02) as i32 + 1);
-            let middle = Cell::under(piece.at(share).position());
-            for (dx, dy) in (-reach..=reach).flat_map(|dx| (-reach..=reach).map(move |dy| (dx, dy))) {
-                if dx * dx + dy * dy <= reach * reach
-                    && let Some(cell) = near.get_mut(Cell {
-                        x: middle.x + dx,
-                        y: middle.y + dy,
-                    })
-                {
-                    *cell = true;
-                }
-            }
-        }
-    }
-    let all = ground.values().iter().filter(|free| **free).count();
-    let both = near.values().iter().zip(ground.values());
-    both.filter(|(near, free)| **near && **free).count() as f64 / all as f64
 }
 
 #[test]

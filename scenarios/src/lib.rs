@@ -34,6 +34,7 @@ pub fn scene(home: &str, noise: &str) -> Scene {
 pub fn settings(seed: u64, duration_ms: u64) -> RunSettings {
     RunSettings {
         strategy: StrategyName::Bounce,
+        pattern: None,
         seed,
         duration_ms,
     }

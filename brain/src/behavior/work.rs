@@ -9,6 +9,7 @@ use crate::command::StrategyName;
 use crate::geometry::Point2;
 use crate::localization::Advance;
 use crate::no_go::NoGo;
+use crate::order::CleaningOrder;
 use crate::recovery::{self, Grip, Traction, Whereabouts};
 use crate::task::{Mind, Plan, Situation};
 
@@ -213,6 +214,11 @@ impl Behavior {
     /// Where the running or waiting job does not go.
     pub(crate) fn avoided(&self) -> &[NoGo] {
         self.job.as_ref().map_or(&[], Job::avoided)
+    }
+
+    /// What the running or waiting job is to clean.
+    pub(crate) fn order(&self) -> Option<&CleaningOrder> {
+        self.job.as_ref().map(|job| &job.order)
     }
 
     /// Kind of the running or waiting job.

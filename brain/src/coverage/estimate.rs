@@ -2,6 +2,7 @@
 
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
 use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M, reachable};
+use super::wanted::Wanted;
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
 use crate::energy::{EnergyModel, time_to_return_s};
@@ -127,15 +128,16 @@ fn part_of(
     start: Pose2,
     settings: &PlanSettings,
 ) -> PartEstimate {
-    let wanted = |cell: Cell| part.is_none_or(|part| part.contains(cell, map.rooms()));
+    let wanted = Wanted::of(order, part, map);
+    let course = |cell: Cell| wanted.course(cell);
     let from = Departure {
         start,
         settings: *settings,
     };
-    let plan = at_once(plan_area(ground, (wanted, |_| false), from, &mut Pace::at_once()));
+    let plan = at_once(plan_area(ground, (course, |_| false), from, &mut Pace::at_once()));
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = order.passes_over(part, map.annotations());
-    let (kept, kept_low) = kept((map, &wanted), settings, passes);
+    let (kept, kept_low) = kept((map, &|cell| course(cell).is_some()), settings, passes);
     PartEstimate {
         end,
         time_s: DRIVEN * f64::from(passes) * plan.time_s,

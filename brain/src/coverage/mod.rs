@@ -7,6 +7,7 @@ mod perimeter;
 pub mod plan;
 pub(crate) mod systematic;
 mod wall_bounce;
+mod wanted;
 
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;

@@ -59,6 +59,14 @@ impl Annotations {
         self.settings.get(&room)
     }
 
+    /// Rooms with settings like these.
+    pub(crate) fn rooms_with(&self, is_like: impl Fn(&RoomSettings) -> bool) -> impl Iterator<Item = u16> {
+        let settings = self.settings.iter();
+        settings
+            .filter(move |(_, settings)| is_like(settings))
+            .map(|(room, _)| *room)
+    }
+
     /// Whether nobody has said anything.
     #[must_use]
     pub fn is_empty(&self) -> bool {

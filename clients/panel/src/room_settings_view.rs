@@ -2,8 +2,8 @@
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
-use panel_logic::{Edit, PASSES_MAX, PowerPart, percent_text};
-use rvac_api::RoomSettings;
+use panel_logic::{Edit, PASSES_MAX, PowerPart, pattern_text, percent_text};
+use rvac_api::{CleaningPattern, RoomSettings};
 
 use crate::language::words;
 use crate::store::Store;
@@ -35,6 +35,7 @@ pub(crate) fn SettingsForm(
         <li>
             <form class="room-settings" aria-label=words().home.set_room_named.fill([&name]) on:submit=save>
                 <Passes settings />
+                <PatternField settings />
                 {parts.into_iter().map(|part| power(part, settings)).collect_view()}
                 <p class="hint">{words().home.set_hint}</p>
                 <div class="draw-tools">
@@ -76,6 +77,26 @@ fn Passes(settings: RwSignal<RoomSettings>) -> impl IntoView {
             {words().home.set_passes}
             <select id="room-passes" on:change=choose>
                 {(1..=PASSES_MAX).map(option).collect_view()}
+            </select>
+        </label>
+    }
+}
+
+#[component]
+fn PatternField(settings: RwSignal<RoomSettings>) -> impl IntoView {
+    let choose = move |event| {
+        let pattern = CleaningPattern::from_name(&event_target_value(&event)).unwrap_or_default();
+        settings.update(|settings| settings.pattern = pattern);
+    };
+    let option = move |pattern: CleaningPattern| {
+        let chosen = move || settings.with(|settings| settings.pattern == pattern);
+        view! { <option value=pattern.name() selected=chosen>{pattern_text(words(), pattern)}</option> }
+    };
+    view! {
+        <label class="field grow">
+            {words().home.set_pattern}
+            <select id="room-pattern" on:change=choose>
+                {CleaningPattern::ALL.map(option).into_iter().collect_view()}
             </select>
         </label>
     }

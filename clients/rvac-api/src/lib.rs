@@ -29,8 +29,8 @@ pub use history::{
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{
-    JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming, RoomSettings,
-    RoomSplitting, SPOT_RADIUS_M,
+    CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming,
+    RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
 pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use schedule::{

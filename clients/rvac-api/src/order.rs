@@ -18,6 +18,47 @@ pub struct JobOrder {
     /// Up to 16 places that the robot keeps out of until the next job begins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub avoid: Vec<NoGoShape>,
+    /// How hard brushes and suction run in this job, in whole percent; absent = as is set for each room.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power: Option<CleaningPower>,
+    /// By which pattern this job sweeps; absent = as is set for each room.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<CleaningPattern>,
+}
+
+/// In which way floor is swept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CleaningPattern {
+    /// Straight lanes side by side.
+    #[default]
+    Lines,
+    /// Rings along walls and furniture, from the wall inwards.
+    Contour,
+}
+
+impl CleaningPattern {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Lines, Self::Contour];
+
+    /// Its name, as in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Lines => "lines",
+            Self::Contour => "contour",
+        }
+    }
+
+    /// The one of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|pattern| pattern.name() == name)
+    }
+
+    fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 fn once() -> u8 {
@@ -30,6 +71,8 @@ impl Default for JobOrder {
             parts: Vec::new(),
             passes: once(),
             avoid: Vec::new(),
+            power: None,
+            pattern: None,
         }
     }
 }
@@ -95,6 +138,9 @@ pub struct RoomSettings {
     /// How hard brushes and suction run in it, in whole percent. What a robot lacks is ignored.
     #[serde(default = "full_power")]
     pub power: CleaningPower,
+    /// In which way it is swept; absent = lines.
+    #[serde(default, skip_serializing_if = "CleaningPattern::is_usual")]
+    pub pattern: CleaningPattern,
 }
 
 fn full_power() -> CleaningPower {
@@ -106,6 +152,7 @@ impl Default for RoomSettings {
         Self {
             passes: once(),
             power: full_power(),
+            pattern: CleaningPattern::Lines,
         }
     }
 }

@@ -71,6 +71,18 @@ impl CleaningPower {
         main_brush: 1.0,
         side_brushes: 1.0,
     };
+    /// For daily dust, and less to be heard.
+    pub const NORMAL: Self = Self {
+        suction: 0.7,
+        main_brush: 0.8,
+        side_brushes: 0.8,
+    };
+    /// As little as still cleans.
+    pub const QUIET: Self = Self {
+        suction: 0.4,
+        main_brush: 0.6,
+        side_brushes: 0.6,
+    };
 }
 
 /// The closed set of requests; on the wire `{"c":"start","strategy":"bounce"}` and so on.

@@ -6,14 +6,14 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPower, ComponentHealth, Decision, DeviceTable, DoorView, Estimate,
-    Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView, InQuiet, JobEstimate,
-    JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView,
-    PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView,
-    RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture,
-    RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime,
-    ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic,
-    TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    BatteryReading, BumpMark, CleaningPattern, CleaningPower, ComponentHealth, Decision, DeviceTable,
+    DoorView, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView,
+    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    NoGoShape, NoGoView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
+    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
+    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
+    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
+    Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -514,7 +514,16 @@ fn settings_of_rooms() {
             main_brush: 1.0,
             side_brushes: 0.0,
         },
+        pattern: CleaningPattern::Lines,
     };
+    let contour = RoomSettings {
+        pattern: CleaningPattern::Contour,
+        ..settings
+    };
+    request(
+        set(Some(contour)),
+        r#"{"c":"set-room","room":3,"settings":{"passes":2,"power":{"suction":0.5,"main_brush":1.0,"side_brushes":0.0},"pattern":"contour"}}"#,
+    );
     request(
         set(Some(settings)),
         r#"{"c":"set-room","room":3,"settings":{"passes":2,"power":{"suction":0.5,"main_brush":1.0,"side_brushes":0.0}}}"#,
@@ -568,6 +577,19 @@ fn changes_of_rooms() {
 }
 
 #[test]
+fn orders_with_settings() {
+    let quiet = JobOrder {
+        power: Some(CleaningPower::QUIET),
+        pattern: Some(CleaningPattern::Contour),
+        ..JobOrder::default()
+    };
+    request(
+        RequestBody::Clean(quiet),
+        r#"{"c":"clean","parts":[],"passes":1,"power":{"suction":0.4,"main_brush":0.6,"side_brushes":0.6},"pattern":"contour"}"#,
+    );
+}
+
+#[test]
 fn orders() {
     let order = JobOrder {
         parts: vec![
@@ -576,7 +598,7 @@ fn orders() {
             JobPart::Spot([2.5, -0.5]),
         ],
         passes: 2,
-        avoid: Vec::new(),
+        ..JobOrder::default()
     };
     let avoiding = JobOrder {
         avoid: vec![NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]])],
@@ -763,7 +785,7 @@ fn weekday_entry() -> ScheduleEntry {
         job: ScheduledJob::Clean(JobOrder {
             parts: vec![JobPart::Room(4)],
             passes: 2,
-            avoid: vec![],
+            ..JobOrder::default()
         }),
         when: ScheduleTime::Weekly {
             days: vec![Weekday::Mo, Weekday::Su],

@@ -12,11 +12,11 @@ use std::thread::JoinHandle;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
-    ARCHIVE_PIECE_BYTES, CleaningPower, Decision, DeviceTable, Estimate, Failure, FloorsView, HomeView,
-    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, NoGoShape, Pose,
-    QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView,
-    SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update,
-    Weekday,
+    ARCHIVE_PIECE_BYTES, CleaningPattern, CleaningPower, Decision, DeviceTable, Estimate, Failure,
+    FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel,
+    NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings,
+    RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
+    Status, Topic, Update, Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -351,7 +351,7 @@ fn go_out<'a>(name: &str, cases: impl IntoIterator<Item = (&'a [&'a str], Reques
 
 #[test]
 fn changes_of_rooms_go_out_under_their_names() {
-    let cases: [(&[&str], RequestBody); 5] = [
+    let cases: [(&[&str], RequestBody); 7] = [
         (
             &["room", "split", "Hall", "-1,0", "2,1.5"],
             RequestBody::SplitRoom(RoomSplitting {
@@ -369,8 +369,36 @@ fn changes_of_rooms_go_out_under_their_names() {
                         suction: 0.4,
                         ..CleaningPower::FULL
                     },
+                    pattern: CleaningPattern::Lines,
                 }),
             },
+        ),
+        (
+            &["rooms", "set", "Hall", "--pattern", "contour"],
+            RequestBody::SetRoom {
+                room: 1,
+                settings: Some(RoomSettings {
+                    pattern: CleaningPattern::Contour,
+                    ..RoomSettings::default()
+                }),
+            },
+        ),
+        (
+            &[
+                "clean",
+                "--room",
+                "Hall",
+                "--power",
+                "quiet",
+                "--pattern",
+                "contour",
+            ],
+            RequestBody::Clean(JobOrder {
+                parts: vec![JobPart::Room(1)],
+                power: Some(CleaningPower::QUIET),
+                pattern: Some(CleaningPattern::Contour),
+                ..JobOrder::default()
+            }),
         ),
         (
             &["rooms", "unset", "1"],

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
+use rvac_api::CleaningPattern;
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::ServeSettings;
 use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
@@ -127,6 +128,9 @@ pub(crate) struct RunArguments {
     /// Cleaning strategy by name.
     #[arg(long, default_value = "bounce")]
     strategy: String,
+    /// In which way floor is swept: lines or contour. Needs the strategy systematic.
+    #[arg(long, value_name = "PATTERN", value_parser = pattern)]
+    pattern: Option<CleaningPattern>,
     /// Seed of everything random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -165,6 +169,10 @@ pub(crate) struct RunArguments {
     pub(crate) json: bool,
 }
 
+fn pattern(text: &str) -> Result<CleaningPattern, String> {
+    CleaningPattern::from_name(text).ok_or_else(|| "a pattern is `lines` or `contour`".to_owned())
+}
+
 impl RunArguments {
     pub(crate) fn settings(&self) -> anyhow::Result<RunSettings> {
         let Some(strategy) = StrategyName::from_name(&self.strategy) else {
@@ -175,8 +183,15 @@ impl RunArguments {
                 known.join(", ")
             );
         };
+        if self.pattern.is_some() && strategy != StrategyName::Systematic {
+            bail!(
+                "--pattern is for the strategy systematic, and {} was asked for",
+                strategy.name()
+            );
+        }
         Ok(RunSettings {
             strategy,
+            pattern: self.pattern,
             seed: self.seed,
             duration_ms: (self.minutes * 60_000.0) as u64,
         })
@@ -188,6 +203,10 @@ impl RunArguments {
             "{}, {} noise, seed {}",
             self.strategy, self.scene.noise, self.seed
         );
+        if let Some(pattern) = self.pattern {
+            title.push_str(", ");
+            title.push_str(pattern.name());
+        }
         if self.known_map {
             title.push_str(", known map");
         }

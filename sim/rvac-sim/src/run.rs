@@ -2,7 +2,7 @@
 
 use brain::command::StrategyName;
 use robot::RobotSettings;
-use rvac_api::RequestBody;
+use rvac_api::{CleaningPattern, JobOrder, RequestBody};
 use vthal_core::CoreConfig;
 
 use crate::{Host, Household, Report, Scene};
@@ -12,6 +12,8 @@ use crate::{Host, Household, Report, Scene};
 pub struct RunSettings {
     /// How to clean.
     pub strategy: StrategyName,
+    /// In which way, for [`StrategyName::Systematic`]; without it as is set for the rooms.
+    pub pattern: Option<CleaningPattern>,
     /// Seed of everything random.
     pub seed: u64,
     /// Simulated milliseconds, from power-on.
@@ -76,15 +78,20 @@ pub fn household(scene: &Scene, settings: &RunSettings) -> Household {
 
 /// Lets the household connect and asks it to clean. Gives `false` when the robot did not answer in time.
 pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool {
+    let start = RequestBody::Start {
+        strategy: Some(strategy.name().to_owned()),
+    };
+    start_job(household, start)
+}
+
+fn start_job(household: &mut Household, job: RequestBody) -> bool {
     for _ in 0..CONNECT_MS {
         household.tick();
         if household
             .host()
             .is_some_and(|host| host.status().state != "disconnected")
         {
-            household.ask(RequestBody::Start {
-                strategy: Some(strategy.name().to_owned()),
-            });
+            household.ask(job);
             return true;
         }
     }
@@ -112,7 +119,17 @@ pub fn run_until(
     (settings, end): (&RunSettings, RunEnd),
     mut progress: impl FnMut(f64),
 ) -> Result<Report, NoAnswer> {
-    if !start_cleaning(household, settings.strategy) {
+    let is_answered = match settings.pattern {
+        Some(_) => start_job(
+            household,
+            RequestBody::Clean(JobOrder {
+                pattern: settings.pattern,
+                ..JobOrder::default()
+            }),
+        ),
+        None => start_cleaning(household, settings.strategy),
+    };
+    if !is_answered {
         return Err(NoAnswer);
     }
     while household.robot().now_ms() < settings.duration_ms {

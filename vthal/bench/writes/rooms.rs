@@ -1,6 +1,6 @@
 //! What people say of rooms: names, and how each is cleaned.
 
-use rvac_api::{CleaningPower, RequestBody, RoomNaming, RoomSettings, RoomView};
+use rvac_api::{CleaningPattern, CleaningPower, RequestBody, RoomNaming, RoomSettings, RoomView};
 
 use crate::home;
 use crate::life::{Kept, replaced};
@@ -78,5 +78,6 @@ fn settings(number: u64) -> RoomSettings {
             main_brush: power(number / 2),
             side_brushes: power(number / 3),
         },
+        pattern: CleaningPattern::ALL[usize::from(number.is_multiple_of(2))],
     }
 }

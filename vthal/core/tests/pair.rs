@@ -2,8 +2,8 @@
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming, RoomSettings,
-    RoomSplitting, Topic, Update,
+    CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming,
+    RoomSettings, RoomSplitting, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -287,6 +287,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
                 suction,
                 ..CleaningPower::FULL
             },
+            pattern: CleaningPattern::Lines,
         }),
     };
     assert_eq!(pair.ask(ANNA, set(0.25, 2)), None);
@@ -340,6 +341,51 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
         power(&pair, Motor::Vacuum),
         Some(1.0),
         "also in the middle of a job"
+    );
+}
+
+#[test]
+fn what_a_job_says_of_itself_wins_over_the_settings_of_a_room() {
+    let mut pair = on_the_dock();
+    let settings = RoomSettings {
+        power: CleaningPower {
+            suction: 0.25,
+            ..CleaningPower::FULL
+        },
+        pattern: CleaningPattern::Contour,
+        ..RoomSettings::default()
+    };
+    let set = RequestBody::SetRoom {
+        room: 1,
+        settings: Some(settings),
+    };
+    assert_eq!(pair.ask(ANNA, set), None);
+    pair.run_ms(200);
+    let kept = pair.edits[0].home.home.annotations().settings(1).copied();
+    let pattern = kept.map(|settings| settings.pattern());
+    assert_eq!(pattern, Some(brain::Pattern::Contour));
+    let job = |suction| {
+        RequestBody::Clean(JobOrder {
+            power: Some(CleaningPower {
+                suction,
+                ..CleaningPower::QUIET
+            }),
+            pattern: Some(CleaningPattern::Lines),
+            ..clean(vec![JobPart::Room(1)], 1)
+        })
+    };
+    for bad in [1.5, f64::NAN, -0.1] {
+        assert_eq!(pair.ask(ANNA, job(bad)).as_deref(), Some("bad-settings"));
+    }
+    assert_eq!(pair.ask(ANNA, job(0.4)), None);
+    pair.state.docked = false;
+    for _ in 0..80 {
+        pair.handle(Input::BoardHeading { heading_urad: 0 });
+        pair.run_ms(50);
+    }
+    assert_eq!(
+        (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
+        (Some(0.4), Some(0.6))
     );
 }
 

@@ -8,6 +8,7 @@
 //! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
 
 mod bits;
+mod contour;
 mod ground;
 mod heading;
 mod lanes;
@@ -21,6 +22,8 @@ mod way;
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::{Pace, at_once};
 use crate::mapping::{CELL_M, Cell, Raster};
+use crate::room_settings::Pattern;
+use contour::{RingFloor, ring_way};
 use ground::Ground;
 use lanes::Picker;
 use route::Router;
@@ -87,16 +90,23 @@ pub fn plan_coverage(
     start: Pose2,
     settings: &PlanSettings,
 ) -> CoveragePlan {
+    plan_pattern(reachable, (Pattern::Lines, swept), start, settings)
+}
+
+/// As [`plan_coverage`], with the floor swept by this pattern.
+#[must_use]
+pub fn plan_pattern(
+    reachable: &Raster<bool>,
+    (pattern, swept): (Pattern, impl Fn(Cell) -> bool),
+    start: Pose2,
+    settings: &PlanSettings,
+) -> CoveragePlan {
     let from = Departure {
         start,
         settings: *settings,
     };
-    at_once(plan_area(
-        reachable,
-        (|_| true, swept),
-        from,
-        &mut Pace::at_once(),
-    ))
+    let course = |_| Some(Course::from(pattern));
+    at_once(plan_area(reachable, (course, swept), from, &mut Pace::at_once()))
 }
 
 /// Where a plan begins, and what it depends on besides the ground.
@@ -106,37 +116,77 @@ pub(crate) struct Departure {
     pub(crate) settings: PlanSettings,
 }
 
-/// As [`plan_coverage`], but only `wanted` floor is swept and counted; the way may lead over all that is reachable.
+/// How floor is swept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Course {
+    /// By lanes.
+    Lines,
+    /// By rings, those along its border first.
+    Inwards,
+    /// By rings, those in its middle first.
+    Outwards,
+}
+
+impl From<Pattern> for Course {
+    fn from(pattern: Pattern) -> Self {
+        match pattern {
+            Pattern::Lines => Self::Lines,
+            Pattern::Contour => Self::Inwards,
+        }
+    }
+}
+
+/// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.
+/// Floor with rings comes first.
 pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
-    (wanted, swept): (impl Fn(Cell) -> bool, impl Fn(Cell) -> bool),
-    Departure { start, settings }: Departure,
+    (course, swept): (impl Fn(Cell) -> Option<Course>, impl Fn(Cell) -> bool),
+    departure: Departure,
     pace: &mut Pace,
 ) -> CoveragePlan {
-    let settings = &settings;
+    let Departure { start, settings } = &departure;
     let mut ground = Ground::new(reachable, reach_cells(settings), pace).await;
     let Some(origin) = ground.origin_near(start.position(), pace).await else {
         return CoveragePlan::default();
     };
     ground.keep_connected(origin, pace).await;
-    ground.close(|cell| !wanted(cell), pace).await;
+    ground.close(|cell| course(cell).is_none(), pace).await;
     let floor = ground.open_count();
+    let ring_floor = RingFloor::of(&ground, course, pace).await;
     ground.close(swept, pace).await;
     let open = ground.open_count();
+    let rings = match &ring_floor {
+        Some(floor) => Some(ring_way(&ground, floor, (&departure, origin), pace).await),
+        None => None,
+    };
+    let (mut corners, runs, (from, heading_rad)) = match rings {
+        Some(way) => {
+            ground.open = way.open;
+            (way.corners, way.runs, way.end)
+        }
+        None => (Vec::new(), 0, (origin, start.heading_rad)),
+    };
     let mut picker = Picker::new(&mut ground, settings, pace).await;
     let rounds = picker.rounds(pace).await;
     let router = Router::new(&ground, pace).await;
-    let mut tour = Tour::new(&router, settings, start, origin);
+    let start_of_lanes = Pose2 {
+        heading_rad,
+        ..*start
+    };
+    let mut tour = Tour::new(&router, settings, start_of_lanes, from);
     for lanes in &rounds {
         tour.extend(lanes, pace).await;
     }
-    let corners = tour.corners(pace).await;
-    let pieces = smooth::pieces(&corners, start.heading_rad, (&ground, pace)).await;
+    // The lanes begin where the rings end.
+    corners.pop();
+    let of_rings = corners.len();
+    corners.extend(tour.corners(pace).await);
+    let pieces = smooth::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
     CoveragePlan {
         time_s: pieces.iter().map(|piece| piece.time_s(settings)).sum(),
         corners,
         pieces,
-        lanes: rounds.iter().map(Vec::len).sum(),
+        lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
         floor_m2: floor as f64 * CELL_M * CELL_M,
         open_m2: open as f64 * CELL_M * CELL_M,
         left_m2: ground.open_count() as f64 * CELL_M * CELL_M,

@@ -9,6 +9,8 @@ use crate::gradual::Pace;
 
 /// Longest part of a straight that an arc takes at a corner.
 const CUT_MAX_M: f64 = 0.15;
+/// The same at the corners of rings: the next ring does not sweep what an arc cuts off.
+const RING_CUT_MAX_M: f64 = 0.08;
 /// An arc that takes less than this is no better than a turn on the spot.
 const CUT_MIN_M: f64 = 0.02;
 /// Sharper corners are turned on the spot.
@@ -43,9 +45,10 @@ impl Piece {
     }
 }
 
-/// The way along `corners`, from the heading that the robot has at the first one.
+/// The way along `corners`, of which so many of the first are those of rings, from the heading that the robot has at the
+/// first one.
 pub(super) async fn pieces(
-    corners: &[Point2],
+    (corners, of_rings): (&[Point2], usize),
     heading_now_rad: f64,
     (ground, pace): (&Ground, &mut Pace),
 ) -> Vec<Piece> {
@@ -63,9 +66,14 @@ pub(super) async fn pieces(
     for (position, pair) in corners.windows(2).enumerate() {
         let (from, to) = (pair[0], pair[1]);
         maker.turn_to(heading_rad(from, to));
+        let most_m = if position < of_rings {
+            RING_CUT_MAX_M
+        } else {
+            CUT_MAX_M
+        };
         let cut_m = corners
             .get(position + 2)
-            .map_or(0.0, |after| cut_m([from, to, *after], ground));
+            .map_or(0.0, |after| cut_m([from, to, *after], (ground, most_m)));
         let ahead_m = maker.pose.position().distance_m(to) - cut_m;
         maker.add(ahead_m.max(0.0), 0.0);
         if let Some(after) = corners.get(position + 2)
@@ -108,15 +116,15 @@ impl Maker {
     }
 }
 
-/// How much of the straights before and after a corner an arc may take; 0 = turn on the spot.
-fn cut_m([before, corner, after]: [Point2; 3], ground: &Ground) -> f64 {
+/// How much of the straights before and after a corner an arc may take, up to `most_m`; 0 = turn on the spot.
+fn cut_m([before, corner, after]: [Point2; 3], (ground, most_m): (&Ground, f64)) -> f64 {
     let turn_rad = normalize_rad(heading_rad(corner, after) - heading_rad(before, corner)).abs();
     if !(0.1..SHARP_RAD).contains(&turn_rad) {
         return 0.0;
     }
     let (behind_m, ahead_m) = (before.distance_m(corner), corner.distance_m(after));
     // Half of each straight, so that the corners at its two ends do not need the same part of it.
-    let mut cut_m = CUT_MAX_M.min(0.5 * behind_m).min(0.5 * ahead_m);
+    let mut cut_m = most_m.min(0.5 * behind_m).min(0.5 * ahead_m);
     while cut_m >= CUT_MIN_M {
         let start = between(corner, before, cut_m / behind_m);
         let end = between(corner, after, cut_m / ahead_m);

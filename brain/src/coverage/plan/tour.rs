@@ -5,7 +5,7 @@
 //! round without changing what lies inside.
 
 use super::PlanSettings;
-use super::heading::{heading_rad, turn_rad};
+use super::heading::{heading_rad, way_s};
 use super::lanes::Lane;
 use super::route::{Router, Spread};
 use crate::geometry::{Point2, Pose2};
@@ -185,22 +185,8 @@ impl<'plan> Tour<'plan> {
         found
     }
 
-    /// Time of a way that starts in one direction and ends against the direction of leaving the other end.
     fn way_s(&self, way: &[usize], out_rad: Option<f64>, back_rad: Option<f64>) -> f32 {
-        let mut heading = out_rad;
-        let (mut length_m, mut turned_rad) = (0.0, 0.0);
-        for pair in way.windows(2).filter(|pair| pair[0] != pair[1]) {
-            let (from, to) = (self.point(pair[0]), self.point(pair[1]));
-            let next = heading_rad(from, to);
-            turned_rad += heading.map_or(0.0, |now| turn_rad(now, next));
-            heading = Some(next);
-            length_m += from.distance_m(to);
-        }
-        if let (Some(now), Some(back)) = (heading, back_rad) {
-            turned_rad += turn_rad(now, back + core::f64::consts::PI);
-        }
-        let drive_s = length_m / self.settings.cruise_m_per_s;
-        (drive_s + turned_rad / self.settings.turn_rad_per_s) as f32
+        way_s(self.router.ground(), way, (out_rad, back_rad), self.settings)
     }
 
     /// The corners of the whole way.

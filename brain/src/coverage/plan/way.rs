@@ -43,7 +43,7 @@ pub(crate) async fn plan_way(
         .into_iter()
         .map(|cell| ground.point(cell))
         .collect();
-    Some(smooth::pieces(&corners, start.heading_rad, (&ground, pace)).await)
+    Some(smooth::pieces((&corners, 0), start.heading_rad, (&ground, pace)).await)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Which part of an order is being cleaned, and how often it was.
 
-use crate::mapping::{Cell, Map, Rooms};
+use crate::coverage::wanted::Wanted;
+use crate::mapping::Map;
 use crate::order::{CleaningOrder, HomePart};
 
 /// An order, and how far it is.
@@ -35,9 +36,7 @@ impl Assignment {
 
     /// What shall be swept now.
     pub(super) fn wanted(&self, map: &Map) -> Wanted {
-        Wanted {
-            part: self.part().map(|part| (part.clone(), map.rooms().clone())),
-        }
+        Wanted::of(&self.order, self.part(), map)
     }
 
     /// The present part is done once more.
@@ -52,21 +51,6 @@ impl Assignment {
         self.passes_done = 0;
         self.part += 1;
         Next::Part
-    }
-}
-
-/// The floor that shall be swept, as it was known at one time.
-#[derive(Debug)]
-pub(super) struct Wanted {
-    part: Option<(HomePart, Rooms)>,
-}
-
-impl Wanted {
-    /// Whether a cell belongs to it.
-    pub(super) fn contains(&self, cell: Cell) -> bool {
-        self.part
-            .as_ref()
-            .is_none_or(|(part, rooms)| part.contains(cell, rooms))
     }
 }
 

@@ -2,10 +2,10 @@
 
 use core::task::Poll;
 
-use super::assignment::Wanted;
 use super::frontier::hopeful;
 use super::reachable;
 use crate::coverage::plan::{CoveragePlan, Departure, plan_area};
+use crate::coverage::wanted::Wanted;
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::{Gradual, Pace};
 use crate::mapping::{CellKnowledge, Raster};
@@ -94,9 +94,9 @@ async fn planned(basis: Basis) -> CoveragePlan {
         None => basis.knowledge,
     };
     let ground = reachable(&knowledge, (basis.radius_m, &basis.blocked), pace).await;
-    let wanted = |cell| basis.wanted.contains(cell);
+    let course = |cell| basis.wanted.course(cell);
     let swept = |cell| basis.passed.get(cell).copied().unwrap_or(false);
-    plan_area(&ground, (wanted, swept), basis.departure, pace).await
+    plan_area(&ground, (course, swept), basis.departure, pace).await
 }
 
 #[cfg(test)]

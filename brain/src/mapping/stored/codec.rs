@@ -4,7 +4,7 @@
 //! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses and corners are micrometres and microradians.
 //!
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
-//! its rooms, version 4 how rooms are cleaned.
+//! its rooms, version 4 how rooms are cleaned, version 5 by which pattern.
 
 mod room_words;
 mod words;
@@ -15,7 +15,7 @@ use crate::mapping::{Annotations, Cell};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 4;
+const VERSION: u8 = 5;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -187,7 +187,7 @@ impl Reader<'_> {
             annotations.rooms = self.room_changes(next_room)?;
         }
         if version >= 4 {
-            annotations.settings = self.room_settings()?;
+            annotations.settings = self.room_settings(version)?;
         }
         if !self.rest.is_empty() {
             return Err(StoredMapError::Trailing);
@@ -286,7 +286,7 @@ mod tests {
     };
     use crate::no_go::{NoGo, RoomName};
     use crate::order::Zone;
-    use crate::room_settings::{RoomPower, RoomSettings};
+    use crate::room_settings::{Pattern, RoomPower, RoomSettings};
 
     fn map() -> StoredMap {
         let mut raster = Raster::filled(Cell { x: -7, y: 300 }, 9, 5, CellKnowledge::Unknown);
@@ -339,7 +339,8 @@ mod tests {
             suction: 25,
             ..RoomPower::FULL
         };
-        words.settings.insert(3, RoomSettings::new(2, power).unwrap());
+        let settings = RoomSettings::new(2, power).unwrap();
+        words.settings.insert(3, settings.with_pattern(Pattern::Contour));
         words
     }
 
@@ -398,19 +399,30 @@ mod tests {
 
     #[test]
     fn settings_that_no_room_can_have_are_refused() {
-        let read = |settings: &[u8]| {
-            let mut bytes = b"RVACMAP\x04".to_vec();
+        let read = |version: u8, settings: &[u8]| {
+            let mut bytes = b"RVACMAP".to_vec();
+            bytes.push(version);
             bytes.extend([0, 0, 0, 2, 3, 9, 1, 5, 6, 0, 1, 0, 0, 1, 0, 0, 1]);
             bytes.extend(settings);
             bytes.extend(crc32(&bytes).to_le_bytes());
             StoredMap::decode(&bytes)
         };
-        // Room, passes, suction, main brush, side brushes.
-        let map = read(&[2, 3, 50, 100, 0]).unwrap();
-        assert_eq!(map.annotations().settings(2).map(RoomSettings::passes), Some(3));
+        // Room, passes, suction, main brush, side brushes; since version 5 the pattern.
+        let settings = |map: StoredMap| {
+            let settings = *map.annotations().settings(2).unwrap();
+            (settings.passes(), settings.pattern())
+        };
+        assert_eq!(
+            settings(read(4, &[2, 3, 50, 100, 0]).unwrap()),
+            (3, Pattern::Lines)
+        );
+        let newer = read(5, &[2, 3, 50, 100, 0, 1]).unwrap();
+        assert_eq!(settings(newer), (3, Pattern::Contour));
         for bad in [[2, 4, 50, 100, 0], [2, 1, 101, 0, 0], [2, 1, 0, 0, 0]] {
-            assert_eq!(read(&bad), Err(StoredMapError::RoomSettings), "{bad:?}");
+            assert_eq!(read(4, &bad), Err(StoredMapError::RoomSettings), "{bad:?}");
         }
+        let pattern = [2, 3, 50, 100, 0, 2];
+        assert_eq!(read(5, &pattern), Err(StoredMapError::RoomSettings));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 
-use rvac_api::{HomeView, SEPARATOR, Update};
+use rvac_api::{CleaningPattern, HomeView, SEPARATOR, Update};
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
@@ -271,19 +271,30 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_an
     rooms(browser, before + 1).await;
     browser.click("#undo").await;
     rooms(browser, before).await;
-    settings_are_undone(browser, halves[0]).await;
+    settings_are_undone(browser, &mut onlooker, halves[0]).await;
 }
 
-/// A room gets other settings, which are taken back.
-async fn settings_are_undone(browser: &Browser, room: u16) {
+/// A room gets other settings, which the daemon has, and they are taken back.
+async fn settings_are_undone(browser: &Browser, onlooker: &mut Onlooker, room: u16) {
     let shown = "document.getElementById('rooms').innerText.includes('suction 50')";
     browser.click(&format!("#room-{room}-settings")).await;
     let slide = "const field = document.getElementById('room-vacuum'); field.value = '50'; \
                  field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
     browser.text(slide).await;
+    let choose = "const field = document.getElementById('room-pattern'); field.value = 'contour'; \
+                  field.dispatchEvent(new Event('change', {bubbles: true})); return ''";
+    browser.text(choose).await;
     browser.shot("phone-room-settings-dark").await;
     browser.click("#save-settings").await;
     browser.until(&format!("return {shown}")).await;
+    let pattern_of = move |home: &HomeView| {
+        let known = home.rooms.iter().find(|known| known.id == room);
+        known
+            .and_then(|known| known.settings)
+            .map(|settings| settings.pattern)
+    };
+    onlooker.sees(move |home| pattern_of(home) == Some(CleaningPattern::Contour));
     browser.click("#undo").await;
     browser.until(&format!("return !{shown}")).await;
+    onlooker.sees(move |home| pattern_of(home).is_none());
 }

@@ -71,7 +71,7 @@ pub use playout::Playout;
 pub use qr::QrPicture;
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
 pub use room_choice::{DrawnPart, PASSES_MAX, RoomChoice, job_estimate_text, room_at};
-pub use room_settings::{PowerPart, room_settings_text};
+pub use room_settings::{PowerPart, pattern_text, room_settings_text};
 pub use schedule_form::ScheduleForm;
 pub use schedule_rows::{ScheduleRow, day_text, next_rows, past_rows, schedule_rows, zone_text};
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};

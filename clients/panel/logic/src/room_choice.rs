@@ -202,6 +202,7 @@ impl RoomChoice {
             parts: self.parts.clone(),
             passes: self.passes,
             avoid: self.avoid.clone(),
+            ..JobOrder::default()
         })
     }
 }

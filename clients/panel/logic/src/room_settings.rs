@@ -1,6 +1,6 @@
 //! How a room is cleaned, as a person edits it.
 
-use rvac_api::{CleaningPower, RobotDescription, RoomSettings};
+use rvac_api::{CleaningPattern, CleaningPower, RobotDescription, RoomSettings};
 
 use crate::figures::percent_text;
 use crate::words::Words;
@@ -69,7 +69,7 @@ impl PowerPart {
     }
 }
 
-/// `, 2 times, suction 50 %`: what is not as usual.
+/// `, 2 times, suction 50 %, along the walls`: what is not as usual.
 #[must_use]
 pub fn room_settings_text(words: &Words, settings: &RoomSettings) -> String {
     let passes = if settings.passes > 1 {
@@ -84,14 +84,27 @@ pub fn room_settings_text(words: &Words, settings: &RoomSettings) -> String {
         (!is_usual).then(|| format!(", {name} {}", percent_text(words, share)))
     };
     let shares: String = PowerPart::ALL.into_iter().filter_map(power).collect();
-    passes + &shares
+    let pattern = match settings.pattern {
+        CleaningPattern::Lines => String::new(),
+        CleaningPattern::Contour => format!(", {}", pattern_text(words, settings.pattern).to_lowercase()),
+    };
+    passes + &shares + &pattern
+}
+
+/// A pattern for people.
+#[must_use]
+pub const fn pattern_text(words: &Words, pattern: CleaningPattern) -> &'static str {
+    match pattern {
+        CleaningPattern::Lines => words.home.pattern_lines,
+        CleaningPattern::Contour => words.home.pattern_contour,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{PowerPart, room_settings_text};
     use crate::words::Language;
-    use rvac_api::{RobotDescription, RoomSettings};
+    use rvac_api::{CleaningPattern, RobotDescription, RoomSettings};
 
     #[test]
     fn what_is_not_as_usual_is_told() {
@@ -106,6 +119,8 @@ mod tests {
             text.starts_with(", 2 times, suction 50") && text.contains("side brushes 0"),
             "{text}"
         );
+        settings.pattern = CleaningPattern::Contour;
+        assert!(room_settings_text(words, &settings).ends_with(", along the walls"));
         PowerPart::MainBrush.set(&mut settings.power, 200);
         assert!(
             (settings.power.main_brush - 1.0).abs() < 1e-12,

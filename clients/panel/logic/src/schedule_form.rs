@@ -251,7 +251,7 @@ mod tests {
                 JobPart::Spot([1.0, 2.0]),
             ],
             passes: 2,
-            avoid: vec![],
+            ..JobOrder::default()
         });
         let entry = ScheduleEntry {
             job: job.clone(),

@@ -214,7 +214,7 @@ mod tests {
                     job: ScheduledJob::Clean(JobOrder {
                         parts: vec![JobPart::Room(4), JobPart::Room(9)],
                         passes: 2,
-                        avoid: vec![],
+                        ..JobOrder::default()
                     }),
                     when: ScheduleTime::Weekly {
                         days: vec![Weekday::Mo, Weekday::Fr],

@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-use clap::{ArgGroup, Args};
+use clap::{ArgGroup, Args, ValueEnum};
+use rvac_api::{CleaningPattern, CleaningPower};
 
 use super::Daemon;
 
@@ -33,6 +34,33 @@ pub(crate) struct OrderParts {
     /// How often each room, zone and spot is cleaned before the next, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) passes: u8,
+    /// How hard brushes and suction run in this job; without it as is set for each room.
+    #[arg(long, value_enum)]
+    pub(crate) power: Option<PowerChoice>,
+    /// In which way this job sweeps; without it as is set for each room.
+    #[arg(long, value_enum)]
+    pub(crate) pattern: Option<PatternChoice>,
+}
+
+/// How hard brushes and suction run in a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PowerChoice {
+    /// Suction at 40 %, brushes at 60 %.
+    Quiet,
+    /// Suction at 70 %, brushes at 80 %.
+    Normal,
+    /// As hard as they can.
+    Full,
+}
+
+impl From<PowerChoice> for CleaningPower {
+    fn from(choice: PowerChoice) -> Self {
+        match choice {
+            PowerChoice::Quiet => Self::QUIET,
+            PowerChoice::Normal => Self::NORMAL,
+            PowerChoice::Full => Self::FULL,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -42,6 +70,24 @@ pub(crate) struct EstimateOptions {
     /// Print the daemon's own JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// In which way floor is swept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PatternChoice {
+    /// Straight lanes side by side.
+    Lines,
+    /// Rings along walls and furniture, from the wall inwards.
+    Contour,
+}
+
+impl From<PatternChoice> for CleaningPattern {
+    fn from(choice: PatternChoice) -> Self {
+        match choice {
+            PatternChoice::Lines => Self::Lines,
+            PatternChoice::Contour => Self::Contour,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -83,8 +129,11 @@ pub(crate) enum RoomsVerb {
         /// The same for the side brushes.
         #[arg(long, group = "settings", value_name = "PERCENT")]
         side_brushes: Option<u8>,
+        /// In which way it is swept.
+        #[arg(long, group = "settings", value_enum)]
+        pattern: Option<PatternChoice>,
     },
-    /// Let a room be cleaned as any other: once, at full power.
+    /// Let a room be cleaned as any other: once, at full power, in lines.
     Unset {
         /// Its name or number.
         room: String,

@@ -97,7 +97,7 @@ pub(crate) struct ScheduleOptions {
     #[command(flatten)]
     pub(crate) parts: OrderParts,
     /// Clean all, by this strategy.
-    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid"])]
+    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid", "power", "pattern"])]
     pub(crate) strategy: Option<String>,
     /// Clean all, not what it cleaned before.
     #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid"])]

@@ -10,7 +10,9 @@ use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use rvac_api::{JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update};
+use rvac_api::{
+    CleaningPattern, CleaningPower, JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update,
+};
 
 use crate::arguments::{EstimateOptions, OrderOptions, OrderParts, Place};
 use crate::control;
@@ -79,6 +81,8 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
         parts,
         passes: options.passes,
         avoid: rectangles(&options.avoid).map(NoGoShape::Zone).collect(),
+        power: options.power.map(CleaningPower::from),
+        pattern: options.pattern.map(CleaningPattern::from),
     })
 }
 

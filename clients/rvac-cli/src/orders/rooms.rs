@@ -4,7 +4,9 @@ use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
 use anyhow::bail;
-use rvac_api::{CleaningPower, HomeView, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView};
+use rvac_api::{
+    CleaningPattern, CleaningPower, HomeView, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView,
+};
 
 use crate::arguments::{RoomsJob, RoomsVerb};
 use crate::control;
@@ -41,6 +43,7 @@ pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
             suction,
             main_brush,
             side_brushes,
+            pattern,
         }) => {
             let room = find(&home, room)?;
             let known = home.rooms.iter().find(|known| known.id == room);
@@ -57,6 +60,7 @@ pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
                         main_brush: share(main_brush, before.power.main_brush),
                         side_brushes: share(side_brushes, before.power.side_brushes),
                     },
+                    pattern: pattern.map_or(before.pattern, CleaningPattern::from),
                 }),
             }
         }
@@ -103,7 +107,7 @@ fn table(home: &HomeView) -> String {
     text
 }
 
-/// `, 2 passes, suction 50 %, main brush 100 %, side brushes 0 %`
+/// `, 2 passes, suction 50 %, main brush 100 %, side brushes 0 %, contour`
 fn settings_text(settings: RoomSettings) -> String {
     let CleaningPower {
         suction,
@@ -111,11 +115,12 @@ fn settings_text(settings: RoomSettings) -> String {
         side_brushes,
     } = settings.power;
     format!(
-        ", {} passes, suction {:.0} %, main brush {:.0} %, side brushes {:.0} %",
+        ", {} passes, suction {:.0} %, main brush {:.0} %, side brushes {:.0} %, {}",
         settings.passes,
         100.0 * suction,
         100.0 * main_brush,
-        100.0 * side_brushes
+        100.0 * side_brushes,
+        settings.pattern.name()
     )
 }
 
@@ -211,7 +216,8 @@ mod tests {
             ..RoomSettings::default()
         });
         assert!(
-            table(&home).contains("m2  -, 2 passes, suction 100 %"),
+            table(&home)
+                .contains("m2  -, 2 passes, suction 100 %, main brush 100 %, side brushes 100 %, lines"),
             "{}",
             table(&home)
         );

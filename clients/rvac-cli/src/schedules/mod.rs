@@ -122,14 +122,32 @@ fn changed(
     entry.late_min = options.late.unwrap_or(entry.late_min);
     entry.in_quiet = options.in_quiet.map_or(entry.in_quiet, InQuiet::from);
     let order = orders::to_order(&options.parts, connection)?;
-    if options.all || options.strategy.is_some() {
-        entry.job = ScheduledJob::Start {
+    entry.job = if options.strategy.is_some() || options.all && order == JobOrder::default() {
+        ScheduledJob::Start {
             strategy: options.strategy.clone(),
-        };
-    } else if order != JobOrder::default() {
-        entry.job = ScheduledJob::Clean(order);
-    }
+        }
+    } else if options.all {
+        ScheduledJob::Clean(order)
+    } else {
+        with_order(entry.job, order)
+    };
     Ok(entry)
+}
+
+/// The job with what was ordered: as long as no place is named, what is cleaned stays as it is.
+fn with_order(job: ScheduledJob, order: JobOrder) -> ScheduledJob {
+    match job {
+        unchanged if order == JobOrder::default() => unchanged,
+        ScheduledJob::Clean(known) if order.parts.is_empty() && order.avoid.is_empty() => {
+            ScheduledJob::Clean(JobOrder {
+                passes: known.passes.max(order.passes),
+                power: order.power.or(known.power),
+                pattern: order.pattern.or(known.pattern),
+                ..known
+            })
+        }
+        _ => ScheduledJob::Clean(order),
+    }
 }
 
 fn time(known: ScheduleTime, options: &ScheduleOptions) -> ScheduleTime {

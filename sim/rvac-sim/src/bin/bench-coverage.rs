@@ -131,6 +131,7 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
     let clean = |scene: &Scene, seed| {
         let settings = RunSettings {
             strategy,
+            pattern: None,
             seed,
             duration_ms: arguments.minutes * 60_000,
         };

@@ -7,9 +7,9 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_coverage};
-use brain::{CELL_M, Cell, Pose2, Raster};
-use clap::Parser;
+use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_pattern};
+use brain::{CELL_M, Cell, Pattern, Pose2, Raster};
+use clap::{Parser, ValueEnum};
 use home::{Home, RobotModel};
 use serde::Serialize;
 
@@ -30,9 +30,31 @@ struct Arguments {
     /// Standard deviation of the pose for which lanes overlap, metres.
     #[arg(long, default_value_t = 0.01)]
     sigma_m: f64,
+    /// In which way the floor is swept.
+    #[arg(long, value_enum, default_value_t)]
+    pattern: PatternArgument,
     /// Print JSON, one object a home.
     #[arg(long)]
     json: bool,
+}
+
+/// A pattern by its name.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum PatternArgument {
+    /// Straight lanes.
+    #[default]
+    Lines,
+    /// Rings along walls and furniture.
+    Contour,
+}
+
+impl From<PatternArgument> for Pattern {
+    fn from(argument: PatternArgument) -> Self {
+        match argument {
+            PatternArgument::Lines => Self::Lines,
+            PatternArgument::Contour => Self::Contour,
+        }
+    }
 }
 
 /// Figures of one plan. Times are multiples of T0; `null` = not reached.
@@ -57,15 +79,15 @@ fn main() -> anyhow::Result<()> {
     let model = RobotModel::by_name(&arguments.robot)?;
     for path in &arguments.home {
         let home = Home::load(path, &model)?;
-        print(&measured(&home, &model, arguments.sigma_m), arguments.json)?;
+        print(&measured(&home, &model, &arguments), arguments.json)?;
     }
     Ok(())
 }
 
-fn measured(home: &Home, model: &RobotModel, sigma_m: f64) -> Figures {
+fn measured(home: &Home, model: &RobotModel, arguments: &Arguments) -> Figures {
     let settings = PlanSettings {
         swath_m: model.body.swath_m,
-        sigma_m,
+        sigma_m: arguments.sigma_m,
         cruise_m_per_s: model.drive.cruise_m_per_s,
         turn_rad_per_s: model.drive.turn_max_rad_per_s,
     };
@@ -76,7 +98,7 @@ fn measured(home: &Home, model: &RobotModel, sigma_m: f64) -> Figures {
         y_m: pose.y_m,
         heading_rad: pose.heading_rad,
     };
-    let (plan, planning_s) = timed_plan(&ground, start, &settings);
+    let (plan, planning_s) = timed_plan(&ground, start, (arguments.pattern.into(), &settings));
     let curve = curve(home, &plan, &settings);
     let t0_s = home.t0_s();
     let reached = |share: f64| {
@@ -107,11 +129,15 @@ fn measured(home: &Home, model: &RobotModel, sigma_m: f64) -> Figures {
 }
 
 /// The plan, and the least time that it took in a few tries.
-fn timed_plan(ground: &Raster<bool>, start: Pose2, settings: &PlanSettings) -> (CoveragePlan, f64) {
+fn timed_plan(
+    ground: &Raster<bool>,
+    start: Pose2,
+    (pattern, settings): (Pattern, &PlanSettings),
+) -> (CoveragePlan, f64) {
     let mut best = (CoveragePlan::default(), f64::INFINITY);
     for _ in 0..TRIES {
         let (began, began_s) = (Instant::now(), processor_s());
-        let plan = plan_coverage(ground, |_| false, start, settings);
+        let plan = plan_pattern(ground, (pattern, |_| false), start, settings);
         let planning_s = match (began_s, processor_s()) {
             (Some(began_s), Some(ended_s)) => ended_s - began_s,
             _ => began.elapsed().as_secs_f64(),

@@ -8,6 +8,7 @@ use rvac_api::{
 
 use super::Core;
 use super::refusal::Refusal;
+use super::room_power::{to_pattern, to_power};
 use crate::journal::Part;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
@@ -221,13 +222,26 @@ pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
         Refusal::because(reason, text)
     })?;
     let avoid: Result<Vec<NoGo>, Refusal> = order.avoid.iter().map(to_no_go).collect();
-    whole.avoiding(avoid?).map_err(|reason| {
+    let whole = whole.avoiding(avoid?).map_err(|reason| {
         let text = format!(
             "{} places are to be avoided: a job keeps out of up to 16.",
             order.avoid.len()
         );
         Refusal::because(reason, text)
-    })
+    })?;
+    with_settings(whole, order)
+}
+
+/// An order with what it says of how it is carried out.
+fn with_settings(whole: CleaningOrder, order: &JobOrder) -> Result<CleaningOrder, Refusal> {
+    let whole = match order.pattern {
+        Some(pattern) => whole.with_pattern(to_pattern(pattern)),
+        None => whole,
+    };
+    match &order.power {
+        Some(power) => Ok(whole.with_power(to_power(power)?)?),
+        None => Ok(whole),
+    }
 }
 
 fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {

@@ -1,7 +1,7 @@
 //! How rooms are cleaned: what people say of it, and how hard brushes and suction run where the robot is.
 
-use brain::{BehaviorState, Command, Reason, RoomPower};
-use rvac_api::{CleaningPower, RoomSettings};
+use brain::{BehaviorState, Command, Pattern, Reason, RoomPower};
+use rvac_api::{CleaningPattern, CleaningPower, RoomSettings};
 use rvac_units::Throttle;
 
 use super::Core;
@@ -28,8 +28,8 @@ impl Core {
         Ok(())
     }
 
-    /// A person who drives says how hard brushes and suction run; in a job the room does in which the robot is, and where it
-    /// has no settings they run as hard as they can.
+    /// A person who drives says how hard brushes and suction run; in a job the job does or the room in which the robot is,
+    /// and where neither says anything they run as hard as they can.
     pub(super) fn cleaner_power(&self) -> CleanerPower {
         let Some(mind) = &self.mind else {
             return CleanerPower::FULL;
@@ -38,9 +38,7 @@ impl Core {
         if brain.status().state == BehaviorState::Manual {
             return self.driver_power;
         }
-        let words = brain.map().annotations();
-        let settings = brain.room().and_then(|room| words.settings(room));
-        settings.map_or(CleanerPower::FULL, |settings| in_room(settings.power()))
+        in_room(brain.power_here())
     }
 }
 
@@ -54,31 +52,49 @@ fn in_room(power: RoomPower) -> CleanerPower {
 }
 
 fn to_brain(settings: RoomSettings) -> Result<brain::RoomSettings, Refusal> {
+    let power = to_power(&settings.power)?;
+    let known = brain::RoomSettings::new(settings.passes, power).map_err(|reason| {
+        let text = format!(
+            "{} passes cannot be: a room is cleaned 1 to 3 times.",
+            settings.passes
+        );
+        Refusal::because(reason, text)
+    })?;
+    Ok(known.with_pattern(to_pattern(settings.pattern)))
+}
+
+/// Shares as whole percent.
+pub(super) fn to_power(power: &CleaningPower) -> Result<RoomPower, Refusal> {
     let CleaningPower {
         suction,
         main_brush,
         side_brushes,
-    } = settings.power;
-    // NaN becomes 0, and what is too much stays too much.
-    let percent = |share: f64| (100.0 * share).round().clamp(0.0, 255.0) as u8;
+    } = *power;
+    let shares = [suction, main_brush, side_brushes];
     let is_share = |share: &f64| (0.0..=1.0).contains(share);
-    let power = RoomPower {
+    if !shares.iter().all(is_share) || shares.iter().all(|share| percent(*share) == 0) {
+        let text = format!(
+            "Suction {suction}, main brush {main_brush} and side brushes {side_brushes} cannot be: each share is from 0 to 1, \
+             and one of them above 0."
+        );
+        return Err(Refusal::because(Reason::BadSettings, text));
+    }
+    Ok(RoomPower {
         suction: percent(suction),
         main_brush: percent(main_brush),
         side_brushes: percent(side_brushes),
-    };
-    let wrong = || {
-        let text = format!(
-            "{} passes with suction {suction}, main brush {main_brush} and side brushes {side_brushes} cannot be: 1 to 3 \
-             passes, each share from 0 to 1, and one of them above 0.",
-            settings.passes
-        );
-        Refusal::because(Reason::BadSettings, text)
-    };
-    if ![suction, main_brush, side_brushes].iter().all(is_share) {
-        return Err(wrong());
+    })
+}
+
+fn percent(share: f64) -> u8 {
+    (100.0 * share).round().clamp(0.0, 100.0) as u8
+}
+
+pub(super) fn to_pattern(pattern: CleaningPattern) -> Pattern {
+    match pattern {
+        CleaningPattern::Lines => Pattern::Lines,
+        CleaningPattern::Contour => Pattern::Contour,
     }
-    brain::RoomSettings::new(settings.passes, power).map_err(|_| wrong())
 }
 
 /// As clients are told of it.
@@ -91,6 +107,10 @@ pub(crate) fn to_api(settings: &brain::RoomSettings) -> RoomSettings {
             suction: share(power.suction),
             main_brush: share(power.main_brush),
             side_brushes: share(power.side_brushes),
+        },
+        pattern: match settings.pattern() {
+            Pattern::Lines => CleaningPattern::Lines,
+            Pattern::Contour => CleaningPattern::Contour,
         },
     }
 }

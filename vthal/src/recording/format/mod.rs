@@ -9,14 +9,13 @@ mod sensors;
 mod state;
 
 pub use answer::Answered;
-pub use order::{GivenNoGo, GivenOrder};
+pub use order::{GivenNoGo, GivenOrder, GivenPattern};
+use order::{from_power, to_power};
 pub use state::BrainState;
 
 use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{
-    Body, BrainConfig, Command, Observation, Point2, RoomName, RoomPower, RoomSettings, Speeds, StrategyName,
-};
+use brain::{Body, BrainConfig, Command, Observation, Point2, RoomName, RoomSettings, Speeds, StrategyName};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -268,6 +267,9 @@ pub enum GivenCommand {
         room: u16,
         /// Passes, then percent of suction, main brush and side brushes; absent = as any other.
         settings: Option<[u8; 4]>,
+        /// Absent = lines.
+        #[serde(default, skip_serializing_if = "GivenPattern::is_usual")]
+        pattern: GivenPattern,
     },
     /// [`Command::SplitRoom`]
     SplitRoom {
@@ -321,14 +323,10 @@ impl From<&Command> for GivenCommand {
             Command::SetRoom { room, settings } => Self::SetRoom {
                 room: *room,
                 settings: settings.map(|settings| {
-                    let power = settings.power();
-                    [
-                        settings.passes(),
-                        power.suction,
-                        power.main_brush,
-                        power.side_brushes,
-                    ]
+                    let [suction, main_brush, side_brushes] = from_power(settings.power());
+                    [settings.passes(), suction, main_brush, side_brushes]
                 }),
+                pattern: settings.unwrap_or_default().pattern().into(),
             },
             Command::SplitRoom { room, line } => Self::SplitRoom {
                 room: *room,
@@ -380,17 +378,17 @@ impl GivenCommand {
                     Some(name) => Some(RoomName::new(name).ok()?),
                 },
             },
-            Self::SetRoom { room, settings } => Command::SetRoom {
+            Self::SetRoom {
+                room,
+                settings,
+                pattern,
+            } => Command::SetRoom {
                 room: *room,
                 settings: match settings {
                     None => None,
-                    Some([passes, suction, main_brush, side_brushes]) => {
-                        let power = RoomPower {
-                            suction: *suction,
-                            main_brush: *main_brush,
-                            side_brushes: *side_brushes,
-                        };
-                        Some(RoomSettings::new(*passes, power).ok()?)
+                    Some([passes, power @ ..]) => {
+                        let settings = RoomSettings::new(*passes, to_power(*power)).ok()?;
+                        Some(settings.with_pattern(pattern.to_brain()))
                     }
                 },
             },
@@ -430,7 +428,8 @@ mod tests {
     use brain::mapping::CutLine;
     use brain::observation::{BeaconRange, ChargeFlow};
     use brain::{
-        CleaningOrder, Command, HomePart, NoGo, Observation, Point2, RoomName, RoomPower, RoomSettings, Zone,
+        CleaningOrder, Command, HomePart, NoGo, Observation, Pattern, Point2, RoomName, RoomPower,
+        RoomSettings, Zone,
     };
 
     use super::{Given, GivenCommand, Seen};
@@ -513,13 +512,38 @@ mod tests {
                 strategy: brain::StrategyName::Bounce,
             },
         ] {
-            let given = Given {
-                time_us: 1,
-                command: GivenCommand::from(&command),
-            };
-            let text = serde_json::to_string(&given).expect("plain");
-            let back: Given = serde_json::from_str(&text).expect("just written");
-            assert_eq!(back.command.to_brain(), Some(command));
+            comes_back(command);
         }
+    }
+
+    #[test]
+    fn how_rooms_and_jobs_are_swept_comes_back() {
+        for command in [
+            Command::SetRoom {
+                room: 3,
+                settings: Some(RoomSettings::default().with_pattern(Pattern::Contour)),
+            },
+            Command::CleanParts {
+                order: CleaningOrder::default()
+                    .with_pattern(Pattern::Contour)
+                    .with_power(RoomPower {
+                        suction: 30,
+                        ..RoomPower::FULL
+                    })
+                    .expect("a power that can be"),
+            },
+        ] {
+            comes_back(command);
+        }
+    }
+
+    fn comes_back(command: Command) {
+        let given = Given {
+            time_us: 1,
+            command: GivenCommand::from(&command),
+        };
+        let text = serde_json::to_string(&given).expect("plain");
+        let back: Given = serde_json::from_str(&text).expect("just written");
+        assert_eq!(back.command.to_brain(), Some(command));
     }
 }

@@ -1,6 +1,6 @@
 //! Parts of a home as they stand in recordings and checkpoints.
 
-use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Point2, Zone};
+use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Pattern, Point2, RoomPower, Zone};
 use serde::{Deserialize, Serialize};
 
 /// [`CleaningOrder`]
@@ -10,6 +10,56 @@ pub struct GivenOrder {
     passes: u8,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     avoid: Vec<GivenNoGo>,
+    /// Suction, main brush and side brushes in percent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    power: Option<[u8; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pattern: Option<GivenPattern>,
+}
+
+/// [`Pattern`]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GivenPattern {
+    /// [`Pattern::Lines`]
+    #[default]
+    Lines,
+    /// [`Pattern::Contour`]
+    Contour,
+}
+
+impl From<Pattern> for GivenPattern {
+    fn from(pattern: Pattern) -> Self {
+        match pattern {
+            Pattern::Lines => Self::Lines,
+            Pattern::Contour => Self::Contour,
+        }
+    }
+}
+
+impl GivenPattern {
+    pub(super) const fn to_brain(self) -> Pattern {
+        match self {
+            Self::Lines => Pattern::Lines,
+            Self::Contour => Pattern::Contour,
+        }
+    }
+
+    pub(super) fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+pub(super) fn from_power(power: RoomPower) -> [u8; 3] {
+    [power.suction, power.main_brush, power.side_brushes]
+}
+
+pub(super) fn to_power([suction, main_brush, side_brushes]: [u8; 3]) -> RoomPower {
+    RoomPower {
+        suction,
+        main_brush,
+        side_brushes,
+    }
 }
 
 /// [`HomePart`]
@@ -34,6 +84,8 @@ impl From<&CleaningOrder> for GivenOrder {
             parts: order.parts().iter().map(part).collect(),
             passes: order.passes(),
             avoid: order.avoid().iter().map(GivenNoGo::from).collect(),
+            power: order.power().map(from_power),
+            pattern: order.pattern().map(GivenPattern::from),
         }
     }
 }
@@ -50,10 +102,17 @@ impl GivenOrder {
         };
         let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();
         let avoid: Option<Vec<NoGo>> = self.avoid.iter().map(GivenNoGo::to_brain).collect();
-        CleaningOrder::new(parts?, self.passes)
+        let mut order = CleaningOrder::new(parts?, self.passes)
             .ok()?
             .avoiding(avoid?)
-            .ok()
+            .ok()?;
+        if let Some(power) = self.power {
+            order = order.with_power(to_power(power)).ok()?;
+        }
+        Some(match self.pattern {
+            Some(pattern) => order.with_pattern(pattern.to_brain()),
+            None => order,
+        })
     }
 }
 

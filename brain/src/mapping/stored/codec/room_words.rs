@@ -8,11 +8,14 @@ use crate::geometry::Point2;
 use crate::mapping::annotations::NAMES_MAX;
 use crate::mapping::room_changes::CHANGES_MAX;
 use crate::mapping::{CutLine, PartSide, RoomChange, RoomChanges, RoomJoin, RoomSplit};
-use crate::room_settings::{RoomPower, RoomSettings};
+use crate::room_settings::{Pattern, RoomPower, RoomSettings};
 
 const LEFT: u64 = 0;
 const JOIN: u64 = 1;
 const RIGHT: u64 = 2;
+
+const LINES: u8 = 0;
+const CONTOUR: u8 = 1;
 
 pub(super) fn put_room_changes(bytes: &mut Vec<u8>, changes: &RoomChanges) {
     put(bytes, changes.next.into());
@@ -40,6 +43,10 @@ pub(super) fn put_room_settings(bytes: &mut Vec<u8>, settings: &BTreeMap<u16, Ro
             power.suction,
             power.main_brush,
             power.side_brushes,
+            match settings.pattern() {
+                Pattern::Lines => LINES,
+                Pattern::Contour => CONTOUR,
+            },
         ] {
             put(bytes, u64::from(value));
         }
@@ -85,7 +92,11 @@ impl Reader<'_> {
         Ok(changes)
     }
 
-    pub(super) fn room_settings(&mut self) -> Result<BTreeMap<u16, RoomSettings>, StoredMapError> {
+    /// Before version 5 all rooms are swept in lines.
+    pub(super) fn room_settings(
+        &mut self,
+        version: u8,
+    ) -> Result<BTreeMap<u16, RoomSettings>, StoredMapError> {
         let mut all = BTreeMap::new();
         for _ in 0..self.count(NAMES_MAX)? {
             let room = self.short()?;
@@ -97,9 +108,21 @@ impl Reader<'_> {
                 side_brushes: byte()?,
             };
             let settings = RoomSettings::new(passes, power).map_err(|_| StoredMapError::RoomSettings)?;
-            all.insert(room, settings);
+            let pattern = match version {
+                ..5 => Pattern::Lines,
+                _ => self.pattern()?,
+            };
+            all.insert(room, settings.with_pattern(pattern));
         }
         Ok(all)
+    }
+
+    fn pattern(&mut self) -> Result<Pattern, StoredMapError> {
+        match u8::try_from(self.number()?) {
+            Ok(LINES) => Ok(Pattern::Lines),
+            Ok(CONTOUR) => Ok(Pattern::Contour),
+            _ => Err(StoredMapError::RoomSettings),
+        }
     }
 
     fn room_change(&mut self, next_room: u16) -> Result<RoomChange, StoredMapError> {

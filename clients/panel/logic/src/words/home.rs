@@ -61,8 +61,11 @@ screen! {
         set_side_brushes: "Side brushes", "Külgharjad";
         set_once: "once", "üks kord";
         set_times[1]: "{0} times", "{0} korda";
-        set_hint: "Power holds in every job, how often it is cleaned in jobs that name the room.",
-            "Võimsus kehtib igal koristamisel, kordade arv siis, kui tuba on valitud.";
+        set_hint: "Power and the way it is swept hold in every job, how often it is cleaned in jobs that name the room.",
+            "Võimsus ja koristusviis kehtivad igal koristamisel, kordade arv siis, kui tuba on valitud.";
+        set_pattern: "Swept", "Koristatakse";
+        pattern_lines: "In straight lines", "Sirgete ridadena";
+        pattern_contour: "Along the walls", "Mööda seinu";
         with_passes[1]: ", {0} times", ", {0} korda";
         draw_cut: "Split a room", "Poolita tuba";
         join_hint: "To make two rooms one, choose both: they must lie beside each other.",

@@ -73,6 +73,7 @@ impl Floor {
     pub(crate) fn learnt(scene: Scene, seed: u64, minutes: u64) -> anyhow::Result<Self> {
         let settings = RunSettings {
             strategy: StrategyName::Systematic,
+            pattern: None,
             seed,
             duration_ms: minutes * 60_000,
         };

@@ -1,0 +1,52 @@
+//! The floor that a part of an order asks for, and in which way it is to be swept.
+
+use super::plan::Course;
+use crate::mapping::{Cell, Map, Rooms};
+use crate::order::{CleaningOrder, HomePart};
+use crate::room_settings::Pattern;
+
+/// The floor that shall be swept, as it was known at one time.
+#[derive(Debug)]
+pub(crate) struct Wanted {
+    /// `None` = the whole home.
+    part: Option<HomePart>,
+    pattern: Pattern,
+    /// Rooms of the home that are swept in rings when all of it is.
+    ring_rooms: Vec<u16>,
+    rooms: Option<Rooms>,
+}
+
+impl Wanted {
+    /// What a part of an order asks for; `None` = the whole home.
+    pub(crate) fn of(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Self {
+        let words = map.annotations();
+        let ring_rooms = match part {
+            Some(_) => Vec::new(),
+            None => order.contour_rooms(words),
+        };
+        let needs_rooms = part.is_some() || !ring_rooms.is_empty();
+        Self {
+            part: part.cloned(),
+            pattern: order.pattern_over(part, words),
+            ring_rooms,
+            rooms: needs_rooms.then(|| map.rooms().clone()),
+        }
+    }
+
+    /// How a cell is to be swept, if it belongs to it.
+    pub(crate) fn course(&self, cell: Cell) -> Option<Course> {
+        match (&self.part, &self.rooms) {
+            (Some(part), Some(rooms)) => part.contains(cell, rooms).then(|| self.pattern.into()),
+            (None, Some(rooms)) => {
+                let room = rooms.labels().get(cell);
+                let is_ringed = room.is_some_and(|room| self.ring_rooms.contains(room));
+                Some(if is_ringed {
+                    Course::Inwards
+                } else {
+                    self.pattern.into()
+                })
+            }
+            (_, None) => Some(self.pattern.into()),
+        }
+    }
+}
