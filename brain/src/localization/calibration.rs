@@ -6,6 +6,7 @@
 //! bias that walls have told and a later rest denies would stay otherwise.
 
 use super::Advance;
+use super::particles::GyroBelief;
 use super::rest::Rested;
 
 /// Length of a window in seconds.
@@ -22,7 +23,7 @@ const REST_GATE: f64 = 4.0;
 /// Deviation of a scale that was learnt before: the gyro was perhaps colder then.
 const RESUMED_SIGMA: f64 = 0.002;
 /// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
-const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
+pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
 /// A window that differs by more deviations than this is not believed.
 const GATE: f64 = 3.5;
 /// Largest scale error and bias that are believed.
@@ -47,6 +48,25 @@ pub(super) struct Gain {
     pub(super) gained_rad: f64,
     /// Variance of what was gained, square radians.
     pub(super) variance_rad2: f64,
+}
+
+/// What a rest says of the bias.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BiasTold {
+    pub(super) rad_per_s: f64,
+    pub(super) variance_rad2_per_s2: f64,
+}
+
+impl BiasTold {
+    /// What both say together.
+    pub(super) fn and(self, other: Self) -> Self {
+        let sum = self.variance_rad2_per_s2 + other.variance_rad2_per_s2;
+        let own = other.variance_rad2_per_s2 / sum;
+        Self {
+            rad_per_s: own * self.rad_per_s + (1.0 - own) * other.rad_per_s,
+            variance_rad2_per_s2: own * self.variance_rad2_per_s2,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,6 +107,25 @@ impl Calibration {
         resumed
     }
 
+    /// All that is believed of the gyro.
+    pub(super) fn belief(&self) -> GyroBelief {
+        GyroBelief {
+            scale: self.scale,
+            scale_sigma: self.scale_sigma(),
+            bias_rad_per_s: self.bias_rad_per_s,
+            bias_sigma_rad_per_s: self.bias_sigma_rad_per_s(),
+        }
+    }
+
+    /// Somebody who has weighed all that was seen knows this.
+    pub(super) fn know(&mut self, belief: GyroBelief) {
+        self.know_scale(belief.scale, belief.scale_sigma);
+        self.bias_rad_per_s = belief
+            .bias_rad_per_s
+            .clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
+        self.covariance[2] = belief.bias_sigma_rad_per_s * belief.bias_sigma_rad_per_s;
+    }
+
     /// Error of the scale, relative, and bias, rad/s.
     pub(super) fn found(&self) -> (f64, f64) {
         (self.scale, self.bias_rad_per_s)
@@ -107,8 +146,8 @@ impl Calibration {
         (counted_rad - self.bias_rad_per_s * time_s) * (1.0 + self.scale)
     }
 
-    /// Takes in what the gyro showed while the wheels stood still.
-    pub(super) fn rest(&mut self, rested: Rested) {
+    /// Takes in what the gyro showed while the wheels stood still. Gives what that says of the bias.
+    pub(super) fn rest(&mut self, rested: Rested) -> BiasTold {
         let [ss, sb, bb] = self.covariance;
         let swing_rad_per_s = SWING_RAD / rested.time_s;
         let noise =
@@ -117,10 +156,15 @@ impl Calibration {
         let variance = bb + noise;
         let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
         // A robot that slides along what it touches turns slowly, too, while its wheels rest.
-        let weight = 1.0 / (variance * surprise.max(1.0));
+        let doubt = surprise.max(1.0);
+        let weight = 1.0 / (variance * doubt);
         let (gain_scale, gain_bias) = (sb * weight, bb * weight);
         self.move_by(gain_scale * off_rad_per_s, gain_bias * off_rad_per_s);
         self.covariance = [ss - gain_scale * sb, sb - gain_scale * bb, bb - gain_bias * bb];
+        BiasTold {
+            rad_per_s: rested.rad_per_s,
+            variance_rad2_per_s2: variance * doubt - bb,
+        }
     }
 
     /// Somebody who has weighed all that was seen knows the scale this well.
@@ -215,7 +259,23 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, Gain, Rested};
+    use super::{BiasTold, Calibration, Gain, Rested};
+
+    fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
+        BiasTold {
+            rad_per_s,
+            variance_rad2_per_s2: sigma_rad_per_s * sigma_rad_per_s,
+        }
+    }
+
+    #[test]
+    fn two_rests_tell_more_than_one_and_the_surer_one_the_most() {
+        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-4));
+        assert!((both.rad_per_s - 1.5e-3).abs() < 1e-12, "{both:?}");
+        assert!((both.variance_rad2_per_s2 - 5e-9).abs() < 1e-18, "{both:?}");
+        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-2));
+        assert!((both.rad_per_s - 1e-3).abs() < 1e-6, "{both:?}");
+    }
 
     fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
         for _ in 0..times {

@@ -11,6 +11,8 @@ const SHORT_BEAMS: f64 = 50.0;
 const LOST_BELOW: f64 = 0.5;
 /// Below this share the guesses are spread a little.
 const DOUBT_BELOW: f64 = 0.6;
+/// Above this share guesses hold on to what they have learnt.
+const HOLD_FROM: f64 = 0.75;
 /// From this share on a lost robot has found itself.
 const FOUND_FROM: f64 = 0.8;
 /// Beams that must have been told since the robot was lost.
@@ -63,6 +65,11 @@ impl Confidence {
         self.explained += (agreed - told * self.explained) / LONG_BEAMS;
         self.recently += (agreed - told * self.recently) / SHORT_BEAMS;
         self.beams = self.beams.saturating_add(fit.told);
+    }
+
+    /// Whether nothing speaks against what has been learnt lately.
+    pub(super) fn holds(self) -> bool {
+        self.explained >= HOLD_FROM && self.recently >= HOLD_FROM
     }
 
     pub(super) fn verdict(self) -> Verdict {

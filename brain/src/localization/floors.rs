@@ -7,7 +7,6 @@
 //! they fit where it has found the robot, and nowhere else nearly as well. Two floors that are alike never win: then a person
 //! must say which it is.
 
-use super::estimate::WHEEL_TURN_SCALE;
 use core::task::Poll;
 
 use super::odometry::Odometry;
@@ -189,7 +188,12 @@ impl FloorFinder {
             return;
         };
         if let Poll::Ready(terrain) = terrain.go_on() {
-            let mut tracker = Tracker::new(self.config.body.radius_m, self.config.sensors, self.seed);
+            let mut tracker = Tracker::new(
+                self.config.body.radius_m,
+                self.config.sensors,
+                (self.odometry.calibration.belief(), self.seed),
+            )
+            .into_rival();
             tracker.lose(Pose2::IDENTITY);
             self.rivals.push(Rival {
                 floor: *floor,
@@ -205,10 +209,8 @@ impl FloorFinder {
         Moved {
             advance,
             pose: self.odometry.odom_from_base(),
-            turn_scale_sigma: match advance.gyro_turn_rad {
-                Some(_) => self.odometry.calibration.scale_sigma(),
-                None => WHEEL_TURN_SCALE,
-            },
+            gyro: self.odometry.calibration.belief(),
+            told: self.odometry.told_bias(),
         }
     }
 

@@ -30,6 +30,7 @@ use estimate::{Drift, WHEEL_TURN_SCALE};
 pub use floors::{Finding, FloorFinder, FloorPlace};
 pub use odometry::Advance;
 use odometry::Odometry;
+use particles::GyroBelief;
 use retreat::Retreat;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
@@ -139,7 +140,11 @@ impl Localization {
         if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
             return;
         }
-        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
+        let mut tracker = Tracker::new(
+            config.body.radius_m,
+            config.sensors,
+            (self.odometry.calibration.belief(), seed),
+        );
         tracker.place_at(
             self.pose(),
             self.drift.sigma_m.max(START_SIGMA_M),
@@ -235,10 +240,8 @@ impl Localization {
         let moved = Moved {
             advance,
             pose: self.pose(),
-            turn_scale_sigma: match advance.gyro_turn_rad {
-                Some(_) => self.odometry.calibration.scale_sigma(),
-                None => WHEEL_TURN_SCALE,
-            },
+            gyro: self.odometry.calibration.belief(),
+            told: self.odometry.told_bias(),
         };
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
@@ -260,7 +263,8 @@ impl Localization {
             self.beacons.place_at(dock);
             self.put_at(dock);
         } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
-            self.adopt(estimate);
+            let gyro = tracker.gyro();
+            self.take_up(estimate, gyro);
         }
     }
 
@@ -375,6 +379,14 @@ impl Localization {
     /// Sets the transform that a better estimator has found.
     pub fn correct(&mut self, map_from_odom: Pose2) {
         self.map_from_odom = map_from_odom;
+    }
+
+    /// Takes up what guesses in a map have found, of the gyro, too.
+    fn take_up(&mut self, estimate: PoseEstimate, gyro: Option<GyroBelief>) {
+        self.adopt(estimate);
+        if let Some(gyro) = gyro.filter(|_| !estimate.lost) {
+            self.odometry.calibration.know(gyro);
+        }
     }
 
     /// Takes up what the filter found; the gyro learns from it.

@@ -1,6 +1,6 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
-use super::calibration::Calibration;
+use super::calibration::{BiasTold, Calibration};
 use super::rest::RestWatch;
 use crate::geometry::Pose2;
 use crate::observation::Observation;
@@ -43,6 +43,8 @@ pub(super) struct Odometry {
     odom_from_base: Pose2,
     last: Option<Totals>,
     rest: RestWatch,
+    /// What a rest has told that the last observation ended.
+    told: Option<BiasTold>,
     pub(super) calibration: Calibration,
 }
 
@@ -59,6 +61,7 @@ impl Odometry {
             odom_from_base: Pose2::IDENTITY,
             last: None,
             rest: RestWatch::default(),
+            told: None,
             calibration: Calibration::default(),
         }
     }
@@ -75,6 +78,11 @@ impl Odometry {
     /// Takes up what [`Self::gyro`] said before a restart.
     pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
         self.calibration = Calibration::resumed(scale, bias_rad_per_s);
+    }
+
+    /// What a rest has told that the last observation ended.
+    pub(super) fn told_bias(&self) -> Option<BiasTold> {
+        self.told
     }
 
     pub(super) fn update(&mut self, observation: &Observation) -> Advance {
@@ -106,9 +114,8 @@ impl Odometry {
         } else {
             self.rest.end(last)
         };
-        if let Some(rested) = ended.or(self.rest.observe(now)) {
-            self.calibration.rest(rested);
-        }
+        let rested = ended.or(self.rest.observe(now));
+        self.told = rested.map(|rested| self.calibration.rest(rested));
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {

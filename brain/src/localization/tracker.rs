@@ -4,9 +4,10 @@
 //! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
 
 use super::beacons::Heard;
+use super::calibration::BiasTold;
 use super::confidence::{Confidence, Verdict};
-use super::estimate::turn_variance;
-use super::particles::{Fit, Motion, ParticleFilter, Spread, Surroundings};
+use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
+use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::search::{Candidate, Search};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
@@ -62,8 +63,10 @@ pub(super) struct Moved {
     pub(super) advance: Advance,
     /// Pose by odometry since the last estimate.
     pub(super) pose: Pose2,
-    /// Deviation of the scale of turns, relative.
-    pub(super) turn_scale_sigma: f64,
+    /// With what odometry has put right what the gyro counted.
+    pub(super) gyro: GyroBelief,
+    /// What a rest that has just ended says of its bias.
+    pub(super) told: Option<BiasTold>,
 }
 
 /// A robot that follows its pose in a map.
@@ -80,6 +83,8 @@ pub(super) struct Tracker {
     weighings: u32,
     /// Ranges to beacons since the last weighing.
     heard: Vec<Heard>,
+    /// What a rest has told of the gyro since the last weighing.
+    told: Option<BiasTold>,
     trail: Trail,
     /// Way until the next search of a lost robot, metres.
     search_in_m: f64,
@@ -89,14 +94,16 @@ pub(super) struct Tracker {
     since_found: Fit,
     /// Beams until a find is not on probation any more.
     probation: u32,
+    /// It competes with others on other floors: what speaks against its floor must not be explained away.
+    is_rival: bool,
     radius_m: f64,
     layout: SensorLayout,
 }
 
 impl Tracker {
     /// A robot of this radius at the origin.
-    pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
-        Self {
+    pub(super) fn new(radius_m: f64, layout: SensorLayout, (gyro, seed): (GyroBelief, u64)) -> Self {
+        let mut tracker = Self {
             filter: ParticleFilter::new(radius_m, layout, seed),
             pending: Motion::default(),
             pending_turn_rad: 0.0,
@@ -107,14 +114,31 @@ impl Tracker {
             lost: false,
             weighings: 0,
             heard: Vec::new(),
+            told: None,
             trail: Trail::default(),
             search_in_m: 0.0,
             searching: None,
             since_found: Fit::default(),
             probation: 0,
+            is_rival: false,
             radius_m,
             layout,
+        };
+        tracker.filter.know_gyro(gyro);
+        tracker
+    }
+
+    /// One of several, each in the map of another floor.
+    pub(super) fn into_rival(self) -> Self {
+        Self {
+            is_rival: true,
+            ..self
         }
+    }
+
+    /// What it has learnt of the gyro.
+    pub(super) fn gyro(&self) -> Option<GyroBelief> {
+        self.filter.gyro()
     }
 
     /// The robot stands at `pose`, give or take these deviations.
@@ -184,7 +208,12 @@ impl Tracker {
         moved: Moved,
     ) -> Option<PoseEstimate> {
         let Moved { advance, pose, .. } = moved;
-        self.collect(advance);
+        self.filter.know_gyro(moved.gyro);
+        self.collect(advance, moved.gyro);
+        self.told = match (self.told, moved.told) {
+            (Some(before), Some(now)) => Some(before.and(now)),
+            (before, now) => before.or(now),
+        };
         if let Some(search) = &mut self.searching {
             search.follow(advance);
         }
@@ -203,19 +232,44 @@ impl Tracker {
         if !due || observation.wheel_drop {
             return None;
         }
-        let scale_rad = CORRELATED * moved.turn_scale_sigma * self.pending_turn_rad;
-        self.pending.turn_variance += scale_rad * scale_rad;
+        let manner = self.manner();
+        let scale_sigma = match (advance.gyro_turn_rad, manner) {
+            (None, _) => Some(WHEEL_TURN_SCALE),
+            (Some(_), Manner::Searching) => Some(moved.gyro.scale_sigma),
+            (Some(_), Manner::Holding) => None,
+        };
+        if let Some(scale_sigma) = scale_sigma {
+            let scale_rad = CORRELATED * scale_sigma * self.pending_turn_rad;
+            self.pending.turn_variance += scale_rad * scale_rad;
+        }
+        self.filter.take_manner(manner);
         self.filter.follow(self.pending);
         let heard = core::mem::take(&mut self.heard);
+        let felt = Felt {
+            contacts: felt.0,
+            edges: felt.1,
+            heard: &heard,
+            told: self.told.take(),
+        };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
         if self.lost {
             let map = &Whole(map);
-            self.filter.weigh(map, observation, (felt.0, felt.1, &heard));
+            self.filter.weigh(map, observation, &felt);
             Some(self.search(map))
         } else {
-            self.filter.weigh(map, observation, (felt.0, felt.1, &heard));
+            self.filter.weigh(map, observation, &felt);
             Some(self.judge(map))
+        }
+    }
+
+    /// Guesses hold on to what they have learnt only where the robot is known to be.
+    fn manner(&self) -> Manner {
+        let is_known = !self.lost && self.probation == 0 && !self.is_rival;
+        if is_known && self.confidence.holds() {
+            Manner::Holding
+        } else {
+            Manner::Searching
         }
     }
 
@@ -312,7 +366,8 @@ impl Tracker {
         lifted
     }
 
-    fn collect(&mut self, advance: Advance) {
+    fn collect(&mut self, advance: Advance, gyro: GyroBelief) {
+        self.pending.gyro.add(advance, gyro);
         self.pending.step = self.pending.step.after_arc(advance.distance_m, advance.turn_rad);
         self.pending.way_m += advance.distance_m.abs();
         self.pending.turn_variance += turn_variance(advance);

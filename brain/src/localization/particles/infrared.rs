@@ -1,19 +1,12 @@
 //! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
 
 use super::Surroundings;
+use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Surface, Surfaces, UNMAPPED, bell};
 use crate::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
 use crate::geometry::Point2;
 
 /// Levels below this are noise of the conversion, 0..1.
 const LEVEL_MIN: f64 = 0.02;
-/// Deviation of what a surface reflects, relative: white walls and dark furniture, and the noise of the level with it.
-const REFLECTION_SIGMA: f64 = 0.2;
-/// Error of a distance that comes from the map's cells and from the time between sample and report, metres.
-const PLACE_SIGMA_M: f64 = 0.015;
-/// Likelihood of a level that the map does not explain, against a perfect match: people, bags, moved chairs.
-const UNMAPPED: f64 = 0.12;
-/// The same for a beam that the map blocks in front of what was seen.
-const THROUGH: f64 = 0.04;
 /// Likelihood of something seen where nothing is known yet: it speaks neither for the place nor against it.
 const UNKNOWN: f64 = 0.5;
 /// Likelihood that nothing is seen where the map has something: drop-outs, black surfaces, what was carried away.
@@ -42,8 +35,8 @@ struct Beam {
 /// Something that a sensor sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sight {
-    /// At this distance, with one over its deviation.
-    At(f64, f64),
+    /// At a distance.
+    At(Range),
     /// Within the range; the sensor has only one line.
     Near,
 }
@@ -115,7 +108,7 @@ impl Beams {
     }
 
     /// Likelihood of all levels at a place; 1 at best.
-    pub(super) fn likelihood(&self, map: &impl Surroundings, place: &Place) -> f64 {
+    pub(super) fn likelihood(&self, map: &impl Surroundings, place: &Place, surfaces: &mut Surfaces) -> f64 {
         let beams = self.beams.get(..self.count).unwrap_or_default();
         if place.clearance_m > self.reach_m {
             let hits = beams.iter().filter(|beam| beam.seen.is_some());
@@ -124,9 +117,10 @@ impl Beams {
                 likelihood * if into_unknown { UNKNOWN } else { UNMAPPED }
             });
         }
-        beams.iter().fold(1.0, |likelihood, beam| {
+        let each = beams.iter().zip(&mut surfaces.surfaces);
+        each.fold(1.0, |likelihood, (beam, surface)| {
             let expected_m = self.cast(map, place, beam);
-            let told = self.beam_likelihood(beam.seen, expected_m);
+            let told = self.beam_likelihood(beam.seen, expected_m, surface);
             if told < UNKNOWN && looks_into_unknown(map, place, beam, expected_m) {
                 likelihood * UNKNOWN
             } else {
@@ -144,10 +138,10 @@ impl Beams {
                 .filter(|expected_m| *expected_m < self.range_m - RANGE_BAND_M);
             let agreed = match (beam.seen, expected_m) {
                 (None, None) => continue,
-                (Some(Sight::At(seen_m, per_sigma)), Some(expected_m)) => {
-                    ((seen_m - expected_m) * per_sigma).abs() < 3.0
+                (Some(Sight::At(range)), Some(expected_m)) => {
+                    ((range.seen_m - expected_m) * range.per_sigma).abs() < 3.0
                 }
-                (Some(Sight::At(seen_m, per_sigma)), None) => (self.range_m - seen_m) * per_sigma < 3.0,
+                (Some(Sight::At(range)), None) => (self.range_m - range.seen_m) * range.per_sigma < 3.0,
                 (Some(Sight::Near), _) => self.cast(map, place, beam).is_some(),
                 (None, Some(_)) => false,
             };
@@ -160,7 +154,10 @@ impl Beams {
         fit
     }
 
-    fn beam_likelihood(&self, seen: Option<Sight>, expected_m: Option<f64>) -> f64 {
+    fn beam_likelihood(&self, seen: Option<Sight>, expected_m: Option<f64>, surface: &mut Surface) -> f64 {
+        if seen.is_none() {
+            *surface = Surface::default();
+        }
         match (seen, expected_m) {
             (None, None) => 1.0,
             (None, Some(expected_m)) => {
@@ -172,14 +169,11 @@ impl Beams {
                 UNMAPPED + (1.0 - UNMAPPED) * within.clamp(0.0, 1.0)
             }
             (Some(Sight::Near), None) => UNMAPPED,
-            (Some(Sight::At(seen_m, per_sigma)), Some(expected_m)) => {
-                let off = (seen_m - expected_m) * per_sigma;
-                let floor = if off > 3.0 { THROUGH } else { UNMAPPED };
-                floor + (1.0 - floor) * bell(off)
-            }
+            (Some(Sight::At(range)), Some(expected_m)) => surface.likelihood(range, expected_m),
             // The map's nearest thing may lie just beyond the range.
-            (Some(Sight::At(seen_m, per_sigma)), None) => {
-                UNMAPPED + (1.0 - UNMAPPED) * bell((self.range_m + 2.0 * RANGE_BAND_M - seen_m) * per_sigma)
+            (Some(Sight::At(range)), None) => {
+                let off = (self.range_m + 2.0 * RANGE_BAND_M - range.seen_m) * range.per_sigma;
+                UNMAPPED + (1.0 - UNMAPPED) * bell(off * off)
             }
         }
     }
@@ -209,7 +203,7 @@ impl Beams {
 
 /// Whether what a beam shows lies where nothing is known, with nothing known in front of it.
 fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expected_m: Option<f64>) -> bool {
-    let Some(Sight::At(seen_m, _)) = beam.seen else {
+    let Some(Sight::At(Range { seen_m, .. })) = beam.seen else {
         return false;
     };
     if expected_m.is_some_and(|expected_m| expected_m <= seen_m) {
@@ -221,12 +215,6 @@ fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expec
         x_m: start.x_m + dx * seen_m,
         y_m: start.y_m + dy * seen_m,
     })
-}
-
-/// A bell of height 1 with heavier tails than the normal one, without an exponential function.
-fn bell(off: f64) -> f64 {
-    let body = 1.0 + off * off * 0.25;
-    1.0 / (body * body)
 }
 
 fn seen(level: f64, response: &ProximityResponse) -> Option<Sight> {
@@ -244,7 +232,11 @@ fn seen(level: f64, response: &ProximityResponse) -> Option<Sight> {
     let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
     let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
     let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
-    Some(Sight::At(distance_m.min(response.range_m), 1.0 / sigma_m))
+    Some(Sight::At(Range {
+        seen_m: distance_m.min(response.range_m),
+        by_reflection_m,
+        per_sigma: 1.0 / sigma_m,
+    }))
 }
 
 /// A pose with what each sensor needs of it.

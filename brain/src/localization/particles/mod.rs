@@ -5,7 +5,9 @@
 //! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
 //! a dark cupboard is dark for all of its length.
 
+mod gyro;
 mod infrared;
+mod surface;
 mod touch;
 
 use crate::config::SensorLayout;
@@ -15,8 +17,12 @@ use crate::random::Random;
 
 use super::PoseEstimate;
 use super::beacons::Heard;
+use super::calibration::BiasTold;
+use gyro::GyroGuess;
+pub(super) use gyro::{GyroBelief, GyroCount};
 pub(super) use infrared::Fit;
 use infrared::{Beams, Place};
+use surface::Surfaces;
 use touch::{Touch, body_likelihood};
 
 /// What the filter asks of a map.
@@ -54,14 +60,29 @@ const KLD_ERROR: f64 = 0.05;
 const KLD_QUANTILE: f64 = 2.33;
 /// Slip along the way, metres per square root of a metre.
 const SLIP_M_PER_SQRT_M: f64 = 0.012;
-/// What each move adds besides, metres and radians: cells, samples that are not of this moment.
+/// What each move adds besides, metres and radians: cells, samples that are not of this moment. Guesses hold their headings: one that
+/// walls have told in one corner of a room is what a lane across the room is driven by.
 const JITTER_M: f64 = 0.002;
-const JITTER_RAD: f64 = 0.002;
+const JITTER_RAD: f64 = 0.0005;
+/// The same while the robot looks for its place: what walls have told so far may be wrong, and guesses must not hold on to it.
+const SEARCHING_JITTER_RAD: f64 = 0.002;
+/// A few guesses turn by this much at each move, radians: all of them may hold a heading that is wrong.
+const SURPRISE_SHARE: f64 = 0.002;
+const SURPRISE_RAD: f64 = 0.03;
 /// Spread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
 const WAY_FACTOR_SIGMA: f64 = 0.01;
 const WAY_FACTOR_WALK: f64 = 0.002;
 /// Least and greatest factor that is believed.
 const WAY_FACTORS: (f64, f64) = (0.9, 1.1);
+
+/// What guesses make of what they see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Manner {
+    /// The robot may be elsewhere: guesses are spread, and each look at a surface counts by itself.
+    Searching,
+    /// The robot knows where it is: guesses hold headings, and know surfaces again that they have looked at.
+    Holding,
+}
 
 /// One guess.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +90,8 @@ struct Particle {
     pose: Pose2,
     /// True way by counted way: wheels, slip on rugs.
     way_factor: f64,
+    gyro: GyroGuess,
+    surfaces: Surfaces,
     weight: f64,
 }
 
@@ -81,6 +104,18 @@ pub(super) struct Motion {
     pub(super) way_m: f64,
     /// Variance of the turn, square radians.
     pub(super) turn_variance: f64,
+    pub(super) gyro: GyroCount,
+}
+
+/// What the robot noticed since the guesses were weighed last, besides what its infrared sensors show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Felt<'noticed> {
+    /// Contacts and edges of the floor that begin now.
+    pub(super) contacts: Contacts,
+    pub(super) edges: Cliffs,
+    pub(super) heard: &'noticed [Heard],
+    /// What rests have told of the gyro.
+    pub(super) told: Option<BiasTold>,
 }
 
 /// Standard deviations around a pose.
@@ -100,6 +135,9 @@ pub(super) struct ParticleFilter {
     radius_m: f64,
     layout: SensorLayout,
     beams: Beams,
+    /// With what new guesses begin.
+    gyro: GyroBelief,
+    manner: Manner,
 }
 
 impl ParticleFilter {
@@ -113,6 +151,8 @@ impl ParticleFilter {
             radius_m,
             layout,
             beams: Beams::new(&layout.proximity),
+            gyro: GyroBelief::default(),
+            manner: Manner::Searching,
         };
         filter.gather(
             Pose2::IDENTITY,
@@ -122,6 +162,30 @@ impl ParticleFilter {
             },
         );
         filter
+    }
+
+    /// New guesses begin with this belief.
+    pub(super) fn know_gyro(&mut self, belief: GyroBelief) {
+        self.gyro = belief;
+    }
+
+    /// From now on guesses are moved and weighed so. Those that begin to hold what they learn know no more of the gyro than was
+    /// told.
+    pub(super) fn take_manner(&mut self, manner: Manner) {
+        if manner == Manner::Holding && self.manner == Manner::Searching {
+            for particle in &mut self.particles {
+                particle.gyro = GyroGuess::drawn(self.gyro, &mut self.random);
+                particle.surfaces = Surfaces::default();
+            }
+        }
+        self.manner = manner;
+    }
+
+    /// What the guesses believe of the gyro, if they have learnt anything of it.
+    pub(super) fn gyro(&self) -> Option<GyroBelief> {
+        let guesses = self.particles.iter();
+        let guesses = guesses.map(|particle| (particle.weight, particle.gyro));
+        (self.manner == Manner::Holding).then(|| gyro::belief(guesses))
     }
 
     /// All guesses around one pose.
@@ -151,6 +215,7 @@ impl ParticleFilter {
             if let Some(particle) = self.particles.get_mut(index) {
                 *particle = Particle {
                     way_factor: particle.way_factor,
+                    gyro: particle.gyro,
                     ..drawn
                 };
             }
@@ -165,6 +230,8 @@ impl ParticleFilter {
                 heading_rad: normalize_rad(around.heading_rad + spread.sigma_rad * self.random.normal()),
             },
             way_factor: 1.0 + WAY_FACTOR_SIGMA * self.random.normal(),
+            gyro: GyroGuess::drawn(self.gyro, &mut self.random),
+            surfaces: Surfaces::default(),
             weight: 1.0,
         }
     }
@@ -173,43 +240,53 @@ impl ParticleFilter {
     pub(super) fn follow(&mut self, motion: Motion) {
         let root_m = libm::sqrt(motion.way_m);
         let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
-        let turn_rad = libm::sqrt(motion.turn_variance) + JITTER_RAD;
+        let (jitter_rad, kept) = match self.manner {
+            Manner::Searching => (SEARCHING_JITTER_RAD, 0.0),
+            Manner::Holding => (JITTER_RAD, Surfaces::kept_after(motion.way_m)),
+        };
+        let turn_rad = libm::sqrt(motion.turn_variance) + jitter_rad;
         let walk = WAY_FACTOR_WALK * root_m;
         for particle in &mut self.particles {
+            particle.surfaces.move_on(kept);
+            let uncounted_rad = match self.manner {
+                Manner::Searching => 0.0,
+                Manner::Holding => {
+                    particle.gyro.turned_more_rad(motion.gyro, &mut self.random)
+                        + surprise_rad(&mut self.random)
+                }
+            };
             let (low, high) = WAY_FACTORS;
             particle.way_factor = (particle.way_factor + walk * self.random.normal()).clamp(low, high);
             let step = Pose2 {
                 x_m: motion.step.x_m * particle.way_factor + along_m * self.random.normal(),
                 y_m: motion.step.y_m * particle.way_factor + JITTER_M * self.random.normal(),
-                heading_rad: motion.step.heading_rad + turn_rad * self.random.normal(),
+                heading_rad: motion.step.heading_rad + uncounted_rad + turn_rad * self.random.normal(),
             };
             particle.pose = particle.pose * step;
         }
     }
 
     /// Weighs every guess by what the sensors show, and draws new ones where few are left that fit.
-    pub(super) fn weigh(
-        &mut self,
-        map: &impl Surroundings,
-        observation: &Observation,
-        felt: (Contacts, Cliffs, &[Heard]),
-    ) {
+    pub(super) fn weigh(&mut self, map: &impl Surroundings, observation: &Observation, felt: &Felt<'_>) {
         self.beams
             .look(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
-            contacts: felt.0,
-            edges: felt.1,
+            contacts: felt.contacts,
+            edges: felt.edges,
         };
         let mut sum = 0.0;
         for particle in &mut self.particles {
             let place = place(map, particle.pose);
-            let infrared = self.beams.likelihood(map, &place);
-            let mut likelihood = tempered(infrared);
+            let infrared = self.beams.likelihood(map, &place, &mut particle.surfaces);
+            let mut likelihood = tempered(infrared, self.manner);
             likelihood *= body_likelihood(place.clearance_m - self.radius_m);
             if touch.tells() {
                 likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
             }
-            particle.weight *= likelihood * heard_likelihood(felt.2, place.centre);
+            if let Some(told) = felt.told.filter(|_| self.manner == Manner::Holding) {
+                likelihood *= particle.gyro.likelihood(told);
+            }
+            particle.weight *= likelihood * heard_likelihood(felt.heard, place.centre);
             sum += particle.weight;
         }
         self.normalize(sum);
@@ -243,6 +320,7 @@ impl ParticleFilter {
     /// Draws as many guesses as their spread asks for, each with the chance of its weight (systematic resampling).
     fn resample(&mut self) {
         let wanted = self.wanted();
+        let gyro = self.gyro();
         let count = self.particles.len();
         let step = count as f64 / wanted as f64;
         let mut pointer = self.random.between(0.0, step);
@@ -253,6 +331,10 @@ impl ParticleFilter {
             while pointer < passed && self.spare.len() < wanted {
                 self.spare.push(Particle {
                     weight: 1.0,
+                    gyro: match gyro {
+                        Some(gyro) => particle.gyro.redrawn(gyro, &mut self.random),
+                        None => particle.gyro,
+                    },
                     ..*particle
                 });
                 pointer += step;
@@ -341,16 +423,28 @@ fn heard_likelihood(heard: &[Heard], centre: Point2) -> f64 {
     })
 }
 
-/// To the power of 3/8, by roots because they are cheap.
-fn tempered(likelihood: f64) -> f64 {
+/// To the power of 1/2, or of 3/8 where surfaces are not known again; by roots because they are cheap.
+fn tempered(likelihood: f64, manner: Manner) -> f64 {
     let root = libm::sqrt(likelihood);
-    libm::sqrt(root * libm::sqrt(root))
+    match manner {
+        Manner::Searching => libm::sqrt(root * libm::sqrt(root)),
+        Manner::Holding => root,
+    }
 }
 
 /// Number of the bin of a pose, for bins `factor` times as wide as usual.
 fn bin(pose: Pose2, factor: f64) -> u64 {
     let number = |value: f64, edge: f64| (libm::floor(value / (edge * factor)) as i64 as u64) & 0xf_ffff;
     number(pose.x_m, BIN_M) << 40 | number(pose.y_m, BIN_M) << 20 | number(pose.heading_rad, BIN_RAD)
+}
+
+/// A turn that nobody counted.
+fn surprise_rad(random: &mut Random) -> f64 {
+    if random.between(0.0, 1.0) < SURPRISE_SHARE {
+        SURPRISE_RAD * random.normal()
+    } else {
+        0.0
+    }
 }
 
 /// Weighted mean of guesses and their spread.

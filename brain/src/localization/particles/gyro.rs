@@ -1,0 +1,255 @@
+//! What a guess holds of the gyro besides its pose: a heading that is wrong after a turn is the fault of the scale, and after
+//! a long way that of the bias. Guesses that are right about both fit the walls turn after turn, so both are learnt with
+//! the pose, and as sure as the guesses agree.
+
+use crate::localization::Advance;
+use crate::localization::calibration::{BIAS_DRIFT_RAD2_PER_S3, BiasTold};
+use crate::random::Random;
+
+/// How the scale wanders, relative per square root of a radian that was turned: no gyro has the same scale at all rates, and guesses that
+/// agreed too soon go on learning.
+const SCALE_WALK: f64 = 2.0e-4;
+/// When guesses are drawn anew, so much of their deviations is drawn anew, too: copies of one guess would all have its scale
+/// (J. Liu and M. West 2001: the kernel keeps mean and variance).
+const REDRAWN: f64 = 0.05;
+/// Least deviations that drawing anew keeps up, relative and radians per second.
+const SCALE_SIGMA_MIN: f64 = 3.0e-4;
+const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 5.0e-5;
+
+/// Guesses of a robot that has never rested are drawn as if a rest had told the bias this well, radians per second: some of them would turn
+/// until a strange home fits.
+const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
+
+/// Least variance that a long rest is believed to have, square radians per square second: few guesses would be left, and with them few
+/// places.
+const TOLD_VARIANCE_MIN: f64 = 2.5e-8;
+
+/// What is believed of the gyro.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::localization) struct GyroBelief {
+    /// Error of the scale, relative, and its deviation.
+    pub(in crate::localization) scale: f64,
+    pub(in crate::localization) scale_sigma: f64,
+    /// Bias and its deviation, radians per second.
+    pub(in crate::localization) bias_rad_per_s: f64,
+    pub(in crate::localization) bias_sigma_rad_per_s: f64,
+}
+
+/// What the gyro showed while the robot moved.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::localization) struct GyroCount {
+    shown_rad: f64,
+    time_s: f64,
+    /// What odometry made of it.
+    counted_rad: f64,
+}
+
+impl GyroCount {
+    /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
+    pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroBelief) {
+        let stands = advance.distance_m == 0.0 && advance.turn_rad == 0.0;
+        let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !stands) else {
+            return;
+        };
+        self.shown_rad += turn_rad / (1.0 + belief.scale) + belief.bias_rad_per_s * advance.time_s;
+        self.time_s += advance.time_s;
+        self.counted_rad += turn_rad;
+    }
+}
+
+/// The gyro as one guess has it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct GyroGuess {
+    scale: f64,
+    bias_rad_per_s: f64,
+}
+
+impl GyroGuess {
+    /// A guess as good as the belief.
+    pub(super) fn drawn(belief: GyroBelief, random: &mut Random) -> Self {
+        Self {
+            scale: belief.scale + belief.scale_sigma * random.normal(),
+            bias_rad_per_s: belief.bias_rad_per_s
+                + belief.bias_sigma_rad_per_s.min(BIAS_SIGMA_DRAWN_MAX_RAD_PER_S) * random.normal(),
+        }
+    }
+
+    /// By how much the robot turned more than odometry counted, if the guess is right. Bias and scale wander
+    /// meanwhile.
+    pub(super) fn turned_more_rad(&mut self, count: GyroCount, random: &mut Random) -> f64 {
+        if count.time_s <= 0.0 {
+            return 0.0;
+        }
+        self.bias_rad_per_s += libm::sqrt(BIAS_DRIFT_RAD2_PER_S3 * count.time_s) * random.normal();
+        self.scale += SCALE_WALK * libm::sqrt(count.counted_rad.abs()) * random.normal();
+        (count.shown_rad - self.bias_rad_per_s * count.time_s) * (1.0 + self.scale) - count.counted_rad
+    }
+
+    /// Likelihood of what a rest has told; 1 at best.
+    pub(super) fn likelihood(&self, told: BiasTold) -> f64 {
+        let off = told.rad_per_s - self.bias_rad_per_s;
+        libm::exp(-0.5 * off * off / told.variance_rad2_per_s2.max(TOLD_VARIANCE_MIN))
+    }
+
+    /// The same once more, for guesses of which some are copies.
+    pub(super) fn redrawn(self, belief: GyroBelief, random: &mut Random) -> Self {
+        let kept = libm::sqrt(1.0 - REDRAWN * REDRAWN);
+        let about = |value: f64, mean: f64, sigma: f64, chance: f64| {
+            mean + kept * (value - mean) + REDRAWN * sigma * chance
+        };
+        Self {
+            scale: about(
+                self.scale,
+                belief.scale,
+                belief.scale_sigma.max(SCALE_SIGMA_MIN),
+                random.normal(),
+            ),
+            bias_rad_per_s: about(
+                self.bias_rad_per_s,
+                belief.bias_rad_per_s,
+                belief.bias_sigma_rad_per_s.max(BIAS_SIGMA_MIN_RAD_PER_S),
+                random.normal(),
+            ),
+        }
+    }
+}
+
+/// What guesses of these weights believe together.
+pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) -> GyroBelief {
+    let sum: f64 = guesses.clone().map(|(weight, _)| weight).sum();
+    let mean = |of: &dyn Fn(GyroGuess) -> f64| {
+        let weighted = guesses.clone().map(|(weight, guess)| weight * of(guess));
+        weighted.sum::<f64>() / sum.max(1e-300)
+    };
+    let scale = mean(&|guess| guess.scale);
+    let bias_rad_per_s = mean(&|guess| guess.bias_rad_per_s);
+    let scale_variance = mean(&|guess| (guess.scale - scale) * (guess.scale - scale));
+    let bias_variance = mean(&|guess| {
+        let off = guess.bias_rad_per_s - bias_rad_per_s;
+        off * off
+    });
+    GyroBelief {
+        scale,
+        scale_sigma: libm::sqrt(scale_variance),
+        bias_rad_per_s,
+        bias_sigma_rad_per_s: libm::sqrt(bias_variance),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BiasTold, GyroBelief, GyroCount, GyroGuess, belief};
+    use crate::localization::Advance;
+    use crate::random::Random;
+
+    const BELIEF: GyroBelief = GyroBelief {
+        scale: 0.01,
+        scale_sigma: 0.004,
+        bias_rad_per_s: 0.002,
+        bias_sigma_rad_per_s: 5.0e-4,
+    };
+
+    /// What odometry counts with this belief when the gyro shows a turn.
+    fn counted(shown_rad: f64, time_s: f64, belief: GyroBelief) -> Advance {
+        let turn_rad = (shown_rad - belief.bias_rad_per_s * time_s) * (1.0 + belief.scale);
+        Advance {
+            time_s,
+            distance_m: 0.1,
+            turn_rad,
+            gyro_turn_rad: Some(turn_rad),
+            ..Advance::default()
+        }
+    }
+
+    #[test]
+    fn a_guess_turns_by_what_the_gyro_showed_and_not_by_what_others_made_of_it() {
+        let mut count = GyroCount::default();
+        let mut other = BELIEF;
+        for _ in 0..5 {
+            count.add(counted(0.5, 2.0, other), other);
+            // A rest has told another bias meanwhile.
+            other.bias_rad_per_s += 0.001;
+        }
+        let mut guess = GyroGuess {
+            scale: -0.02,
+            bias_rad_per_s: -0.003,
+        };
+        let more_rad = guess.turned_more_rad(count, &mut Random::new(1));
+        let turned_rad = (2.5 + 0.003 * 10.0) * 0.98;
+        assert!(
+            (count.counted_rad + more_rad - turned_rad).abs() < 5e-3,
+            "{more_rad}"
+        );
+    }
+
+    #[test]
+    fn a_robot_that_stands_or_counts_its_wheels_only_has_no_error_of_a_gyro() {
+        let mut count = GyroCount::default();
+        let standing = Advance {
+            time_s: 5.0,
+            gyro_turn_rad: Some(0.0),
+            ..Advance::default()
+        };
+        let by_wheels = Advance {
+            gyro_turn_rad: None,
+            ..counted(1.0, 1.0, BELIEF)
+        };
+        count.add(standing, BELIEF);
+        count.add(by_wheels, BELIEF);
+        let mut random = Random::new(1);
+        let mut guess = GyroGuess::drawn(BELIEF, &mut random);
+        assert_eq!(guess.turned_more_rad(count, &mut random), 0.0);
+    }
+
+    fn guesses(random: &mut Random) -> Vec<(f64, GyroGuess)> {
+        (0..20_000)
+            .map(|_| (1.0, GyroGuess::drawn(BELIEF, random)))
+            .collect()
+    }
+
+    fn about(value: f64, wanted: f64) -> bool {
+        (value / wanted - 1.0).abs() < 0.05
+    }
+
+    #[test]
+    fn guesses_that_are_drawn_anew_again_and_again_believe_the_same() {
+        let mut random = Random::new(3);
+        let mut all = guesses(&mut random);
+        for _ in 0..50 {
+            let before = belief(all.iter().copied());
+            for (_, guess) in &mut all {
+                *guess = guess.redrawn(before, &mut random);
+            }
+        }
+        let after = belief(all.iter().copied());
+        assert!(
+            about(after.scale, BELIEF.scale) && about(after.scale_sigma, BELIEF.scale_sigma),
+            "{after:?}"
+        );
+        assert!(about(after.bias_rad_per_s, BELIEF.bias_rad_per_s), "{after:?}");
+        assert!(
+            about(after.bias_sigma_rad_per_s, BELIEF.bias_sigma_rad_per_s),
+            "{after:?}"
+        );
+    }
+
+    #[test]
+    fn a_rest_pulls_the_bias_as_far_as_it_is_sure() {
+        let mut all = guesses(&mut Random::new(4));
+        let told = BiasTold {
+            rad_per_s: 0.003,
+            variance_rad2_per_s2: 2.5e-7,
+        };
+        for (weight, guess) in &mut all {
+            *weight *= guess.likelihood(told);
+        }
+        let after = belief(all.iter().copied());
+        // Rest and belief are equally sure.
+        assert!(about(after.bias_rad_per_s, 0.0025), "{after:?}");
+        assert!(
+            about(after.bias_sigma_rad_per_s, 5.0e-4 / 2.0_f64.sqrt()),
+            "{after:?}"
+        );
+        assert!(about(after.scale, BELIEF.scale), "{after:?}");
+    }
+}

@@ -1,0 +1,166 @@
+//! How likely a distance is that an infrared level tells, for a surface of which a guess has learnt how dark it is.
+
+use crate::config::PROXIMITY_MAX;
+
+/// Deviation of what a surface reflects, relative: white walls and dark furniture.
+pub(super) const REFLECTION_SIGMA: f64 = 0.2;
+/// Noise of a level, relative: of a usual sensor and of a bad one.
+const LEVEL_SIGMA: f64 = 0.08;
+/// A sensor that looks along a wall sees another surface after this way, on average, metres.
+const SURFACE_M: f64 = 1.0;
+/// No surface reflects more or less than the usual one by more than this, relative.
+const REFLECTION_MAX: f64 = 0.6;
+/// A level of which less than this share is explained by the surface tells nothing of it.
+const EXPLAINED_MIN: f64 = 0.3;
+/// Error of a distance that comes from the map's cells and from the time between sample and report, metres.
+pub(super) const PLACE_SIGMA_M: f64 = 0.015;
+/// Likelihood of a level that the map does not explain, against a perfect match: people, bags, moved chairs.
+pub(super) const UNMAPPED: f64 = 0.12;
+/// The same for a beam that the map blocks in front of what was seen.
+const THROUGH: f64 = 0.04;
+
+/// A distance that a level tells, for a surface that reflects as usual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    pub(super) seen_m: f64,
+    /// By how much it is seen too far for each unit of what the surface reflects too little, metres.
+    pub(super) by_reflection_m: f64,
+    /// One over the deviation of the distance, if nothing is known of the surface.
+    pub(super) per_sigma: f64,
+}
+
+/// What a guess holds of the surfaces that the sensors look at. The same surface errs the same way as long as a sensor looks at it:
+/// its first levels tell how far away it is, as well as surfaces go, and all later ones only how the distance changes. A filter of
+/// one number for each sensor and guess (a particle filter after Rao and Blackwell).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surfaces {
+    pub(super) surfaces: [Surface; PROXIMITY_MAX],
+}
+
+/// By how much a surface reflects too little, relative, and the variance of that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    darkness: f32,
+    variance: f32,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self {
+            darkness: 0.0,
+            variance: (REFLECTION_SIGMA * REFLECTION_SIGMA) as f32,
+        }
+    }
+}
+
+impl Default for Surfaces {
+    fn default() -> Self {
+        Self {
+            surfaces: [Surface::default(); PROXIMITY_MAX],
+        }
+    }
+}
+
+impl Surfaces {
+    /// Share of what is known of a surface that still holds after a way.
+    pub(super) fn kept_after(way_m: f64) -> f32 {
+        libm::exp(-way_m / SURFACE_M) as f32
+    }
+
+    /// The sensors may look at other surfaces now.
+    pub(super) fn move_on(&mut self, kept: f32) {
+        let usual = Surface::default();
+        for surface in &mut self.surfaces {
+            surface.darkness *= kept;
+            surface.variance = usual.variance + kept * (surface.variance - usual.variance);
+        }
+    }
+}
+
+impl Surface {
+    /// Likelihood of a distance where the map has a thing at another one; 1 at best. Learns from it.
+    pub(super) fn likelihood(&mut self, range: Range, expected_m: f64) -> f64 {
+        let (slope_m, known) = (range.by_reflection_m, f64::from(self.variance));
+        let off_m = range.seen_m - expected_m - slope_m * f64::from(self.darkness);
+        let variance_m2 =
+            slope_m * slope_m * (known + LEVEL_SIGMA * LEVEL_SIGMA) + PLACE_SIGMA_M * PLACE_SIGMA_M;
+        let off2 = off_m * off_m / variance_m2;
+        let floor = if off_m > 0.0 && off2 > 9.0 {
+            THROUGH
+        } else {
+            UNMAPPED
+        };
+        let explained = (1.0 - floor) * bell(off2);
+        if explained >= EXPLAINED_MIN {
+            let gain = slope_m * known / variance_m2;
+            let darkness = f64::from(self.darkness) + gain * off_m;
+            self.darkness = darkness.clamp(-REFLECTION_MAX, REFLECTION_MAX) as f32;
+            self.variance = (known * (1.0 - gain * slope_m)) as f32;
+        }
+        floor + explained
+    }
+}
+
+/// A bell of height 1 over the square of a deviation, with heavier tails than the normal one, without an exponential function.
+pub(super) fn bell(off2: f64) -> f64 {
+    let body = 1.0 + off2 * 0.25;
+    1.0 / (body * body)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Range, Surface, Surfaces};
+
+    const EXPECTED_M: f64 = 0.1;
+
+    fn range(off_m: f64) -> Range {
+        Range {
+            seen_m: EXPECTED_M + off_m,
+            by_reflection_m: 0.08,
+            per_sigma: 1.0 / 0.022,
+        }
+    }
+
+    /// Likelihood that the next level along a wall is this far off, after twenty that all were seen 2 cm too far.
+    fn after_dark_wall(off_m: f64) -> f64 {
+        let mut surface = Surface::default();
+        for _ in 0..20 {
+            surface.likelihood(range(0.02), EXPECTED_M);
+        }
+        surface.likelihood(range(off_m), EXPECTED_M)
+    }
+
+    #[test]
+    fn along_one_wall_only_a_change_of_the_distance_is_a_surprise() {
+        let first = Surface::default().likelihood(range(0.02), EXPECTED_M);
+        assert!(after_dark_wall(0.02) > 0.95 && first < 0.85, "{first}");
+        // A wall that is where it is said to be, but was dark until now, is as surprising as one that is twice as far off.
+        let changes = [0.0, 0.04].map(after_dark_wall);
+        assert!((changes[0] - changes[1]).abs() < 0.1, "{changes:?}");
+        assert!(changes[0] < 0.75, "{changes:?}");
+    }
+
+    #[test]
+    fn another_surface_is_a_new_one() {
+        let mut surfaces = Surfaces::default();
+        surfaces.surfaces[0].likelihood(range(0.03), EXPECTED_M);
+        let learnt = surfaces.surfaces[0];
+        assert!(learnt.darkness > 0.1 && learnt.variance < 0.03, "{learnt:?}");
+        surfaces.move_on(Surfaces::kept_after(0.05));
+        assert!(surfaces.surfaces[0].darkness > 0.9 * learnt.darkness);
+        surfaces.move_on(Surfaces::kept_after(5.0));
+        let forgotten = surfaces.surfaces[0];
+        assert!(
+            forgotten.darkness < 0.01 && forgotten.variance > 0.039,
+            "{forgotten:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_no_wall_of_the_map_teaches_nothing_of_its_surface() {
+        let mut surface = Surface::default();
+        let likelihood = surface.likelihood(range(-0.3), EXPECTED_M);
+        assert!(likelihood < 0.2, "{likelihood}");
+        assert_eq!(surface.darkness, 0.0);
+    }
+}
