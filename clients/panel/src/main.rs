@@ -14,6 +14,7 @@ mod header;
 mod history;
 mod home_view;
 mod icons;
+mod job_settings_view;
 mod language;
 mod link;
 mod log_view;

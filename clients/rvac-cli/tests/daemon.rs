@@ -637,6 +637,40 @@ fn schedules_are_asked_for_under_their_names() {
 }
 
 #[test]
+fn a_schedule_is_told_how_its_runs_clean_and_what_they_clean_stays() {
+    let job = |parts, passes| JobOrder {
+        parts,
+        passes,
+        power: Some(CleaningPower::QUIET),
+        ..JobOrder::default()
+    };
+    let room = || vec![JobPart::Room(1)];
+    let contour = JobOrder {
+        pattern: Some(CleaningPattern::Contour),
+        ..job(room(), 3)
+    };
+    let cases: [(&[&str], JobOrder); 3] = [
+        (&["--power", "quiet"], job(room(), 2)),
+        (
+            &["--power", "quiet", "--pattern", "contour", "--passes", "3"],
+            contour,
+        ),
+        (&["--all", "--power", "quiet"], job(vec![], 1)),
+    ];
+    for (place, (options, order)) in cases.into_iter().enumerate() {
+        let arguments = [&["schedule", "change", "3"], options].concat();
+        let (output, asked) = Daemon::start(&format!("loud-{place}"), punctual).rvac(&arguments, "");
+        assert!(output.status.success(), "{arguments:?}: {output:?}");
+        let entry = ScheduleEntry {
+            job: ScheduledJob::Clean(order),
+            ..hall_at("07:30")
+        };
+        let body = RequestBody::ChangeSchedule { number: 3, entry };
+        assert!(asked.contains(&Request { id: Some(1), body }), "{asked:?}");
+    }
+}
+
+#[test]
 fn an_estimate_is_told_and_an_unknown_room_is_named() {
     let (output, _) = Daemon::start("estimate", at_home).rvac(&["estimate", "--room", "Hall"], "");
     let words = text(&output.stdout);

@@ -221,6 +221,15 @@ impl Browser {
         .await;
     }
 
+    /// Chooses an entry of the list `id` by its value, as far as the page can tell.
+    pub(crate) async fn choose(&self, id: &str, value: &str) {
+        let chosen = format!(
+            "const list = document.getElementById('{id}'); list.value = '{value}'; \
+             list.dispatchEvent(new Event('change', {{bubbles: true}})); return list.value"
+        );
+        assert_eq!(self.text(&chosen).await, value, "{id} offers it");
+    }
+
     /// Waits until the robot is in one of these states.
     pub(crate) async fn until_state(&self, states: &[&str]) {
         let states = json!(states);

@@ -315,6 +315,8 @@ async fn clean_one_room(browser: &Browser, shots: &str) {
         .await;
     browser.shot(&format!("{shots}-room-chosen")).await;
     browser.click("#passes-2").await;
+    browser.choose("job-power", "quiet").await;
+    browser.choose("job-pattern", "contour").await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
     browser

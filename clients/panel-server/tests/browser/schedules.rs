@@ -56,6 +56,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     fill(browser, "schedule-at", "07:30").await;
     browser.click("#day-sa").await;
     browser.click("#schedule-form .rooms input").await;
+    browser.choose("schedule-power", "quiet").await;
     browser.shot("phone-schedule-form").await;
     browser.click("#save-schedule").await;
 
@@ -63,6 +64,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser
         .says("schedules", "Mon, Tue, Wed, Thu, Fri, Sat at 07:30")
         .await;
+    browser.says("schedules", ", quiet").await;
     assert_eq!(
         browser
             .text("return document.querySelectorAll('#next-runs li').length")

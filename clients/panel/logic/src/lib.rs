@@ -19,6 +19,7 @@ mod frame_meter;
 mod health;
 mod history;
 mod home;
+mod job_settings;
 mod latency;
 mod log_book;
 mod mixes;
@@ -58,6 +59,7 @@ pub use history::{
     stop_rows,
 };
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
+pub use job_settings::{JobSettings, SettingChoice};
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{

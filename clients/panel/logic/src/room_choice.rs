@@ -4,6 +4,7 @@ use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, SPOT_RADIUS_
 
 use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
+use crate::job_settings::JobSettings;
 use crate::sketch::{extent, spot_border};
 use crate::words::Words;
 
@@ -16,6 +17,7 @@ pub struct RoomChoice {
     parts: Vec<JobPart>,
     avoid: Vec<NoGoShape>,
     passes: u8,
+    settings: JobSettings,
 }
 
 impl Default for RoomChoice {
@@ -24,6 +26,7 @@ impl Default for RoomChoice {
             parts: Vec::new(),
             avoid: Vec::new(),
             passes: 1,
+            settings: JobSettings::default(),
         }
     }
 }
@@ -182,6 +185,7 @@ impl RoomChoice {
     pub fn clear(&mut self) {
         self.parts.clear();
         self.avoid.clear();
+        self.settings = JobSettings::default();
     }
 
     /// How often each part is cleaned.
@@ -198,12 +202,25 @@ impl RoomChoice {
     /// The job; none while nothing is chosen.
     #[must_use]
     pub fn order(&self) -> Option<JobOrder> {
-        (!self.is_empty()).then(|| JobOrder {
-            parts: self.parts.clone(),
-            passes: self.passes,
-            avoid: self.avoid.clone(),
-            ..JobOrder::default()
+        (!self.is_empty()).then(|| {
+            self.settings.said_by(JobOrder {
+                parts: self.parts.clone(),
+                passes: self.passes,
+                avoid: self.avoid.clone(),
+                ..JobOrder::default()
+            })
         })
+    }
+
+    /// How hard and in which way the job cleans.
+    #[must_use]
+    pub const fn settings(&self) -> JobSettings {
+        self.settings
+    }
+
+    /// Cleans so, until the choice is cleared.
+    pub fn set_settings(&mut self, settings: JobSettings) {
+        self.settings = settings;
     }
 }
 
@@ -258,9 +275,9 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 
 #[cfg(test)]
 mod tests {
-    use super::{RoomChoice, job_estimate_text, room_at};
+    use super::{JobSettings, RoomChoice, job_estimate_text, room_at};
     use crate::words::{Language, Words};
-    use rvac_api::{HomeView, JobEstimate, JobPart, NoGoShape};
+    use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape};
 
     const ENGLISH: &Words = Language::English.words();
 
@@ -289,8 +306,14 @@ mod tests {
         assert!(choice.text(ENGLISH, &[]).starts_with("zone of 1.5 x 0.8 m"));
         choice.retain_known(&HomeView::default());
         assert_eq!((choice.rooms().len(), choice.borders().count()), (0, 1));
+        let mut settings = choice.settings();
+        settings.choose_power("quiet");
+        choice.set_settings(settings);
+        let power = choice.order().and_then(|order| order.power);
+        assert_eq!(power, Some(CleaningPower::QUIET));
         choice.clear();
         assert!(choice.is_empty() && choice.order().is_none());
+        assert_eq!(choice.settings(), JobSettings::default());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use rvac_api::{
     InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Weekday,
 };
 
+use crate::job_settings::JobSettings;
 use crate::room_choice::PASSES_MAX;
 use crate::words::Words;
 
@@ -26,6 +27,8 @@ pub struct ScheduleForm {
     pub rooms: Vec<u16>,
     /// How often each room is cleaned.
     pub passes: u8,
+    /// How hard and in which way it cleans.
+    pub settings: JobSettings,
     /// How late it may start, minutes.
     pub late_min: u16,
     /// Whether it waits for the end of the quiet hours.
@@ -46,6 +49,7 @@ impl Default for ScheduleForm {
             days: Weekday::ALL.into_iter().take(5).collect(),
             rooms: Vec::new(),
             passes: 1,
+            settings: JobSettings::default(),
             late_min: 0,
             waits: false,
             enabled: true,
@@ -73,6 +77,7 @@ impl ScheduleForm {
             days,
             rooms,
             passes,
+            settings: settings_of(&entry.job),
             late_min: entry.late_min,
             waits: entry.in_quiet == InQuiet::Wait,
             enabled: entry.enabled,
@@ -150,17 +155,30 @@ impl ScheduleForm {
     /// Zones, spots, strategies and places to keep out of stay as they are as long as nobody chooses other rooms.
     fn job(&self) -> ScheduledJob {
         let passes = self.passes.clamp(1, PASSES_MAX);
-        if (self.rooms.clone(), passes) == rooms_of(&self.job) {
+        let is_same = (self.rooms.clone(), passes) == rooms_of(&self.job);
+        if is_same && self.settings == settings_of(&self.job) {
             return self.job.clone();
         }
-        if self.rooms.is_empty() && passes == 1 {
+        let order = match &self.job {
+            ScheduledJob::Clean(order) if is_same => order.clone(),
+            _ => JobOrder {
+                parts: self.rooms.iter().copied().map(JobPart::Room).collect(),
+                passes,
+                ..JobOrder::default()
+            },
+        };
+        let order = self.settings.said_by(order);
+        if order == JobOrder::default() {
             return ScheduledJob::Start { strategy: None };
         }
-        ScheduledJob::Clean(JobOrder {
-            parts: self.rooms.iter().copied().map(JobPart::Room).collect(),
-            passes,
-            ..JobOrder::default()
-        })
+        ScheduledJob::Clean(order)
+    }
+}
+
+fn settings_of(job: &ScheduledJob) -> JobSettings {
+    match job {
+        ScheduledJob::Start { .. } => JobSettings::default(),
+        ScheduledJob::Clean(order) => JobSettings::of(order),
     }
 }
 
@@ -180,8 +198,8 @@ fn rooms_of(job: &ScheduledJob) -> (Vec<u16>, u8) {
 #[cfg(test)]
 mod tests {
     use rvac_api::{
-        InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob,
-        Weekday,
+        CleaningPower, InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView,
+        ScheduledJob, Weekday,
     };
 
     use super::ScheduleForm;
@@ -272,6 +290,15 @@ mod tests {
             form.request(ENGLISH),
             Ok(RequestBody::ChangeSchedule { number: 3, entry })
         );
+        form.settings.choose_power("quiet");
+        let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
+            panic!("is whole");
+        };
+        let ScheduledJob::Clean(order) = &entry.job else {
+            panic!("cleans parts");
+        };
+        assert_eq!(order.power, Some(CleaningPower::QUIET));
+        assert_eq!(order.parts.len(), 2, "zone and spot are still there");
         form.toggle_room(2);
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");

@@ -6,6 +6,7 @@ use rvac_api::{
 
 use crate::codes::explain;
 use crate::home::RoomRow;
+use crate::job_settings::JobSettings;
 use crate::words::Words;
 
 /// A schedule.
@@ -145,6 +146,7 @@ fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow]) -> String {
     if order.passes > 1 {
         parts.push(told.times.fill([&order.passes]));
     }
+    parts.extend(JobSettings::of(order).told(words));
     parts.join(", ")
 }
 

@@ -5,6 +5,7 @@ use panel_logic::{DrawnPart, Offer, PASSES_MAX, Tool};
 use rvac_api::RequestBody;
 
 use crate::icons::{Icon, icon};
+use crate::job_settings_view::JobSettingsFields;
 use crate::language::words;
 use crate::store::Store;
 
@@ -81,6 +82,11 @@ fn ChosenRooms(store: Store) -> impl IntoView {
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
             <div class="order-tools">
                 <Passes store />
+                <JobSettingsFields
+                    place="job"
+                    settings=Signal::derive(move || orders.choice.with(panel_logic::RoomChoice::settings))
+                    change=Callback::new(move |settings| orders.choice.update(|choice| choice.set_settings(settings)))
+                />
                 <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
                     {words().map.choose_none}
                 </button>

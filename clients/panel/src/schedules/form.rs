@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use panel_logic::{PASSES_MAX, ScheduleForm, day_text};
 use rvac_api::Weekday;
 
+use crate::job_settings_view::JobSettingsFields;
 use crate::language::words;
 use crate::store::Store;
 
@@ -170,6 +171,11 @@ fn Terms(store: Store) -> impl IntoView {
                 }).collect_view()}
             </select>
         </label>
+        <JobSettingsFields
+            place="schedule"
+            settings=Signal::derive(move || form.with(|form| form.as_ref().map(|form| form.settings).unwrap_or_default()))
+            change=Callback::new(move |settings| form.update(|form| if let Some(form) = form { form.settings = settings }))
+        />
         <label class="field">
             {words().schedule.late}
             <input

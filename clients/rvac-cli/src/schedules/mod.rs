@@ -140,7 +140,11 @@ fn with_order(job: ScheduledJob, order: JobOrder) -> ScheduledJob {
         unchanged if order == JobOrder::default() => unchanged,
         ScheduledJob::Clean(known) if order.parts.is_empty() && order.avoid.is_empty() => {
             ScheduledJob::Clean(JobOrder {
-                passes: known.passes.max(order.passes),
+                passes: if order.passes > 1 {
+                    order.passes
+                } else {
+                    known.passes
+                },
                 power: order.power.or(known.power),
                 pattern: order.pattern.or(known.pattern),
                 ..known

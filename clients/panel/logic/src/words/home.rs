@@ -66,6 +66,12 @@ screen! {
         set_pattern: "Swept", "Koristatakse";
         pattern_lines: "In straight lines", "Sirgete ridadena";
         pattern_contour: "Along the walls", "Mööda seinu";
+        job_power: "Power", "Võimsus";
+        as_rooms: "As set for the rooms", "Nagu tubadele määratud";
+        level_quiet: "Quiet", "Vaikne";
+        level_normal: "Normal", "Tavaline";
+        level_full: "Full", "Täisvõimsus";
+        level_other[3]: "Suction {0}, main brush {1}, side brushes {2}", "Imemine {0}, põhihari {1}, külgharjad {2}";
         with_passes[1]: ", {0} times", ", {0} korda";
         draw_cut: "Split a room", "Poolita tuba";
         join_hint: "To make two rooms one, choose both: they must lie beside each other.",
