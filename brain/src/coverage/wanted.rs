@@ -10,7 +10,7 @@ use crate::room_settings::Pattern;
 pub(crate) struct Wanted {
     /// `None` = the whole home.
     part: Option<HomePart>,
-    pattern: Pattern,
+    usual: Course,
     /// Rooms of the home that are swept in rings when all of it is.
     ring_rooms: Vec<u16>,
     rooms: Option<Rooms>,
@@ -27,7 +27,7 @@ impl Wanted {
         let needs_rooms = part.is_some() || !ring_rooms.is_empty();
         Self {
             part: part.cloned(),
-            pattern: order.pattern_over(part, words),
+            usual: course_over(order, part, map),
             ring_rooms,
             rooms: needs_rooms.then(|| map.rooms().clone()),
         }
@@ -36,17 +36,21 @@ impl Wanted {
     /// How a cell is to be swept, if it belongs to it.
     pub(crate) fn course(&self, cell: Cell) -> Option<Course> {
         match (&self.part, &self.rooms) {
-            (Some(part), Some(rooms)) => part.contains(cell, rooms).then(|| self.pattern.into()),
+            (Some(part), Some(rooms)) => part.contains(cell, rooms).then_some(self.usual),
             (None, Some(rooms)) => {
                 let room = rooms.labels().get(cell);
                 let is_ringed = room.is_some_and(|room| self.ring_rooms.contains(room));
-                Some(if is_ringed {
-                    Course::Inwards
-                } else {
-                    self.pattern.into()
-                })
+                Some(if is_ringed { Course::Inwards } else { self.usual })
             }
-            (_, None) => Some(self.pattern.into()),
+            (_, None) => Some(self.usual),
         }
+    }
+}
+
+/// Dirt lies in the middle of a spot, and it is swept from there.
+fn course_over(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Course {
+    match (part, order.pattern()) {
+        (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => Course::Outwards,
+        _ => order.pattern_over(part, map.annotations()).into(),
     }
 }
