@@ -188,12 +188,8 @@ impl FloorFinder {
             return;
         };
         if let Poll::Ready(terrain) = terrain.go_on() {
-            let mut tracker = Tracker::new(
-                self.config.body.radius_m,
-                self.config.sensors,
-                (self.odometry.calibration.belief(), self.seed),
-            )
-            .into_rival();
+            let mut tracker =
+                Tracker::new(self.config.body.radius_m, self.config.sensors, self.seed).into_rival();
             tracker.lose(Pose2::IDENTITY);
             self.rivals.push(Rival {
                 floor: *floor,
@@ -206,12 +202,7 @@ impl FloorFinder {
     }
 
     fn moved(&self, advance: Advance) -> Moved {
-        Moved {
-            advance,
-            pose: self.odometry.odom_from_base(),
-            gyro: self.odometry.calibration.belief(),
-            told: self.odometry.told_bias(),
-        }
+        Moved::of(&self.odometry, advance, self.odometry.odom_from_base())
     }
 
     fn place_on(&self, rival: &Rival) -> FloorPlace {

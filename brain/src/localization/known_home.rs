@@ -315,6 +315,7 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
         held.time_us += 20_000;
         take_and_draw(&mut localization, &mut map, &held);
     }
+    let mut offs_m = Vec::new();
     for (x_m, y_m, heading_rad) in [(4.6, 0.8, -2.0), (1.2, 2.0, 1.0), (2.8, 0.6, 3.0)] {
         let mut truth = Truth::new(
             &home,
@@ -346,10 +347,10 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
             };
             assert!(steps < 15_000, "not found within five minutes");
         }
-        // Its map is wrong by a decimetre, and walls that it was drawn by are short.
-        let off_m = truth.off_m(&localization);
-        assert!(off_m < 0.35, "{off_m} m");
+        offs_m.push(truth.off_m(&localization));
     }
+    offs_m.sort_by(f64::total_cmp);
+    assert!(offs_m[1] < 0.2 && offs_m[2] < 0.21, "{offs_m:?} m");
 }
 
 #[test]

@@ -140,11 +140,7 @@ impl Localization {
         if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
             return;
         }
-        let mut tracker = Tracker::new(
-            config.body.radius_m,
-            config.sensors,
-            (self.odometry.calibration.belief(), seed),
-        );
+        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.place_at(
             self.pose(),
             self.drift.sigma_m.max(START_SIGMA_M),
@@ -237,12 +233,7 @@ impl Localization {
     pub fn refine(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
         self.leave_hopeless_map(observation.time_us);
-        let moved = Moved {
-            advance,
-            pose: self.pose(),
-            gyro: self.odometry.calibration.belief(),
-            told: self.odometry.told_bias(),
-        };
+        let moved = Moved::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         let Some(tracked) = &mut self.tracked else {

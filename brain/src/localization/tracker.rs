@@ -7,6 +7,7 @@ use super::beacons::Heard;
 use super::calibration::BiasTold;
 use super::confidence::{Confidence, Verdict};
 use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
+use super::odometry::Odometry;
 use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::search::{Candidate, Search};
 use super::trail::Trail;
@@ -69,6 +70,18 @@ pub(super) struct Moved {
     pub(super) told: Option<BiasTold>,
 }
 
+impl Moved {
+    /// The last step that odometry counted.
+    pub(super) fn of(odometry: &Odometry, advance: Advance, pose: Pose2) -> Self {
+        Self {
+            advance,
+            pose,
+            gyro: odometry.calibration.belief(),
+            told: odometry.told_bias(),
+        }
+    }
+}
+
 /// A robot that follows its pose in a map.
 #[derive(Clone, Debug)]
 pub(super) struct Tracker {
@@ -102,8 +115,8 @@ pub(super) struct Tracker {
 
 impl Tracker {
     /// A robot of this radius at the origin.
-    pub(super) fn new(radius_m: f64, layout: SensorLayout, (gyro, seed): (GyroBelief, u64)) -> Self {
-        let mut tracker = Self {
+    pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
+        Self {
             filter: ParticleFilter::new(radius_m, layout, seed),
             pending: Motion::default(),
             pending_turn_rad: 0.0,
@@ -123,9 +136,7 @@ impl Tracker {
             is_rival: false,
             radius_m,
             layout,
-        };
-        tracker.filter.know_gyro(gyro);
-        tracker
+        }
     }
 
     /// One of several, each in the map of another floor.

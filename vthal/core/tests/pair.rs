@@ -322,11 +322,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
     assert!(twice_s > 1.8 * once_s, "{twice_s} s and {once_s} s");
 
     assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
-    pair.state.docked = false;
-    for _ in 0..80 {
-        pair.handle(Input::BoardHeading { heading_urad: 0 });
-        pair.run_ms(50);
-    }
+    drive_off(&mut pair);
     assert_eq!(
         (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
         (Some(0.25), Some(1.0))
@@ -378,11 +374,7 @@ fn what_a_job_says_of_itself_wins_over_the_settings_of_a_room() {
         assert_eq!(pair.ask(ANNA, job(bad)).as_deref(), Some("bad-settings"));
     }
     assert_eq!(pair.ask(ANNA, job(0.4)), None);
-    pair.state.docked = false;
-    for _ in 0..80 {
-        pair.handle(Input::BoardHeading { heading_urad: 0 });
-        pair.run_ms(50);
-    }
+    drive_off(&mut pair);
     assert_eq!(
         (power(&pair, Motor::Vacuum), power(&pair, Motor::BrushMain)),
         (Some(0.4), Some(0.6))
@@ -862,6 +854,15 @@ fn on_the_dock() -> Pair {
     pair.handle(Input::BoardHeading { heading_urad: 0 });
     pair.run_ms(100);
     pair
+}
+
+/// The robot leaves its dock for a job, and cleans for some seconds.
+fn drive_off(pair: &mut Pair) {
+    pair.state.docked = false;
+    for _ in 0..80 {
+        pair.handle(Input::BoardHeading { heading_urad: 0 });
+        pair.run_ms(50);
+    }
 }
 
 fn wall(from: [f64; 2], to: [f64; 2]) -> RequestBody {

@@ -221,6 +221,20 @@ impl Browser {
         .await;
     }
 
+    /// Waits until the map shows more swept cells than this.
+    pub(crate) async fn sweeps_more_than(&self, cells: u32) {
+        self.until(&format!(
+            "return Number(document.getElementById('map').dataset.sweptCells) > {cells}"
+        ))
+        .await;
+    }
+
+    /// Waits until nothing is chosen for a job.
+    pub(crate) async fn has_no_order(&self) {
+        self.until("return document.getElementById('order-bar') === null")
+            .await;
+    }
+
     /// Chooses an entry of the list `id` by its value, as far as the page can tell.
     pub(crate) async fn choose(&self, id: &str, value: &str) {
         let chosen = format!(

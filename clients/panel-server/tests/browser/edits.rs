@@ -132,24 +132,17 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     browser.click("#draw-clean").await;
     let corner = ["Enter", "ArrowLeft", "ArrowLeft", "ArrowUp", "ArrowUp", "Enter"];
     keys(browser, &corner).await;
-    let words = |text: &str| {
-        format!("return document.getElementById('chosen-rooms')?.textContent.includes('{text}') === true")
-    };
-    browser.until(&words("zone of")).await;
+    browser.says("chosen-rooms", "zone of").await;
     browser.click("#keep-out").await;
     keys(browser, &["Enter", "ArrowRight", "ArrowDown", "Enter"]).await;
-    browser.until(&words("out of 1 place")).await;
-    browser
-        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
-        .await;
+    browser.says("chosen-rooms", "out of 1 place").await;
+    browser.says("prospect", "of a full battery").await;
     browser.shot("desktop-zone").await;
     browser.click("#view-3d").await;
     browser.shot("desktop-zone-3d").await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return document.getElementById('order-bar') === null")
-        .await;
+    browser.has_no_order().await;
     forbidden(browser, 0).await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;
@@ -177,25 +170,19 @@ async fn a_spot_is_set_taken_out_by_a_tap_and_by_its_button_and_cleaned() {
     browser.shot("desktop-spot-drawn").await;
     keys(browser, &["Enter"]).await;
     drawn_parts(browser, 2).await;
-    browser
-        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
-        .await;
+    browser.says("prospect", "of a full battery").await;
     browser.darken().await;
     browser.shot("desktop-spots-dark").await;
     keys(browser, &["Enter"]).await;
     drawn_parts(browser, 1).await;
     browser.click("#part-1").await;
-    browser
-        .until("return document.getElementById('order-bar') === null")
-        .await;
+    browser.has_no_order().await;
     browser.click("#draw-spot").await;
     browser.click("#map").await;
     drawn_parts(browser, 1).await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 20")
-        .await;
+    browser.sweeps_more_than(20).await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;
 }
@@ -253,9 +240,7 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_an
     browser.click(&format!("#room-{part}")).await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
-        .await;
+    browser.sweeps_more_than(200).await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;
 

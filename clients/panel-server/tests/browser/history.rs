@@ -13,9 +13,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
     browser.darken().await;
     browser.click("#start").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
-        .await;
+    browser.sweeps_more_than(200).await;
     browser.click("#pause").await;
     browser.until_state(&["paused"]).await;
     browser.click("#tab-history").await;

@@ -108,9 +108,7 @@ async fn start_cleans_and_stop_stands() {
             "return document.getElementById('map').dataset.pose !== '{first}'"
         ))
         .await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
-        .await;
+    browser.sweeps_more_than(200).await;
     browser
         .until("return Number(document.getElementById('map').dataset.framesPerSecond) > 0")
         .await;
@@ -140,9 +138,7 @@ async fn the_real_firmware_cleans_and_stop_stands() {
     browser
         .until("return document.body.innerText.includes('Way of cleaning: bounce.')")
         .await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 200")
-        .await;
+    browser.sweeps_more_than(200).await;
     browser.shot("desktop-emulated").await;
 
     browser.click("#stop").await;
@@ -176,9 +172,7 @@ async fn hold_until_it_turns(browser: &Browser, witness: &Witness) {
 async fn leave_the_dock(browser: &Browser) {
     browser.click("#start").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 40")
-        .await;
+    browser.sweeps_more_than(40).await;
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
 }
@@ -205,9 +199,7 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
     };
     let browser = &visit.browser;
     browser.click("#start").await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 100")
-        .await;
+    browser.sweeps_more_than(100).await;
     for tab in ["drive", "home", "why", "device", "log"] {
         browser.click(&format!("#tab-{tab}")).await;
         browser
@@ -249,9 +241,7 @@ async fn the_dark_look_is_kept() {
     browser.until_state(&["idle", "docked"]).await;
     assert_eq!(browser.text(background).await, dark);
     browser.click("#start").await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 100")
-        .await;
+    browser.sweeps_more_than(100).await;
     browser.click("#tab-device").await;
     browser
         .until("return document.querySelectorAll('#device-table tr').length > 20")
@@ -283,9 +273,7 @@ async fn what_the_robot_knows_and_decides_is_shown() {
         .await;
     let ground = |name: &str| format!("return document.getElementById('map').dataset.ground === '{name}'");
     browser.until(&ground("True")).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 400")
-        .await;
+    browser.sweeps_more_than(400).await;
     browser.click("#ground-known").await;
     browser.until(&ground("Known")).await;
     browser.shot("desktop-knows").await;
@@ -310,18 +298,14 @@ async fn clean_one_room(browser: &Browser, shots: &str) {
         .await;
     browser.click("#rooms .choose").await;
     assert_eq!(browser.text(CHOSEN).await, "1");
-    browser
-        .until("return document.getElementById('prospect')?.textContent.includes('of a full battery')")
-        .await;
+    browser.says("prospect", "of a full battery").await;
     browser.shot(&format!("{shots}-room-chosen")).await;
     browser.click("#passes-2").await;
     browser.choose("job-power", "quiet").await;
     browser.choose("job-pattern", "contour").await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return document.getElementById('order-bar') === null")
-        .await;
+    browser.has_no_order().await;
     assert_eq!(browser.text(CHOSEN).await, "0", "the choice has become a job");
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;

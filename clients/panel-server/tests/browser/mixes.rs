@@ -95,9 +95,7 @@ async fn a_gamepad_starts_stops_drives_and_shakes_at_a_wall() {
     plug_in(browser).await;
     press(browser, START).await;
     browser.until_state(&["cleaning"]).await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 40")
-        .await;
+    browser.sweeps_more_than(40).await;
     press(browser, EAST).await;
     browser.until_state(&["idle"]).await;
 

@@ -15,9 +15,7 @@ async fn the_map_is_seen_in_3d_turned_and_kept_so() {
         };
         let browser = &visit.browser;
         browser.click("#start").await;
-        browser
-            .until("return Number(document.getElementById('map').dataset.sweptCells) > 300")
-            .await;
+        browser.sweeps_more_than(300).await;
         browser.until(&shown("2d")).await;
         browser.shot(&format!("{shots}-2d")).await;
         browser.click("#view-3d").await;
@@ -79,9 +77,7 @@ async fn without_webgl_the_map_is_flat_and_says_why() {
         .until("return document.getElementById('map').dataset.painter === 'plain'")
         .await;
     browser.click("#start").await;
-    browser
-        .until("return Number(document.getElementById('map').dataset.sweptCells) > 300")
-        .await;
+    browser.sweeps_more_than(300).await;
     let colours: u32 = browser.text(COLOURS).await.parse().unwrap();
     assert!(colours > 5, "{colours} colours are no map");
     browser.click("#view-3d").await;
