@@ -8,7 +8,7 @@ use crate::config::BrainConfig;
 use crate::coverage::{JobEstimate, estimate};
 use crate::docking::BeamMemory;
 use crate::energy::EnergyModel;
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::localization::{Localization, PoseEstimate};
 use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
@@ -19,6 +19,10 @@ use crate::task::{Mind, Situation};
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
 const SIDE_RAD: f64 = core::f64::consts::FRAC_PI_4;
+
+/// A robot that docks farther than this from where a person pointed does not know which of the two is wrong, metres and radians.
+const TOLD_M: f64 = 1.0;
+const TOLD_RAD: f64 = 1.0;
 
 /// One robot's mind. Give it each observation and the commands that came since the last one; do what it answers.
 #[derive(Debug)]
@@ -76,10 +80,19 @@ impl Brain {
     }
 
     fn wake_on_dock(&mut self) {
-        if let Some(dock) = self.map.dock() {
-            self.localization.place_at(dock);
+        let dock = self.map.dock_place();
+        match dock.pose() {
+            Some(pose) if dock.is_told() => {
+                let seed = self.mind.random.state();
+                self.localization
+                    .place_roughly_at(pose, (&self.map, &self.config), seed);
+            }
+            Some(pose) => {
+                self.localization.place_at(pose);
+                self.track();
+            }
+            None => self.track(),
         }
-        self.track();
     }
 
     /// Takes in what the robot perceived and what people asked since the last step, and says what to do. To be called
@@ -93,14 +106,17 @@ impl Brain {
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
         self.beams.take(observation, &estimate);
-        if self.localization.knows_heading(observation.time_us) {
+        if self.localization.has_just_docked() {
+            self.feel_dock(pose);
+        }
+        if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation, advance);
         }
         self.localization
             .learn(&self.map, &self.config, observation.time_us);
         self.note_encounters(observation, &estimate);
         for command in commands {
-            self.edit_map(command);
+            self.edit_map(command, observation.docked);
         }
         let situation = Situation::new(
             observation,
@@ -116,8 +132,9 @@ impl Brain {
         if let Some(pocket) = intent.pocket {
             self.map.shut_pocket(pocket);
         }
+        // Where it stands may just have been told.
         self.map.follow(
-            pose,
+            self.localization.pose(),
             if intent.cleaners {
                 Brushes::Sweeping
             } else {
@@ -315,7 +332,7 @@ impl Brain {
     }
 
     /// Does what a person wants of the map. What was admitted and does not hold any more changes nothing.
-    fn edit_map(&mut self, command: &Command) {
+    fn edit_map(&mut self, command: &Command, is_docked: bool) {
         let refused = match command {
             Command::AddNoGo { no_go } => self.map.add_no_go(no_go.clone()).err(),
             Command::RemoveNoGo { number } => self.map.remove_no_go(*number).err(),
@@ -324,10 +341,40 @@ impl Brain {
             Command::SplitRoom { room, line } => self.map.split_room(*room, *line).err(),
             Command::JoinRooms { rooms } => self.map.join_rooms(*rooms).err(),
             Command::UndoRoomChange { number } => self.map.undo_room_change(*number).err(),
+            Command::MoveDock { pose } => self.move_dock(*pose, is_docked).err(),
             _ => None,
         };
         if let Some(reason) = refused {
             self.mind.decide("edit-refused", reason, 0.0);
+        }
+    }
+
+    /// A person says where the dock stands now. A robot that is on it was carried along.
+    fn move_dock(&mut self, pose: Pose2, is_docked: bool) -> Result<(), Reason> {
+        self.map.move_dock(pose)?;
+        self.beams.forget();
+        self.localization.put_dock(self.map.dock_place());
+        if is_docked {
+            // The way so far does not lead here.
+            self.map.start_anew();
+            self.wake_on_dock();
+        }
+        Ok(())
+    }
+
+    /// The robot stands on the dock: where it was told to be, or was felt too seldom, if that is near enough and the robot may trust
+    /// its own place.
+    fn feel_dock(&mut self, pose: Pose2) {
+        let place = self.map.dock_place();
+        let Some(known) = place.pose().filter(|_| !place.is_sure()) else {
+            return;
+        };
+        let is_near = known.position().distance_m(pose.position()) <= TOLD_M
+            && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= TOLD_RAD;
+        if is_near && self.localization.is_confirmed() {
+            self.map.feel_dock(pose);
+            self.localization.put_dock(self.map.dock_place());
+            self.mind.decide("dock-found", Reason::Docked, 0.0);
         }
     }
 

@@ -1,5 +1,6 @@
 //! What people and schedules ask of the brain.
 
+use crate::geometry::Pose2;
 use crate::mapping::CutLine;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::CleaningOrder;
@@ -58,6 +59,11 @@ pub enum Command {
     UndoRoomChange {
         /// Its number in [`crate::mapping::RoomChanges`].
         number: u16,
+    },
+    /// Say where the dock stands now. A robot that is on it stands there, too.
+    MoveDock {
+        /// Pose of a robot on it, by eye.
+        pose: Pose2,
     },
     /// Clean a small disc around the present place.
     Spot,

@@ -256,7 +256,7 @@ fn what_is_stored_and_taken_up_is_known_again() {
     let corners = [(0.05, 0.0), (0.1, 0.0), (0.1, 0.05), (0.05, 0.05)];
     let forbidden = Zone::new(corners.map(|(x_m, y_m)| at(x_m, y_m, 0.0).position()).to_vec()).unwrap();
     fed.map.add_no_go(NoGo::zone(&forbidden).unwrap()).unwrap();
-    fed.map.set_dock(at(0.25, 0.5, -1.0));
+    fed.map.feel_dock(at(0.25, 0.5, -1.0));
     fed.map.refresh();
     let bytes = fed.map.stored().encode();
     assert!(bytes.len() < 4000, "{} bytes for 1.5 m of wall", bytes.len());

@@ -2,6 +2,7 @@
 
 mod plane;
 
+use brain::mapping::DockPlace;
 use brain::{
     BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
     Raster, Reason, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
@@ -376,7 +377,11 @@ fn edits_that_make_no_sense_are_refused_by_name() {
         run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
         assert_eq!(stage.brain.map().annotations(), &before);
     }
-    let dock = stage.brain.map().stored().with_dock(Some(Pose2::IDENTITY));
+    let dock = stage
+        .brain
+        .map()
+        .stored()
+        .with_dock_place(DockPlace::sure(Pose2::IDENTITY));
     let brain = Brain::with_map(config(), 1, &dock);
     let around = NoGo::zone(&zone((0.9, 0.9), (1.1, 1.1))).unwrap();
     assert_eq!(

@@ -20,6 +20,7 @@ impl Behavior {
             Command::SplitRoom { room, line } => map.admit_room_split(*room, line),
             Command::JoinRooms { rooms } => map.admit_room_join(*rooms),
             Command::UndoRoomChange { number } => map.admit_room_change_undo(*number),
+            Command::MoveDock { pose } => map.admit_dock_move(*pose),
             Command::Clean { strategy } => {
                 self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
             }
@@ -152,7 +153,8 @@ impl Behavior {
             | Command::SetRoom { .. }
             | Command::SplitRoom { .. }
             | Command::JoinRooms { .. }
-            | Command::UndoRoomChange { .. } => {}
+            | Command::UndoRoomChange { .. }
+            | Command::MoveDock { .. } => {}
             Command::Spot => self.begin((JobKind::Spot, whole), mind),
             Command::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, mind),
             Command::Dock => self.begin((JobKind::Dock, whole), mind),

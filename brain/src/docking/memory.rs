@@ -58,6 +58,11 @@ impl BeamMemory {
         }
     }
 
+    /// The dock stands elsewhere now.
+    pub(crate) fn forget(&mut self) {
+        self.places.clear();
+    }
+
     fn note(&mut self, time_us: u64, estimate: &PoseEstimate) {
         let at = estimate.pose.position();
         let mut on_line = self.hearing.lobe() == Lobe::Both;

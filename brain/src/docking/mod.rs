@@ -172,6 +172,10 @@ impl Docking {
         match step {
             TravelStep::Going(motion) => return Plan::Go(motion),
             TravelStep::Held(reason) => return Plan::Trouble(reason),
+            // Told by eye, its direction is too rough to drive in by.
+            TravelStep::Arrived if situation.map.dock_place().is_told() => {
+                self.begin_approach(Reason::DockKnown, mind);
+            }
             TravelStep::Arrived => {
                 let dock_rad = situation.map.dock().map_or(0.0, |dock| dock.heading_rad);
                 let bearing_rad = normalize_rad(dock_rad - situation.pose.heading_rad);

@@ -13,6 +13,10 @@ const LOST_BELOW: f64 = 0.5;
 const DOUBT_BELOW: f64 = 0.6;
 /// Above this share guesses hold on to what they have learnt.
 const HOLD_FROM: f64 = 0.75;
+/// From this share on there is no doubt: more than in a home whose doors and chairs moved.
+const CONFIRM_FROM: f64 = 0.88;
+/// Beams that must have been told for that since the robot was placed: it has driven since.
+const CONFIRM_BEAMS: u32 = 20;
 /// From this share on a lost robot has found itself.
 const FOUND_FROM: f64 = 0.8;
 /// Beams that must have been told since the robot was lost.
@@ -70,6 +74,11 @@ impl Confidence {
     /// Whether nothing speaks against what has been learnt lately.
     pub(super) fn holds(self) -> bool {
         self.explained >= HOLD_FROM && self.recently >= HOLD_FROM
+    }
+
+    /// Whether enough was told since the robot was put there, and speaks clearly for it.
+    pub(super) fn confirms(self) -> bool {
+        self.explained >= CONFIRM_FROM && self.beams >= CONFIRM_BEAMS
     }
 
     pub(super) fn verdict(self) -> Verdict {

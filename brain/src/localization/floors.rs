@@ -217,6 +217,7 @@ impl FloorFinder {
                 lost: false,
                 gyro_scale,
                 gyro_bias_rad_per_s,
+                unconfirmed_beams: 0,
             },
         }
     }

@@ -34,17 +34,22 @@ use particles::GyroBelief;
 use retreat::Retreat;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
-use tracker::{Moved, Tracker};
+use tracker::{Moved, PROBATION_BEAMS, Tracker};
 
 use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;
 use crate::geometry::{Pose2, normalize_rad};
-use crate::mapping::{Keyframe, Map};
+use crate::mapping::{DockPlace, Keyframe, Map};
 use crate::observation::Observation;
 
 /// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
 const START_SIGMA_RAD: f64 = 0.03;
+/// How well a pose is known that a person has pointed out, metres and radians.
+const TOLD_SIGMA_M: f64 = 0.3;
+const TOLD_SIGMA_RAD: f64 = 0.4;
+/// A pose that is as sure as this may lead others, metres.
+const CONFIRMED_M: f64 = 0.15;
 /// Widest deviation that is taken up, metres and radians.
 const SIGMA_MAX: f64 = 1.0;
 /// A place nearer than this to the present one is no news for the filter, metres and radians.
@@ -95,6 +100,7 @@ pub struct Localization {
     /// When a gyro spoke last.
     gyro_us: Option<u64>,
     was_docked: bool,
+    has_just_docked: bool,
     hanging_s: f64,
     learnt_us: u64,
 }
@@ -114,6 +120,7 @@ impl Localization {
             began_us: None,
             gyro_us: None,
             was_docked: false,
+            has_just_docked: false,
             hanging_s: 0.0,
             learnt_us: 0,
         }
@@ -206,6 +213,7 @@ impl Localization {
             lost: tracked.tracker.is_lost(),
             gyro_scale,
             gyro_bias_rad_per_s,
+            unconfirmed_beams: tracked.tracker.unconfirmed_beams(),
         })
     }
 
@@ -223,6 +231,7 @@ impl Localization {
         };
         let Drift { sigma_m, sigma_rad } = self.drift;
         tracked.tracker.place_at(pose, sigma_m, sigma_rad);
+        tracked.tracker.doubt_for(before.unconfirmed_beams);
         if before.lost {
             tracked.tracker.lose(pose);
         }
@@ -236,6 +245,7 @@ impl Localization {
         let moved = Moved::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
+        self.has_just_docked = docks;
         let Some(tracked) = &mut self.tracked else {
             if let Some(estimate) = by_beacons {
                 return self.adopt(estimate);
@@ -248,11 +258,22 @@ impl Localization {
         let Tracked { tracker, terrain } = &mut **tracked;
         tracker.hear(self.beacons.heard());
         tracker.search_on(terrain);
-        if docks && let Some(dock) = terrain.dock() {
+        // Where the dock is not known better than the robot knows its own place, that one stays.
+        let place = terrain.dock();
+        let is_better = !place.is_told() && (place.is_sure() || !tracker.is_confirmed());
+        if docks
+            && is_better
+            && let Some(dock) = place.pose()
+        {
             tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
             self.odometry.calibration.interrupt();
             self.beacons.place_at(dock);
             self.put_at(dock);
+        } else if docks
+            && tracker.is_lost()
+            && let Some(dock) = terrain.dock().pose()
+        {
+            self.begin_roughly_at(dock);
         } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
             let gyro = tracker.gyro();
             self.take_up(estimate, gyro);
@@ -415,6 +436,62 @@ impl Localization {
         {
             tracked.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
         }
+    }
+
+    /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
+    pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
+        self.place_at(pose);
+        self.track(map, config, seed);
+        if self.tracked.is_none() {
+            self.survey(config);
+        }
+        self.begin_roughly_at(pose);
+    }
+
+    fn begin_roughly_at(&mut self, pose: Pose2) {
+        self.put_at(pose);
+        self.odometry.calibration.interrupt();
+        self.drift = Drift {
+            sigma_m: TOLD_SIGMA_M,
+            sigma_rad: TOLD_SIGMA_RAD,
+        };
+        if let Some(tracked) = &mut self.tracked {
+            tracked.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
+            tracked.tracker.doubt_for(PROBATION_BEAMS);
+        }
+    }
+
+    /// The dock is known to be elsewhere.
+    pub fn put_dock(&mut self, dock: DockPlace) {
+        if let Some(tracked) = &mut self.tracked {
+            tracked.terrain.put_dock(dock);
+        }
+    }
+
+    /// Whether the pose is so sure that others may be led by it: what the sensors show confirms it, or walls that were followed
+    /// from the beginning do.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
+        is_narrow
+            && match &self.tracked {
+                Some(tracked) => tracked.tracker.is_confirmed(),
+                None => self.survey.is_some(),
+            }
+    }
+
+    /// Whether the dock's contacts closed at the last observation.
+    #[must_use]
+    pub fn has_just_docked(&self) -> bool {
+        self.has_just_docked
+    }
+
+    /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found
+    /// its place first.
+    #[must_use]
+    pub fn may_draw(&self) -> bool {
+        let is_told = |tracked: &Tracked| tracked.tracker.unconfirmed_beams() > 0;
+        !self.tracked.as_deref().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
     }
 
     fn put_at(&mut self, pose: Pose2) {

@@ -5,9 +5,9 @@
 //! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
 
 use super::particles::Surroundings;
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::Point2;
 use crate::gradual::Pace;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster, StoredMap};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, Map, Raster, StoredMap};
 
 /// Cells between two places where a robot may be looked for: 15 cm.
 const PLACE_CELLS: usize = 6;
@@ -25,7 +25,7 @@ const EDGE_CELLS: i32 = 3;
 pub(super) struct Terrain {
     distance: DistanceField,
     knowledge: Raster<CellKnowledge>,
-    dock: Option<Pose2>,
+    dock: DockPlace,
 }
 
 impl Terrain {
@@ -33,7 +33,7 @@ impl Terrain {
         Self {
             distance: map.distance_field().clone(),
             knowledge: map.knowledge().clone(),
-            dock: map.dock(),
+            dock: map.dock_place(),
         }
     }
 
@@ -43,7 +43,7 @@ impl Terrain {
         Self {
             distance: DistanceField::in_steps(&knowledge, pace).await,
             knowledge,
-            dock: home.dock(),
+            dock: home.dock_place(),
         }
     }
 
@@ -80,12 +80,17 @@ impl Terrain {
             self.distance = DistanceField::new(&knowledge);
             self.knowledge = knowledge;
         }
-        self.dock = self.dock.or(map.dock());
+        self.put_dock(map.dock_place());
     }
 
-    /// Where the robot stands when it is docked, if that is known.
-    pub(super) fn dock(&self) -> Option<Pose2> {
+    /// Where the robot stands when it is docked.
+    pub(super) fn dock(&self) -> DockPlace {
         self.dock
+    }
+
+    /// It is known to be elsewhere.
+    pub(super) fn put_dock(&mut self, dock: DockPlace) {
+        self.dock = dock;
     }
 }
 

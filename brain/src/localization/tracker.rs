@@ -54,7 +54,7 @@ const RIVAL_SHARE: f64 = 0.93;
 const FIND_SCORE: f64 = 0.45;
 /// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
 /// in what is known only, and a wrong find leads out of it soon.
-const PROBATION_BEAMS: u32 = 200;
+pub(super) const PROBATION_BEAMS: u32 = 200;
 /// A cluster is at a searched place when it is this near, metres.
 const AT_PLACE_M: f64 = 0.4;
 
@@ -159,7 +159,25 @@ impl Tracker {
         self.confidence = Confidence::default();
         self.searching = None;
         self.probation = 0;
+        // Hands that have put it there do not carry it away from there.
+        self.hanging_s = 0.0;
         self.lost = false;
+    }
+
+    /// Nothing but the word of a person says that the robot stands where it was placed: until so many beams were told, it must not
+    /// be where nothing is known, and learns nothing that a wrong place would teach.
+    pub(super) fn doubt_for(&mut self, beams: u32) {
+        self.probation = beams;
+    }
+
+    /// Whether what the sensors show speaks clearly for the robot's place.
+    pub(super) fn is_confirmed(&self) -> bool {
+        !self.lost && self.probation == 0 && self.confidence.confirms()
+    }
+
+    /// Beams until the robot's place counts as confirmed.
+    pub(super) fn unconfirmed_beams(&self) -> u32 {
+        self.probation
     }
 
     /// The robot may be anywhere. Until a search tells better, the guesses stay around `pose`.

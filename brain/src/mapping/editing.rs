@@ -1,13 +1,13 @@
-//! People change the map: no-go zones, virtual walls, names and settings of rooms.
+//! People change the map: no-go zones, virtual walls, names and settings of rooms, and where the dock stands.
 
 use super::annotations::NAMES_MAX;
 use super::home::{Entry, HomeMap};
 use super::layers::{CellBox, Flag};
 use super::{Annotations, Cell, CellKnowledge, Map, Raster};
 use crate::behavior::Reason;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Pose2};
 use crate::no_go::{NoGo, RoomName};
-use crate::order::Zone;
+use crate::order::{FAR_M, Zone};
 use crate::room_settings::RoomSettings;
 
 impl Map {
@@ -166,6 +166,53 @@ impl Map {
     }
 }
 
+impl Map {
+    /// Whether the dock can stand so that a robot on it has this pose: there is floor that the map knows under its body, and no
+    /// no-go zone.
+    ///
+    /// # Errors
+    /// The named reason against it.
+    pub fn admit_dock_move(&self, pose: Pose2) -> Result<(), Reason> {
+        let is_near = pose.x_m.abs() < FAR_M && pose.y_m.abs() < FAR_M && pose.heading_rad.is_finite();
+        let window = self.home.bounds().ok_or(Reason::NoMap)?;
+        if !is_near || !self.has_floor_under(pose.position(), window) {
+            return Err(Reason::NoFloorThere);
+        }
+        let radius_m = self.home.pencil.body.radius_m;
+        let mut no_gos = self.home.annotations.no_go.values();
+        if no_gos.any(|no_go| no_go.area().distance_m(pose.position()) < radius_m) {
+            return Err(Reason::DockInside);
+        }
+        Ok(())
+    }
+
+    /// A person says where the dock stands now.
+    ///
+    /// # Errors
+    /// As [`Self::admit_dock_move`]; then nothing is changed.
+    pub fn move_dock(&mut self, pose: Pose2) -> Result<(), Reason> {
+        self.admit_dock_move(pose)?;
+        self.home.dock.tell(pose);
+        self.home.touch();
+        Ok(())
+    }
+
+    fn has_floor_under(&self, place: Point2, window: CellBox) -> bool {
+        let reach_m = self.home.pencil.body.radius_m;
+        let corner = |sign: f64| Point2 {
+            x_m: place.x_m + sign * reach_m,
+            y_m: place.y_m + sign * reach_m,
+        };
+        let knowledge = self.knowledge();
+        cells_between((corner(-1.0), corner(1.0)), window)
+            .filter(|cell| cell.middle().distance_m(place) <= reach_m)
+            .any(|cell| {
+                let kind = knowledge.get(cell);
+                matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
+            })
+    }
+}
+
 impl HomeMap {
     /// Forbids the cells of all no-go zones within the tiles that there are.
     pub(super) fn paint_no_go(&mut self) {
@@ -205,12 +252,15 @@ impl HomeMap {
 
 /// Cells whose middles lie in a zone and that lie in `window`, row after row.
 fn cells_of(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + '_ {
-    let (low, high) = around(zone);
+    cells_between(around(zone), window).filter(|cell| zone.contains(cell.middle()))
+}
+
+/// Cells of a rectangle that lie in `window`, row after row.
+fn cells_between((low, high): (Point2, Point2), window: CellBox) -> impl Iterator<Item = Cell> {
     let (low, high) = (Cell::under(low), Cell::under(high));
     let columns = low.x.max(window.low.x)..=high.x.min(window.high.x);
     let rows = low.y.max(window.low.y)..=high.y.min(window.high.y);
     rows.flat_map(move |y| columns.clone().map(move |x| Cell { x, y }))
-        .filter(|cell| zone.contains(cell.middle()))
 }
 
 /// Lowest and highest corner of the rectangle around a zone.

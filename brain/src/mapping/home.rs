@@ -5,6 +5,7 @@ use core::task::Poll;
 use super::annotations::Annotations;
 use super::derived::Derived;
 use super::distance::DistanceField;
+use super::dock::DockPlace;
 use super::draw::Pencil;
 use super::layers::{CellBox, CellKnowledge, Flag, Layers};
 use super::rooms::Rooms;
@@ -45,7 +46,7 @@ pub(super) struct HomeMap {
     surveyed_us: u64,
     surveying: Option<Gradual<Rooms>>,
     slip: SlipMeter,
-    pub(super) dock: Option<Pose2>,
+    pub(super) dock: DockPlace,
     revision: u32,
     redrawn: u32,
     /// Cells that are shut until the next job.
@@ -70,7 +71,7 @@ impl HomeMap {
             surveyed_us: 0,
             surveying: None,
             slip: SlipMeter::default(),
-            dock: None,
+            dock: DockPlace::default(),
             revision: 0,
             redrawn: 0,
             pockets: Vec::new(),
@@ -85,8 +86,8 @@ impl HomeMap {
             self.last = None;
             return;
         }
-        if observation.docked && self.dock.is_none() {
-            self.dock = Some(estimate.pose);
+        if observation.docked && self.dock.pose().is_none() {
+            self.dock = DockPlace::sure(estimate.pose);
         }
         let mut sighting = Sighting {
             slip,
@@ -261,7 +262,7 @@ impl HomeMap {
     pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
         self.layers = stored.layers(pace).await;
         self.base = self.layers.clone();
-        self.dock = stored.dock();
+        self.dock = stored.dock_place();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
         self.derived = Derived::anew(&mut self.layers, pace).await;
@@ -395,15 +396,22 @@ impl Map {
         })
     }
 
-    /// Pose of a robot that stands on the dock, once it has been there.
+    /// Pose of a robot that stands on the dock, once it has been there or a person has said where it is.
     #[must_use]
     pub fn dock(&self) -> Option<Pose2> {
+        self.home.dock.pose()
+    }
+
+    /// The same with what it is known from.
+    #[must_use]
+    pub fn dock_place(&self) -> DockPlace {
         self.home.dock
     }
 
-    /// Says where the dock is.
-    pub fn set_dock(&mut self, dock: Pose2) {
-        self.home.dock = Some(dock);
+    /// The robot stands on its dock there.
+    pub fn feel_dock(&mut self, pose: Pose2) {
+        self.home.dock.feel(pose);
+        self.home.touch();
     }
 
     /// Forbids a place that trapped the robot, until the next job.

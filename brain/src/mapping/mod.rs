@@ -12,6 +12,7 @@
 mod annotations;
 mod derived;
 mod distance;
+mod dock;
 mod doors;
 mod draw;
 mod editing;
@@ -34,6 +35,7 @@ mod writing_down;
 
 pub use annotations::Annotations;
 pub use distance::{DistanceField, FAR_M};
+pub use dock::DockPlace;
 pub use doors::Door;
 pub use layers::CellKnowledge;
 pub use raster::Raster;

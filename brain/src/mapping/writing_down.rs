@@ -4,15 +4,14 @@
 
 use super::layers::Layers;
 use super::rooms::Rooms;
-use super::{Annotations, Map, StoredMap};
-use crate::geometry::Pose2;
+use super::{Annotations, DockPlace, Map, StoredMap};
 use crate::gradual::{Gradual, Pace, at_once};
 
 /// A copy of what is written down. It shares the cells with the map as long as that does not change them.
 struct Draft {
     layers: Layers,
     rooms: Rooms,
-    dock: Option<Pose2>,
+    dock: DockPlace,
     annotations: Annotations,
 }
 
@@ -29,7 +28,7 @@ impl Draft {
     async fn written(self, pace: &mut Pace) -> StoredMap {
         StoredMap::of_layers(&self.layers, &self.rooms, pace)
             .await
-            .with_dock(self.dock)
+            .with_dock_place(self.dock)
             .with_annotations(self.annotations)
     }
 }

@@ -76,7 +76,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 50] = [
+pub const VERBS: [(&str, Role); 51] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -110,6 +110,7 @@ pub const VERBS: [(&str, Role); 50] = [
     ("split-room",      Role::Admin),
     ("join-rooms",      Role::Admin),
     ("undo-room-change", Role::Admin),
+    ("move-dock",       Role::Admin),
     ("reset-health",    Role::Admin),
     ("restore-map",     Role::Admin),
     ("new-floor",       Role::Admin),

@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
+use crate::dock_view::DockPlace;
 use crate::floors_view::FloorList;
 use crate::language::words;
 use crate::rooms_view::{NoGoList, RoomList};
@@ -37,6 +38,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <FloorList store />
             <RoomList store />
             <NoGoList store />
+            <DockPlace store />
             <h3 id="maps-title">{words().home.maps}</h3>
             <ul id="maps" class="rows" aria-labelledby="maps-title">
                 {move || {

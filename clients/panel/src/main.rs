@@ -5,6 +5,7 @@ mod access;
 mod actions;
 mod app;
 mod device_view;
+mod dock_view;
 mod drive;
 mod evidence_view;
 mod file_button;

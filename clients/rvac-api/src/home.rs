@@ -34,12 +34,19 @@ pub struct HomeView {
     /// Pose of a robot that stands on the dock, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dock: Option<Pose>,
+    /// Nobody but a person has said that it is there: the robot has not docked there yet.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub dock_told: bool,
     /// No-go zones and virtual walls, by their numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_go: Vec<NoGoView>,
     /// How people have changed the rooms, in the order in which they did.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub room_changes: Vec<RoomChangeView>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// A version of the map of the home that the daemon keeps.

@@ -143,6 +143,16 @@ pub enum RequestBody {
         /// Its number, as in [`crate::HomeView::room_changes`].
         number: u16,
     },
+    /// Says where the dock stands now, by eye. A robot that is on it stands there, too; one that docks there finds out where it
+    /// really is. Answered when the map with it is on the disk; refused while a job runs or waits.
+    MoveDock {
+        /// Place of a robot on the dock, metres.
+        x: f64,
+        /// Place of a robot on the dock, metres.
+        y: f64,
+        /// Where it looks then, towards the dock's back, radians counter-clockwise from the x axis.
+        heading: f64,
+    },
     /// Asks what the robot has felt and tried up to now, for example after it refused something; answered by
     /// [`crate::Update::Evidence`].
     Evidence,

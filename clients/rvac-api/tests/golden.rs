@@ -471,6 +471,7 @@ fn the_home() {
             sigma_m: 0.25,
         }],
         dock: None,
+        dock_told: false,
         no_go: vec![],
         room_changes: vec![],
     };
@@ -573,6 +574,14 @@ fn changes_of_rooms() {
     request(
         RequestBody::UndoRoomChange { number: 2 },
         r#"{"c":"undo-room-change","number":2}"#,
+    );
+    request(
+        RequestBody::MoveDock {
+            x: 1.5,
+            y: -0.25,
+            heading: 1.0,
+        },
+        r#"{"c":"move-dock","x":1.5,"y":-0.25,"heading":1.0}"#,
     );
 }
 

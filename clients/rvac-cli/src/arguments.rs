@@ -235,6 +235,15 @@ pub(crate) enum MapVerb {
         #[arg(long)]
         floor: Option<String>,
     },
+    /// Say where the dock stands now that it was moved: by eye is enough, the robot finds out the rest when it docks.
+    Dock {
+        /// Where the middle of the robot is when it stands on it.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        at: Place,
+        /// A place that the robot looks at then, behind the dock.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        towards: Place,
+    },
 }
 
 #[derive(Debug, Args)]

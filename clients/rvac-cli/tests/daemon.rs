@@ -720,6 +720,24 @@ fn kept_maps_are_listed_and_one_is_asked_back() {
 }
 
 #[test]
+fn a_dock_that_was_moved_is_told_by_where_the_robot_stands_and_looks() {
+    let moved = RequestBody::MoveDock {
+        x: -1.0,
+        y: 0.5,
+        heading: std::f64::consts::PI,
+    };
+    let arguments: &[&str] = &["map", "dock", "-1,0.5", "-3,0.5"];
+    let (output, asked) = Daemon::start("dock", at_home).rvac(arguments, "");
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(asked.last().map(|request| &request.body), Some(&moved));
+    let (output, _) = Daemon::start("no-dock", at_home).rvac(&["map", "dock", "1,1", "1,1"], "");
+    assert!(
+        text(&output.stderr).contains("both places are the same"),
+        "{output:?}"
+    );
+}
+
+#[test]
 fn why_tells_the_newest_decisions_last() {
     let (output, _) = Daemon::start("why", at_home).rvac(&["why", "--lines", "1"], "");
     let words = text(&output.stdout);

@@ -1,4 +1,4 @@
-//! Virtual walls, each change of them a new version of the map.
+//! Virtual walls and the place of the dock, each change of them a new version of the map.
 
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{HomeView, NoGoShape, RequestBody, Topic, Update};
@@ -6,6 +6,8 @@ use rvac_api::{HomeView, NoGoShape, RequestBody, Topic, Update};
 use crate::life::{Kept, replaced};
 use crate::store::{Change, Desk, Store};
 
+/// Where the pose of the dock is kept among the walls' numbers.
+const DOCK: &str = "dock";
 /// Virtual walls at a time.
 const WALLS_MAX: usize = 6;
 
@@ -44,16 +46,23 @@ impl Store for Home {
     }
 
     fn read(&self, desk: &mut Desk) -> anyhow::Result<Kept> {
-        let walls = look_at(desk)?.no_go.into_iter();
+        let home = look_at(desk)?;
+        let dock = home.dock.map(|dock| [dock.x, dock.y, dock.heading]);
+        let dock = dock.map(|pose| Ok((DOCK.to_owned(), serde_json::to_string(&pose)?)));
+        let walls = home.no_go.into_iter();
         walls
             .map(|view| Ok((view.number.to_string(), serde_json::to_string(&view.shape)?)))
+            .chain(dock)
             .collect()
     }
 
     fn change(&self, kept: &Kept, number: u64) -> Change {
+        if number.is_multiple_of(4) {
+            return dock_moved(kept, number);
+        }
         let oldest = kept.keys().filter_map(|key| key.parse::<u16>().ok()).min();
         match oldest {
-            Some(of) if kept.len() >= WALLS_MAX || number.is_multiple_of(3) => Change {
+            Some(of) if kept.len() > WALLS_MAX || number.is_multiple_of(3) => Change {
                 after: replaced(kept, Some(&of.to_string()), None),
                 request: RequestBody::RemoveNoGo { number: of },
             },
@@ -65,6 +74,20 @@ impl Store for Home {
                 }
             }
         }
+    }
+}
+
+/// The dock at a place that tells it from others, beside all walls. Quarters are told without rounding.
+fn dock_moved(kept: &Kept, number: u64) -> Change {
+    let quarters = |steps: u64| f64::from(u32::try_from(steps).unwrap_or(0)) * 0.25;
+    let [x, y, heading] = [
+        quarters(number % 4) - 0.75,
+        quarters(number / 4 % 5) - 0.5,
+        quarters(number / 20 % 7),
+    ];
+    Change {
+        after: replaced(kept, Some(DOCK), serde_json::to_string(&[x, y, heading]).ok()),
+        request: RequestBody::MoveDock { x, y, heading },
     }
 }
 

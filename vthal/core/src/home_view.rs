@@ -29,6 +29,7 @@ pub(crate) fn home_view(map: &Map) -> HomeView {
         doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
+        dock_told: map.dock_place().is_told(),
         no_go: map.annotations().no_go().map(no_go).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
         ..view

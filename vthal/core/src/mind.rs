@@ -164,6 +164,7 @@ impl Mind {
             | Command::SplitRoom { .. }
             | Command::JoinRooms { .. }
             | Command::UndoRoomChange { .. }
+            | Command::MoveDock { .. }
             | Command::Pause
             | Command::Resume
             | Command::Stop

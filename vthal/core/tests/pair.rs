@@ -911,6 +911,53 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
 }
 
+fn dock_at(x: f64, y: f64) -> RequestBody {
+    RequestBody::MoveDock { x, y, heading: 0.5 }
+}
+
+#[test]
+fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, dock_at(3.0, 1.0)), None);
+    pair.run_ms(200);
+    assert_eq!(pair.edits.len(), 1);
+    let kept = pair.edits[0].home.home.dock_place();
+    assert_eq!(
+        (kept.pose().map(|pose| pose.x_m), kept.is_told()),
+        (Some(3.0), true)
+    );
+    let pose = pair.core.pose();
+    assert!(
+        (pose.x - 3.0).abs() < 1e-6 && (pose.heading - 0.5).abs() < 1e-6,
+        "{pose:?}"
+    );
+    let taken_back = RequestBody::MoveDock {
+        x: 2.0,
+        y: 0.5,
+        heading: 1.5,
+    };
+    assert_eq!(pair.ask(ANNA, taken_back), None);
+    pair.run_ms(200);
+    assert!(!pair.edits[1].home.home.dock_place().is_told());
+    assert!((pair.core.pose().x - 2.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_dock_stands_on_floor_beside_what_is_forbidden_and_is_not_moved_while_a_job_runs() {
+    let mut pair = on_the_dock();
+    assert_eq!(
+        pair.ask(ANNA, dock_at(9.0, 1.0)).as_deref(),
+        Some("no-floor-there")
+    );
+    assert_eq!(pair.ask(ANNA, wall([3.0, 1.0], [3.0, 2.0])), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, dock_at(3.1, 1.5)).as_deref(), Some("dock-inside"));
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(Vec::new(), 1))), None);
+    drive_off(&mut pair);
+    assert_eq!(pair.ask(ANNA, dock_at(1.0, 1.0)).as_deref(), Some("job-runs"));
+    assert_eq!(pair.edits.len(), 1, "only the wall is kept");
+}
+
 fn split(room: Option<u16>, line: [[f64; 2]; 2]) -> RequestBody {
     RequestBody::SplitRoom(RoomSplitting { room, line })
 }

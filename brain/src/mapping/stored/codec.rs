@@ -4,18 +4,20 @@
 //! a CRC-32 (IEEE 802.3) over everything before it, low byte first. Poses and corners are micrometres and microradians.
 //!
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
-//! its rooms, version 4 how rooms are cleaned, version 5 by which pattern.
+//! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
+//! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
 
 mod room_words;
 mod words;
 
 use super::{CELLS_MAX, Run, StoredMap};
 use crate::geometry::Pose2;
-use crate::mapping::{Annotations, Cell};
+use crate::mapping::dock::Felt;
+use crate::mapping::{Annotations, Cell, DockPlace};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 5;
+const VERSION: u8 = 6;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -105,15 +107,9 @@ impl StoredMap {
     pub fn encode(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.push(VERSION);
-        match self.dock {
-            None => bytes.push(0),
-            Some(pose) => {
-                bytes.push(1);
-                for value in [pose.x_m, pose.y_m, pose.heading_rad] {
-                    put_signed(&mut bytes, libm::round(value * 1e6) as i64);
-                }
-            }
-        }
+        let felt = self.dock.felt();
+        put_pose(&mut bytes, felt.map(|felt| (felt.times, felt.pose)));
+        put_pose(&mut bytes, self.dock.told().map(|told| (1, told)));
         put_signed(&mut bytes, self.origin.x.into());
         put_signed(&mut bytes, self.origin.y.into());
         put(&mut bytes, self.width.into());
@@ -161,14 +157,7 @@ struct Reader<'bytes> {
 
 impl Reader<'_> {
     fn map(mut self, version: u8) -> Result<StoredMap, StoredMapError> {
-        let dock = match self.number()? {
-            0 => None,
-            _ => Some(Pose2 {
-                x_m: self.millionths()?,
-                y_m: self.millionths()?,
-                heading_rad: self.millionths()?,
-            }),
-        };
+        let dock = self.dock(version)?;
         let origin = Cell {
             x: self.signed()?.try_into().map_err(|_| StoredMapError::Number)?,
             y: self.signed()?.try_into().map_err(|_| StoredMapError::Number)?,
@@ -229,6 +218,30 @@ impl Reader<'_> {
         Ok(runs)
     }
 
+    fn dock(&mut self, version: u8) -> Result<DockPlace, StoredMapError> {
+        let felt = self.pose()?;
+        if version < 6 {
+            return Ok(felt.map_or_else(DockPlace::default, |(_, pose)| DockPlace::sure(pose)));
+        }
+        let told = self.pose()?.map(|(_, told)| told);
+        let felt = felt.map(|(times, pose)| Felt { pose, times });
+        Ok(DockPlace::from_parts(felt, told))
+    }
+
+    /// A number and, unless it is 0, the pose that follows it.
+    fn pose(&mut self) -> Result<Option<(u8, Pose2)>, StoredMapError> {
+        let number = self.number()?.try_into().map_err(|_| StoredMapError::Number)?;
+        if number == 0 {
+            return Ok(None);
+        }
+        let pose = Pose2 {
+            x_m: self.millionths()?,
+            y_m: self.millionths()?,
+            heading_rad: self.millionths()?,
+        };
+        Ok(Some((number, pose)))
+    }
+
     fn number(&mut self) -> Result<u64, StoredMapError> {
         let mut value = 0;
         for shift in (0..63).step_by(7) {
@@ -249,6 +262,17 @@ impl Reader<'_> {
 
     fn millionths(&mut self) -> Result<f64, StoredMapError> {
         Ok(self.signed()? as f64 * 1e-6)
+    }
+}
+
+/// A number that is not 0 and a pose, or 0.
+fn put_pose(bytes: &mut Vec<u8>, numbered: Option<(u8, Pose2)>) {
+    let Some((number, pose)) = numbered else {
+        return put(bytes, 0);
+    };
+    put(bytes, number.into());
+    for value in [pose.x_m, pose.y_m, pose.heading_rad] {
+        put_signed(bytes, libm::round(value * 1e6) as i64);
     }
 }
 
@@ -281,8 +305,10 @@ fn crc32(bytes: &[u8]) -> u32 {
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
     use crate::geometry::{Point2, Pose2};
+    use crate::mapping::dock::Felt;
     use crate::mapping::{
-        Annotations, Cell, CellKnowledge, CutLine, PartSide, Raster, RoomChange, RoomJoin, RoomSplit,
+        Annotations, Cell, CellKnowledge, CutLine, DockPlace, PartSide, Raster, RoomChange, RoomJoin,
+        RoomSplit,
     };
     use crate::no_go::{NoGo, RoomName};
     use crate::order::Zone;
@@ -432,7 +458,11 @@ mod tests {
 
     #[test]
     fn a_map_comes_back_and_its_knowledge_with_it() {
-        for map in [map(), StoredMap::default(), map().with_dock(None)] {
+        let told = DockPlace::from_parts(None, Some(Pose2::IDENTITY));
+        let once = map().dock().map(|pose| Felt { pose, times: 1 });
+        let both = DockPlace::from_parts(once, Some(Pose2::IDENTITY));
+        let docks = [DockPlace::default(), told, both].map(|dock| map().with_dock_place(dock));
+        for map in [map(), StoredMap::default()].into_iter().chain(docks) {
             let back = StoredMap::decode(&map.encode()).unwrap();
             assert_eq!(back, map);
             assert_eq!(back.knowledge(), map.knowledge());

@@ -12,7 +12,7 @@ pub use codec::StoredMapError;
 use super::annotations::Annotations;
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
 use super::rooms::Rooms;
-use super::{Cell, CellKnowledge, Raster};
+use super::{Cell, CellKnowledge, DockPlace, Raster};
 use crate::geometry::Pose2;
 use crate::gradual::{Pace, at_once};
 
@@ -22,8 +22,7 @@ pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) a
 /// A map as plain data. [`Self::encode`] makes bytes of it and [`Self::decode`] checks them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StoredMap {
-    /// Pose of a robot that stands on the dock, if that is known.
-    dock: Option<Pose2>,
+    dock: DockPlace,
     origin: Cell,
     width: u32,
     height: u32,
@@ -54,7 +53,7 @@ impl StoredMap {
     pub fn from_raster(knowledge: &Raster<CellKnowledge>, dock: Option<Pose2>) -> Self {
         let cells = runs_of(knowledge.values().iter().map(|kind| pack(sure(*kind))));
         Self {
-            dock,
+            dock: dock.map(DockPlace::sure).unwrap_or_default(),
             origin: knowledge.origin(),
             width: knowledge.width().try_into().unwrap_or(u32::MAX),
             height: knowledge.height().try_into().unwrap_or(u32::MAX),
@@ -68,12 +67,18 @@ impl StoredMap {
     /// Pose of a robot that stands on the dock, if that is known.
     #[must_use]
     pub fn dock(&self) -> Option<Pose2> {
+        self.dock.pose()
+    }
+
+    /// The same with what it is known from.
+    #[must_use]
+    pub fn dock_place(&self) -> DockPlace {
         self.dock
     }
 
     /// The same map with another dock.
     #[must_use]
-    pub fn with_dock(self, dock: Option<Pose2>) -> Self {
+    pub fn with_dock_place(self, dock: DockPlace) -> Self {
         Self { dock, ..self }
     }
 
@@ -158,7 +163,7 @@ impl StoredMap {
             pace.spend(CELL_WORK).await;
         }
         Self {
-            dock: None,
+            dock: DockPlace::default(),
             origin: around.low,
             width: width.try_into().unwrap_or(u32::MAX),
             height: height.try_into().unwrap_or(u32::MAX),

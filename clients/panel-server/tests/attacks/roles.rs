@@ -139,6 +139,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "name-room" => r#","room":1,"name":"x""#,
         "split-room" => r#","line":[[0.0,0.5],[1.0,0.5]]"#,
         "set-room" => r#","room":1"#,
+        "move-dock" => r#","x":0.0,"y":0.0,"heading":0.0"#,
         "join-rooms" => r#","rooms":[1,2]"#,
         "remove-no-go" | "undo-room-change" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => {
             r#","number":1"#

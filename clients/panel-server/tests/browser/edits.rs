@@ -281,3 +281,36 @@ async fn settings_are_undone(browser: &Browser, onlooker: &mut Onlooker, room: u
     browser.until(&format!("return !{shown}")).await;
     onlooker.sees(move |home| pattern_of(home).is_none());
 }
+
+#[tokio::test]
+async fn a_dock_that_was_moved_is_shown_by_two_places_and_taken_back() {
+    let Some(visit) = at_home().await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let mut onlooker = Onlooker::watch(&visit.stack.daemon_socket());
+    browser.says("dock-place", "where the robot has docked").await;
+    browser.click("#draw-dock").await;
+    keys(browser, &["Enter", "ArrowLeft", "ArrowLeft"]).await;
+    browser.shot("desktop-dock-drawn").await;
+    keys(browser, &["Enter"]).await;
+    browser.says("dock-place", "where somebody has said").await;
+    let mut moved = None;
+    onlooker.sees(|home| {
+        moved = home.dock.filter(|_| home.dock_told);
+        moved.is_some()
+    });
+    browser.shot("desktop-dock-moved").await;
+    browser.click("#undo").await;
+    browser.says("dock-place", "where the robot has docked").await;
+    onlooker.sees(|home| !home.dock_told);
+    browser.click("#redo").await;
+    onlooker.sees(|home| home.dock_told && home.dock == moved);
+    // Far outside there is no floor on which it could stand; the words say so over the hint of the drawing.
+    browser.click("#draw-dock").await;
+    keys(browser, &["ArrowUp"; 16]).await;
+    keys(browser, &["Enter", "ArrowUp", "Enter"]).await;
+    browser
+        .until("return document.body.innerText.includes('knows no floor under a robot on a dock')")
+        .await;
+}

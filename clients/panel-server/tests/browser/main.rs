@@ -300,9 +300,12 @@ async fn clean_one_room(browser: &Browser, shots: &str) {
     assert_eq!(browser.text(CHOSEN).await, "1");
     browser.says("prospect", "of a full battery").await;
     browser.shot(&format!("{shots}-room-chosen")).await;
+    browser.click("#manner summary").await;
     browser.click("#passes-2").await;
     browser.choose("job-power", "quiet").await;
     browser.choose("job-pattern", "contour").await;
+    browser.says("manner", "2x, quiet, along the walls").await;
+    browser.shot(&format!("{shots}-manner")).await;
     browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
     browser.has_no_order().await;

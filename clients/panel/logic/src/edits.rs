@@ -7,6 +7,7 @@ use rvac_api::{
     HomeView, NoGoShape, Request, RequestBody, RoomChangeView, RoomNaming, RoomSettings, RoomSplitting,
 };
 
+use crate::dock_place::{DockPose, is_same_dock, known_dock};
 use crate::words::Words;
 
 /// Most edits that can be taken back.
@@ -50,6 +51,13 @@ pub enum Edit {
     Join([u16; 2]),
     /// That was taken back.
     Unjoin([u16; 2]),
+    /// The dock stands elsewhere.
+    Dock {
+        /// Where it was known to stand.
+        before: DockPose,
+        /// Where it stands.
+        after: DockPose,
+    },
 }
 
 /// Why an edit cannot be asked for.
@@ -93,6 +101,10 @@ impl Edit {
             Self::Unsplit(line) => Self::Split(line),
             Self::Join(rooms) => Self::Unjoin(rooms),
             Self::Unjoin(rooms) => Self::Join(rooms),
+            Self::Dock { before, after } => Self::Dock {
+                before: after,
+                after: before,
+            },
         }
     }
 
@@ -111,6 +123,7 @@ impl Edit {
             Self::Unsplit(_) => told.edit_unsplit,
             Self::Join(_) => told.edit_join,
             Self::Unjoin(_) => told.edit_unjoin,
+            Self::Dock { .. } => told.edit_dock,
         }
     }
 
@@ -151,6 +164,14 @@ impl Edit {
                 change.line.is_some_and(|cut| is_same_line(&cut, line))
             }),
             Self::Join(rooms) => Ok(RequestBody::JoinRooms { rooms: *rooms }),
+            Self::Dock { before, after } => {
+                let known = known_dock(home);
+                if known.is_none_or(|known| !is_same_dock(known, *before)) {
+                    return Err(EditError::ChangedMeanwhile);
+                }
+                let [x, y, heading] = *after;
+                Ok(RequestBody::MoveDock { x, y, heading })
+            }
             // Which of them goes on is the robot's choice.
             Self::Unjoin([one, other]) => take_back(home, |change| {
                 change.line.is_none() && [[*one, *other], [*other, *one]].contains(&change.rooms)
@@ -433,6 +454,50 @@ mod tests {
         );
         let asked = log.redo(&home_with(4, &[cut])).unwrap().unwrap();
         assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
+    }
+
+    fn home_with_dock(revision: u32, x: f64) -> HomeView {
+        HomeView {
+            dock: Some(rvac_api::Pose {
+                x,
+                ..rvac_api::Pose::default()
+            }),
+            ..home(revision, &[], None)
+        }
+    }
+
+    #[test]
+    fn a_dock_goes_back_to_where_it_stood_unless_the_robot_has_found_it_elsewhere() {
+        let mut log = EditLog::default();
+        let (before, after) = ([1.0, 0.0, 0.0], [3.0, 0.5, 1.5]);
+        let edit = Edit::Dock { before, after };
+        let asked = log.begin(edit, &home_with_dock(1, 1.0)).unwrap();
+        let moved = RequestBody::MoveDock {
+            x: 3.0,
+            y: 0.5,
+            heading: 1.5,
+        };
+        assert_eq!(asked.body, moved);
+        log.on_done(number(&asked), 1);
+        let mut told = home_with_dock(2, 3.0);
+        told.dock = told.dock.map(|dock| rvac_api::Pose {
+            y: 0.501,
+            heading: 1.5,
+            ..dock
+        });
+        let asked = log.undo(&told).unwrap().unwrap();
+        let back = RequestBody::MoveDock {
+            x: 1.0,
+            y: 0.0,
+            heading: 0.0,
+        };
+        assert_eq!(asked.body, back);
+        log.on_done(number(&asked), 2);
+        assert_eq!(
+            log.redo(&home_with_dock(3, 1.2)),
+            Some(Err(EditError::ChangedMeanwhile)),
+            "it has docked and found the dock elsewhere"
+        );
     }
 
     #[test]

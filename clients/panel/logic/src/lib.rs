@@ -10,6 +10,7 @@ mod camera;
 mod codes;
 mod connection;
 mod device_rows;
+mod dock_place;
 mod driver;
 mod edits;
 mod evidence;
@@ -47,6 +48,7 @@ pub use codes::{
 };
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
+pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use edits::{Edit, EditError, EditLog};
 pub use evidence::{FeltRow, felt_rows};

@@ -194,6 +194,18 @@ impl RoomChoice {
         self.passes
     }
 
+    /// How often and how each part is cleaned: `2x, quiet, along the walls`.
+    #[must_use]
+    pub fn manner_text(&self, words: &Words) -> String {
+        let settings = self.settings.told(words);
+        let manner = if settings.is_empty() {
+            words.home.as_rooms.to_lowercase()
+        } else {
+            settings.join(", ")
+        };
+        format!("{}, {manner}", words.map.times.fill([&self.passes]))
+    }
+
     /// Cleans each part so often, within what a robot takes.
     pub fn set_passes(&mut self, passes: u8) {
         self.passes = passes.clamp(1, PASSES_MAX);
@@ -280,6 +292,19 @@ mod tests {
     use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape};
 
     const ENGLISH: &Words = Language::English.words();
+
+    #[test]
+    fn how_it_is_cleaned_stands_in_a_line() {
+        let mut choice = RoomChoice::default();
+        choice.toggle(3);
+        assert_eq!(choice.manner_text(ENGLISH), "1x, as set for the rooms");
+        choice.set_passes(2);
+        let mut settings = choice.settings();
+        settings.choose_power("quiet");
+        settings.choose_pattern("contour");
+        choice.set_settings(settings);
+        assert_eq!(choice.manner_text(ENGLISH), "2x, quiet, along the walls");
+    }
 
     #[test]
     fn zones_stand_among_the_rooms_and_the_job_keeps_out_of_places() {

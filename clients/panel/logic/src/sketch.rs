@@ -1,7 +1,8 @@
-//! Drawing zones and virtual walls by two places, and spots by one.
+//! Drawing zones, virtual walls and the dock by two places, and spots by one.
 
 use rvac_api::{HomeView, NoGoShape, SPOT_RADIUS_M};
 
+use crate::dock_place::{DockPose, dock_pose};
 use crate::words::Words;
 
 /// Corners nearer to each other than this are one place that was tapped twice, metres.
@@ -27,6 +28,8 @@ pub enum Tool {
     Spot,
     /// Draw a zone out of which the robot keeps for one job.
     AvoidZone,
+    /// Show where the dock stands now: where the robot stands on it, and what it looks at.
+    Dock,
 }
 
 /// What was drawn.
@@ -42,6 +45,8 @@ pub enum Drawn {
     Avoid(NoGoShape),
     /// A line that cuts a room in two.
     Cut([[f64; 2]; 2]),
+    /// Where the robot stands on its dock.
+    Dock(DockPose),
 }
 
 /// What is being drawn.
@@ -110,6 +115,10 @@ impl Sketch {
                 };
                 return (wide.hypot(high) >= APART_MIN_M).then_some(drawn);
             }
+            Tool::Dock => {
+                let drawn = Drawn::Dock(dock_pose((x, y), (far_x, far_y)));
+                return (wide.hypot(high) >= APART_MIN_M).then_some(drawn);
+            }
             Tool::Zone => Drawn::Forbidden(NoGoShape::Zone(corners())),
             Tool::CleanZone => Drawn::Clean(corners()),
             Tool::AvoidZone => Drawn::Avoid(NoGoShape::Zone(corners())),
@@ -126,6 +135,8 @@ impl Sketch {
             (Tool::Spot, _) => Some(told.spot_place),
             (Tool::Wall, None) => Some(told.wall_first),
             (Tool::Wall, Some(_)) => Some(told.wall_second),
+            (Tool::Dock, None) => Some(told.dock_first),
+            (Tool::Dock, Some(_)) => Some(told.dock_second),
             (Tool::Cut, None) => Some(told.cut_first),
             (Tool::Cut, Some(_)) => Some(told.cut_second),
             (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(told.zone_first),
@@ -254,6 +265,17 @@ mod tests {
             sketch.point((1.0, 4.0)),
             Some(Drawn::Cut([[1.0, 1.0], [1.0, 4.0]]))
         );
+        assert_eq!(sketch, Sketch::default());
+    }
+
+    #[test]
+    fn two_places_make_a_dock_that_looks_from_one_to_the_other() {
+        let mut sketch = Sketch::default();
+        sketch.take(Tool::Dock);
+        assert!(sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("dock")));
+        assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert_eq!(sketch.point((1.01, 1.0)), None, "it looks nowhere");
+        assert_eq!(sketch.point((2.0, 1.0)), Some(Drawn::Dock([1.0, 1.0, 0.0])));
         assert_eq!(sketch, Sketch::default());
     }
 

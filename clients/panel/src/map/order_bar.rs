@@ -80,13 +80,8 @@ fn ChosenRooms(store: Store) -> impl IntoView {
             <p><strong id="chosen-rooms">{names}</strong></p>
             <DrawnParts store />
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
+            <HowItIsCleaned store />
             <div class="order-tools">
-                <Passes store />
-                <JobSettingsFields
-                    place="job"
-                    settings=Signal::derive(move || orders.choice.with(panel_logic::RoomChoice::settings))
-                    change=Callback::new(move |settings| orders.choice.update(|choice| choice.set_settings(settings)))
-                />
                 <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
                     {words().map.choose_none}
                 </button>
@@ -111,6 +106,26 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                 </button>
             </div>
         </div>
+    }
+}
+
+/// How often and how the parts are cleaned: told in a line, and folded up, for it is seldom changed and the map is small on a phone.
+#[component]
+fn HowItIsCleaned(store: Store) -> impl IntoView {
+    let choice = store.orders.choice;
+    let told = move || choice.with(|choice| choice.manner_text(words()));
+    view! {
+        <details class="folded" id="manner">
+            <summary>{told}</summary>
+            <div class="order-tools">
+                <Passes store />
+                <JobSettingsFields
+                    place="job"
+                    settings=Signal::derive(move || choice.with(panel_logic::RoomChoice::settings))
+                    change=Callback::new(move |settings| choice.update(|choice| choice.set_settings(settings)))
+                />
+            </div>
+        </details>
     }
 }
 

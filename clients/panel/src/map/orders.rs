@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, job_estimate_text, joinable, no_go_rows,
-    refusal_text, room_change_rows,
+    Drawn, Edit, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text, job_estimate_text, joinable,
+    known_dock, no_go_rows, refusal_text, room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
@@ -27,6 +27,8 @@ pub(crate) struct Orders {
     pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
     /// What is forbidden.
     pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
+    /// What is known of the dock's place.
+    pub(crate) dock: RwSignal<Option<&'static str>>,
     /// How the rooms were split and joined.
     pub(crate) room_changes: RwSignal<Vec<RoomChangeRow>>,
     asked: StoredValue<u32>,
@@ -40,6 +42,7 @@ impl Orders {
             sketch: RwSignal::new(Sketch::default()),
             pointer: RwSignal::new(None),
             no_go: RwSignal::new(Vec::new()),
+            dock: RwSignal::new(None),
             room_changes: RwSignal::new(Vec::new()),
             asked: StoredValue::new(FIRST_ESTIMATE),
         }
@@ -49,6 +52,10 @@ impl Orders {
         let rows = no_go_rows(words(), home);
         if self.no_go.with_untracked(|known| *known != rows) {
             self.no_go.set(rows);
+        }
+        let dock = dock_text(words(), home);
+        if self.dock.get_untracked() != dock {
+            self.dock.set(dock);
         }
         let changes = room_change_rows(words(), home);
         if self.room_changes.with_untracked(|known| *known != changes) {
@@ -126,6 +133,11 @@ impl Store {
             None => return,
             Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(shape)),
             Some(Drawn::Cut(line)) => self.edit(Edit::Split(line)),
+            Some(Drawn::Dock(after)) => {
+                if let Some(before) = known_dock(&self.known_home()) {
+                    self.edit(Edit::Dock { before, after });
+                }
+            }
             Some(Drawn::Clean(corners)) => choice.update(|choice| choice.add_zone(corners)),
             Some(Drawn::Spot(middle)) => choice.update(|choice| choice.add_spot(middle)),
             Some(Drawn::Avoid(shape)) => choice.update(|choice| choice.keep_out_of(shape)),

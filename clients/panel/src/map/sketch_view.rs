@@ -1,13 +1,13 @@
-//! What is being drawn, over the map: a spot under the pointer, a line or a rectangle from the first place to it, and the middle of the map
-//! for those who draw with keys.
+//! What is being drawn, over the map: a spot under the pointer, a line, a rectangle or a robot on its dock from the first place to it, and
+//! the middle of the map for those who draw with keys.
 
 use leptos::prelude::*;
-use panel_logic::{Sketch, Tool, spot_border};
+use panel_logic::{Sketch, Tool, dock_border, dock_pose, spot_border};
 
 use crate::store::Store;
 
-/// Corners of what would be drawn if the pointer's place were the last one.
-fn corners(sketch: Sketch, pointer: Option<(f64, f64)>) -> Vec<(f64, f64)> {
+/// Corners of what would be drawn if the pointer's place were the last one, for a robot of this radius.
+fn corners(sketch: Sketch, pointer: Option<(f64, f64)>, radius_m: f64) -> Vec<(f64, f64)> {
     if sketch.is_place() {
         let border = pointer.map(|place| spot_border(place.into())).unwrap_or_default();
         let again = border.first().copied();
@@ -17,6 +17,10 @@ fn corners(sketch: Sketch, pointer: Option<(f64, f64)>) -> Vec<(f64, f64)> {
         return Vec::new();
     };
     let (far_x, far_y) = pointer.unwrap_or((x, y));
+    if sketch.tool() == Tool::Dock {
+        let border = dock_border(dock_pose((x, y), (far_x, far_y)), radius_m);
+        return border.into_iter().map(Into::into).collect();
+    }
     if sketch.is_line() {
         vec![(x, y), (far_x, far_y)]
     } else {
@@ -29,7 +33,10 @@ pub(crate) fn SketchView(store: Store) -> impl IntoView {
     let orders = store.orders;
     let draws = move || orders.sketch.with(|sketch| sketch.tool() != Tool::Choose);
     let path = move || {
-        let corners = corners(orders.sketch.get(), orders.pointer.get());
+        let radius_m = store
+            .map
+            .with_value(|map| map.with(|scene| scene.body_radius_m()));
+        let corners = corners(orders.sketch.get(), orders.pointer.get(), radius_m);
         if corners.is_empty() {
             return String::new();
         }

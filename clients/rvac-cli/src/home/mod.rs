@@ -7,14 +7,18 @@ use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use anyhow::bail;
 use rvac_api::{Estimate, HomeView, KeptMap, Pose, RequestBody, RoomView, Update};
 
-use crate::arguments::{Daemon, MapJob, MapVerb};
+use crate::arguments::{Daemon, MapJob, MapVerb, Place};
 use crate::control;
 use crate::floors;
 use crate::socket::Connection;
 use known::KnownHome;
 use picture::picture;
+
+/// A place that is nearer than this is none to look at, metres.
+const LOOK_MIN_M: f64 = 0.01;
 
 pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
     match &job.verb {
@@ -28,7 +32,26 @@ pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
             };
             control::ask(&mut connection, request)
         }
+        Some(MapVerb::Dock { at, towards }) => {
+            let mut connection = Connection::open(&job.daemon)?;
+            control::ask(&mut connection, dock_moved(*at, *towards)?)
+        }
     }
+}
+
+/// The dock on which a robot stands at a place and looks towards another one.
+fn dock_moved(at: Place, towards: Place) -> anyhow::Result<RequestBody> {
+    let (x_m, y_m) = (towards.x_m - at.x_m, towards.y_m - at.y_m);
+    if x_m.hypot(y_m) < LOOK_MIN_M {
+        bail!(
+            "both places are the same: the second one says where the robot looks, for example the wall behind the dock"
+        );
+    }
+    Ok(RequestBody::MoveDock {
+        x: at.x_m,
+        y: at.y_m,
+        heading: y_m.atan2(x_m),
+    })
 }
 
 fn floor_meant(connection: &mut Connection, wanted: Option<&str>) -> anyhow::Result<Option<u16>> {
@@ -69,7 +92,14 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
         counted(home.walls.len(), "wall"),
     );
     text += &match &home.dock {
-        Some(dock) => format!("dock      x {:.2} m, y {:.2} m\n", dock.x, dock.y),
+        Some(dock) => {
+            let told = if home.dock_told {
+                ", as somebody has said: the robot has not docked there yet"
+            } else {
+                ""
+            };
+            format!("dock      x {:.2} m, y {:.2} m{told}\n", dock.x, dock.y)
+        }
         None => "dock      not known\n".to_owned(),
     };
     if let Some(pose) = pose {

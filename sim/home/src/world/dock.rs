@@ -77,7 +77,8 @@ impl Dock {
         Some(dock)
     }
 
-    fn stand_at(&mut self, pose: Pose, model: &RobotModel) {
+    /// Stands there from now on, looking into the room.
+    pub(crate) fn stand_at(&mut self, pose: Pose, model: &RobotModel) {
         self.pose = pose;
         (self.plan_sin, self.plan_cos) = libm::sincos(pose.heading_rad);
         self.docked = docked_pose(pose, model.body.radius_m);

@@ -184,6 +184,14 @@ impl World {
         }
     }
 
+    /// Somebody carries the dock elsewhere: `pose` is the middle of its back, looking into the room (plan frame). A home without one
+    /// stays without.
+    pub fn put_dock(&mut self, pose: Pose) {
+        if let Some(dock) = &mut self.dock {
+            dock.stand_at(pose, &self.model);
+        }
+    }
+
     /// What becomes of the dock's beams on their way.
     pub fn set_dock_beams(&mut self, beams: DockBeams) {
         if let Some(dock) = &mut self.dock {

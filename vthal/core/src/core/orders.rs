@@ -1,7 +1,7 @@
 //! What clients order for parts of the home, and what they say of the home.
 
 use brain::order::FAR_M;
-use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Reason, RoomName, Zone};
+use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Pose2, Reason, RoomName, Zone};
 use rvac_api::{
     Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RequestBody, RoomNaming, Update,
 };
@@ -91,6 +91,14 @@ impl Core {
             RequestBody::SplitRoom(splitting) => self.split_room(now_us, (asker, &splitting), outputs),
             RequestBody::JoinRooms { rooms } => self.join_rooms(now_us, (asker, rooms), outputs),
             RequestBody::UndoRoomChange { number } => self.undo_room_change(now_us, (asker, number), outputs),
+            RequestBody::MoveDock { x, y, heading } => {
+                let pose = Pose2 {
+                    x_m: x,
+                    y_m: y,
+                    heading_rad: heading,
+                };
+                self.move_dock(now_us, (asker, pose), outputs)
+            }
             _ => Ok(()),
         }
     }
@@ -105,7 +113,7 @@ impl Core {
         let brain = self.known_home()?.brain();
         let command = Command::AddNoGo { no_go };
         brain.admit(&command).map_err(|reason| match reason {
-            Reason::NoFloorThere => Refusal::no_floor_there("it", brain),
+            Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
             Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
             _ => Refusal::from(reason),
         })?;

@@ -77,7 +77,7 @@ impl Refusal {
         });
         let text = match span {
             Some((low, high)) => format!(
-                "The map knows no floor in {what}: its floor spans x {} and y {}.",
+                "The map knows no floor {what}: its floor spans x {} and y {}.",
                 metres(low.x, high.x),
                 metres(low.y, high.y)
             ),
@@ -95,7 +95,7 @@ impl Refusal {
         };
         match (reason, order.parts().iter().find_map(is_missing)) {
             (Reason::NoSuchRoom, Some(room)) => Self::no_such_room(room, brain),
-            (Reason::NoFloorThere, _) => Self::no_floor_there("one of the zones and spots", brain),
+            (Reason::NoFloorThere, _) => Self::no_floor_there("in one of the zones and spots", brain),
             _ => Self::from(reason),
         }
     }

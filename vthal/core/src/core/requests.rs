@@ -49,6 +49,7 @@ impl Core {
                 | RequestBody::SplitRoom(_)
                 | RequestBody::JoinRooms { .. }
                 | RequestBody::UndoRoomChange { .. }
+                | RequestBody::MoveDock { .. }
                 | RequestBody::Estimate(_)
                 | RequestBody::Evidence
                 | RequestBody::Health
@@ -104,7 +105,8 @@ impl Core {
             | RequestBody::SetRoom { .. }
             | RequestBody::SplitRoom(_)
             | RequestBody::JoinRooms { .. }
-            | RequestBody::UndoRoomChange { .. }) => self.change_home(now_us, ((client, id), body), outputs),
+            | RequestBody::UndoRoomChange { .. }
+            | RequestBody::MoveDock { .. }) => self.change_home(now_us, ((client, id), body), outputs),
             RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
             RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),
             RequestBody::Resume => Ok(self.job(now_us, (client, Command::Resume), outputs)?),
@@ -113,16 +115,7 @@ impl Core {
                 self.obey_always(now_us, (client, &body), outputs);
                 Ok(())
             }
-            RequestBody::Drive {
-                v,
-                w,
-                ttl,
-                clean,
-                power,
-            } => {
-                let (stick, power) = (manual::stick((v, w), ttl), manual::power(clean, power)?);
-                Ok(self.drive(now_us, (client, stick, power), outputs)?)
-            }
+            body @ RequestBody::Drive { .. } => self.drive_by_hand(now_us, (client, &body), outputs),
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
             RequestBody::Raw { packet } => Ok(self.raw(now_us, (client, &packet), outputs)?),
@@ -151,6 +144,27 @@ impl Core {
             | RequestBody::SetQuiet { .. }
             | RequestBody::SetZone { .. }) => self.change_schedules(now_us, ((client, id), body), outputs),
         }
+    }
+
+    /// A person drives; nothing else comes here.
+    fn drive_by_hand(
+        &mut self,
+        now_us: u64,
+        (client, body): (ClientId, &RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let &RequestBody::Drive {
+            v,
+            w,
+            ttl,
+            clean,
+            power,
+        } = body
+        else {
+            return Ok(());
+        };
+        let (stick, power) = (manual::stick((v, w), ttl), manual::power(clean, power)?);
+        Ok(self.drive(now_us, (client, stick, power), outputs)?)
     }
 
     /// What is never refused; nothing else comes here.

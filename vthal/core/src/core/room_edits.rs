@@ -1,8 +1,8 @@
-//! What clients change of the rooms.
+//! What clients change of the home while the robot rests: its rooms, and where the dock stands.
 
 use brain::mapping::CutLine;
 use brain::order::FAR_M;
-use brain::{Brain, Command, Point2, Reason};
+use brain::{Brain, Command, Point2, Pose2, Reason};
 use rvac_api::RoomSplitting;
 
 use super::Core;
@@ -92,7 +92,30 @@ impl Core {
         Ok(())
     }
 
-    /// Rooms are looked for anew with each change, and a job keeps the rooms that it has.
+    pub(super) fn move_dock(
+        &mut self,
+        now_us: u64,
+        (asker, pose): (Asker, Pose2),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let brain = self.resting_home()?.brain();
+        let command = Command::MoveDock { pose };
+        brain.admit(&command).map_err(|reason| match reason {
+            Reason::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
+            Reason::DockInside => Refusal::because(
+                reason,
+                format!(
+                    "A no-go zone lies under {}: put the dock beside it, or remove the zone first.",
+                    robot_at(pose)
+                ),
+            ),
+            _ => Refusal::from(reason),
+        })?;
+        self.edit(now_us, (asker, command, "says where the dock stands"), outputs);
+        Ok(())
+    }
+
+    /// Rooms are looked for anew with each change, and a job keeps the rooms and the dock that it has.
     fn resting_home(&self) -> Result<&Mind, Refusal> {
         let mind = self.known_home()?;
         if !mind.rests() || mind.holds_commands() {
@@ -100,6 +123,10 @@ impl Core {
         }
         Ok(mind)
     }
+}
+
+fn robot_at(pose: Pose2) -> String {
+    format!("a robot on a dock at x {:.2} m, y {:.2} m", pose.x_m, pose.y_m)
 }
 
 fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {

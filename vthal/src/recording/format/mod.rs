@@ -15,7 +15,9 @@ pub use state::BrainState;
 
 use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{Body, BrainConfig, Command, Observation, Point2, RoomName, RoomSettings, Speeds, StrategyName};
+use brain::{
+    Body, BrainConfig, Command, Observation, Point2, Pose2, RoomName, RoomSettings, Speeds, StrategyName,
+};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -282,6 +284,8 @@ pub enum GivenCommand {
     JoinRooms([u16; 2]),
     /// [`Command::UndoRoomChange`] by its number.
     UndoRoomChange(u16),
+    /// [`Command::MoveDock`] by place and heading of a robot on it.
+    MoveDock([f64; 3]),
     /// [`Command::Spot`]
     Spot,
     /// [`Command::Pause`]
@@ -334,6 +338,7 @@ impl From<&Command> for GivenCommand {
             },
             Command::JoinRooms { rooms } => Self::JoinRooms(*rooms),
             Command::UndoRoomChange { number } => Self::UndoRoomChange(*number),
+            Command::MoveDock { pose } => Self::MoveDock([pose.x_m, pose.y_m, pose.heading_rad]),
             Command::Spot => Self::Spot,
             Command::Pause => Self::Pause,
             Command::Resume => Self::Resume,
@@ -401,6 +406,13 @@ impl GivenCommand {
             }
             Self::JoinRooms(rooms) => Command::JoinRooms { rooms: *rooms },
             Self::UndoRoomChange(number) => Command::UndoRoomChange { number: *number },
+            Self::MoveDock([x_m, y_m, heading_rad]) => Command::MoveDock {
+                pose: Pose2 {
+                    x_m: *x_m,
+                    y_m: *y_m,
+                    heading_rad: *heading_rad,
+                },
+            },
             Self::Spot => Command::Spot,
             Self::Pause => Command::Pause,
             Self::Resume => Command::Resume,
@@ -428,7 +440,7 @@ mod tests {
     use brain::mapping::CutLine;
     use brain::observation::{BeaconRange, ChargeFlow};
     use brain::{
-        CleaningOrder, Command, HomePart, NoGo, Observation, Pattern, Point2, RoomName, RoomPower,
+        CleaningOrder, Command, HomePart, NoGo, Observation, Pattern, Point2, Pose2, RoomName, RoomPower,
         RoomSettings, Zone,
     };
 
@@ -508,6 +520,13 @@ mod tests {
                 settings: None,
             },
             Command::UndoRoomChange { number: 2 },
+            Command::MoveDock {
+                pose: Pose2 {
+                    x_m: 0.1 + 0.2,
+                    y_m: -1.0 / 3.0,
+                    heading_rad: 3.0,
+                },
+            },
             Command::Clean {
                 strategy: brain::StrategyName::Bounce,
             },

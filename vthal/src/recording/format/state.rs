@@ -30,9 +30,16 @@ pub struct BrainState {
     /// Deviations of place and heading, whether lost (not 0), scale and bias of the gyro.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tracking: Option<[f64; 5]>,
+    /// Beams until the place counts as confirmed; absent = none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    unconfirmed_beams: u32,
     /// Shares of the charge that a second of cleaning and of driving takes, and the seconds from which that was learnt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<[f64; 3]>,
+}
+
+fn is_zero(value: &u32) -> bool {
+    *value == 0
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -91,6 +98,9 @@ impl From<&Checkpoint> for BrainState {
                 let (scale, bias) = (tracking.gyro_scale, tracking.gyro_bias_rad_per_s);
                 [tracking.sigma_m, tracking.sigma_rad, lost, scale, bias]
             }),
+            unconfirmed_beams: checkpoint
+                .tracking
+                .map_or(0, |tracking| tracking.unconfirmed_beams),
             energy: Some(checkpoint.energy)
                 .filter(|energy| energy.seen_s > 0.0)
                 .map(|energy| [energy.cleaning_per_s, energy.driving_per_s, energy.seen_s]),
@@ -143,6 +153,7 @@ impl BrainState {
                     lost: lost != 0.0,
                     gyro_scale: scale,
                     gyro_bias_rad_per_s: bias,
+                    unconfirmed_beams: self.unconfirmed_beams,
                 }),
             energy: self.energy.map_or_else(
                 EnergyModel::default,
@@ -271,6 +282,7 @@ mod tests {
                 sigma_m: 0.03,
                 lost: true,
                 gyro_scale: -0.004,
+                unconfirmed_beams: 200,
                 ..TrackingCheckpoint::default()
             }),
             job: Some(JobCheckpoint {

@@ -86,6 +86,11 @@ screen! {
         doors_to[2]: ", doors to {0} and {1}", ", uksed: {0} ja {1}";
         no_go: "Not to be entered", "Keelatud kohad";
         nothing_forbidden: "Nothing is forbidden.", "Midagi ei ole keelatud.";
+        dock: "Dock", "Dokk";
+        dock_felt: "It stands where the robot has docked.", "Dokk on seal, kus robot on dokkinud.";
+        dock_told: "It stands where somebody has said. The robot finds out exactly where when it docks.",
+            "Dokk on seal, kuhu see märgiti. Täpse koha saab robot teada, kui ta dokib.";
+        draw_dock: "The dock was moved", "Dokki on nihutatud";
         draw_wall: "Draw a virtual wall", "Joonista virtuaalsein";
         draw_zone: "Draw a no-go zone", "Joonista keeluala";
         wall[1]: "Virtual wall {0}", "Virtuaalsein {0}";

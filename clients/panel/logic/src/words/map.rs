@@ -23,6 +23,7 @@ screen! {
         edit_unsplit: "removal of a split", "poolitamise tagasivõtmine";
         edit_join: "joining of rooms", "tubade ühendamine";
         edit_unjoin: "removal of a joining", "ühendamise tagasivõtmine";
+        edit_dock: "place of the dock", "doki koht";
         changed_meanwhile: "That edit cannot be taken back or done again: the map was changed there meanwhile. The edits before it can.",
             "Seda muudatust ei saa tagasi võtta ega uuesti teha: kaarti on seal vahepeal muudetud. Varasemaid saab.";
         not_told_yet: "The robot has not told of that edit yet. Try again in a few seconds.",
@@ -61,6 +62,10 @@ screen! {
         cut_first: "Tap where the room shall be cut: first at one wall, or move that to the cross and press Enter.",
             "Puuduta, kust tuba poolitada: kõigepealt ühe seina ääres, või nihuta see ristile ja vajuta Enter.";
         cut_second: "Now at the other wall.", "Nüüd teise seina ääres.";
+        dock_first: "Tap where the robot stands on the dock, or move that to the cross and press Enter.",
+            "Puuduta, kus robot dokis seisab, või nihuta see ristile ja vajuta Enter.";
+        dock_second: "Now behind the dock, where the robot looks when it stands on it.",
+            "Nüüd doki taga, kuhu robot dokis seistes vaatab.";
         zone_first: "Tap one corner of the zone, or move it to the cross and press Enter.",
             "Puuduta ala üht nurka või nihuta see ristile ja vajuta Enter.";
         zone_second: "Now the opposite corner.", "Nüüd vastasnurk.";
