@@ -37,8 +37,8 @@ const ASIDE_MIN_M: f64 = 0.005;
 const ASIDE_MAX_M: f64 = 0.03;
 /// Farther from the way than this the robot does not follow it any more.
 const LOST_M: f64 = 0.25;
-/// As `LOST_M`, for the heading.
-const LOST_RAD: f64 = 1.2;
+/// A robot that looks farther away from the way than this turns before it drives on.
+const ELSEWHERE_RAD: f64 = 1.2;
 
 /// A way that is being driven.
 #[derive(Clone, Debug, Default)]
@@ -163,7 +163,9 @@ impl Follower {
                 let is_at_wall = caution.ahead_m < TURN_BEFORE_M
                     && left_m < SHORT_OF_M
                     && self.current + 1 < self.pieces.len();
-                if !is_at_wall && left_m > 0.5 * LAG_S * situation.config.speeds.cruise_m_per_s {
+                let speeds = &situation.config.speeds;
+                let speed_m_per_s = piece_speed(&piece, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
+                if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
                     return self.drive(&piece, &fix, (situation, caution));
                 }
             }
@@ -197,10 +199,16 @@ impl Follower {
     }
 
     fn drive(&self, piece: &Piece, fix: &Fix, (situation, caution): (&Situation<'_>, Caution)) -> FollowStep {
-        if fix.offset_m.abs() > LOST_M || fix.heading_rad.abs() > LOST_RAD {
+        if fix.offset_m.abs() > LOST_M {
             return FollowStep::Off;
         }
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
+        if fix.heading_rad.abs() > ELSEWHERE_RAD {
+            return FollowStep::Going(Motion::Drive {
+                speed_m_per_s: 0.0,
+                turn_rad_per_s: -turn_max.copysign(fix.heading_rad),
+            });
+        }
         let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
         let left_m = piece.length_m - fix.along_m;
         let free_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
@@ -263,7 +271,8 @@ fn piece_speed(piece: &Piece, cruise_m_per_s: f64, turn_max: f64) -> f64 {
 impl Fix {
     fn on(piece: &Piece, pose: Pose2) -> Self {
         let local = piece.start.inverse() * pose;
-        if piece.turn_rad == 0.0 {
+        // Before its start an arc goes on straight: the circle of a tight one leads elsewhere within centimetres.
+        if piece.turn_rad == 0.0 || local.x_m < 0.0 {
             return Self {
                 along_m: local.x_m,
                 offset_m: local.y_m,

@@ -13,6 +13,8 @@ const CUT_MAX_M: f64 = 0.15;
 const RING_CUT_MAX_M: f64 = 0.08;
 /// An arc that takes less than this is no better than a turn on the spot.
 const CUT_MIN_M: f64 = 0.02;
+/// A tighter one takes as long as a turn on the spot, and a robot that enters it a little early is beside it at once, metres.
+const RADIUS_MIN_M: f64 = 0.05;
 /// Sharper corners are turned on the spot.
 const SHARP_RAD: f64 = 2.5;
 /// Turns below this are left to steering.
@@ -125,7 +127,8 @@ fn cut_m([before, corner, after]: [Point2; 3], (ground, most_m): (&Ground, f64))
     let (behind_m, ahead_m) = (before.distance_m(corner), corner.distance_m(after));
     // Half of each straight, so that the corners at its two ends do not need the same part of it.
     let mut cut_m = most_m.min(0.5 * behind_m).min(0.5 * ahead_m);
-    while cut_m >= CUT_MIN_M {
+    let least_m = CUT_MIN_M.max(RADIUS_MIN_M * libm::tan(0.5 * turn_rad));
+    while cut_m >= least_m {
         let start = between(corner, before, cut_m / behind_m);
         let end = between(corner, after, cut_m / ahead_m);
         if ground.sees_points(start, end) {
