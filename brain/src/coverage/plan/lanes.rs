@@ -33,6 +33,8 @@ pub(super) struct Lane {
     pub(super) from: usize,
     /// Index of the free cell at the other end.
     pub(super) to: usize,
+    /// Cells of open floor that it sweeps when lanes are driven in the order in which they were chosen.
+    pub(super) swept: usize,
 }
 
 /// Chooses lanes and closes the floor that they sweep.
@@ -141,26 +143,31 @@ impl<'ground> Picker<'ground> {
             Axis::Y => along * self.ground.width + stretch.line,
         };
         let (from, to, step) = (index(first), index(last), index(1) - index(0));
+        let mut swept = 0;
         for index in (from..=to).step_by(step) {
-            self.close_disc(index);
+            swept += self.close_disc(index);
             pace.spend(CLOSE_WORK).await;
         }
-        Lane { from, to }
+        Lane { from, to, swept }
     }
 
-    fn close_disc(&mut self, index: usize) {
+    /// Closes the floor around a place; gives how many cells were open.
+    fn close_disc(&mut self, index: usize) -> usize {
+        let mut closed = 0;
         for position in 0..self.disc.len() {
             let (row, half) = self.disc[position];
             let centre = self.ground.shifted(index, row);
             for cell in centre - half..=centre + half {
                 if self.ground.open[cell] {
                     self.ground.open[cell] = false;
+                    closed += 1;
                     let (column, row) = self.ground.place(cell);
                     self.bits[Axis::X as usize].clear(column, row);
                     self.bits[Axis::Y as usize].clear(row, column);
                 }
             }
         }
+        closed
     }
 
     /// Weighs all places anew whose surroundings a lane has changed. Offers the stretches again that gained by it, which lie

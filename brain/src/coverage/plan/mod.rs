@@ -174,9 +174,7 @@ pub(crate) async fn plan_area(
         ..*start
     };
     let mut tour = Tour::new(&router, settings, start_of_lanes, from);
-    for lanes in &rounds {
-        tour.extend(lanes, pace).await;
-    }
+    tour.drive(&rounds, pace).await;
     // The lanes begin where the rings end.
     corners.pop();
     let of_rings = corners.len();

@@ -10,6 +10,7 @@ use super::lanes::Lane;
 use super::route::{Router, Spread};
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::Pace;
+use crate::mapping::CELL_M;
 
 /// Nearest ends to which the way is really looked for; ways to others are guessed.
 const NEAR_ENDS: usize = 20;
@@ -21,6 +22,10 @@ const GUESS_RAD: f64 = 4.0;
 const PASSES_MAX: usize = 30;
 /// Lanes moved together.
 const MOVED_MAX: usize = 3;
+/// Lanes of a later round are taken along where they sweep at least this share of what a lane over wholly open floor sweeps in
+/// the time that they cost, and so often others are tried after that.
+const TAKE_ALONG_SHARE: f64 = 0.2;
+const TAKE_ALONG_PASSES: usize = 4;
 /// Work of a guess, of the search for a way beyond that for its end, and of comparing two orders of lanes.
 const GUESS_WORK: usize = 5;
 const WAY_WORK: usize = 3_000;
@@ -44,7 +49,7 @@ pub(super) struct Tour<'plan> {
 struct Costs {
     ends: usize,
     seconds: Vec<f32>,
-    /// From the start of this round to each end.
+    /// From the start to each end.
     first: Vec<f32>,
 }
 
@@ -65,26 +70,72 @@ impl<'plan> Tour<'plan> {
         }
     }
 
-    /// Drives these lanes after those that are in the tour already.
-    pub(super) async fn extend(&mut self, lanes: &[Lane], pace: &mut Pace) {
-        if lanes.is_empty() {
+    /// Drives the lanes of one round after those of the other. Lanes of a later round that lie beside the way are driven with
+    /// an earlier one: coming back for them would cost more.
+    pub(super) async fn drive(&mut self, rounds: &[Vec<Lane>], pace: &mut Pace) {
+        self.lanes = rounds.concat();
+        if self.lanes.is_empty() {
             return;
         }
-        let base = self.lanes.len();
-        let (from, direction) = self.last_place();
-        self.lanes.extend_from_slice(lanes);
-        let costs = self.costs(base, (from, direction), pace).await;
-        let mut order = nearest_first(&costs, pace).await;
-        improve(&mut order, &costs, pace).await;
-        self.visits.extend(order.into_iter().map(|end| end + 2 * base));
+        let costs = self.costs(pace).await;
+        let mut is_left = vec![true; self.lanes.len()];
+        let mut round = 0..0;
+        for lanes in rounds {
+            round = round.end..round.end + lanes.len();
+            let fixed = self.visits.len();
+            nearest_first(
+                &mut self.visits,
+                (&mut is_left, round.clone()),
+                (&costs, &mut *pace),
+            )
+            .await;
+            improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
+            if self.take_along((&mut is_left, fixed), (&costs, &mut *pace)).await {
+                improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
+            }
+        }
     }
 
-    /// Where the tour ends so far, and in which direction.
-    fn last_place(&self) -> (usize, f64) {
-        match self.visits.last() {
-            Some(end) => (self.cell(end ^ 1), self.out_rad(end ^ 1)),
-            None => (self.start_cell, self.start.heading_rad),
+    /// Takes lanes along that lie beside the way and are worth the way round by them. `true` when any was.
+    async fn take_along(
+        &mut self,
+        (is_left, fixed): (&mut [bool], usize),
+        (costs, pace): (&Costs, &mut Pace),
+    ) -> bool {
+        let mut any = false;
+        for _ in 0..TAKE_ALONG_PASSES {
+            let mut more = false;
+            for (lane, is_left) in is_left.iter_mut().enumerate().filter(|(_, is_left)| **is_left) {
+                pace.spend(COMPARE_WORK * (self.visits.len() - fixed)).await;
+                let Some((cost_s, position, enter)) = cheapest_place(&self.visits, (lane, fixed), costs)
+                else {
+                    continue;
+                };
+                if f64::from(cost_s) + self.lane_s(lane) < self.worth_s(lane) {
+                    self.visits.insert(position, enter);
+                    *is_left = false;
+                    more = true;
+                }
+            }
+            any |= more;
+            if !more {
+                break;
+            }
         }
+        any
+    }
+
+    /// Time that driving a lane takes.
+    fn lane_s(&self, lane: usize) -> f64 {
+        let Lane { from, to, .. } = self.lanes[lane];
+        self.point(from).distance_m(self.point(to)) / self.settings.cruise_m_per_s
+    }
+
+    /// Time that a lane is worth on the way.
+    fn worth_s(&self, lane: usize) -> f64 {
+        let width = (2 * self.router.ground().reach + 1) as f64;
+        let cells_per_s = width * self.settings.cruise_m_per_s / CELL_M;
+        self.lanes[lane].swept as f64 / (TAKE_ALONG_SHARE * cells_per_s)
     }
 
     fn cell(&self, end: End) -> usize {
@@ -110,14 +161,15 @@ impl<'plan> Tour<'plan> {
         lane.from == lane.to
     }
 
-    async fn costs(&self, base: usize, (from, direction_rad): (usize, f64), pace: &mut Pace) -> Costs {
-        let ends = 2 * (self.lanes.len() - base);
+    async fn costs(&self, pace: &mut Pace) -> Costs {
+        let (from, direction_rad) = (self.start_cell, self.start.heading_rad);
+        let ends = 2 * self.lanes.len();
         let mut costs = Costs {
             ends,
             seconds: vec![0.0; ends * ends],
             first: vec![0.0; ends],
         };
-        let cells: Vec<usize> = (0..ends).map(|end| self.cell(2 * base + end)).collect();
+        let cells: Vec<usize> = (0..ends).map(|end| self.cell(end)).collect();
         let points: Vec<Point2> = cells.iter().map(|cell| self.point(*cell)).collect();
         for a in 0..ends {
             for b in 0..ends {
@@ -135,7 +187,7 @@ impl<'plan> Tour<'plan> {
         let mut spread = self.router.spread();
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
-            let out = (!self.is_point(2 * base + a)).then(|| self.out_rad(2 * base + a));
+            let out = (!self.is_point(a)).then(|| self.out_rad(a));
             for b in self.near(cells[a], &at_block, (&mut spread, &mut *pace)).await {
                 // The way back is as long; it was looked for already if the other end found this one.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
@@ -143,7 +195,7 @@ impl<'plan> Tour<'plan> {
                 }
                 is_known[a * ends + b] = true;
                 let way = self.router.way(&spread, cells[a], cells[b]);
-                let back = (!self.is_point(2 * base + b)).then(|| self.out_rad(2 * base + b));
+                let back = (!self.is_point(b)).then(|| self.out_rad(b));
                 let seconds = self.way_s(&way, out, back);
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
@@ -152,7 +204,7 @@ impl<'plan> Tour<'plan> {
         }
         for b in self.near(from, &at_block, (&mut spread, &mut *pace)).await {
             let way = self.router.way(&spread, from, cells[b]);
-            costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(2 * base + b)));
+            costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(b)));
             pace.spend(WAY_WORK).await;
         }
         costs
@@ -217,7 +269,7 @@ impl<'plan> Tour<'plan> {
 }
 
 impl Costs {
-    /// From leaving at one end to entering at another; `None` is the start of the round.
+    /// From leaving at one end to entering at another; `None` is the start.
     fn between(&self, leave: Option<End>, enter: Option<End>) -> f32 {
         match (leave, enter) {
             (Some(leave), Some(enter)) => self.seconds[leave * self.ends + enter],
@@ -228,31 +280,51 @@ impl Costs {
     }
 }
 
-async fn nearest_first(costs: &Costs, pace: &mut Pace) -> Vec<End> {
-    let mut left: Vec<bool> = vec![true; costs.ends / 2];
-    let mut order = Vec::with_capacity(left.len());
-    let mut leave = None;
-    for _ in 0..left.len() {
+/// Appends the lanes of a round, each time the one that is nearest.
+async fn nearest_first(
+    order: &mut Vec<End>,
+    (is_left, round): (&mut [bool], core::ops::Range<usize>),
+    (costs, pace): (&Costs, &mut Pace),
+) {
+    let mut leave = order.last().map(|end| end ^ 1);
+    let ends = 2 * round.start..2 * round.end;
+    for _ in round {
         let mut best: Option<(f32, End)> = None;
-        for enter in (0..costs.ends).filter(|end| left[end / 2]) {
+        for enter in ends.clone().filter(|end| is_left[end / 2]) {
             let cost = costs.between(leave, Some(enter));
             if best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, enter));
             }
         }
         let Some((_, enter)) = best else { break };
-        left[enter / 2] = false;
+        is_left[enter / 2] = false;
         order.push(enter);
         leave = Some(enter ^ 1);
-        pace.spend(COMPARE_WORK * costs.ends).await;
+        pace.spend(COMPARE_WORK * ends.len()).await;
     }
-    order
 }
 
-async fn improve(order: &mut Vec<End>, costs: &Costs, pace: &mut Pace) {
+/// Where in the tour, after so many visits, a lane costs least, and from which end.
+fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -> Option<(f32, usize, End)> {
+    let mut best: Option<(f32, usize, End)> = None;
+    for position in fixed..=order.len() {
+        let (left, right) = (leave_before(order, position), order.get(position).copied());
+        let open = costs.between(left, right);
+        for enter in [2 * lane, 2 * lane + 1] {
+            let cost = costs.between(left, Some(enter)) + costs.between(Some(enter ^ 1), right) - open;
+            if best.is_none_or(|(least, _, _)| cost < least) {
+                best = Some((cost, position, enter));
+            }
+        }
+    }
+    best
+}
+
+/// Improves the tour after so many visits.
+async fn improve(order: &mut Vec<End>, fixed: usize, (costs, pace): (&Costs, &mut Pace)) {
     for _ in 0..PASSES_MAX {
-        let turned = turn_parts(order, costs, pace).await;
-        let moved = move_parts(order, costs, pace).await;
+        let turned = turn_parts(order, fixed, (costs, &mut *pace)).await;
+        let moved = move_parts(order, fixed, (costs, &mut *pace)).await;
         if !turned && !moved {
             return;
         }
@@ -268,9 +340,9 @@ fn leave_before(order: &[End], position: usize) -> Option<End> {
 }
 
 /// Turns parts of the tour round where that saves time (2-opt).
-async fn turn_parts(order: &mut [End], costs: &Costs, pace: &mut Pace) -> bool {
+async fn turn_parts(order: &mut [End], fixed: usize, (costs, pace): (&Costs, &mut Pace)) -> bool {
     let mut any = false;
-    for first in 0..order.len() {
+    for first in fixed..order.len() {
         for last in first..order.len() {
             let before = leave_before(order, first);
             let after = order.get(last + 1).copied();
@@ -291,27 +363,27 @@ async fn turn_parts(order: &mut [End], costs: &Costs, pace: &mut Pace) -> bool {
 }
 
 /// Moves few lanes elsewhere, either way round, where that saves time (Or-opt).
-async fn move_parts(order: &mut Vec<End>, costs: &Costs, pace: &mut Pace) -> bool {
+async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, pace): (&Costs, &mut Pace)) -> bool {
     let mut any = false;
     for count in 1..=MOVED_MAX {
-        let mut first = 0;
+        let mut first = fixed;
         while first + count <= order.len() {
-            any |= move_part(order, first, count, costs);
+            any |= move_part(order, (fixed, first, count), costs);
             first += 1;
-            pace.spend(COMPARE_WORK * order.len()).await;
+            pace.spend(COMPARE_WORK * (order.len() - fixed)).await;
         }
     }
     any
 }
 
-fn move_part(order: &mut Vec<End>, first: usize, count: usize, costs: &Costs) -> bool {
+fn move_part(order: &mut Vec<End>, (fixed, first, count): (usize, usize, usize), costs: &Costs) -> bool {
     let (enter, leave) = (order[first], order[first + count - 1] ^ 1);
     let before = leave_before(order, first);
     let after = order.get(first + count).copied();
     let saved =
         costs.between(before, Some(enter)) + costs.between(Some(leave), after) - costs.between(before, after);
     let mut best: Option<(f32, usize, bool)> = None;
-    for position in (0..=order.len()).filter(|position| *position < first || *position > first + count) {
+    for position in (fixed..=order.len()).filter(|position| *position < first || *position > first + count) {
         let (left, right) = (leave_before(order, position), order.get(position).copied());
         let open = costs.between(left, right);
         let ahead = costs.between(left, Some(enter)) + costs.between(Some(leave), right) - open;
@@ -339,4 +411,82 @@ fn move_part(order: &mut Vec<End>, first: usize, count: usize, costs: &Costs) ->
     };
     order.splice(target..target, part);
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Costs, End, Lane, PlanSettings, Router, Tour, cheapest_place};
+    use crate::coverage::plan::ground::Ground;
+    use crate::geometry::Pose2;
+    use crate::gradual::{Pace, at_once};
+    use crate::mapping::{Cell, Raster};
+
+    /// Lanes without length at these places of a line; the start is at 0.
+    fn costs(places: &[f32]) -> Costs {
+        let ends = 2 * places.len();
+        let at = |end: End| places[end / 2];
+        Costs {
+            ends,
+            seconds: (0..ends * ends)
+                .map(|pair| (at(pair / ends) - at(pair % ends)).abs())
+                .collect(),
+            first: (0..ends).map(at).collect(),
+        }
+    }
+
+    #[test]
+    fn a_lane_costs_least_between_those_beside_it_and_nothing_is_put_among_visits_that_are_fixed() {
+        let costs = costs(&[1.0, 5.0, 9.0, 3.0]);
+        let order = [0, 2, 4];
+        let place =
+            |fixed| cheapest_place(&order, (3, fixed), &costs).map(|(cost, position, _)| (cost, position));
+        assert_eq!(place(0), Some((0.0, 1)));
+        assert_eq!(place(2), Some((4.0, 2)));
+        assert_eq!(place(3), Some((6.0, 3)));
+    }
+
+    /// In which order lanes are driven in a hall of 10 x 2 m: two of the first round at its ends, and one of the second round
+    /// beside the way between them, which sweeps this many cells.
+    fn driven(swept: usize) -> Vec<usize> {
+        let settings = PlanSettings {
+            swath_m: 0.3,
+            sigma_m: 0.01,
+            cruise_m_per_s: 0.25,
+            turn_rad_per_s: 1.2,
+        };
+        let hall = Raster::filled(Cell { x: 0, y: 0 }, 400, 80, true);
+        let pace = &mut Pace::at_once();
+        at_once(async {
+            let mut ground = Ground::new(&hall, 5, pace).await;
+            let start = Pose2 {
+                x_m: 0.3,
+                y_m: 0.3,
+                heading_rad: 0.0,
+            };
+            let origin = ground.origin_near(start.position(), pace).await.unwrap();
+            ground.keep_connected(origin, pace).await;
+            let router = Router::new(&ground, pace).await;
+            let lane = |column: usize, row: usize, swept: usize| {
+                let from = origin + column + row * ground.width;
+                Lane {
+                    from,
+                    to: from + 20,
+                    swept,
+                }
+            };
+            let rounds = [
+                vec![lane(10, 0, 220), lane(340, 0, 220)],
+                vec![lane(150, 30, swept)],
+            ];
+            let mut tour = Tour::new(&router, &settings, start, origin);
+            tour.drive(&rounds, pace).await;
+            tour.visits.iter().map(|end| end / 2).collect()
+        })
+    }
+
+    #[test]
+    fn what_lies_beside_the_way_is_taken_along_if_it_is_worth_it() {
+        assert_eq!(driven(600), [0, 2, 1]);
+        assert_eq!(driven(20), [0, 1, 2]);
+    }
 }
