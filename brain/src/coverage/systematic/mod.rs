@@ -17,6 +17,7 @@ mod passed;
 mod planning;
 mod reachable;
 mod shyness;
+mod trail;
 
 use super::astray::Astray;
 use super::perimeter::{LapStep, Perimeter};
@@ -123,7 +124,7 @@ impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         self.heed_redrawing(situation);
         if let Some(passed) = &mut self.passed {
-            passed.follow(situation.pose.position());
+            passed.follow(situation);
         }
         self.plan_on(situation);
         if let Some(plan) = self.lap(situation, mind) {
@@ -320,7 +321,7 @@ impl Systematic {
             radius_m: situation.config.body.radius_m + KEEP_OFF_M,
             blocked: self.obstructions.points(situation.observation.time_us),
             wanted: self.assignment.wanted(situation.map),
-            passed: passed.cells().clone(),
+            passed: passed.cells(),
             departure: Departure { start, settings },
         })
     }

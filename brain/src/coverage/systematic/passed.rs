@@ -4,20 +4,21 @@
 //! send the robot back to each end of a lane for the half swath before the wall that the side brushes have reached.
 
 use super::reachable::Disc;
+use super::trail::{Place, Trail};
 use crate::geometry::Point2;
-use crate::mapping::{CELL_M, Cell, Map, Raster};
+use crate::mapping::{Cell, Map, Raster};
+use crate::task::Situation;
 
-/// Way after which the disc is painted again.
-const STEP_M: f64 = 0.5 * CELL_M;
 /// Places of the way that are recalled in one step.
 const RECALLED_A_STEP: usize = 1_000;
 
 /// Passed cells.
 #[derive(Debug)]
 pub(super) struct Passed {
-    cells: Raster<bool>,
+    /// What was passed before the trail.
+    settled: Raster<bool>,
+    trail: Trail,
     disc: Disc,
-    last: Option<Point2>,
     /// Places of the job's way that were recalled, of those that are to be.
     recalled: usize,
     to_recall: usize,
@@ -28,9 +29,9 @@ impl Passed {
     /// far is still to be recalled: the map remembers it, and a job that goes on after a restart has no other memory.
     pub(super) fn new(map: &Map, window: &Window, reach: usize) -> Self {
         Self {
-            cells: Raster::filled(window.origin, window.width, window.height, false),
+            settled: Raster::filled(window.origin, window.width, window.height, false),
+            trail: Trail::default(),
             disc: Disc::of_radius(reach as f64 + 0.6),
-            last: None,
             recalled: 0,
             to_recall: map.snapshot().path.len(),
         }
@@ -47,7 +48,7 @@ impl Passed {
                 y_m: 0.001 * f64::from(point.y_mm),
             };
             if map.is_swept(at) {
-                self.paint(at);
+                self.disc.paint(&mut self.settled, at);
             }
         }
         self.recalled = some;
@@ -56,43 +57,56 @@ impl Passed {
 
     /// Nothing was passed.
     pub(super) fn forget(&mut self) {
-        self.cells.values_mut().fill(false);
+        self.settled.values_mut().fill(false);
+        self.trail.forget();
     }
 
     /// Takes over another window; what lies outside of it is forgotten.
     pub(super) fn cover(&mut self, window: &Window) {
-        if *window == Window::of(&self.cells) {
+        if *window == Window::of(&self.settled) {
             return;
         }
         let mut cells = Raster::filled(window.origin, window.width, window.height, false);
-        cells.copy_from(&self.cells);
-        self.cells = cells;
+        cells.copy_from(&self.settled);
+        self.settled = cells;
     }
 
-    /// The cells as they are now.
-    pub(super) fn cells(&self) -> &Raster<bool> {
-        &self.cells
-    }
-
-    pub(super) fn follow(&mut self, place: Point2) {
-        if self.last.is_some_and(|last| last.distance_m(place) < STEP_M) {
-            return;
+    /// The cells as they are known now.
+    pub(super) fn cells(&self) -> Raster<bool> {
+        let mut cells = self.settled.clone();
+        for place in self.trail.places() {
+            self.disc.paint_place(&mut cells, place);
         }
-        self.last = Some(place);
-        self.paint(place);
+        cells
+    }
+
+    pub(super) fn follow(&mut self, situation: &Situation<'_>) {
+        let advance = situation.is_tracked.then_some(situation.advance);
+        for place in self.trail.follow(&situation.estimate, advance) {
+            self.disc.paint_place(&mut self.settled, &place);
+        }
     }
 
     /// Counts what would have been swept from a place beside the way that the robot really takes: a strip that it left out
     /// because it came too near to something is not worth another way.
-    pub(super) fn give_up(&mut self, place: Point2) {
-        self.paint(place);
+    pub(super) fn give_up(&mut self, beside: Point2) {
+        self.trail.give_up(beside);
+    }
+}
+
+impl Disc {
+    /// Paints what is swept from a place of the way, and what was given up beside it.
+    fn paint_place(&self, cells: &mut Raster<bool>, place: &Place) {
+        for at in place.swept_from() {
+            self.paint(cells, at);
+        }
     }
 
-    fn paint(&mut self, place: Point2) {
-        let cell = Cell::under(place);
-        let column = i64::from(cell.x) - i64::from(self.cells.origin().x);
-        let row = i64::from(cell.y) - i64::from(self.cells.origin().y);
-        self.disc.fill(&mut self.cells, (column, row), true);
+    fn paint(&self, cells: &mut Raster<bool>, at: Point2) {
+        let cell = Cell::under(at);
+        let column = i64::from(cell.x) - i64::from(cells.origin().x);
+        let row = i64::from(cell.y) - i64::from(cells.origin().y);
+        self.fill(cells, (column, row), true);
     }
 }
 

@@ -1,0 +1,247 @@
+//! The last stretch of the way, whose places may still turn out to have been others.
+//!
+//! In the middle of a large room no wall is in sight, and the place that the robot believes in goes astray by centimetres
+//! until it sees one again. What is corrected then was wrong for a while before, the less the surer the robot was: so the
+//! correction is handed back along the way, and the strip that a lane left out beside the one before it shows.
+
+use std::collections::VecDeque;
+
+use crate::geometry::{Point2, Pose2};
+use crate::localization::{Advance, PoseEstimate};
+
+/// Way between two places that are kept, metres.
+const STEP_M: f64 = 0.0125;
+/// Places kept; the oldest are settled.
+const KEPT_MAX: usize = 1_600;
+/// Corrections are handed back when they come to this, metres.
+const NOTICED_M: f64 = 0.003;
+/// The share of a correction that is not worth handing on.
+const SHARE_MIN: f64 = 0.05;
+/// Way on which a correction is handed back, metres, however unsure the place was: wheels that count a little wrong are
+/// corrected all the time, and were not wrong before.
+const HANDED_BACK_M: f64 = 15.0;
+/// Less of an error is not taken for one, metres: lanes overlap by so much.
+const TRUSTED_MIN_M: f64 = 0.02;
+/// Farther than this the robot has not erred but was elsewhere meanwhile, metres.
+const ELSEWHERE_M: f64 = 0.5;
+
+/// A place of the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Where the robot believed to be.
+    believed: Point2,
+    /// What it would have swept from there is not worth another way.
+    beside: Option<Point2>,
+    sigma_m: f64,
+    /// How far from there it was, as far as is known now.
+    error: Point2,
+}
+
+impl Place {
+    /// Where the robot was, and what was given up beside it: a small error is as likely one of the correction.
+    pub(super) fn swept_from(&self) -> impl Iterator<Item = Point2> {
+        let shift = trusted(self.error);
+        [Some(self.believed), self.beside]
+            .into_iter()
+            .flatten()
+            .map(move |point| plus(point, shift, 1.0))
+    }
+}
+
+/// What of an error is taken for one.
+fn trusted(error: Point2) -> Point2 {
+    let error_m = error.distance_m(Point2::ORIGIN);
+    plus(
+        Point2::ORIGIN,
+        error,
+        1.0 - TRUSTED_MIN_M / error_m.max(TRUSTED_MIN_M),
+    )
+}
+
+fn plus(point: Point2, by: Point2, share: f64) -> Point2 {
+    Point2 {
+        x_m: point.x_m + share * by.x_m,
+        y_m: point.y_m + share * by.y_m,
+    }
+}
+
+/// The places, the newest last.
+#[derive(Debug, Default)]
+pub(super) struct Trail {
+    places: VecDeque<Place>,
+    last: Option<Pose2>,
+    /// What is not handed back yet.
+    due: Point2,
+}
+
+impl Trail {
+    /// Goes on to where the robot believes to be now. With what was moved since the last call a correction is handed back;
+    /// without, places stay as they were believed. Gives what is settled now.
+    pub(super) fn follow(&mut self, estimate: &PoseEstimate, advance: Option<Advance>) -> Vec<Place> {
+        let at = estimate.pose.position();
+        let mut settled = Vec::new();
+        if let (Some(last), Some(advance)) = (self.last, advance) {
+            let expected = last.after_arc(advance.distance_m, advance.turn_rad).position();
+            if estimate.lost || expected.distance_m(at) > ELSEWHERE_M {
+                self.due = Point2::ORIGIN;
+                settled.extend(self.places.drain(..));
+            } else {
+                self.due = plus(self.due, plus(at, expected, -1.0), 1.0);
+                self.hand_back();
+            }
+        }
+        self.last = Some(estimate.pose);
+        if self
+            .places
+            .back()
+            .is_none_or(|last| last.believed.distance_m(at) >= STEP_M)
+        {
+            self.places.push_back(Place {
+                believed: at,
+                beside: None,
+                sigma_m: estimate.sigma_m,
+                error: Point2::ORIGIN,
+            });
+        }
+        while self.places.len() > KEPT_MAX {
+            settled.extend(self.places.pop_front());
+        }
+        settled
+    }
+
+    /// What would have been swept from a place beside the last one is not worth another way.
+    pub(super) fn give_up(&mut self, beside: Point2) {
+        if let Some(last) = self.places.back_mut() {
+            last.beside = Some(beside);
+        }
+    }
+
+    /// The places as they are known now.
+    pub(super) fn places(&self) -> impl Iterator<Item = &Place> {
+        self.places.iter()
+    }
+
+    /// Forgets all places.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Hands what is due back along the way: each place was wrong by as much of it as it was unsure.
+    fn hand_back(&mut self) {
+        if self.due.distance_m(Point2::ORIGIN) < NOTICED_M {
+            return;
+        }
+        let due = core::mem::replace(&mut self.due, Point2::ORIGIN);
+        let (mut share, mut later_m) = (1.0, 0.0);
+        for place in self.places.iter_mut().rev() {
+            if later_m > place.sigma_m {
+                share *= place.sigma_m / later_m;
+            }
+            if share < SHARE_MIN {
+                return;
+            }
+            later_m = place.sigma_m;
+            place.error = plus(place.error, due, share);
+            share *= 1.0 - STEP_M / HANDED_BACK_M;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Place, TRUSTED_MIN_M, Trail};
+    use crate::geometry::{Point2, Pose2};
+    use crate::localization::{Advance, PoseEstimate};
+
+    fn believed(x_m: f64, y_m: f64, sigma_m: f64) -> PoseEstimate {
+        PoseEstimate {
+            pose: Pose2 {
+                x_m,
+                y_m,
+                heading_rad: 0.0,
+            },
+            sigma_m,
+            ..PoseEstimate::default()
+        }
+    }
+
+    fn ahead(distance_m: f64) -> Option<Advance> {
+        Some(Advance {
+            distance_m,
+            ..Advance::default()
+        })
+    }
+
+    /// Two metres along x, after which the place turns out to be `off_m` to the left. The robot gets less sure on the way.
+    fn corrected(off_m: f64) -> Trail {
+        let mut trail = Trail::default();
+        for step in 0..=100 {
+            let x_m = 0.02 * f64::from(step);
+            assert!(
+                trail
+                    .follow(&believed(x_m, 0.0, 0.01 + 0.02 * x_m), ahead(0.02))
+                    .is_empty()
+            );
+        }
+        trail.follow(&believed(2.0, off_m, 0.01), ahead(0.0));
+        trail
+    }
+
+    fn swept_from(place: &Place) -> Point2 {
+        place.swept_from().next().unwrap()
+    }
+
+    #[test]
+    fn a_correction_moves_where_the_robot_was_unsure_and_not_where_it_was_sure() {
+        let trail = corrected(0.1);
+        let places: Vec<Point2> = trail.places().map(swept_from).collect();
+        let (first, middle, last) = (places[0], places[50], places[100]);
+        assert_eq!(first, Point2::ORIGIN);
+        assert!((last.y_m - (0.1 - TRUSTED_MIN_M)).abs() < 1e-9, "{last:?}");
+        assert!((0.01..0.05).contains(&middle.y_m), "{middle:?}");
+    }
+
+    #[test]
+    fn what_was_given_up_beside_the_way_moves_with_it() {
+        let mut trail = Trail::default();
+        trail.follow(&believed(0.0, 0.0, 0.05), ahead(0.0));
+        trail.give_up(Point2 { x_m: 0.0, y_m: 0.02 });
+        trail.follow(&believed(0.0, 0.1, 0.01), ahead(0.0));
+        let given_up = trail.places().next().unwrap().swept_from().nth(1).unwrap();
+        assert!(
+            (given_up.y_m - (0.12 - TRUSTED_MIN_M)).abs() < 1e-9,
+            "{given_up:?}"
+        );
+    }
+
+    #[test]
+    fn small_corrections_move_nothing() {
+        let trail = corrected(TRUSTED_MIN_M);
+        assert!(
+            trail
+                .places()
+                .take(101)
+                .all(|place| swept_from(place).y_m.abs() < 1e-9)
+        );
+    }
+
+    #[test]
+    fn a_robot_that_was_carried_away_was_where_it_believed_to_be() {
+        let mut trail = corrected(0.0);
+        let settled = trail.follow(&believed(5.0, 3.0, 0.01), ahead(0.0));
+        assert_eq!(settled.len(), 101);
+        assert_eq!(
+            settled.last().map(swept_from),
+            Some(Point2 { x_m: 2.0, y_m: 0.0 })
+        );
+        assert_eq!(trail.places().count(), 1);
+    }
+
+    #[test]
+    fn without_a_map_to_be_corrected_by_places_stay() {
+        let mut trail = Trail::default();
+        trail.follow(&believed(0.0, 0.0, 0.05), None);
+        trail.follow(&believed(0.0, 0.2, 0.01), None);
+        assert_eq!(trail.places().next().map(swept_from), Some(Point2::ORIGIN));
+    }
+}
