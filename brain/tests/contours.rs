@@ -14,6 +14,7 @@ const SETTINGS: PlanSettings = PlanSettings {
     sigma_m: 0.01,
     cruise_m_per_s: SPEEDS.cruise_m_per_s,
     turn_rad_per_s: SPEEDS.turn_max_rad_per_s,
+    takes_along: true,
 };
 
 const START: Pose2 = Pose2 {

@@ -15,6 +15,7 @@ const SETTINGS: PlanSettings = PlanSettings {
     sigma_m: 0.01,
     cruise_m_per_s: SPEEDS.cruise_m_per_s,
     turn_rad_per_s: SPEEDS.turn_max_rad_per_s,
+    takes_along: true,
 };
 
 /// Cells of a hall with a wall in the middle that leaves a passage at one end.

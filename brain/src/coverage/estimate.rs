@@ -48,6 +48,7 @@ pub(crate) fn estimate(
         sigma_m: SIGMA_MIN_M,
         cruise_m_per_s: config.speeds.cruise_m_per_s,
         turn_rad_per_s: config.speeds.turn_max_rad_per_s,
+        takes_along: true,
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + KEEP_OFF_M;
@@ -188,6 +189,7 @@ mod tests {
             sigma_m: 0.01,
             cruise_m_per_s: 0.25,
             turn_rad_per_s: 1.0,
+            takes_along: true,
         };
         let shares = [0.005, 0.02, 0.05, 0.1, 0.3].map(|sigma_m| gap_share(sigma_m, &settings));
         assert!(shares.is_sorted(), "{shares:?}");

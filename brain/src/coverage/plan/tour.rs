@@ -90,7 +90,8 @@ impl<'plan> Tour<'plan> {
             )
             .await;
             improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
-            if self.take_along((&mut is_left, fixed), (&costs, &mut *pace)).await {
+            if self.settings.takes_along && self.take_along((&mut is_left, fixed), (&costs, &mut *pace)).await
+            {
                 improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
             }
         }
@@ -453,6 +454,7 @@ mod tests {
             sigma_m: 0.01,
             cruise_m_per_s: 0.25,
             turn_rad_per_s: 1.2,
+            takes_along: true,
         };
         let hall = Raster::filled(Cell { x: 0, y: 0 }, 400, 80, true);
         let pace = &mut Pace::at_once();

@@ -465,6 +465,7 @@ fn settings(situation: &Situation<'_>) -> PlanSettings {
         sigma_m: situation.estimate.sigma_m.clamp(SIGMA_MIN_M, SIGMA_MAX_M),
         cruise_m_per_s: situation.config.speeds.cruise_m_per_s,
         turn_rad_per_s: situation.config.speeds.turn_max_rad_per_s,
+        takes_along: situation.is_tracked,
     }
 }
 

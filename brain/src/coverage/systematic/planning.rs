@@ -120,6 +120,7 @@ mod tests {
         sigma_m: 0.01,
         cruise_m_per_s: 0.25,
         turn_rad_per_s: 1.2,
+        takes_along: true,
     };
 
     /// A hall of 10 x 8 m, empty so that its walls alone keep the body off.

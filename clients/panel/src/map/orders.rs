@@ -107,6 +107,8 @@ impl Store {
         self.orders.sketch.update(|sketch| sketch.take(tool));
         self.orders.pointer.set(None);
         if tool != Tool::Choose {
+            // What was refused before lies over the hint on a phone.
+            self.refusal.set(None);
             self.show_known_home();
         }
     }

@@ -90,6 +90,7 @@ fn measured(home: &Home, model: &RobotModel, arguments: &Arguments) -> Figures {
         sigma_m: arguments.sigma_m,
         cruise_m_per_s: model.drive.cruise_m_per_s,
         turn_rad_per_s: model.drive.turn_max_rad_per_s,
+        takes_along: true,
     };
     let ground = ground(home, model.body.radius_m);
     let pose = home.start();

@@ -13,6 +13,7 @@ const SETTINGS: PlanSettings = PlanSettings {
     sigma_m: 0.01,
     cruise_m_per_s: 0.25,
     turn_rad_per_s: 1.2,
+    takes_along: true,
 };
 
 /// A room of 3 x 2.5 m, with a table of 0.5 m if it is furnished.
