@@ -100,6 +100,7 @@ pub struct Localization {
     /// When a gyro spoke last.
     gyro_us: Option<u64>,
     was_docked: bool,
+    was_off_dock: bool,
     has_just_docked: bool,
     hanging_s: f64,
     learnt_us: u64,
@@ -120,6 +121,7 @@ impl Localization {
             began_us: None,
             gyro_us: None,
             was_docked: false,
+            was_off_dock: false,
             has_just_docked: false,
             hanging_s: 0.0,
             learnt_us: 0,
@@ -245,7 +247,8 @@ impl Localization {
         let moved = Moved::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
-        self.has_just_docked = docks;
+        self.was_off_dock |= !observation.docked;
+        self.has_just_docked = docks && self.was_off_dock;
         let Some(tracked) = &mut self.tracked else {
             if let Some(estimate) = by_beacons {
                 return self.adopt(estimate);
@@ -480,7 +483,7 @@ impl Localization {
             }
     }
 
-    /// Whether the dock's contacts closed at the last observation.
+    /// Whether the dock's contacts closed at the last observation: a robot that wakes on its dock has felt nothing yet.
     #[must_use]
     pub fn has_just_docked(&self) -> bool {
         self.has_just_docked

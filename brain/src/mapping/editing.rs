@@ -1,11 +1,13 @@
 //! People change the map: no-go zones, virtual walls, names and settings of rooms, and where the dock stands.
 
+use core::f64::consts::TAU;
+
 use super::annotations::NAMES_MAX;
 use super::home::{Entry, HomeMap};
 use super::layers::{CellBox, Flag};
 use super::{Annotations, Cell, CellKnowledge, Map, Raster};
 use crate::behavior::Reason;
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::no_go::{NoGo, RoomName};
 use crate::order::{FAR_M, Zone};
 use crate::room_settings::RoomSettings;
@@ -192,7 +194,10 @@ impl Map {
     /// As [`Self::admit_dock_move`]; then nothing is changed.
     pub fn move_dock(&mut self, pose: Pose2) -> Result<(), Reason> {
         self.admit_dock_move(pose)?;
-        self.home.dock.tell(pose);
+        self.home.dock.tell(Pose2 {
+            heading_rad: normalize_rad(pose.heading_rad % TAU),
+            ..pose
+        });
         self.home.touch();
         Ok(())
     }

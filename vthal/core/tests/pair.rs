@@ -931,6 +931,18 @@ fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
         (pose.x - 3.0).abs() < 1e-6 && (pose.heading - 0.5).abs() < 1e-6,
         "{pose:?}"
     );
+    // A run begins where the robot stands, and nothing has confirmed that yet.
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(clean(Vec::new(), 1))), None);
+    pair.run_ms(500);
+    let topics = vec![Topic::Home];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    let told = pair.updates.iter().rev().find_map(|update| match update {
+        Update::Home(view) => Some(view.dock_told),
+        _ => None,
+    });
+    assert_eq!(told, Some(true));
+    assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+    pair.run_ms(500);
     let taken_back = RequestBody::MoveDock {
         x: 2.0,
         y: 0.5,
