@@ -8,6 +8,7 @@
 mod beacons;
 mod calibration;
 mod confidence;
+mod docked;
 mod estimate;
 mod floors;
 #[cfg(test)]
@@ -34,22 +35,17 @@ use particles::GyroBelief;
 use retreat::Retreat;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
-use tracker::{Moved, PROBATION_BEAMS, Tracker};
+use tracker::{Moved, Tracker};
 
 use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;
 use crate::geometry::{Pose2, normalize_rad};
-use crate::mapping::{DockPlace, Keyframe, Map};
+use crate::mapping::{Keyframe, Map};
 use crate::observation::Observation;
 
 /// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
 const START_SIGMA_RAD: f64 = 0.03;
-/// How well a pose is known that a person has pointed out, metres and radians.
-const TOLD_SIGMA_M: f64 = 0.3;
-const TOLD_SIGMA_RAD: f64 = 0.4;
-/// A pose that is as sure as this may lead others, metres.
-const CONFIRMED_M: f64 = 0.15;
 /// Widest deviation that is taken up, metres and radians.
 const SIGMA_MAX: f64 = 1.0;
 /// A place nearer than this to the present one is no news for the filter, metres and radians.
@@ -439,62 +435,6 @@ impl Localization {
         {
             tracked.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
         }
-    }
-
-    /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
-    pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
-        self.place_at(pose);
-        self.track(map, config, seed);
-        if self.tracked.is_none() {
-            self.survey(config);
-        }
-        self.begin_roughly_at(pose);
-    }
-
-    fn begin_roughly_at(&mut self, pose: Pose2) {
-        self.put_at(pose);
-        self.odometry.calibration.interrupt();
-        self.drift = Drift {
-            sigma_m: TOLD_SIGMA_M,
-            sigma_rad: TOLD_SIGMA_RAD,
-        };
-        if let Some(tracked) = &mut self.tracked {
-            tracked.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
-            tracked.tracker.doubt_for(PROBATION_BEAMS);
-        }
-    }
-
-    /// The dock is known to be elsewhere.
-    pub fn put_dock(&mut self, dock: DockPlace) {
-        if let Some(tracked) = &mut self.tracked {
-            tracked.terrain.put_dock(dock);
-        }
-    }
-
-    /// Whether the pose is so sure that others may be led by it: what the sensors show confirms it, or walls that were followed
-    /// from the beginning do.
-    #[must_use]
-    pub fn is_confirmed(&self) -> bool {
-        let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
-        is_narrow
-            && match &self.tracked {
-                Some(tracked) => tracked.tracker.is_confirmed(),
-                None => self.survey.is_some(),
-            }
-    }
-
-    /// Whether the dock's contacts closed at the last observation: a robot that wakes on its dock has felt nothing yet.
-    #[must_use]
-    pub fn has_just_docked(&self) -> bool {
-        self.has_just_docked
-    }
-
-    /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found
-    /// its place first.
-    #[must_use]
-    pub fn may_draw(&self) -> bool {
-        let is_told = |tracked: &Tracked| tracked.tracker.unconfirmed_beams() > 0;
-        !self.tracked.as_deref().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
     }
 
     fn put_at(&mut self, pose: Pose2) {
