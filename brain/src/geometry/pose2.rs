@@ -103,6 +103,17 @@ impl Pose2 {
             heading_rad: normalize_rad(self.heading_rad + turn_rad),
         }
     }
+
+    /// The pose on the straight way to `other` after this share of it, turned the shorter way round.
+    #[must_use]
+    pub fn towards(self, other: Self, share: f64) -> Self {
+        let turn_rad = normalize_rad(other.heading_rad - self.heading_rad);
+        Self {
+            x_m: self.x_m + share * (other.x_m - self.x_m),
+            y_m: self.y_m + share * (other.y_m - self.y_m),
+            heading_rad: normalize_rad(self.heading_rad + share * turn_rad),
+        }
+    }
 }
 
 impl Mul for Pose2 {

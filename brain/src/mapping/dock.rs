@@ -97,15 +97,8 @@ impl Felt {
     /// The mean with another time.
     fn and(self, pose: Pose2) -> Self {
         let times = self.times.saturating_add(1).min(TIMES_MAX);
-        let share = 1.0 / f64::from(times);
-        let towards = |from: f64, to: f64| from + share * (to - from);
-        let turn_rad = normalize_rad(pose.heading_rad - self.pose.heading_rad);
         Self {
-            pose: Pose2 {
-                x_m: towards(self.pose.x_m, pose.x_m),
-                y_m: towards(self.pose.y_m, pose.y_m),
-                heading_rad: normalize_rad(self.pose.heading_rad + share * turn_rad),
-            },
+            pose: self.pose.towards(pose, 1.0 / f64::from(times)),
             times,
         }
     }

@@ -9,7 +9,7 @@ use super::layers::{Flag, Layers};
 use super::swept::{Swath, SweptLayer};
 use super::traces::Path;
 use super::{Cell, Map, Mark};
-use crate::geometry::{Pose2, normalize_rad};
+use crate::geometry::Pose2;
 
 /// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
 const SIGHTINGS_A_STEP: usize = 40;
@@ -164,18 +164,9 @@ fn corrected(keyframes: &[Keyframe], time_us: u64, odom: Pose2) -> Pose2 {
         (Some(before), Some(after)) => {
             let span_us = after.time_us.saturating_sub(before.time_us).max(1) as f64;
             let share = time_us.saturating_sub(before.time_us) as f64 / span_us;
-            between(by(before), by(after), share)
+            by(before).towards(by(after), share)
         }
         (Some(only), None) | (None, Some(only)) => by(only),
         (None, None) => odom,
-    }
-}
-
-fn between(one: Pose2, other: Pose2, share: f64) -> Pose2 {
-    let turn_rad = normalize_rad(other.heading_rad - one.heading_rad);
-    Pose2 {
-        x_m: one.x_m + share * (other.x_m - one.x_m),
-        y_m: one.y_m + share * (other.y_m - one.y_m),
-        heading_rad: normalize_rad(one.heading_rad + share * turn_rad),
     }
 }

@@ -472,12 +472,8 @@ mod tests {
         let (before, after) = ([1.0, 0.0, 0.0], [3.0, 0.5, 1.5]);
         let edit = Edit::Dock { before, after };
         let asked = log.begin(edit, &home_with_dock(1, 1.0)).unwrap();
-        let moved = RequestBody::MoveDock {
-            x: 3.0,
-            y: 0.5,
-            heading: 1.5,
-        };
-        assert_eq!(asked.body, moved);
+        let moved_to = |[x, y, heading]: [f64; 3]| RequestBody::MoveDock { x, y, heading };
+        assert_eq!(asked.body, moved_to(after));
         log.on_done(number(&asked), 1);
         let mut told = home_with_dock(2, 3.0);
         told.dock = told.dock.map(|dock| rvac_api::Pose {
@@ -486,12 +482,7 @@ mod tests {
             ..dock
         });
         let asked = log.undo(&told).unwrap().unwrap();
-        let back = RequestBody::MoveDock {
-            x: 1.0,
-            y: 0.0,
-            heading: 0.0,
-        };
-        assert_eq!(asked.body, back);
+        assert_eq!(asked.body, moved_to(before));
         log.on_done(number(&asked), 2);
         assert_eq!(
             log.redo(&home_with_dock(3, 1.2)),
