@@ -92,10 +92,10 @@ fn action(
         Offer::NotNow(why) => Some(why.text(words())),
         Offer::Ready | Offer::Absent => None,
     };
-    let press = move |_| {
-        if offer.get_untracked() == Offer::Ready {
-            store.ask(request());
-        }
+    let press = move |_| match offer.get_untracked() {
+        Offer::Ready => store.ask(request()),
+        Offer::NotNow(why) => store.tell_why_not(why),
+        Offer::Absent => {}
     };
     view! {
         <Show when=move || offer.get() != Offer::Absent>

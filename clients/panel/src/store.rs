@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use mixer::Steered;
-use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, room_rows, top_speeds};
+use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody,
     RobotDescription, SimulatedTruth, Standstill, Status, Topic,
@@ -20,6 +20,8 @@ use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
 use crate::schedules::ScheduleDesk;
 
+/// Under this reason a button that waits tells why. No robot gives it.
+const NOT_NOW: &str = "not-now";
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 
@@ -174,6 +176,15 @@ impl Store {
         self.seat
             .driver
             .with_value(|driver| self.bench.step(now_us, driver.readings()));
+    }
+
+    /// Tells why what a person pressed is not possible now: a touch shows no tooltip.
+    pub(crate) fn tell_why_not(self, why: Wait) {
+        self.refusal.set(Some(Failure {
+            id: None,
+            reason: NOT_NOW.to_owned(),
+            text: why.text(words()).to_owned(),
+        }));
     }
 
     /// Asks the robot to keep the mix that is edited.
@@ -334,7 +345,21 @@ impl Store {
         if status.state == "disconnected" {
             self.device.set(None);
         }
+        self.forget_why_not(&status);
         self.status.set(Some(status));
+    }
+
+    /// What was not possible in another state may be now.
+    fn forget_why_not(self, status: &Status) {
+        let was_told = self
+            .refusal
+            .with_untracked(|refusal| refusal.as_ref().is_some_and(|told| told.reason == NOT_NOW));
+        let is_other = self
+            .status
+            .with_untracked(|now| now.as_ref().is_none_or(|now| now.state != status.state));
+        if was_told && is_other {
+            self.refusal.set(None);
+        }
     }
 
     fn on_failed(self, failure: Failure) {

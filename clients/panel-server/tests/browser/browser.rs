@@ -179,6 +179,13 @@ impl Browser {
         }
     }
 
+    /// Presses Start as soon as it can be pressed: before the robot is there it only tells why not.
+    pub(crate) async fn press_start(&self) {
+        self.until("return document.getElementById('start')?.getAttribute('aria-disabled') === 'false'")
+            .await;
+        self.click("#start").await;
+    }
+
     /// The text that a script gives, or promises.
     pub(crate) async fn text(&self, script: &str) -> String {
         let value = self.client.execute(script, Vec::new()).await.unwrap();

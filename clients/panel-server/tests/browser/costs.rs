@@ -117,7 +117,7 @@ async fn a_page_that_stays_open_does_not_grow() {
     for look in 0..looks {
         let rests = "return ['idle', 'docked'].includes(document.getElementById('now')?.dataset.state)";
         if browser.text(rests).await == "true" {
-            browser.click("#start").await;
+            browser.press_start().await;
         }
         let next = watched() * (look + 1) / looks;
         sleep(next.saturating_sub(begun.elapsed())).await;

@@ -11,7 +11,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
     };
     let browser = &visit.browser;
     browser.darken().await;
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser.sweeps_more_than(200).await;
     browser.click("#pause").await;

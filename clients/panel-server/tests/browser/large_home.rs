@@ -91,7 +91,7 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
         let browser = Browser::open(&stack, screen).await;
         browser.until_state(&["idle", "docked", "cleaning"]).await;
         if name == "desktop" {
-            browser.click("#start").await;
+            browser.press_start().await;
         }
         browser.until_within(START_MAX, CLEANS).await;
         browser.until(LONG_WAY).await;

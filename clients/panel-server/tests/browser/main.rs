@@ -98,8 +98,15 @@ async fn start_cleans_and_stop_stands() {
         .await;
     browser.shot("desktop-ready").await;
 
-    browser.click("#start").await;
+    browser.click("#pause").await;
+    browser
+        .until("return document.getElementById('refusal')?.innerText.includes('No job is running') === true")
+        .await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
+    browser
+        .until("return document.getElementById('refusal') === null")
+        .await;
     let first = browser
         .text("return document.getElementById('map').dataset.pose")
         .await;
@@ -133,7 +140,7 @@ async fn the_real_firmware_cleans_and_stop_stands() {
     let browser = &visit.browser;
     let witness = Witness::watch(&visit.stack.simulator_socket());
     browser.click("#strategy option[value=bounce]").await;
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser
         .until("return document.body.innerText.includes('Way of cleaning: bounce.')")
@@ -170,7 +177,7 @@ async fn hold_until_it_turns(browser: &Browser, witness: &Witness) {
 
 /// A robot on the dock does not let itself be driven off it by hand: a short job takes it away from there.
 async fn leave_the_dock(browser: &Browser) {
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser.sweeps_more_than(40).await;
     browser.click("#stop").await;
@@ -198,7 +205,7 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
         return;
     };
     let browser = &visit.browser;
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.sweeps_more_than(100).await;
     for tab in ["drive", "home", "why", "device", "log"] {
         browser.click(&format!("#tab-{tab}")).await;
@@ -240,7 +247,7 @@ async fn the_dark_look_is_kept() {
     browser.reload().await;
     browser.until_state(&["idle", "docked"]).await;
     assert_eq!(browser.text(background).await, dark);
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.sweeps_more_than(100).await;
     browser.click("#tab-device").await;
     browser
@@ -255,7 +262,7 @@ async fn what_the_robot_knows_and_decides_is_shown() {
         return;
     };
     let browser = &visit.browser;
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser
         .until("return document.getElementById('lately')?.textContent.length > 10")

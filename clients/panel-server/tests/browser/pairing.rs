@@ -101,7 +101,7 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
         "",
         "no script can read the token"
     );
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser.click("#stop").await;
     browser.until_state(&["idle", "docked"]).await;

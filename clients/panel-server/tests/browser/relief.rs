@@ -14,7 +14,7 @@ async fn the_map_is_seen_in_3d_turned_and_kept_so() {
             return;
         };
         let browser = &visit.browser;
-        browser.click("#start").await;
+        browser.press_start().await;
         browser.sweeps_more_than(300).await;
         browser.until(&shown("2d")).await;
         browser.shot(&format!("{shots}-2d")).await;
@@ -76,7 +76,7 @@ async fn without_webgl_the_map_is_flat_and_says_why() {
     browser
         .until("return document.getElementById('map').dataset.painter === 'plain'")
         .await;
-    browser.click("#start").await;
+    browser.press_start().await;
     browser.sweeps_more_than(300).await;
     let colours: u32 = browser.text(COLOURS).await.parse().unwrap();
     assert!(colours > 5, "{colours} colours are no map");
