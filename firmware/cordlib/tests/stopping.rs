@@ -297,6 +297,51 @@ fn s8_three_cliffs_in_five_seconds_are_a_trap() {
     assert!(rig.has(Inhibit::CliffTrapped));
 }
 
+/// Shows floor under the middle sensor for a moment, over and over, until it was missing so often.
+fn flicker(rig: &mut Rig, times: u32) {
+    for _ in 0..times {
+        see(rig, MIDDLE);
+        rig.run(20);
+        see(rig, Cliffs::default());
+        rig.run(70);
+    }
+}
+
+#[test]
+fn s8_an_edge_that_flickers_while_the_robot_stops_is_one_cliff() {
+    let mut rig = Rig::driving(0);
+    flicker(&mut rig, 3);
+    rig.run(1_000);
+    flicker(&mut rig, 3);
+    assert!(!rig.has(Inhibit::CliffTrapped), "two edges");
+    rig.run(1_000);
+    flicker(&mut rig, 1);
+    assert!(rig.has(Inhibit::CliffTrapped), "three edges");
+}
+
+#[test]
+fn s8_an_edge_that_flickers_on_is_a_trap_within_a_second() {
+    let mut rig = Rig::driving(0);
+    flicker(&mut rig, 12);
+    assert!(rig.has(Inhibit::CliffTrapped));
+}
+
+#[test]
+fn s8_floor_that_shows_up_on_the_way_back_leads_no_farther() {
+    let mut rig = Rig::driving(0);
+    see(&mut rig, MIDDLE);
+    rig.run(200);
+    let start_m = rig.ways[0];
+    rig.repeated = vec![drive(-0.1, 0.0)];
+    see(&mut rig, Cliffs::default());
+    rig.run(70);
+    see(&mut rig, MIDDLE);
+    rig.run(3_000);
+    assert!(rig.has(Inhibit::CliffTrapped) && rig.wheels_off());
+    let way_m = start_m - rig.ways[0];
+    assert!((0.1..0.17).contains(&way_m), "{way_m} m");
+}
+
 #[test]
 fn s8_cliffs_that_are_far_apart_are_no_trap() {
     let mut rig = Rig::driving(0);

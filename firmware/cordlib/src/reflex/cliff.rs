@@ -12,6 +12,8 @@ const CLEAR_MS: u32 = 50;
 const REVERSE_MAX_NM: i64 = 150_000_000;
 const ONSETS_MAX: u8 = 3;
 const ONSETS_WINDOW_MS: u32 = 5_000;
+/// Floor that is seen for a moment while the robot brakes along an edge or backs off from it does not make that a second one.
+const SAME_CLIFF_MS: u32 = 300;
 
 /// The cliff sensors as the rule sees them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,7 +44,7 @@ impl CliffRule {
         if !self.any() {
             return false;
         }
-        if !before {
+        if !before && !self.is_same_cliff(now) {
             self.reversed_nm = 0;
             if context.driven && self.is_third_onset(now) {
                 return true;
@@ -65,6 +67,12 @@ impl CliffRule {
     /// Whether any sensor counts as seeing no floor.
     pub(crate) const fn any(&self) -> bool {
         self.left.is_active() || self.middle.is_active() || self.right.is_active()
+    }
+
+    /// Whether an onset now is one of the cliff that was met last. One that flickers on counts again after that time.
+    fn is_same_cliff(&self, now: Tick) -> bool {
+        let is_fresh = |onset: &Tick| now.since(*onset) <= SAME_CLIFF_MS;
+        self.onsets.iter().flatten().any(is_fresh)
     }
 
     /// Notes an onset; true when it is the third within the window, after which the count starts anew.
