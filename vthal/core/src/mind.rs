@@ -185,32 +185,42 @@ impl Mind {
             }
         }
         self.watch_stick(&command);
-        // A stick that moves faster than telemetry comes: only its newest position counts.
+        // A stick that moves faster than telemetry comes: only its newest position counts, and that it was in the centre before.
         if matches!(command, Command::Manual { .. }) {
-            self.waiting
-                .retain(|other| !matches!(other, Command::Manual { .. }));
+            let replaces_centred = is_centred(&command);
+            self.waiting.retain(|other| {
+                !matches!(other, Command::Manual { .. }) || (is_centred(other) && !replaces_centred)
+            });
         }
         self.waiting.push(command);
     }
 
-    /// Whether `command` would be obeyed, by this brain or by the one of the run that is about to begin.
+    /// Whether `command` would be obeyed, by this brain once it has heard what waits for it, or by the one of the run that is about to
+    /// begin.
     pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
-        let is_centred = self.next.as_ref().is_some_and(|next| next.stick_was_centred);
+        let was_centred = self.next.as_ref().is_some_and(|next| next.stick_was_centred);
         match self.brain.admit(command) {
-            Err(Reason::CentreFirst) if is_centred => Ok(()),
+            Err(Reason::CentreFirst) if was_centred || self.centred_meanwhile() => Ok(()),
             answer => answer,
         }
+    }
+
+    /// Whether the stick came to the centre since the last stop of which the brain will hear with the next telemetry.
+    fn centred_meanwhile(&self) -> bool {
+        let newest = self.waiting.iter().rev().find_map(|command| match command {
+            Command::Stop => Some(false),
+            Command::ManualEnd => Some(true),
+            centred if is_centred(centred) => Some(true),
+            _ => None,
+        });
+        newest.unwrap_or(false)
     }
 
     /// Keeps in mind for the next run where the stick was; after a stop it must come to the centre anew.
     fn watch_stick(&mut self, command: &Command) {
         let Some(next) = &mut self.next else { return };
         match command {
-            Command::Manual {
-                speed_m_per_s,
-                turn_rad_per_s,
-                ..
-            } if *speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0 => next.stick_was_centred = true,
+            centred if is_centred(centred) => next.stick_was_centred = true,
             Command::ManualEnd => next.stick_was_centred = true,
             Command::Stop => next.stick_was_centred = false,
             _ => {}
@@ -381,6 +391,12 @@ impl Mind {
             recorder.write(|| Record::RunEnded { time_us: now_us, end });
         }
     }
+}
+
+/// Whether this is a stick in the centre.
+fn is_centred(command: &Command) -> bool {
+    matches!(command, Command::Manual { speed_m_per_s, turn_rad_per_s, .. }
+        if *speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0)
 }
 
 fn brain_config(description: &Description, settings: &CoreConfig) -> BrainConfig {

@@ -268,6 +268,29 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.2), None);
 }
 
+/// Telemetry of a robot at rest comes less often than a page speaks.
+#[test]
+fn a_stick_that_leaves_the_centre_before_the_next_telemetry_drives() {
+    let mut pair = Pair::new();
+    for _ in 0..20 {
+        assert_eq!(pair.drive(ANNA, 0.0), None);
+        assert_eq!(pair.drive(ANNA, 0.2), None);
+        assert_eq!(pair.drive(ANNA, 0.2), None);
+        pair.run_ms(200);
+        assert_eq!(pair.last_drive().1, 0.2);
+        pair.run_ms(903);
+        assert_eq!(pair.last_drive().1, 0.0, "the lease is over");
+        assert_eq!(pair.drive(ANNA, 0.2).as_deref(), Some("centre-first"));
+    }
+    assert_eq!(pair.drive(ANNA, 0.0), None);
+    assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
+    assert_eq!(
+        pair.drive(ANNA, 0.2).as_deref(),
+        Some("centre-first"),
+        "a stop comes between"
+    );
+}
+
 /// How hard a motor was told to run last.
 fn power(pair: &Pair, wanted: Motor) -> Option<f64> {
     pair.commands.iter().rev().find_map(|(_, command)| match command {
