@@ -26,8 +26,9 @@ const TURN_GAIN_PER_S: f64 = 4.0;
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
 /// A turn on the spot is made when less than this is left; steering does the rest.
 const TURN_DONE_RAD: f64 = 0.06;
-/// Share of the highest turn rate that arcs use: the rest is for steering.
-const ARC_SHARE: f64 = 0.8;
+/// Share of the highest turn rate that arcs use: the rest is for steering. With 0.8 known homes take 0.01 to 0.1 T0 longer to 90 %,
+/// with 0.95 furniture is touched more often.
+const ARC_SHARE: f64 = 0.9;
 /// With less way ahead than this, and less than that left of a piece, the robot goes on with the next one, metres: what it sees
 /// tells better than its place where the way ends.
 const TURN_BEFORE_M: f64 = 0.02;
