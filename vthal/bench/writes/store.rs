@@ -1,5 +1,6 @@
 //! One kind of what the daemon keeps, as it tells it, and changes of it.
 
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
@@ -33,6 +34,8 @@ pub(crate) trait Store {
     fn change(&self, kept: &Kept, number: u64) -> Change;
 }
 
+/// Lines of the log that a failure tells.
+const LATELY_MAX: usize = 12;
 /// Longest wait for any answer.
 const ANSWERS_WITHIN: Duration = Duration::from_secs(20);
 
@@ -41,6 +44,8 @@ pub(crate) struct Desk {
     client: Client,
     /// Errors that the daemon told: damaged files are among them.
     pub(crate) errors: Vec<String>,
+    /// The newest lines of its log.
+    lately: VecDeque<String>,
 }
 
 impl Desk {
@@ -48,6 +53,7 @@ impl Desk {
         Self {
             client,
             errors: Vec::new(),
+            lately: VecDeque::new(),
         }
     }
 
@@ -71,16 +77,27 @@ impl Desk {
             let Ok(update) = serde_json::from_str::<Update>(&text) else {
                 continue;
             };
-            if let Update::Log(LogEntry { level, text, .. }) = &update
-                && *level == LogLevel::Error
-            {
-                self.errors.push(text.clone());
+            if let Update::Log(entry) = &update {
+                self.note(entry);
             }
             if let Some(found) = fits(update) {
                 return Ok(found);
             }
         }
-        bail!("the daemon did not tell {what}")
+        bail!(
+            "the daemon did not tell {what}; lately: {}",
+            Vec::from(self.lately.clone()).join("; ")
+        )
+    }
+
+    fn note(&mut self, LogEntry { level, text, .. }: &LogEntry) {
+        if *level == LogLevel::Error {
+            self.errors.push(text.clone());
+        }
+        self.lately.push_back(text.clone());
+        if self.lately.len() > LATELY_MAX {
+            self.lately.pop_front();
+        }
     }
 
     /// Waits until a request is answered, which must not be a refusal.
