@@ -69,6 +69,7 @@ fn deed(what: &str, value: f64) -> String {
             100.0 * value.clamp(0.0, 1.0)
         ),
         "bounce" => "Bounced to get out of this place".to_owned(),
+        "squeeze" => "Tried a way through a narrow gap".to_owned(),
         "approach" => "Approached the dock".to_owned(),
         "retry" => "Backed off the dock to try again".to_owned(),
         "rest" => "Stood still for a moment".to_owned(),

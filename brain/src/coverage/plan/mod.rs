@@ -194,6 +194,21 @@ pub(crate) async fn plan_area(
     }
 }
 
+/// All floor that a robot at `departure` can sweep, swept already or not.
+pub(crate) async fn floor_in_reach(
+    reachable: &Raster<bool>,
+    departure: &Departure,
+    pace: &mut Pace,
+) -> Raster<bool> {
+    let mut ground = Ground::new(reachable, reach_cells(&departure.settings), pace).await;
+    let mut floor = Raster::filled(ground.cell(0), ground.width, ground.height, false);
+    if let Some(origin) = ground.origin_near(departure.start.position(), pace).await {
+        ground.keep_connected(origin, pace).await;
+        floor.values_mut().copy_from_slice(&ground.open);
+    }
+    floor
+}
+
 /// Cells to either side of a lane's own that it counts as swept.
 pub(crate) fn reach_cells(settings: &PlanSettings) -> usize {
     let half_m = 0.5 * settings.swath_m - settings.sigma_m;

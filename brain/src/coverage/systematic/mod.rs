@@ -13,20 +13,22 @@ mod caution;
 mod edges;
 mod frontier;
 mod obstructions;
+mod outline;
 mod passed;
 mod planning;
 mod reachable;
 mod shyness;
+mod squeeze;
 mod trail;
 
 use super::astray::Astray;
-use super::perimeter::{LapStep, Perimeter};
+use super::perimeter::LapStep;
 use super::plan::{CoveragePlan, Departure, PlanSettings, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Point2, Pose2};
 use crate::manoeuvre::{Evasion, FollowStep, Follower};
-use crate::mapping::{CELL_M, CellKnowledge, Map};
+use crate::mapping::Map;
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
@@ -34,10 +36,12 @@ pub(crate) use caution::caution;
 use edges::Edges;
 use frontier::margin_cells;
 pub(crate) use obstructions::Obstructions;
+use outline::{Outline, knows_home, shuts_in};
 use passed::{Passed, Window};
 use planning::{Basis, Planning};
 pub(crate) use reachable::reachable;
 use shyness::Shyness;
+use squeeze::Squeeze;
 
 /// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
 pub(super) const KEEP_OFF_M: f64 = 0.01;
@@ -69,25 +73,9 @@ const FRESH_WON_M2: f64 = 0.5;
 /// place is known to centimetres only loses a little floor along all walls.
 const WHOLE_SHARE: f64 = 0.85;
 
-/// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
-const SHUT_IN_SHARE: f64 = 0.4;
-
-/// A robot that sees nothing plans in a map that shows this much free floor, square metres.
-const KNOWN_M2: f64 = 4.0;
 /// Floor is hoped for so far beyond what is known, metres, after a lap along the walls that closed and after one that did not.
 const BEYOND_M: f64 = 0.6;
 const BEYOND_OPEN_M: f64 = 2.5;
-
-/// What is known of the home.
-#[derive(Debug)]
-enum Outline {
-    /// All of it, since before the job.
-    Known,
-    /// Nothing: the walls come first.
-    Lap(Box<Perimeter>),
-    /// The walls; the rest is found out on the way. Floor is hoped for so many metres beyond what is known.
-    Growing { beyond_m: f64 },
-}
 
 /// The strategy.
 #[derive(Debug, Default)]
@@ -118,6 +106,7 @@ pub(crate) struct Systematic {
     is_cut_off: bool,
     /// It keeps off what it has just touched.
     shyness: Shyness,
+    squeeze: Squeeze,
 }
 
 impl Task for Systematic {
@@ -307,6 +296,11 @@ impl Systematic {
             Some(Outline::Growing { beyond_m }) => Some(beyond_m),
             _ => None,
         };
+        let squeezed_m = self.squeeze.radius_m(situation.config.body);
+        let beyond_m = beyond_m.map(|beyond_m| match squeezed_m {
+            Some(_) => beyond_m.max(squeeze::BEYOND_M),
+            None => beyond_m,
+        });
         let window = Window::around(knowledge, beyond_m.map_or(0, margin_cells));
         let passed = self
             .passed
@@ -319,6 +313,7 @@ impl Systematic {
             knowledge: knowledge.clone(),
             beyond_m,
             radius_m: situation.config.body.radius_m + KEEP_OFF_M,
+            squeezed_m,
             blocked: self.obstructions.points(situation.observation.time_us),
             wanted: self.assignment.wanted(situation.map),
             passed: passed.cells(),
@@ -351,6 +346,9 @@ impl Systematic {
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Option<Plan> {
         mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
+        if let Some(ended) = self.squeeze.end() {
+            return self.judge_squeeze(plan, &ended, (situation, mind));
+        }
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
@@ -359,6 +357,7 @@ impl Systematic {
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);
             self.passed_at_start_m2 = plan.passed_m2();
+            self.squeeze.start_anew();
         }
         if plan.floor_m2 <= 0.0 {
             if self.turns_to_next(true, (situation.map, mind)) {
@@ -392,6 +391,9 @@ impl Systematic {
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_afresh();
         }
+        if self.is_first_run() && self.squeeze.begin(plan) {
+            return Plan::Go(Motion::Halt);
+        }
         if self.is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
             return self.go_astray(situation, mind);
         }
@@ -407,10 +409,30 @@ impl Systematic {
         Plan::Finished(reason)
     }
 
+    /// Follows a plan for what lies behind a gap if that is worth it; what to do instead if it is not.
+    fn judge_squeeze(
+        &mut self,
+        plan: CoveragePlan,
+        ended: &CoveragePlan,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Option<Plan> {
+        if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
+            mind.decide("squeeze", Reason::BoxedIn, plan.open_m2);
+            self.follower = Some(Follower::new(plan.pieces));
+            return None;
+        }
+        self.squeeze.give_up();
+        Some(self.end(ended, false, (situation, mind)))
+    }
+
+    /// Whether all of a home is to be cleaned whose map is drawn meanwhile.
+    fn is_first_run(&self) -> bool {
+        matches!(self.outline, Some(Outline::Growing { .. })) && self.assignment.is_whole_home()
+    }
+
     /// Whether a robot that has gone along all walls can hardly get anywhere on the map that it has drawn: it came there.
     fn is_shut_in(&self, plan: &CoveragePlan, situation: &Situation<'_>) -> bool {
-        let is_drawn_now = matches!(self.outline, Some(Outline::Growing { .. }));
-        is_drawn_now && self.assignment.is_whole_home() && shuts_in(plan.floor_m2, situation.map.free_m2())
+        self.is_first_run() && shuts_in(plan.floor_m2, situation.map.free_m2())
     }
 
     /// Forgets what stood in the way: perhaps it is gone, or never was there.
@@ -442,23 +464,6 @@ impl Systematic {
     }
 }
 
-/// Whether floor that can be reached is next to nothing of the free floor that is known.
-fn shuts_in(reachable_m2: f64, free_m2: f64) -> bool {
-    reachable_m2 < SHUT_IN_SHARE * free_m2
-}
-
-/// Whether the map was good enough to plan in it when the job began.
-fn knows_home(situation: &Situation<'_>) -> bool {
-    let is_blind = situation.config.sensors.proximity.sensors().is_empty();
-    let knowledge = situation.map.knowledge().values();
-    let free = knowledge
-        .iter()
-        .filter(|kind| **kind == CellKnowledge::Free)
-        .count();
-    let shows_home = free as f64 * CELL_M * CELL_M > KNOWN_M2;
-    situation.is_tracked || (is_blind && shows_home)
-}
-
 fn settings(situation: &Situation<'_>) -> PlanSettings {
     PlanSettings {
         swath_m: situation.config.body.swath_m,
@@ -477,20 +482,5 @@ pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
         Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
     } else {
         None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::shuts_in;
-
-    #[test]
-    fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {
-        assert!(shuts_in(0.8, 9.0));
-        assert!(
-            !shuts_in(7.0, 9.0),
-            "what is too narrow for the body is free, too"
-        );
-        assert!(!shuts_in(0.0, 0.0), "nothing is known");
     }
 }

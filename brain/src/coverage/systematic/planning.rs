@@ -3,8 +3,8 @@
 use core::task::Poll;
 
 use super::frontier::hopeful;
-use super::reachable;
-use crate::coverage::plan::{CoveragePlan, Departure, plan_area};
+use super::{reachable, squeeze};
+use crate::coverage::plan::{CoveragePlan, Departure, floor_in_reach, plan_area};
 use crate::coverage::wanted::Wanted;
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::{Gradual, Pace};
@@ -21,6 +21,8 @@ pub(super) struct Basis {
     pub(super) beyond_m: Option<f64>,
     /// The gap to what is known included.
     pub(super) radius_m: f64,
+    /// Only floor is wanted that comes into reach with this radius instead.
+    pub(super) squeezed_m: Option<f64>,
     pub(super) blocked: Vec<Point2>,
     pub(super) wanted: Wanted,
     pub(super) passed: Raster<bool>,
@@ -95,7 +97,15 @@ async fn planned(basis: Basis) -> CoveragePlan {
     };
     let ground = reachable(&knowledge, (basis.radius_m, &basis.blocked), pace).await;
     let course = |cell| basis.wanted.course(cell);
-    let swept = |cell| basis.passed.get(cell).copied().unwrap_or(false);
+    let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
+    let Some(squeezed_m) = basis.squeezed_m else {
+        let swept = |cell| is_in(&basis.passed, cell);
+        return plan_area(&ground, (course, swept), basis.departure, pace).await;
+    };
+    let floor = floor_in_reach(&ground, &basis.departure, pace).await;
+    let known = squeeze::near(&floor, pace).await;
+    let ground = reachable(&knowledge, (squeezed_m, &basis.blocked), pace).await;
+    let swept = |cell| is_in(&basis.passed, cell) || is_in(&known, cell);
     plan_area(&ground, (course, swept), basis.departure, pace).await
 }
 
@@ -135,6 +145,7 @@ mod tests {
         Basis {
             beyond_m: None,
             radius_m: 0.175,
+            squeezed_m: None,
             blocked: Vec::new(),
             wanted: Assignment::of(CleaningOrder::default()).wanted(&map),
             passed: Raster::filled(knowledge.origin(), 400, 320, false),
@@ -170,6 +181,42 @@ mod tests {
         ));
         assert_eq!(plan, plan_coverage(&ground, |_| false, START, &SETTINGS));
         assert!((3..100).contains(&steps), "{steps} steps");
+    }
+
+    /// The hall with a wall across it that has a gap of so many cells, swept up to the wall.
+    fn behind_a_gap(gap: i32) -> Basis {
+        let mut basis = basis();
+        for y in (0..320).filter(|y| !(100..100 + gap).contains(y)) {
+            *basis.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
+        }
+        for y in 0..320 {
+            (0..200).for_each(|x| *basis.passed.get_mut(Cell { x, y }).unwrap() = true);
+        }
+        basis
+    }
+
+    #[test]
+    fn a_gap_that_shows_too_narrow_is_squeezed_through_for_the_floor_behind_it_only() {
+        let lanes = |gap, squeezed_m| {
+            let basis = Basis {
+                squeezed_m,
+                ..behind_a_gap(gap)
+            };
+            made(Planning::begin(basis)).0
+        };
+        // The body is 14 cells wide; with a gap of a centimetre and whole cells it is planned to take 15.
+        assert_eq!(lanes(14, None).lanes, 0);
+        let through = lanes(14, Some(0.1625));
+        assert!(
+            through.lanes > 0 && (35.0..40.0).contains(&through.open_m2),
+            "{through:?}"
+        );
+        // Nothing of what was in reach before is wanted, the edges at its walls included.
+        let mut swept = behind_a_gap(14);
+        swept.passed.values_mut().fill(true);
+        swept.squeezed_m = Some(0.1625);
+        assert_eq!(made(Planning::begin(swept)).0.open_m2, 0.0);
+        assert_eq!(lanes(12, Some(0.1625)).lanes, 0, "narrower than the body");
     }
 
     #[test]

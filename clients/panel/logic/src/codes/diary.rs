@@ -14,6 +14,7 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("spiral", "Alustas spiraali"),
     ("covered", "Oli koristanud {} % ligipääsetavast põrandast"),
     ("bounce", "Põrkas, et siit välja saada"),
+    ("squeeze", "Proovis kitsast vahest läbi minna"),
     ("approach", "Lähenes dokile"),
     ("retry", "Tagurdas dokist, et uuesti proovida"),
     ("rest", "Seisis hetke paigal"),

@@ -1,0 +1,53 @@
+//! What a robot knows of the outline of its home when it plans.
+
+use crate::coverage::perimeter::Perimeter;
+use crate::mapping::{CELL_M, CellKnowledge};
+use crate::task::Situation;
+
+/// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
+const SHUT_IN_SHARE: f64 = 0.4;
+/// A robot that sees nothing plans in a map that shows this much free floor, square metres.
+const KNOWN_M2: f64 = 4.0;
+
+/// What is known of the home.
+#[derive(Debug)]
+pub(super) enum Outline {
+    /// All of it, since before the job.
+    Known,
+    /// Nothing: the walls come first.
+    Lap(Box<Perimeter>),
+    /// The walls; the rest is found out on the way. Floor is hoped for so many metres beyond what is known.
+    Growing { beyond_m: f64 },
+}
+
+/// Whether floor that can be reached is next to nothing of the free floor that is known.
+pub(super) fn shuts_in(reachable_m2: f64, free_m2: f64) -> bool {
+    reachable_m2 < SHUT_IN_SHARE * free_m2
+}
+
+/// Whether the map was good enough to plan in it when the job began.
+pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
+    let is_blind = situation.config.sensors.proximity.sensors().is_empty();
+    let knowledge = situation.map.knowledge().values();
+    let free = knowledge
+        .iter()
+        .filter(|kind| **kind == CellKnowledge::Free)
+        .count();
+    let shows_home = free as f64 * CELL_M * CELL_M > KNOWN_M2;
+    situation.is_tracked || (is_blind && shows_home)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shuts_in;
+
+    #[test]
+    fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {
+        assert!(shuts_in(0.8, 9.0));
+        assert!(
+            !shuts_in(7.0, 9.0),
+            "what is too narrow for the body is free, too"
+        );
+        assert!(!shuts_in(0.0, 0.0), "nothing is known");
+    }
+}
