@@ -207,23 +207,14 @@ impl Mind {
 
     /// Whether the stick came to the centre since the last stop of which the brain will hear with the next telemetry.
     fn centred_meanwhile(&self) -> bool {
-        let newest = self.waiting.iter().rev().find_map(|command| match command {
-            Command::Stop => Some(false),
-            Command::ManualEnd => Some(true),
-            centred if is_centred(centred) => Some(true),
-            _ => None,
-        });
+        let newest = self.waiting.iter().rev().find_map(is_centred_by);
         newest.unwrap_or(false)
     }
 
     /// Keeps in mind for the next run where the stick was; after a stop it must come to the centre anew.
     fn watch_stick(&mut self, command: &Command) {
-        let Some(next) = &mut self.next else { return };
-        match command {
-            centred if is_centred(centred) => next.stick_was_centred = true,
-            Command::ManualEnd => next.stick_was_centred = true,
-            Command::Stop => next.stick_was_centred = false,
-            _ => {}
+        if let (Some(next), Some(is_centred)) = (&mut self.next, is_centred_by(command)) {
+            next.stick_was_centred = is_centred;
         }
     }
 
@@ -390,6 +381,15 @@ impl Mind {
         if self.run.take().is_some() {
             recorder.write(|| Record::RunEnded { time_us: now_us, end });
         }
+    }
+}
+
+/// Whether the stick counts as centred after a command; `None` where that changes nothing.
+fn is_centred_by(command: &Command) -> Option<bool> {
+    match command {
+        Command::Stop => Some(false),
+        Command::ManualEnd => Some(true),
+        stick => is_centred(stick).then_some(true),
     }
 }
 
