@@ -102,6 +102,7 @@ async fn start_cleans_and_stop_stands() {
     browser
         .until("return document.getElementById('refusal')?.innerText.includes('No job is running') === true")
         .await;
+    browser.shot("desktop-not-now").await;
     browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser
