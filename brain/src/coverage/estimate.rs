@@ -1,5 +1,6 @@
 //! What a job will take, before it begins.
 
+use super::lane_frame::LaneFrame;
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
 use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M, reachable};
 use super::wanted::Wanted;
@@ -52,13 +53,18 @@ pub(crate) fn estimate(
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + KEEP_OFF_M;
-    let ground = at_once(reachable(&knowledge, (radius_m, &[]), &mut Pace::at_once()));
+    let pace = &mut Pace::at_once();
+    let frame = at_once(LaneFrame::of_walls(&knowledge, pace));
+    let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), pace));
     let mut sum = Sum::at(start);
-    if order.parts().is_empty() {
-        sum.add(part_of((None, order), (map, &ground), sum.pose, &settings));
-    }
-    for part in order.parts() {
-        sum.add(part_of((Some(part), order), (map, &ground), sum.pose, &settings));
+    let whole = order.parts().is_empty().then_some(None);
+    for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
+        sum.add(part_of(
+            (part, order),
+            (map, &frame, &ground),
+            sum.pose,
+            &settings,
+        ));
     }
     if sum.floor_m2 <= 0.0 {
         return Err(if map.free_m2() > 0.0 {
@@ -125,20 +131,21 @@ struct PartEstimate {
 
 fn part_of(
     (part, order): (Option<&HomePart>, &CleaningOrder),
-    (map, ground): (&Map, &Raster<bool>),
+    (map, frame, ground): (&Map, &LaneFrame, &Raster<bool>),
     start: Pose2,
     settings: &PlanSettings,
 ) -> PartEstimate {
     let wanted = Wanted::of(order, part, map);
-    let course = |cell: Cell| wanted.course(cell);
+    let course = |cell: Cell| wanted.course(frame.cell_in_map(cell));
     let from = Departure {
-        start,
+        start: frame.pose(start),
         settings: *settings,
     };
     let plan = at_once(plan_area(ground, (course, |_| false), from, &mut Pace::at_once()));
+    let plan = frame.plan_in_map(plan);
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = order.passes_over(part, map.annotations());
-    let (kept, kept_low) = kept((map, &|cell| course(cell).is_some()), settings, passes);
+    let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);
     PartEstimate {
         end,
         time_s: DRIVEN * f64::from(passes) * plan.time_s,

@@ -3,6 +3,7 @@
 mod astray;
 mod bounce;
 mod estimate;
+pub(crate) mod lane_frame;
 mod perimeter;
 pub mod plan;
 pub(crate) mod systematic;

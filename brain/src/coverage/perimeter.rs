@@ -33,6 +33,11 @@ const LAP_MIN_M: f64 = 4.0;
 const AGAIN_M: f64 = 0.4;
 /// So much way on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
 const AGAIN_ELSEWHERE_M: f64 = 5.0;
+/// A place this near to one that was passed before shows nothing new, whatever it looks at, metres: its floor is swept.
+const SHOWN_M: f64 = 0.22;
+/// So much way that shows nothing new, more than three times as much as shows something, ends a lap, metres.
+const STALE_MAX_M: f64 = 8.0;
+const FRESH_WORTH: f64 = 3.0;
 /// A lap longer than this is ended, metres: twice that of a large home.
 const LAP_MAX_M: f64 = 400.0;
 /// So many islands in one lap and no walls: enough.
@@ -52,6 +57,8 @@ pub(crate) struct Perimeter {
     way_m: f64,
     turned_rad: f64,
     again_m: f64,
+    /// Way that shows nothing new, less what shows something.
+    stale_m: f64,
     /// Number of the present stretch: a new one begins wherever it leaves what it followed.
     stretch: u32,
     islands: u32,
@@ -94,6 +101,7 @@ impl Perimeter {
         self.interrupted();
         self.astray = None;
         self.again_m = 0.0;
+        self.stale_m = 0.0;
         self.islands = 0;
         self.troubles = 0;
     }
@@ -194,7 +202,11 @@ impl Perimeter {
             .rev()
             .find(|before| here.repeats(before))
             .copied();
+        let is_stale = self.track.iter().any(|before| here.shows_nothing_beyond(before));
         self.track.push(here);
+        if self.grows_stale(is_stale) {
+            return Some(Reason::KnownWall);
+        }
         let Some(before) = before else {
             self.again_m = 0.0;
             return None;
@@ -213,7 +225,25 @@ impl Perimeter {
     }
 }
 
+impl Perimeter {
+    /// Counts a place of the track; `true` when there were enough that show nothing new.
+    fn grows_stale(&mut self, is_stale: bool) -> bool {
+        self.stale_m = if is_stale {
+            self.stale_m + TRACK_STEP_M
+        } else {
+            (self.stale_m - FRESH_WORTH * TRACK_STEP_M).max(0.0)
+        };
+        self.stale_m > STALE_MAX_M
+    }
+}
+
 impl Footprint {
+    /// Whether the floor here was swept from an earlier place.
+    fn shows_nothing_beyond(&self, before: &Self) -> bool {
+        self.way_m - before.way_m > LAP_MIN_M
+            && self.pose.position().distance_m(before.pose.position()) < SHOWN_M
+    }
+
     /// Full turns to the left since an earlier place with the same heading.
     fn turns_since(&self, before: &Self) -> f64 {
         libm::round((self.turned_rad - before.turned_rad) / TAU)
@@ -230,5 +260,43 @@ impl Footprint {
         way_m > least_m
             && self.pose.position().distance_m(before.pose.position()) < same_m
             && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs() < SAME_RAD
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Footprint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
+    use crate::geometry::Pose2;
+
+    fn at(x_m: f64, heading_rad: f64, way_m: f64) -> Footprint {
+        Footprint {
+            pose: Pose2 {
+                x_m,
+                y_m: 0.0,
+                heading_rad,
+            },
+            sigma_m: 0.02,
+            way_m,
+            turned_rad: 0.0,
+            stretch: 0,
+        }
+    }
+
+    #[test]
+    fn floor_that_was_swept_the_other_way_round_shows_nothing_new_and_is_no_closed_lap() {
+        let (before, back) = (at(0.0, 0.0, 0.0), at(0.1, 3.1, 9.0));
+        assert!(back.shows_nothing_beyond(&before) && !back.repeats(&before));
+        assert!(!at(0.3, 0.0, 9.0).shows_nothing_beyond(&before));
+        assert!(!at(0.1, 0.0, 1.0).shows_nothing_beyond(&before), "just passed");
+    }
+
+    #[test]
+    fn a_lap_ends_when_it_shows_nothing_new_for_long_and_not_while_it_shows_something_now_and_then() {
+        let mut lap = Perimeter::default();
+        let steps = (STALE_MAX_M / TRACK_STEP_M) as u32;
+        assert!((0..steps - 1).all(|_| !lap.grows_stale(true)));
+        assert!((0..3).any(|_| lap.grows_stale(true)));
+        let mut lap = Perimeter::default();
+        assert!((0..20 * steps).all(|step| !lap.grows_stale(step % 3 != 0)));
     }
 }

@@ -7,6 +7,7 @@ use core::task::Poll;
 
 use crate::action::Motion;
 use crate::behavior::Reason;
+use crate::coverage::lane_frame::LaneFrame;
 use crate::coverage::plan::{Goal, Piece, plan_way};
 use crate::coverage::systematic::{Obstructions, caution, encounter, reachable};
 use crate::geometry::{Point2, Pose2};
@@ -235,7 +236,7 @@ impl Basis {
         let pace = &mut Pace::in_steps();
         for gap_m in keep_off_m {
             let around = (self.body_m + gap_m, self.blocked.as_slice());
-            let ground = reachable(&self.knowledge, around, pace).await;
+            let ground = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, pace).await;
             if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), pace).await {
                 return Some(pieces);
             }

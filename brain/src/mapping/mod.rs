@@ -30,6 +30,7 @@ mod stored;
 mod swept;
 mod taking_up;
 mod traces;
+mod wall_direction;
 mod walls;
 mod writing_down;
 
@@ -54,9 +55,11 @@ use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use home::HomeMap;
 use redraw::Redrawing;
+pub(crate) use rooms::centre;
 use swept::{Swath, SweptLayer};
 pub(crate) use traces::SeenAt;
 use traces::{Marks, Path};
+pub(crate) use wall_direction::wall_direction_rad;
 
 /// The map of the home and of one job in it.
 #[derive(Debug)]

@@ -433,7 +433,7 @@ async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec
 }
 
 /// The middle of a cell.
-pub(super) fn centre(cell: Cell) -> Point2 {
+pub(crate) fn centre(cell: Cell) -> Point2 {
     Point2 {
         x_m: (f64::from(cell.x) + 0.5) * CELL_M,
         y_m: (f64::from(cell.y) + 0.5) * CELL_M,

@@ -22,6 +22,7 @@ mod squeeze;
 mod trail;
 
 use super::astray::Astray;
+use super::lane_frame::LaneFrame;
 use super::perimeter::LapStep;
 use super::plan::{CoveragePlan, Departure, PlanSettings, reach_cells};
 use crate::action::Motion;
@@ -36,7 +37,7 @@ pub(crate) use caution::caution;
 use edges::Edges;
 use frontier::margin_cells;
 pub(crate) use obstructions::Obstructions;
-use outline::{Outline, knows_home, shuts_in};
+use outline::{Hope, Outline, knows_home, shuts_in};
 use passed::{Passed, Window};
 use planning::{Basis, Planning};
 pub(crate) use reachable::reachable;
@@ -73,10 +74,6 @@ const FRESH_WON_M2: f64 = 0.5;
 /// place is known to centimetres only loses a little floor along all walls.
 const WHOLE_SHARE: f64 = 0.85;
 
-/// Floor is hoped for so far beyond what is known, metres, after a lap along the walls that closed and after one that did not.
-const BEYOND_M: f64 = 0.6;
-const BEYOND_OPEN_M: f64 = 2.5;
-
 /// The strategy.
 #[derive(Debug, Default)]
 pub(crate) struct Systematic {
@@ -90,6 +87,8 @@ pub(crate) struct Systematic {
     passed: Option<Passed>,
     /// Generation of the map in which it plans.
     generation: u32,
+    /// The frame in which lanes are planned, once it is found in this drawing of the map.
+    frame: Option<LaneFrame>,
     obstructions: Obstructions,
     edges: Edges,
     vain_plans: u32,
@@ -202,13 +201,13 @@ impl Systematic {
             LapStep::Trouble(reason) => return Some(Plan::Trouble(reason)),
             LapStep::Over(reason) => reason,
         };
-        let (what, beyond_m) = if reason == Reason::BackAtStart {
-            ("contour-closed", BEYOND_M)
-        } else {
-            ("end-lap", BEYOND_OPEN_M)
+        let (what, hope) = match reason {
+            Reason::BackAtStart => ("contour-closed", Hope::CLOSED),
+            Reason::KnownWall => ("end-lap", Hope::KNOWN),
+            _ => ("end-lap", Hope::OPEN),
         };
         mind.decide(what, reason, lap.way_m());
-        self.outline = Some(Outline::Growing { beyond_m });
+        self.outline = Some(Outline::Growing(hope));
         None
     }
 
@@ -218,6 +217,7 @@ impl Systematic {
         if generation != self.generation {
             self.generation = generation;
             self.passed = None;
+            self.frame = None;
             self.obstructions.clear();
             self.planning = self.planning.take().map(Planning::afresh);
         }
@@ -293,7 +293,7 @@ impl Systematic {
         let settings = settings(situation);
         let knowledge = situation.map.knowledge();
         let beyond_m = match self.outline {
-            Some(Outline::Growing { beyond_m }) => Some(beyond_m),
+            Some(Outline::Growing(hope)) => Some(hope.beyond_m),
             _ => None,
         };
         let squeezed_m = self.squeeze.radius_m(situation.config.body);
@@ -318,6 +318,7 @@ impl Systematic {
             wanted: self.assignment.wanted(situation.map),
             passed: passed.cells(),
             departure: Departure { start, settings },
+            frame: self.frame,
         })
     }
 
@@ -325,9 +326,10 @@ impl Systematic {
     fn take_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
         let here = situation.pose;
         match self.planning.take() {
-            Some(Planning::Made { plan, draft }) if draft.begins_at(here.position()) => {
+            Some(Planning::Made { made, draft }) if draft.begins_at(here.position()) => {
                 self.waits = false;
-                return self.judge(plan, draft.is_blocked, (situation, mind));
+                self.frame = Some(made.frame);
+                return self.judge(made.plan, draft.is_blocked, (situation, mind));
             }
             Some(Planning::Made { .. }) | None => self.planning = Some(Planning::Due(here)),
             unfinished => self.planning = unfinished,
@@ -391,6 +393,9 @@ impl Systematic {
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_afresh();
         }
+        if self.hopes_for_more() {
+            return Plan::Go(Motion::Halt);
+        }
         if self.is_first_run() && self.squeeze.begin(plan) {
             return Plan::Go(Motion::Halt);
         }
@@ -425,9 +430,18 @@ impl Systematic {
         Some(self.end(ended, false, (situation, mind)))
     }
 
+    /// Hopes for floor farther beyond what is known, once, after a lap that ended for want of anything new: it may have missed a
+    /// way on.
+    fn hopes_for_more(&mut self) -> bool {
+        match &mut self.outline {
+            Some(Outline::Growing(hope)) => hope.grow(),
+            _ => false,
+        }
+    }
+
     /// Whether all of a home is to be cleaned whose map is drawn meanwhile.
     fn is_first_run(&self) -> bool {
-        matches!(self.outline, Some(Outline::Growing { .. })) && self.assignment.is_whole_home()
+        matches!(self.outline, Some(Outline::Growing(_))) && self.assignment.is_whole_home()
     }
 
     /// Whether a robot that has gone along all walls can hardly get anywhere on the map that it has drawn: it came there.

@@ -6,6 +6,9 @@ use crate::task::Situation;
 
 /// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
 const SHUT_IN_SHARE: f64 = 0.4;
+/// Floor is hoped for so far beyond what is known, metres: a little, and as far as a room reaches.
+const NEAR_M: f64 = 0.6;
+const FAR_M: f64 = 2.5;
 /// A robot that sees nothing plans in a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
 
@@ -16,8 +19,42 @@ pub(super) enum Outline {
     Known,
     /// Nothing: the walls come first.
     Lap(Box<Perimeter>),
-    /// The walls; the rest is found out on the way. Floor is hoped for so many metres beyond what is known.
-    Growing { beyond_m: f64 },
+    /// The walls; the rest is found out on the way.
+    Growing(Hope),
+}
+
+/// How much floor is hoped for beyond what is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hope {
+    /// How far, metres.
+    pub(super) beyond_m: f64,
+    /// How far once nothing else is left, metres.
+    at_last_m: f64,
+}
+
+impl Hope {
+    /// After a lap along the walls that closed.
+    pub(super) const CLOSED: Self = Self {
+        beyond_m: NEAR_M,
+        at_last_m: NEAR_M,
+    };
+    /// After one that ended because it showed nothing new any more.
+    pub(super) const KNOWN: Self = Self {
+        beyond_m: NEAR_M,
+        at_last_m: FAR_M,
+    };
+    /// After one that ended for another reason.
+    pub(super) const OPEN: Self = Self {
+        beyond_m: FAR_M,
+        at_last_m: FAR_M,
+    };
+
+    /// Nothing else is left. `false` when as much was hoped for already.
+    pub(super) fn grow(&mut self) -> bool {
+        let grows = self.beyond_m < self.at_last_m;
+        self.beyond_m = self.at_last_m;
+        grows
+    }
 }
 
 /// Whether floor that can be reached is next to nothing of the free floor that is known.
@@ -39,7 +76,15 @@ pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::shuts_in;
+    use super::{Hope, shuts_in};
+
+    #[test]
+    fn only_a_lap_that_may_have_missed_a_way_on_is_followed_by_more_hope() {
+        for (mut hope, grows) in [(Hope::CLOSED, false), (Hope::KNOWN, true), (Hope::OPEN, false)] {
+            assert_eq!(hope.grow(), grows);
+            assert!(!hope.grow(), "once");
+        }
+    }
 
     #[test]
     fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {

@@ -4,6 +4,7 @@ use core::task::Poll;
 
 use super::frontier::hopeful;
 use super::{reachable, squeeze};
+use crate::coverage::lane_frame::LaneFrame;
 use crate::coverage::plan::{CoveragePlan, Departure, floor_in_reach, plan_area};
 use crate::coverage::wanted::Wanted;
 use crate::geometry::{Point2, Pose2};
@@ -27,6 +28,16 @@ pub(super) struct Basis {
     pub(super) wanted: Wanted,
     pub(super) passed: Raster<bool>,
     pub(super) departure: Departure,
+    /// The frame of the lanes of earlier plans; `None` = it is to be found.
+    pub(super) frame: Option<LaneFrame>,
+}
+
+/// A plan that was made.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    pub(super) plan: CoveragePlan,
+    /// The frame of its lanes.
+    pub(super) frame: LaneFrame,
 }
 
 /// How far a plan is.
@@ -35,12 +46,9 @@ pub(super) enum Planning {
     /// To be begun, for a robot that sets out from here.
     Due(Pose2),
     /// Being made.
-    UnderWay {
-        rest: Gradual<CoveragePlan>,
-        draft: Draft,
-    },
+    UnderWay { rest: Gradual<Made>, draft: Draft },
     /// Made.
-    Made { plan: CoveragePlan, draft: Draft },
+    Made { made: Made, draft: Draft },
 }
 
 /// What is known of a plan before it is made.
@@ -74,7 +82,7 @@ impl Planning {
         match self {
             Self::UnderWay { mut rest, draft } => match rest.go_on() {
                 Poll::Pending => Self::UnderWay { rest, draft },
-                Poll::Ready(plan) => Self::Made { plan, draft },
+                Poll::Ready(made) => Self::Made { made, draft },
             },
             other => other,
         }
@@ -89,30 +97,48 @@ impl Planning {
     }
 }
 
-async fn planned(basis: Basis) -> CoveragePlan {
+async fn planned(basis: Basis) -> Made {
     let pace = &mut Pace::in_steps();
+    let frame = match basis.frame {
+        Some(frame) => frame,
+        None => LaneFrame::of_walls(&basis.knowledge, pace).await,
+    };
+    let plan = planned_in(&frame, basis, pace).await;
+    Made {
+        plan: frame.plan_in_map(plan),
+        frame,
+    }
+}
+
+/// The plan in the frame of its lanes.
+async fn planned_in(frame: &LaneFrame, basis: Basis, pace: &mut Pace) -> CoveragePlan {
     let knowledge = match basis.beyond_m {
         Some(beyond_m) => hopeful(&basis.knowledge, beyond_m, pace).await,
         None => basis.knowledge,
     };
-    let ground = reachable(&knowledge, (basis.radius_m, &basis.blocked), pace).await;
-    let course = |cell| basis.wanted.course(cell);
+    let departure = Departure {
+        start: frame.pose(basis.departure.start),
+        ..basis.departure
+    };
+    let ground = reachable(&knowledge, frame, (basis.radius_m, &basis.blocked), pace).await;
+    let course = |cell| basis.wanted.course(frame.cell_in_map(cell));
     let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
     let Some(squeezed_m) = basis.squeezed_m else {
-        let swept = |cell| is_in(&basis.passed, cell);
-        return plan_area(&ground, (course, swept), basis.departure, pace).await;
+        let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell));
+        return plan_area(&ground, (course, swept), departure, pace).await;
     };
-    let floor = floor_in_reach(&ground, &basis.departure, pace).await;
+    let floor = floor_in_reach(&ground, &departure, pace).await;
     let known = squeeze::near(&floor, pace).await;
-    let ground = reachable(&knowledge, (squeezed_m, &basis.blocked), pace).await;
-    let swept = |cell| is_in(&basis.passed, cell) || is_in(&known, cell);
-    plan_area(&ground, (course, swept), basis.departure, pace).await
+    let ground = reachable(&knowledge, frame, (squeezed_m, &basis.blocked), pace).await;
+    let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
+    plan_area(&ground, (course, swept), departure, pace).await
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Basis, Planning, reachable};
     use crate::config::{Body, SensorLayout};
+    use crate::coverage::lane_frame::LaneFrame;
     use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_coverage};
     use crate::coverage::systematic::assignment::Assignment;
     use crate::geometry::{Point2, Pose2};
@@ -154,6 +180,7 @@ mod tests {
                 settings: SETTINGS,
             },
             knowledge,
+            frame: None,
         }
     }
 
@@ -162,10 +189,10 @@ mod tests {
         loop {
             planning = planning.go_on();
             steps += 1;
-            if let Planning::Made { plan, draft } = planning {
+            if let Planning::Made { made, draft } = planning {
                 assert!(draft.begins_at(Point2 { x_m: 0.52, y_m: 0.5 }));
                 assert!(!draft.begins_at(Point2 { x_m: 0.6, y_m: 0.5 }));
-                return (plan, steps);
+                return (made.plan, steps);
             }
         }
     }
@@ -176,6 +203,7 @@ mod tests {
         let basis = basis();
         let ground = at_once(reachable(
             &basis.knowledge,
+            &LaneFrame::OF_MAP,
             (basis.radius_m, &[]),
             &mut Pace::at_once(),
         ));
