@@ -132,10 +132,11 @@ impl Brain {
         if let Some(pocket) = intent.pocket {
             self.map.shut_pocket(pocket);
         }
-        // Where it stands may just have been told.
+        // Where it stands may just have been told. What a robot sweeps that does not know where it is, nobody can say.
+        let here = self.localization.estimate();
         self.map.follow(
-            self.localization.pose(),
-            if intent.cleaners {
+            here.pose,
+            if intent.cleaners && !here.lost {
                 Brushes::Sweeping
             } else {
                 Brushes::Still

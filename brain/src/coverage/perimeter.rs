@@ -106,6 +106,13 @@ impl Perimeter {
         self.troubles = 0;
     }
 
+    /// Turns its back to the wall that it follows, for another lap at what is met next.
+    pub(crate) fn leave(&mut self) -> Motion {
+        self.begin_again();
+        self.away = Some(Turn::by(AWAY_RAD));
+        Motion::Halt
+    }
+
     /// Whether it is getting away from something that it touched.
     pub(crate) fn is_evading(&self) -> bool {
         self.wall.is_evading()

@@ -17,6 +17,7 @@ mod outline;
 mod passed;
 mod planning;
 mod reachable;
+mod seeking;
 mod shyness;
 mod squeeze;
 mod trail;
@@ -41,6 +42,7 @@ use outline::{Hope, Outline, knows_home, shuts_in};
 use passed::{Passed, Window};
 use planning::{Basis, Planning};
 pub(crate) use reachable::reachable;
+use seeking::{Seeking, Sought};
 use shyness::Shyness;
 use squeeze::Squeeze;
 
@@ -94,6 +96,7 @@ pub(crate) struct Systematic {
     vain_plans: u32,
     fresh_starts: u32,
     astray: Option<Astray>,
+    seeking: Seeking,
     strays: u32,
     /// Floor that was passed when obstructions were forgotten last.
     passed_at_start_m2: f64,
@@ -111,10 +114,15 @@ pub(crate) struct Systematic {
 impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         self.heed_redrawing(situation);
-        if let Some(passed) = &mut self.passed {
+        if let Some(passed) = &mut self.passed
+            && !situation.estimate.lost
+        {
             passed.follow(situation);
         }
         self.plan_on(situation);
+        if let Some(plan) = self.seek_place(situation, mind) {
+            return plan;
+        }
         if let Some(plan) = self.lap(situation, mind) {
             return plan;
         }
@@ -148,6 +156,7 @@ impl Task for Systematic {
         self.evasion = None;
         self.follower = None;
         self.planning = None;
+        self.seeking.interrupted();
         if let Some(astray) = &mut self.astray {
             astray.interrupted();
         }
@@ -183,6 +192,21 @@ impl Systematic {
         (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
         (self.vain_plans, self.fresh_starts, self.strays) = (0, 0, 0);
         true
+    }
+
+    /// Looks for its own place, once it knows no more where it is in a map that it has.
+    fn seek_place(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+        if !situation.is_tracked || self.evasion.is_some() {
+            return None;
+        }
+        match self.seeking.step(situation, mind) {
+            Sought::Nothing => None,
+            Sought::Over => {
+                self.interrupted();
+                None
+            }
+            Sought::Still(plan) => Some(plan),
+        }
     }
 
     /// The lap along the walls of an unknown home; `None` when there is none to drive.

@@ -1,0 +1,77 @@
+//! A robot that does not know where it is follows walls until it does.
+//!
+//! Lanes on a pose that is not believed lead nowhere, and what they sweep is written down in the wrong place. Walls tell the filter
+//! most, and who goes along them comes through all rooms.
+
+use crate::behavior::Reason;
+use crate::coverage::{LapStep, Perimeter};
+use crate::task::{Mind, Plan, Situation};
+
+/// Way along walls after which it goes on with what it believes, metres: once around a large home, so the map may be another's.
+const SEEK_MAX_M: f64 = 120.0;
+
+/// The search for its own place.
+#[derive(Debug, Default)]
+pub(super) struct Seeking {
+    lap: Option<Perimeter>,
+    has_given_up: bool,
+}
+
+/// What a search means for whoever drives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Sought {
+    /// The place is known, or was sought in vain: lanes go on.
+    Nothing,
+    /// The search has just ended: what was planned before is void.
+    Over,
+    /// It is being sought.
+    Still(Plan),
+}
+
+impl Seeking {
+    /// The robot was moved by somebody else.
+    pub(super) fn interrupted(&mut self) {
+        if let Some(lap) = &mut self.lap {
+            lap.interrupted();
+        }
+    }
+
+    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Sought {
+        if !situation.estimate.lost {
+            self.has_given_up = false;
+            return match self.lap.take() {
+                Some(lap) if lap.is_evading() || !situation.is_free() => {
+                    self.lap = Some(lap);
+                    self.follow(situation, mind)
+                }
+                Some(_) => Sought::Over,
+                None => Sought::Nothing,
+            };
+        }
+        if self.has_given_up {
+            return Sought::Nothing;
+        }
+        if self.lap.is_none() {
+            mind.decide("follow-wall", Reason::PlaceUnknown, 0.0);
+        }
+        self.follow(situation, mind)
+    }
+
+    fn follow(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Sought {
+        let lap = self.lap.get_or_insert_default();
+        if lap.way_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
+            self.lap = None;
+            self.has_given_up = true;
+            mind.decide("end-lap", Reason::LongLap, SEEK_MAX_M);
+            return Sought::Over;
+        }
+        Sought::Still(match lap.step(situation, mind) {
+            LapStep::Going(motion) => Plan::Go(motion),
+            LapStep::Trouble(reason) => Plan::Trouble(reason),
+            LapStep::Over(reason) => {
+                mind.decide("leave-wall", reason, lap.way_m());
+                Plan::Go(lap.leave())
+            }
+        })
+    }
+}
