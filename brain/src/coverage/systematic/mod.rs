@@ -420,7 +420,7 @@ impl Systematic {
         if self.hopes_for_more() {
             return Plan::Go(Motion::Halt);
         }
-        if self.is_first_run() && self.squeeze.begin(plan) {
+        if self.assignment.is_whole_home() && self.squeeze.begin(plan) {
             return Plan::Go(Motion::Halt);
         }
         if self.is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {

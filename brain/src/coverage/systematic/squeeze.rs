@@ -1,7 +1,7 @@
 //! Through a gap that the map shows a little too narrow: a touch at a door post, or a wall drawn a cell too thick, shuts off all that
 //! lies behind.
 //!
-//! Where a first run has nothing left to plan, it looks once more at what a body without any gap to what is known would reach. If
+//! Where a robot has nothing left to plan, it looks once more at what a body without any gap to what is known would reach. If
 //! that is much more floor, it tries the way there, and what it touches tells the rest.
 
 use crate::config::Body;
