@@ -100,3 +100,133 @@ fn found(graph: &Graph) -> Option<f64> {
     let turns = libm::round((before_rad - mean_rad) / FRAC_PI_2);
     Some(graph.square_rad.unwrap_or(mean_rad + turns * FRAC_PI_2))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::graph::{Graph, Mark, Node, Wall};
+    use super::super::kalman::StepVariance;
+    use super::super::stroke::Stroke;
+    use super::super::turns::Turns;
+    use super::square;
+    use crate::geometry::{Point2, Pose2, normalize_rad};
+    use crate::random::Random;
+    use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
+
+    /// Directions of strokes scatter by so much, radians: 2 degrees.
+    const SCATTER_RAD: f64 = 0.035;
+
+    /// The robot passes a piece of a wall that looks this way, with the wall to its right.
+    fn see(graph: &mut Graph, normal_rad: f64, random: &mut Random) {
+        let (node, wall) = (graph.nodes.len(), graph.walls.len());
+        let pose = Pose2 {
+            heading_rad: normal_rad - FRAC_PI_2 + SCATTER_RAD * random.normal(),
+            ..Pose2::IDENTITY
+        };
+        graph.nodes.push(Node {
+            time_us: node as u64,
+            odom: pose,
+            pose,
+            step: Pose2::IDENTITY,
+            variance: StepVariance::default(),
+            turns: Turns::default(),
+        });
+        let middle = Point2 { x_m: 0.0, y_m: -0.3 };
+        graph.walls.push(Wall {
+            quarter: None,
+            normal_rad: normalize_rad(normal_rad),
+            anchor: pose.transform(middle),
+            offset_m: 0.0,
+            low_m: -0.25,
+            high_m: 0.25,
+            first: node,
+            marks: 1,
+        });
+        graph.marks.push(Mark {
+            node,
+            wall,
+            stroke: Stroke {
+                middle,
+                normal_rad: FRAC_PI_2,
+                half_m: 0.25,
+                sigma_rad: 0.02,
+                sigma_m: 0.012,
+            },
+        });
+        square(graph);
+    }
+
+    /// Laps in a home whose walls have these directions; after each stroke, whether it counts as square.
+    fn laps(directions_rad: &[f64], graph: &mut Graph, (laps, seed): (usize, u64)) -> Vec<bool> {
+        let mut random = Random::new(seed);
+        let mut is_square = Vec::new();
+        for _ in 0..laps {
+            for normal_rad in directions_rad {
+                see(graph, *normal_rad, &mut random);
+                is_square.push(graph.square_rad.is_some());
+            }
+        }
+        is_square
+    }
+
+    fn four(turned_rad: f64) -> [f64; 4] {
+        [0.0, 1.0, 2.0, 3.0].map(|quarter| turned_rad + quarter * FRAC_PI_2)
+    }
+
+    fn six(turned_rad: f64) -> [f64; 6] {
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|sixth| turned_rad + sixth * FRAC_PI_3)
+    }
+
+    #[test]
+    fn walls_at_60_degrees_never_count_as_square() {
+        for seed in 1..40 {
+            let mut graph = Graph::default();
+            let is_square = laps(&six(0.1 * seed as f64), &mut graph, (20, seed));
+            assert!(!is_square.contains(&true), "seed {seed}");
+            assert!(graph.walls.iter().all(|wall| wall.quarter.is_none()));
+        }
+    }
+
+    #[test]
+    fn walls_at_right_angles_share_their_directions_however_the_home_is_turned() {
+        for seed in 1..40 {
+            let turned_rad = 0.1 * seed as f64;
+            let mut graph = Graph::default();
+            let is_square = laps(&four(turned_rad), &mut graph, (5, seed));
+            assert_eq!(
+                is_square.iter().position(|is| *is),
+                Some(5),
+                "the sixth stroke tells"
+            );
+            let square_rad = graph.square_rad.expect("is square");
+            let quarters = (square_rad - turned_rad) / FRAC_PI_2;
+            let off_rad = (quarters - quarters.round()).abs() * FRAC_PI_2;
+            assert!(off_rad < 0.06, "{off_rad} with seed {seed}");
+            for (wall, quarter) in graph.walls.iter().zip((0..4).cycle()) {
+                let found = wall.quarter.expect("has a direction of the four");
+                assert_eq!(found, (graph.walls[0].quarter.unwrap() + quarter) % 4);
+                let shared_rad = square_rad + f64::from(found) * FRAC_PI_2;
+                assert!(normalize_rad(wall.normal_rad - shared_rad).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn slanted_walls_that_are_found_later_end_it_and_a_few_do_not() {
+        for seed in 1..40 {
+            let mut graph = Graph::default();
+            laps(&four(0.3), &mut graph, (10, seed));
+            let slanted = |turned_rad: f64| [turned_rad, turned_rad + PI];
+            let few = laps(&slanted(0.3 + 0.7), &mut graph, (10, seed));
+            assert!(!few.contains(&false), "seed {seed}");
+            assert!(graph.walls.last().is_some_and(|wall| wall.quarter.is_none()));
+            for turned_rad in [0.3, 0.6, 0.9, 1.2] {
+                laps(&slanted(0.3 + turned_rad), &mut graph, (15, seed));
+            }
+            assert_eq!(graph.square_rad, None, "seed {seed}");
+            assert!(graph.walls.iter().all(|wall| wall.quarter.is_none()));
+            // What is neither clearly square nor clearly not stays what it was: here it takes more to begin again.
+            let again = laps(&four(0.3), &mut graph, (10, seed));
+            assert!(!again.contains(&true), "seed {seed}");
+        }
+    }
+}
