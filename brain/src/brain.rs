@@ -300,6 +300,30 @@ impl Brain {
         }
     }
 
+    /// As [`Self::checkpoint_without_home`], for a run that begins now. A robot that has made the map of its home in a run that it
+    /// brought to an end, and stands on the dock, is where that map has the dock and follows its pose in it from now on, as after
+    /// a restart.
+    #[must_use]
+    pub fn checkpoint_for_next_run(&self) -> Checkpoint {
+        let present = self.checkpoint_without_home();
+        match self.dock_of_new_map() {
+            Some(pose) => Checkpoint {
+                pose,
+                tracking: Some(self.localization.tracking_on_dock()),
+                ..present
+            },
+            None => present,
+        }
+    }
+
+    /// Where a robot stands that is docked in a map which it has just made, and with which it does not compare yet.
+    fn dock_of_new_map(&self) -> Option<Pose2> {
+        let dock = self.map.dock_place();
+        let has_new_map = self.behavior.has_covered_home() && self.map_agreement().is_none();
+        let is_on_dock = self.localization.is_docked() && !dock.is_told();
+        dock.pose().filter(|_| has_new_map && is_on_dock)
+    }
+
     /// Takes up a checkpoint in a new brain: the pose holds on from the next observation, a job that ran goes on by itself
     /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
@@ -379,10 +403,13 @@ impl Brain {
         }
     }
 
-    /// Follows the pose in the map as it is now.
+    /// Follows the pose in the map as it is now; in one that is not worth it, by walls.
     fn track(&mut self) {
         self.localization
             .track(&self.map, &self.config, self.mind.random.state());
+        if self.map_agreement().is_none() {
+            self.localization.survey(&self.config);
+        }
     }
 
     /// Marks and counts contacts and cliffs as they begin.

@@ -96,6 +96,8 @@ pub(crate) struct Behavior {
     pub(super) home_us: Option<u64>,
     pub(super) slips: u32,
     halt_until_us: u64,
+    /// A job for the whole home came to its end: what can be reached of the home is known.
+    pub(super) has_covered_home: bool,
 }
 
 impl Behavior {
@@ -128,6 +130,7 @@ impl Behavior {
             dry_tries: 0,
             home_us: None,
             slips: 0,
+            has_covered_home: false,
         }
     }
 
@@ -166,6 +169,11 @@ impl Behavior {
     /// Figures of the running or last job; the swept area is the map's business.
     pub(crate) fn figures(&self) -> JobFigures {
         self.job.as_ref().map_or(self.figures, |job| job.figures)
+    }
+
+    /// Whether a job for the whole home that plans came to its end by itself.
+    pub(crate) const fn has_covered_home(&self) -> bool {
+        self.has_covered_home
     }
 
     /// One step: commands, perceptions, motion.

@@ -9,6 +9,7 @@ use super::job::Job;
 use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::checkpoint::JobCheckpoint;
+use crate::command::StrategyName;
 use crate::docking;
 use crate::energy::{Activity, EnergyModel, EnergyWatch};
 use crate::task::{Mind, Situation};
@@ -93,6 +94,9 @@ impl Behavior {
     pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+        let is_whole_home = self.order().is_some_and(|order| order.parts().is_empty());
+        self.has_covered_home |=
+            has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
         if has_cleaned && situation.map.dock().is_some() {
             self.turn_home(reason, mind);
         } else {

@@ -5,7 +5,8 @@
 
 use super::estimate::Drift;
 use super::tracker::PROBATION_BEAMS;
-use super::{Localization, Tracked};
+use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
+use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;
 use crate::geometry::Pose2;
 use crate::mapping::{DockPlace, Map};
@@ -63,6 +64,25 @@ impl Localization {
     #[must_use]
     pub fn has_just_docked(&self) -> bool {
         self.has_just_docked
+    }
+
+    /// Whether the dock's contacts were closed at the last observation.
+    #[must_use]
+    pub fn is_docked(&self) -> bool {
+        self.was_docked
+    }
+
+    /// How a robot that stands on its dock begins to compare with the map that it has made, with what it has learnt of its gyro.
+    #[must_use]
+    pub fn tracking_on_dock(&self) -> TrackingCheckpoint {
+        let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
+        TrackingCheckpoint {
+            sigma_m: START_SIGMA_M,
+            sigma_rad: START_SIGMA_RAD,
+            gyro_scale,
+            gyro_bias_rad_per_s,
+            ..TrackingCheckpoint::default()
+        }
     }
 
     /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found

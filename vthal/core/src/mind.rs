@@ -243,7 +243,7 @@ impl Mind {
         self.end_run(now_us, RunEnd::Finished, recorder);
         let checkpoint = Checkpoint {
             home: Some(written),
-            ..self.brain.checkpoint_without_home()
+            ..self.checkpoint_for_next_run()
         };
         self.begin_run(now_us, (cause, checkpoint, Some(ready)), recorder);
     }
@@ -252,6 +252,14 @@ impl Mind {
     pub(crate) fn resume(
         &mut self,
         now_us: u64,
+    /// On a floor that is not known the map is one of nowhere.
+    fn checkpoint_for_next_run(&self) -> Checkpoint {
+        match self.floor {
+            Some(_) => self.brain.checkpoint_for_next_run(),
+            None => self.brain.checkpoint_without_home(),
+        }
+    }
+
         (checkpoint, floor): (Checkpoint, Option<u16>),
         recorder: &mut Recorder<'_>,
     ) {
