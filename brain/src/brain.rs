@@ -5,7 +5,7 @@ use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::{Checkpoint, CheckpointWork};
 use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
-use crate::coverage::{JobEstimate, estimate};
+use crate::coverage::{JobEstimate, SweptShare, estimate};
 use crate::docking::BeamMemory;
 use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2, normalize_rad};
@@ -262,6 +262,13 @@ impl Brain {
     #[must_use]
     pub fn planned_way(&self) -> Vec<Point2> {
         self.behavior.planned_way()
+    }
+
+    /// How much of the floor that it wants the running or waiting job has swept; `None` where it does not know what there is to
+    /// sweep. Counts the cells that were passed: for a few times a minute.
+    #[must_use]
+    pub fn swept_share(&self) -> Option<SweptShare> {
+        self.behavior.swept_share(&self.map)
     }
 
     /// Everything that must survive a restart of the shell. Writes down the whole home: for a robot at rest.

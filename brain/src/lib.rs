@@ -33,7 +33,7 @@ pub use brain::Brain;
 pub use checkpoint::{Checkpoint, CheckpointWork, JobCheckpoint, TrackingCheckpoint};
 pub use command::{Command, StrategyName};
 pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
-pub use coverage::JobEstimate;
+pub use coverage::{JobEstimate, SweptShare};
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};

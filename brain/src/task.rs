@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::action::{Decision, Motion};
 use crate::behavior::Reason;
 use crate::config::BrainConfig;
+use crate::coverage::SweptShare;
 use crate::docking::BeamMemory;
 use crate::geometry::{Point2, Pose2};
 use crate::localization::{Advance, Localization, PoseEstimate};
@@ -108,5 +109,10 @@ pub(crate) trait Task: Debug + Send {
     /// Corners of the way that it means to drive from here on, for people who look; none where it decides as it goes.
     fn way(&self) -> Vec<Point2> {
         Vec::new()
+    }
+
+    /// How much of the floor that it wants it has swept; `None` where it does not know what there is to sweep.
+    fn swept_share(&self, _map: &Map) -> Option<SweptShare> {
+        None
     }
 }

@@ -92,3 +92,34 @@ fn a_first_run_that_somebody_ended_leaves_no_map_to_be_followed() {
     household.pass_ms(MINUTE_MS);
     assert_eq!((decisions(&household, "lap"), agreement(&household)), (2, None));
 }
+
+/// How much of the home the running job has swept in truth, and the least and most that its robot says of it.
+fn shares(household: &Household) -> Option<(f64, f64, f64)> {
+    let told = household.host().and_then(Host::brain)?.swept_share()?;
+    Some((household.report().covered, told.share_low, told.share))
+}
+
+/// The edges of furniture and what lies behind legs differ between map and home.
+const SHARE_OFF: f64 = 0.04;
+
+#[test]
+fn the_share_that_a_robot_says_it_has_swept_is_the_true_one() {
+    let mut household = household(&scene(HOME, "nominal"), &settings(4, 0)).with_known_map();
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    assert_eq!(shares(&household), None, "it has no plan yet");
+    let mut looks = 0;
+    for _ in 0..12 {
+        household.pass_ms(MINUTE_MS / 2);
+        let Some((truth, low, share)) = shares(&household) else {
+            continue;
+        };
+        println!("in truth {truth:.3}, told {low:.3} to {share:.3}");
+        assert!(low <= share && share <= 1.0);
+        assert!(
+            truth >= low - SHARE_OFF && truth <= share + SHARE_OFF,
+            "{truth} is not within {low} and {share}"
+        );
+        looks += 1;
+    }
+    assert!(looks >= 8, "{looks} looks");
+}

@@ -6,8 +6,10 @@ use super::machine::{Behavior, Mode};
 use super::{JobKind, Reason};
 use crate::action::Motion;
 use crate::command::StrategyName;
+use crate::coverage::SweptShare;
 use crate::geometry::Point2;
 use crate::localization::Advance;
+use crate::mapping::Map;
 use crate::no_go::NoGo;
 use crate::order::CleaningOrder;
 use crate::recovery::{self, Grip, Traction, Whereabouts};
@@ -209,6 +211,11 @@ impl Behavior {
     /// Corners of the way that the running or waiting job means to drive.
     pub(crate) fn planned_way(&self) -> Vec<Point2> {
         self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
+    }
+
+    /// How much of its floor the running or waiting job has swept.
+    pub(crate) fn swept_share(&self, map: &Map) -> Option<SweptShare> {
+        self.job.as_ref()?.task.swept_share(map)
     }
 
     /// Where the running or waiting job does not go.

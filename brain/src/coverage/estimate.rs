@@ -164,7 +164,7 @@ fn kept((map, wanted): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, 
     for index in 0..knowledge.values().len() {
         let cell = knowledge.cell(index);
         if knowledge.values().get(index) == Some(&CellKnowledge::Free) && wanted(cell) {
-            let sigma_m = map.sigma_m(cell).unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M);
+            let sigma_m = believed_m(map.sigma_m(cell));
             cells += 1;
             sum += 1.0 - left(sigma_m);
             sum_low += 1.0 - left(DOUBT * sigma_m);
@@ -172,6 +172,16 @@ fn kept((map, wanted): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, 
     }
     let cells = f64::from(cells.max(1));
     (sum / cells, sum_low / cells)
+}
+
+/// Share of the floor at a place that one pass leaves swept for a robot that knows its place there half as well as it believes.
+pub(super) fn kept_low(sigma_m: Option<f64>, settings: &PlanSettings) -> f64 {
+    1.0 - gap_share(DOUBT * believed_m(sigma_m), settings)
+}
+
+/// Deviation of the place with which is reckoned.
+fn believed_m(sigma_m: Option<f64>) -> f64 {
+    sigma_m.unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M)
 }
 
 /// Expected share of the floor between two lanes that neither of them sweeps, when the place of each is uncertain.

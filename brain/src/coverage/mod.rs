@@ -14,6 +14,7 @@ pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
 pub(crate) use estimate::estimate;
 pub(crate) use perimeter::{LapStep, Perimeter};
+pub use systematic::SweptShare;
 use systematic::Systematic;
 use wall_bounce::WallBounce;
 

@@ -670,10 +670,11 @@ fn what_the_robot_thinks() {
         lost: false,
         agreement: None,
         covered: Some(0.75),
+        covered_low: Some(0.625),
     };
     check(
         &Update::Estimate(estimate),
-        r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"covered":0.75}"#,
+        r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"covered":0.75,"covered_low":0.625}"#,
     );
     let way = PlannedWay {
         points_mm: vec![0, -100, 2500, 40],

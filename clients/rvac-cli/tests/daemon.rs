@@ -116,6 +116,8 @@ fn talkative(request: &Request) -> Vec<Update> {
                 sigma_m: 0.05,
                 sigma_rad: 0.0175,
                 agreement: Some(0.875),
+                covered: Some(0.5),
+                covered_low: Some(0.4375),
                 ..Estimate::default()
             }),
             Update::Device(DeviceTable {
@@ -195,7 +197,10 @@ fn status_is_told_in_words_or_as_json() {
         "{words}"
     );
     assert!(
-        words.contains("sure to 0.05 m and 1 deg, its map explains 88 % of what it sees"),
+        words.contains(
+            "sure to 0.05 m and 1 deg, its map explains 88 % of what it sees, \
+             about 50 % of the floor it knows is swept (at least 44 %)"
+        ),
         "{words}"
     );
     assert!(

@@ -1,6 +1,6 @@
 //! From the core's types to those of the interface to clients: the only place where a struct exists twice.
 
-use brain::{Brain, CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2};
+use brain::{Brain, CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2, SweptShare};
 use rvac_api::{
     BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
     RobotDescription,
@@ -79,15 +79,16 @@ pub(crate) fn bump(mark: &Mark) -> BumpMark {
     }
 }
 
-/// How sure the robot is.
-pub(crate) fn estimate(brain: &Brain) -> Estimate {
+/// How sure the robot is, of its place and of what it has swept.
+pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
     let estimate = brain.estimate();
     Estimate {
         sigma_m: estimate.sigma_m,
         sigma_rad: estimate.sigma_rad,
         lost: estimate.lost,
         agreement: brain.map_agreement(),
-        covered: None,
+        covered: swept.map(|swept| swept.share),
+        covered_low: swept.map(|swept| swept.share_low),
     }
 }
 

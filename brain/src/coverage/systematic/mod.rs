@@ -18,6 +18,7 @@ mod passed;
 mod planning;
 mod reachable;
 mod seeking;
+mod share;
 mod shyness;
 mod squeeze;
 mod trail;
@@ -25,7 +26,7 @@ mod trail;
 use super::astray::Astray;
 use super::lane_frame::LaneFrame;
 use super::perimeter::LapStep;
-use super::plan::{CoveragePlan, Departure, PlanSettings, reach_cells};
+use super::plan::{CoveragePlan, Departure, reach_cells};
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Point2, Pose2};
@@ -37,12 +38,14 @@ use assignment::{Assignment, Next};
 pub(crate) use caution::caution;
 use edges::Edges;
 use frontier::margin_cells;
-pub(crate) use obstructions::Obstructions;
+pub(crate) use obstructions::{Obstructions, encounter};
 use outline::{Hope, Outline, knows_home, shuts_in};
 use passed::{Passed, Window};
-use planning::{Basis, Planning};
+use planning::{Basis, Planning, settings};
 pub(crate) use reachable::reachable;
 use seeking::{Seeking, Sought};
+pub use share::SweptShare;
+use share::{PassedFloor, Shares};
 use shyness::Shyness;
 use squeeze::Squeeze;
 
@@ -50,8 +53,6 @@ use squeeze::Squeeze;
 pub(super) const KEEP_OFF_M: f64 = 0.01;
 /// Lanes overlap by twice this at least, whatever the estimate says of itself.
 pub(super) const SIGMA_MIN_M: f64 = 0.01;
-/// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper.
-const SIGMA_MAX_M: f64 = 0.015;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
 /// Way back that is added for each plan in a row that brought nothing.
@@ -109,6 +110,7 @@ pub(crate) struct Systematic {
     /// It keeps off what it has just touched.
     shyness: Shyness,
     squeeze: Squeeze,
+    shares: Shares,
 }
 
 impl Task for Systematic {
@@ -164,6 +166,14 @@ impl Task for Systematic {
 
     fn way(&self) -> Vec<Point2> {
         self.follower.as_ref().map_or_else(Vec::new, Follower::way)
+    }
+
+    fn swept_share(&self, map: &Map) -> Option<SweptShare> {
+        let wanted = self.assignment.wanted(map);
+        self.shares.share(self.floor_m2, |settings| {
+            let passed = self.passed.as_ref()?.cells();
+            Some(PassedFloor::count(&passed, (&wanted, map), settings))
+        })
     }
 }
 
@@ -333,14 +343,17 @@ impl Systematic {
             return Planning::Due(start);
         }
         passed.cover(&window);
+        let (passed, wanted) = (passed.cells(), self.assignment.wanted(situation.map));
+        let counted = PassedFloor::count(&passed, (&wanted, situation.map), &settings);
+        self.shares.begin(settings, counted);
         Planning::begin(Basis {
             knowledge: knowledge.clone(),
             beyond_m,
             radius_m: situation.config.body.radius_m + KEEP_OFF_M,
             squeezed_m,
             blocked: self.obstructions.points(situation.observation.time_us),
-            wanted: self.assignment.wanted(situation.map),
-            passed: passed.cells(),
+            wanted,
+            passed,
             departure: Departure { start, settings },
             frame: self.frame,
         })
@@ -379,6 +392,7 @@ impl Systematic {
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
         self.floor_m2 = self.floor_m2.max(plan.floor_m2);
+        self.shares.take(&plan);
         self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);
@@ -499,26 +513,5 @@ impl Systematic {
         self.obstructions.clear();
         self.astray = Some(Astray::from(situation.pose.position()));
         Plan::Go(Motion::Halt)
-    }
-}
-
-fn settings(situation: &Situation<'_>) -> PlanSettings {
-    PlanSettings {
-        swath_m: situation.config.body.swath_m,
-        sigma_m: situation.estimate.sigma_m.clamp(SIGMA_MIN_M, SIGMA_MAX_M),
-        cruise_m_per_s: situation.config.speeds.cruise_m_per_s,
-        turn_rad_per_s: situation.config.speeds.turn_max_rad_per_s,
-        takes_along: situation.is_tracked,
-    }
-}
-
-/// What was just met, if anything was.
-pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
-    if situation.at_cliff {
-        Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))
-    } else if situation.touching {
-        Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
-    } else {
-        None
     }
 }

@@ -116,3 +116,13 @@ fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
     }
     best.1
 }
+/// What was just met, if anything was.
+pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
+    if situation.at_cliff {
+        Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))
+    } else if situation.touching {
+        Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
+    } else {
+        None
+    }
+}

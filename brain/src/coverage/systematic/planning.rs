@@ -3,16 +3,20 @@
 use core::task::Poll;
 
 use super::frontier::hopeful;
-use super::{reachable, squeeze};
+use super::{SIGMA_MIN_M, reachable, squeeze};
 use crate::coverage::lane_frame::LaneFrame;
-use crate::coverage::plan::{CoveragePlan, Departure, floor_in_reach, plan_area};
+use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
 use crate::coverage::wanted::Wanted;
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::{Gradual, Pace};
 use crate::mapping::{CellKnowledge, Raster};
+use crate::task::Situation;
 
 /// A plan is not followed from farther away than this from where it begins, metres: back-offs get longer than expected.
 const OFF_START_M: f64 = 0.06;
+
+/// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper.
+const SIGMA_MAX_M: f64 = 0.015;
 
 /// All that a plan depends on.
 #[derive(Debug)]
@@ -94,6 +98,17 @@ impl Planning {
             Self::Due(start) => Self::Due(start),
             Self::UnderWay { draft, .. } | Self::Made { draft, .. } => Self::Due(draft.start),
         }
+    }
+}
+
+/// What plans depend on besides the ground, now.
+pub(super) fn settings(situation: &Situation<'_>) -> PlanSettings {
+    PlanSettings {
+        swath_m: situation.config.body.swath_m,
+        sigma_m: situation.estimate.sigma_m.clamp(SIGMA_MIN_M, SIGMA_MAX_M),
+        cruise_m_per_s: situation.config.speeds.cruise_m_per_s,
+        turn_rad_per_s: situation.config.speeds.turn_max_rad_per_s,
+        takes_along: situation.is_tracked,
     }
 }
 

@@ -146,6 +146,9 @@ pub(crate) fn sureness(estimate: &Estimate) -> String {
     }
     if let Some(covered) = estimate.covered {
         text += &format!(", about {:.0} % of the floor it knows is swept", 100.0 * covered);
+        if let Some(low) = estimate.covered_low {
+            text += &format!(" (at least {:.0} %)", 100.0 * low);
+        }
     }
     text
 }

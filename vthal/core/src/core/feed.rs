@@ -1,6 +1,6 @@
 //! What clients are told, and how often.
 
-use brain::MapCursor;
+use brain::{MapCursor, SweptShare};
 use rvac_api::{
     API_VERSION, DeviceTable, Estimate, FloorsView, LinkReading, PlannedWay, Pose, Status, Topic, Update,
     Versions,
@@ -29,6 +29,8 @@ const FIGURES_US: u64 = 1_000_000;
 const HOME_US: u64 = 5_000_000;
 /// Estimates go out at most this often.
 const ESTIMATE_US: u64 = 500_000;
+/// Pause between two looks at how much is swept: cells are counted in each.
+const SWEPT_US: u64 = 5_000_000;
 /// Changes of an estimate that nobody would see: metres or radians, and shares.
 const UNSEEN: f64 = 0.002;
 /// Planned ways go out at most this often.
@@ -50,6 +52,8 @@ pub(super) struct Feed {
     home_revision: u32,
     estimate_us: u64,
     estimate: Estimate,
+    swept_us: u64,
+    swept: Option<SweptShare>,
     floors: Option<FloorsView>,
     way_us: u64,
     way: PlannedWay,
@@ -108,7 +112,7 @@ impl Core {
         }
         if self.clients.any(Topic::Estimate) && now_us >= self.feed.estimate_us + ESTIMATE_US {
             self.feed.estimate_us = now_us;
-            self.feed_estimate(outputs);
+            self.feed_estimate(now_us, outputs);
         }
         if self.clients.any(Topic::Way) && now_us >= self.feed.way_us + WAY_US {
             self.feed.way_us = now_us;
@@ -120,9 +124,13 @@ impl Core {
         self.follow_checkpoint(now_us, outputs);
     }
 
-    fn feed_estimate(&mut self, outputs: &mut Outputs) {
+    fn feed_estimate(&mut self, now_us: u64, outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
-        let estimate = to_api::estimate(mind.brain());
+        if now_us >= self.feed.swept_us + SWEPT_US {
+            self.feed.swept_us = now_us;
+            self.feed.swept = mind.brain().swept_share();
+        }
+        let estimate = to_api::estimate(mind.brain(), self.feed.swept);
         if !looks_alike(&self.feed.estimate, &estimate) {
             self.feed.estimate = estimate;
             followers(Topic::Estimate, Update::Estimate(estimate), outputs);
@@ -259,7 +267,8 @@ impl Core {
             }
             Topic::Estimate => {
                 if let Some(mind) = &self.mind {
-                    let estimate = to_api::estimate(mind.brain());
+                    let brain = mind.brain();
+                    let estimate = to_api::estimate(brain, brain.swept_share());
                     outputs.deliveries.push(one(Update::Estimate(estimate)));
                 }
             }
@@ -407,6 +416,7 @@ fn looks_alike(old: &Estimate, new: &Estimate) -> bool {
         && near(old.sigma_rad, new.sigma_rad)
         && both(old.agreement, new.agreement)
         && both(old.covered, new.covered)
+        && both(old.covered_low, new.covered_low)
 }
 
 /// Whether only figures differ, which change all the time.

@@ -1,0 +1,165 @@
+//! How much of its floor a job has swept so far, also between two plans.
+//!
+//! The newest plan tells how much floor there is and how much of it was passed; what was passed since is added. A strip that was
+//! passed counts less in the low bound, the less sure the robot's place was there.
+
+use crate::coverage::estimate::kept_low;
+use crate::coverage::plan::{CoveragePlan, PlanSettings};
+use crate::coverage::wanted::Wanted;
+use crate::mapping::{CELL_M, Map, Raster};
+
+/// Share of the floor that a job wants and knows which it has swept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SweptShare {
+    /// As the robot believes, 0..=1.
+    pub share: f64,
+    /// The same if it knows its place half as well as it believes.
+    pub share_low: f64,
+}
+
+/// Floor that was passed, square metres, and what stays of it with more doubt.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct PassedFloor {
+    m2: f64,
+    low_m2: f64,
+}
+
+impl PassedFloor {
+    /// What of the passed cells is wanted.
+    pub(super) fn count(
+        passed: &Raster<bool>,
+        (wanted, map): (&Wanted, &Map),
+        settings: &PlanSettings,
+    ) -> Self {
+        let (mut cells, mut cells_low) = (0.0, 0.0);
+        // Neighbours are mostly as sure, and the share takes long to find.
+        let mut before: (Option<f64>, f64) = (None, kept_low(None, settings));
+        for (index, _) in passed.values().iter().enumerate().filter(|(_, is)| **is) {
+            let cell = passed.cell(index);
+            if wanted.course(cell).is_none() {
+                continue;
+            }
+            let sigma_m = map.sigma_m(cell);
+            if sigma_m != before.0 {
+                before = (sigma_m, kept_low(sigma_m, settings));
+            }
+            cells += 1.0;
+            cells_low += before.1;
+        }
+        Self {
+            m2: cells * CELL_M * CELL_M,
+            low_m2: cells_low * CELL_M * CELL_M,
+        }
+    }
+
+    /// Share of what was passed that stays with more doubt.
+    fn kept_low(self) -> f64 {
+        if self.m2 > 0.0 { self.low_m2 / self.m2 } else { 1.0 }
+    }
+}
+
+/// What a plan knows of it.
+#[derive(Clone, Copy, Debug)]
+struct Tally {
+    settings: PlanSettings,
+    /// What was counted when it was begun.
+    counted: PassedFloor,
+    /// What it found passed, square metres; 0 while it is being made.
+    passed_m2: f64,
+}
+
+/// What the plan that is being made and the newest one know of it.
+#[derive(Debug, Default)]
+pub(super) struct Shares {
+    next: Option<Tally>,
+    newest: Option<Tally>,
+}
+
+impl Shares {
+    /// A plan is begun when so much is counted.
+    pub(super) fn begin(&mut self, settings: PlanSettings, counted: PassedFloor) {
+        self.next = Some(Tally {
+            settings,
+            counted,
+            passed_m2: 0.0,
+        });
+    }
+
+    /// That plan is made.
+    pub(super) fn take(&mut self, plan: &CoveragePlan) {
+        self.newest = self.next.take().map(|tally| Tally {
+            passed_m2: plan.passed_m2(),
+            ..tally
+        });
+    }
+
+    /// The share of `floor_m2` with what is counted now; where that gives nothing, since the map was drawn again, what the plan
+    /// knew has to do.
+    pub(super) fn share(
+        &self,
+        floor_m2: f64,
+        count: impl Fn(&PlanSettings) -> Option<PassedFloor>,
+    ) -> Option<SweptShare> {
+        let tally = self.newest.filter(|_| floor_m2 > 0.0)?;
+        let now = count(&tally.settings).unwrap_or(tally.counted);
+        let passed_m2 = tally.passed_m2 + (now.m2 - tally.counted.m2).max(0.0);
+        let share = (passed_m2 / floor_m2).clamp(0.0, 1.0);
+        Some(SweptShare {
+            share,
+            share_low: share * now.kept_low(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PassedFloor, Shares};
+    use crate::coverage::plan::{CoveragePlan, PlanSettings};
+
+    const SETTINGS: PlanSettings = PlanSettings {
+        swath_m: 0.25,
+        sigma_m: 0.01,
+        cruise_m_per_s: 0.25,
+        turn_rad_per_s: 1.2,
+        takes_along: true,
+    };
+
+    fn passed(m2: f64, low_m2: f64) -> PassedFloor {
+        PassedFloor { m2, low_m2 }
+    }
+
+    /// After a plan over 10 square metres of which two were passed.
+    fn shares() -> Shares {
+        let plan = CoveragePlan {
+            floor_m2: 10.0,
+            open_m2: 8.0,
+            ..CoveragePlan::default()
+        };
+        let mut shares = Shares::default();
+        shares.begin(SETTINGS, passed(2.5, 2.0));
+        assert_eq!(shares.share(10.0, |_| None), None, "no plan is made yet");
+        shares.take(&plan);
+        shares
+    }
+
+    #[test]
+    fn what_was_passed_since_the_plan_is_added() {
+        let told = shares()
+            .share(10.0, |_| Some(passed(5.5, 4.4)))
+            .expect("there is floor");
+        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
+        assert!((told.share_low - 0.4).abs() < 1e-9, "{told:?}");
+    }
+
+    #[test]
+    fn without_a_count_the_plan_tells_and_no_share_is_more_than_all() {
+        let told = shares().share(10.0, |_| None).expect("there is floor");
+        assert!((told.share - 0.2).abs() < 1e-9, "{told:?}");
+        assert!((told.share_low - 0.16).abs() < 1e-9, "{told:?}");
+        let all = shares()
+            .share(10.0, |_| Some(passed(40.0, 40.0)))
+            .expect("there is floor");
+        assert_eq!((all.share, all.share_low), (1.0, 1.0));
+        assert_eq!(shares().share(0.0, |_| None), None);
+    }
+}
