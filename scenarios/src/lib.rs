@@ -18,8 +18,21 @@ pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
 #[must_use]
 pub fn scene(home: &str, noise: &str) -> Scene {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../homes/{home}.toml"));
+    scene_of(path, noise)
+}
+
+/// The generated home of this number with nominal noise.
+///
+/// # Panics
+/// When there is none.
+#[must_use]
+pub fn generated(number: u32) -> Scene {
+    scene_of(PathBuf::from(format!("generated:{number}")), "nominal")
+}
+
+fn scene_of(home: PathBuf, noise: &str) -> Scene {
     Scene::load(&SceneSettings {
-        home: path,
+        home,
         robot: "sr8730".to_owned(),
         noise: noise.to_owned(),
         firmware: None,
