@@ -9,6 +9,7 @@ use crate::coverage::{JobEstimate, SweptShare, estimate};
 use crate::docking::BeamMemory;
 use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::learnt::{GyroLearnt, Learnt};
 use crate::localization::{Localization, PoseEstimate};
 use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
@@ -299,6 +300,7 @@ impl Brain {
             backed_m: self.localization.backed_m(),
             job: self.behavior.checkpoint(),
             energy: self.behavior.energy(),
+            gyro: self.learnt_gyro(),
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
             marks: map.marks.to_vec(),
@@ -331,6 +333,19 @@ impl Brain {
         dock.pose().filter(|_| has_new_map && is_on_dock)
     }
 
+    /// What was learnt of the gyro.
+    pub(crate) fn learnt_gyro(&self) -> Option<GyroLearnt> {
+        self.localization.learnt_gyro()
+    }
+
+    /// A new brain begins with what the robot has learnt of itself before.
+    pub fn begin_with(&mut self, learnt: Learnt) {
+        if let Some(gyro) = learnt.gyro {
+            self.localization.begin_with_gyro(gyro);
+        }
+        self.behavior.learn_energy(learnt.energy);
+    }
+
     /// Takes up a checkpoint in a new brain: the pose holds on from the next observation, a job that ran goes on by itself
     /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
@@ -356,7 +371,10 @@ impl Brain {
             self.track();
             self.localization.resume_tracking(tracking);
         }
-        self.behavior.learn_energy(checkpoint.energy);
+        self.begin_with(Learnt {
+            gyro: checkpoint.gyro,
+            energy: checkpoint.energy,
+        });
         if let Some(job) = &checkpoint.job {
             self.behavior.restore(job.clone());
             self.map.avoid(self.behavior.avoided());

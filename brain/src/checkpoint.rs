@@ -6,6 +6,7 @@ use crate::behavior::{JobFigures, JobKind};
 use crate::energy::EnergyModel;
 use crate::geometry::Pose2;
 use crate::gradual::Gradual;
+use crate::learnt::GyroLearnt;
 use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
 use crate::order::CleaningOrder;
 
@@ -30,6 +31,8 @@ pub struct Checkpoint {
     pub home: Option<StoredMap>,
     /// What driving and cleaning take from the pack.
     pub energy: EnergyModel,
+    /// What was learnt of the gyro; `None` = nothing that is worth keeping.
+    pub gyro: Option<GyroLearnt>,
     /// How the pose is followed in the map of the home; `None` = by odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
 }

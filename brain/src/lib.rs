@@ -15,6 +15,7 @@ mod docking;
 pub mod energy;
 pub mod geometry;
 mod gradual;
+pub mod learnt;
 pub mod localization;
 mod manoeuvre;
 pub mod mapping;
@@ -36,6 +37,7 @@ pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResp
 pub use coverage::{JobEstimate, SweptShare};
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
+pub use learnt::{GyroLearnt, Learnt};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,

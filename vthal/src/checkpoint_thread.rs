@@ -12,6 +12,7 @@ use std::time::Instant;
 use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
+use vthal_core::learnt::StoredLearnings;
 use vthal_core::{
     ArchiveOrder, ArchiveTask, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder,
     KeptFloor, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder,
@@ -22,6 +23,7 @@ use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::floor_folder::{FloorError, FloorFolder};
 use crate::health_file;
+use crate::learnt_file;
 use crate::mix_folder::{MixError, MixFolder};
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
@@ -38,6 +40,8 @@ pub(crate) struct KeptPaths {
     pub(crate) schedules: PathBuf,
     /// The loads of the motors.
     pub(crate) health: PathBuf,
+    /// What robots have learnt of themselves.
+    pub(crate) learnt: PathBuf,
     /// The records of runs.
     pub(crate) runs: RunFolder,
 }
@@ -85,6 +89,7 @@ enum Kept {
     MixOrder(MixOrder),
     Schedules(Box<ScheduleOrder>),
     Health(Box<HealthOrder>),
+    Learnt(Box<StoredLearnings>),
     Run(Box<RunRecord>),
 }
 
@@ -231,6 +236,11 @@ impl CheckpointHandle {
         self.try_send(Kept::Health(Box::new(order)))
     }
 
+    /// Hands over what robots have learnt. If the disk is so slow that it is left out, the next run says it again.
+    pub(crate) fn send_learnt(&self, learnt: StoredLearnings) {
+        self.try_send(Kept::Learnt(Box::new(learnt)));
+    }
+
     /// Hands the record of a run over; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn keep_run(&self, record: Box<RunRecord>) -> bool {
@@ -302,6 +312,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
                 Kept::Health(order) => {
                     events.blocking_send(keep_health(&order, paths)).ok();
                 }
+                Kept::Learnt(learnt) => keep_learnt(&learnt, paths),
             }
         }
         if let Some(checkpoint) = checkpoint {
@@ -412,6 +423,15 @@ fn keep_schedules(order: &ScheduleOrder, paths: &KeptPaths) -> Event {
 fn keep_health(order: &HealthOrder, paths: &KeptPaths) -> Event {
     let result = health_file::save(&paths.health, &order.health);
     Event::Health(order.number, result.map_err(|error| unkept_health(&error)))
+}
+
+fn keep_learnt(learnt: &StoredLearnings, paths: &KeptPaths) {
+    if let Err(error) = learnt_file::save(&paths.learnt, learnt) {
+        tracing::error!(
+            "cannot write what the robot has learnt in {}: {error}; it will have to learn it again",
+            paths.learnt.display()
+        );
+    }
 }
 
 fn unkept_health(error: &io::Error) -> String {

@@ -268,6 +268,9 @@ impl Daemon {
         if let Some(home) = self.outputs.home.take() {
             self.wiring.checkpoints.send_home(home);
         }
+        if let Some(learnt) = self.outputs.learnt.take() {
+            self.wiring.checkpoints.send_learnt(learnt);
+        }
         for edit in std::mem::take(&mut self.outputs.map_edits) {
             self.keep_edit(edit);
         }

@@ -19,6 +19,7 @@ mod floor_folder;
 mod health_file;
 pub mod imu;
 mod instance;
+mod learnt_file;
 mod logging;
 mod map_folder;
 mod mix_folder;

@@ -18,6 +18,7 @@ use crate::event::Event;
 use crate::floor_folder::FloorFolder;
 use crate::health_file;
 use crate::instance::{self, InstanceError};
+use crate::learnt_file;
 use crate::mix_folder::MixFolder;
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
@@ -47,6 +48,9 @@ const MIXES: &str = "mixes";
 const SCHEDULES: &str = "schedules.json";
 /// Name of the file of the motors' loads in the state folder.
 const HEALTH: &str = "health.json";
+
+/// Name of the file of what robots have learnt in the state folder.
+const LEARNT: &str = "learnt.json";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -92,6 +96,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         mixes: MixFolder::new(config.state.join(MIXES)),
         schedules: config.state.join(SCHEDULES),
         health: config.state.join(HEALTH),
+        learnt: config.state.join(LEARNT),
         runs: RunFolder::new(config.state.join(HISTORY), config.state.join(RECORDINGS)),
     };
     let core_config = core_config(config, &kept)?;
@@ -134,8 +139,15 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
     let found = schedule_file::load(&kept.schedules);
     let (health, health_complaints) = health_file::load(&kept.health);
+    let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
     let (floors, floor_complaints) = kept.floors.load();
-    let complaints = [found.complaints, health_complaints, floor_complaints].concat();
+    let complaints = [
+        found.complaints,
+        health_complaints,
+        learnt_complaints,
+        floor_complaints,
+    ]
+    .concat();
     for complaint in &complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
@@ -147,6 +159,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
     Ok(CoreConfig {
         schedules: found.book,
         health,
+        learnt,
         schedules_distrusted: found.distrusted,
         zone: system_zone(),
         floors,

@@ -8,6 +8,7 @@
 use super::Advance;
 use super::particles::GyroBelief;
 use super::rest::Rested;
+use crate::learnt::GyroLearnt;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
@@ -20,8 +21,10 @@ const WALK_RAD_PER_SQRT_S: f64 = 5.0e-4;
 const SWING_RAD: f64 = 8.0e-4;
 /// A rest that differs by more deviations than this counts the less the more it does: the bias of a gyro wanders slowly.
 const REST_GATE: f64 = 4.0;
-/// Deviation of a scale that was learnt before: the gyro was perhaps colder then.
+/// By how much a scale that was learnt before may have changed: the gyro was perhaps colder then.
 const RESUMED_SIGMA: f64 = 0.002;
+/// A scale that is known no better than this is not worth keeping.
+const LEARNT_SIGMA: f64 = 0.004;
 /// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
 pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
 /// A window that differs by more deviations than this is not believed.
@@ -95,16 +98,30 @@ impl Default for Calibration {
 
 impl Calibration {
     /// Goes on with a scale and a bias that were learnt before; the bias may have wandered since.
-    pub(super) fn resumed(scale: f64, bias_rad_per_s: f64) -> Self {
+    pub(super) fn resumed(learnt: GyroLearnt) -> Self {
+        let GyroLearnt {
+            scale, scale_sigma, ..
+        } = learnt;
         let mut resumed = Self::default();
-        if scale.abs() <= SCALE_MAX {
+        if scale.abs() <= SCALE_MAX && scale_sigma >= 0.0 {
             resumed.scale = scale;
-            resumed.covariance[0] = RESUMED_SIGMA * RESUMED_SIGMA;
+            let variance = scale_sigma * scale_sigma + RESUMED_SIGMA * RESUMED_SIGMA;
+            resumed.covariance[0] = variance.min(SCALE_SIGMA * SCALE_SIGMA);
         }
-        if bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S {
-            resumed.bias_rad_per_s = bias_rad_per_s;
+        if learnt.bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S {
+            resumed.bias_rad_per_s = learnt.bias_rad_per_s;
         }
         resumed
+    }
+
+    /// What is worth keeping; `None` while little is known.
+    pub(super) fn learnt(&self) -> Option<GyroLearnt> {
+        let scale_sigma = self.scale_sigma();
+        (scale_sigma <= LEARNT_SIGMA).then_some(GyroLearnt {
+            scale: self.scale,
+            scale_sigma,
+            bias_rad_per_s: self.bias_rad_per_s,
+        })
     }
 
     /// All that is believed of the gyro.
@@ -259,7 +276,8 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasTold, Calibration, Gain, Rested};
+    use super::{BiasTold, Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
+    use crate::learnt::GyroLearnt;
 
     fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
         BiasTold {
@@ -319,6 +337,30 @@ mod tests {
         rests(&mut calibration, 20, 0.001);
         let (_, denied) = calibration.found();
         assert!((denied - 0.001).abs() < 2e-4, "{denied}");
+    }
+
+    #[test]
+    fn what_was_learnt_is_the_beginning_and_a_little_less_sure() {
+        let fresh = Calibration::default();
+        assert_eq!(fresh.learnt(), None, "nothing is known");
+        let mut before = fresh;
+        before.know_scale(0.012, 0.0005);
+        before.move_by(0.0, 0.001);
+        let learnt = before.learnt().expect("it is well known");
+        let after = Calibration::resumed(learnt);
+        assert_eq!(after.found(), before.found());
+        assert!(after.scale_sigma() > before.scale_sigma());
+        assert!((RESUMED_SIGMA..LEARNT_SIGMA).contains(&after.scale_sigma()));
+        for scale_sigma in [0.5, f64::NAN] {
+            let vague = Calibration::resumed(GyroLearnt {
+                scale_sigma,
+                ..learnt
+            });
+            assert!(
+                (vague.scale_sigma() - SCALE_SIGMA).abs() < 1e-9,
+                "never less sure than at first"
+            );
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod floors;
 mod known_floors;
 #[cfg(test)]
 mod known_home;
+mod learnt;
 mod odometry;
 mod particles;
 mod rest;

@@ -3,6 +3,7 @@
 use super::calibration::{BiasTold, Calibration};
 use super::rest::RestWatch;
 use crate::geometry::Pose2;
+use crate::learnt::GyroLearnt;
 use crate::observation::Observation;
 
 /// What the robot moved between two observations, by its own account.
@@ -77,7 +78,11 @@ impl Odometry {
 
     /// Takes up what [`Self::gyro`] said before a restart.
     pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
-        self.calibration = Calibration::resumed(scale, bias_rad_per_s);
+        self.calibration = Calibration::resumed(GyroLearnt {
+            scale,
+            scale_sigma: 0.0,
+            bias_rad_per_s,
+        });
     }
 
     /// What a rest has told that the last observation ended.

@@ -9,6 +9,7 @@ use rvac_api::{
     ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status,
 };
 use vthal_core::health::StoredHealth;
+use vthal_core::learnt::StoredLearnings;
 use vthal_core::schedule::{Book, StoredBook};
 use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, Outputs};
 
@@ -33,6 +34,7 @@ pub struct Host {
     wall: Option<HostWall>,
     schedules: Option<StoredBook>,
     health: Option<StoredHealth>,
+    learnt: Option<StoredLearnings>,
     /// Runs that are over.
     runs: Vec<RunRecord>,
     floors: HostFloors,
@@ -59,6 +61,7 @@ impl Host {
             wall: None,
             schedules: None,
             health: None,
+            learnt: None,
             runs: Vec::new(),
             disk_is_mute: false,
         };
@@ -122,6 +125,12 @@ impl Host {
         self.health.clone()
     }
 
+    /// What its robot has learnt of itself, which a daemon after this one finds on its disk.
+    #[must_use]
+    pub fn kept_learnt(&self) -> Option<StoredLearnings> {
+        self.learnt.clone()
+    }
+
     /// How the parts are, as clients are told.
     #[must_use]
     pub fn health(&self) -> Vec<ComponentHealth> {
@@ -182,6 +191,9 @@ impl Host {
         let schedules = self.outputs.schedules.take();
         let health = self.outputs.health.take();
         let run = self.outputs.run.take();
+        if let Some(learnt) = self.outputs.learnt.take() {
+            self.learnt = Some(learnt);
+        }
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
         if let Some(kept) = self.outputs.home.take() {
             self.floors.keep(kept);

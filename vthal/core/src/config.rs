@@ -6,6 +6,7 @@ use brain::command::StrategyName;
 use crate::Checkpoint;
 use crate::floors::KeptFloor;
 use crate::health::Health;
+use crate::learnt::Learnings;
 use crate::schedule::{Book, Zone};
 
 /// Settings of the core, fixed for its life.
@@ -38,6 +39,8 @@ pub struct CoreConfig {
     pub schedules_distrusted: bool,
     /// The loads of motors as they were kept.
     pub health: Health,
+    /// What robots have learnt of themselves, as it was kept.
+    pub learnt: Learnings,
     /// The time zone of the system.
     pub zone: Zone,
     /// What was wrong with what was kept, one sentence each: the first lines of the log that clients see.
@@ -62,6 +65,7 @@ impl Default for CoreConfig {
             schedules: Book::default(),
             schedules_distrusted: false,
             health: Health::default(),
+            learnt: Learnings::default(),
             zone: Zone::utc(),
             complaints: Vec::new(),
             next_run: 1,

@@ -8,6 +8,7 @@ mod firmware;
 mod floors;
 mod health;
 mod history;
+mod learnt;
 mod link_facts;
 mod manual;
 mod orders;
@@ -307,6 +308,7 @@ impl Core {
             outputs.home = mind.home_to_keep();
             mind.end_run(now_us, RunEnd::Shutdown, &mut recorder(recording, outputs));
         }
+        self.keep_learnt(outputs);
     }
 
     fn pass_time(&mut self, now_us: u64, outputs: &mut Outputs) {

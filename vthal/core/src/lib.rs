@@ -27,6 +27,7 @@ mod history;
 mod home_view;
 mod input;
 mod journal;
+pub mod learnt;
 mod mind;
 mod newest;
 pub mod observe;

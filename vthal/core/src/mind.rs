@@ -73,8 +73,10 @@ impl Mind {
     pub(crate) fn new(description: &Description, settings: &CoreConfig, floors: &Floors) -> Self {
         let config = brain_config(description, settings);
         let seed = settings.seed;
+        let mut brain = Brain::new(config, seed);
+        brain.begin_with(settings.learnt.of(&description.identity.device));
         Self {
-            brain: Brain::new(config, seed),
+            brain,
             config,
             seed,
             observer: Observer::new(),
@@ -104,9 +106,11 @@ impl Mind {
         self.begin_with(Brain::with_map(self.config, self.seed, home));
     }
 
-    /// Another brain, without a run.
+    /// Another brain, without a run, that knows what the robot has learnt of itself.
     fn begin_with(&mut self, brain: Brain) {
+        let learnt = self.brain.learnt();
         self.brain = brain;
+        self.brain.begin_with(learnt);
         self.prepare_anew();
     }
 
@@ -248,10 +252,6 @@ impl Mind {
         self.begin_run(now_us, (cause, checkpoint, Some(ready)), recorder);
     }
 
-    /// Takes up what a daemon before this one was doing, on this floor.
-    pub(crate) fn resume(
-        &mut self,
-        now_us: u64,
     /// On a floor that is not known the map is one of nowhere.
     fn checkpoint_for_next_run(&self) -> Checkpoint {
         match self.floor {
@@ -260,10 +260,15 @@ impl Mind {
         }
     }
 
+    /// Takes up what a daemon before this one was doing, on this floor.
+    pub(crate) fn resume(
+        &mut self,
+        now_us: u64,
         (checkpoint, floor): (Checkpoint, Option<u16>),
         recorder: &mut Recorder<'_>,
     ) {
         self.floor = floor;
+        let checkpoint = checkpoint.after(self.brain.learnt());
         self.begin_run(
             now_us,
             (RunCause::ResumedAfterRestart, checkpoint, None),

@@ -6,6 +6,7 @@ use rvac_api::{DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status,
 use crate::Checkpoint;
 use crate::ClientId;
 use crate::health::StoredHealth;
+use crate::learnt::StoredLearnings;
 use crate::schedule::StoredBook;
 
 /// Collected results of [`crate::Core::handle`]. The shell empties it after each call; keeping the value keeps its buffers.
@@ -37,6 +38,8 @@ pub struct Outputs {
     pub schedules: Option<ScheduleOrder>,
     /// Loads of motors for the disk.
     pub health: Option<HealthOrder>,
+    /// What robots have learnt of themselves, for the disk; replaces what was kept before.
+    pub learnt: Option<StoredLearnings>,
     /// A run that is over, for the disk. The shell says with [`crate::Input::RunKept`] what came of it; until then no further
     /// one comes.
     pub run: Option<Box<RunRecord>>,
@@ -244,6 +247,7 @@ impl Outputs {
         self.map_edits.clear();
         self.schedules = None;
         self.health = None;
+        self.learnt = None;
         self.run = None;
         self.run_queries.clear();
     }

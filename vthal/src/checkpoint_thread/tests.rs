@@ -25,6 +25,7 @@ fn paths(name: &str) -> KeptPaths {
         mixes: MixFolder::new(folder.join("mixes")),
         schedules: folder.join("schedules.json"),
         health: folder.join("health.json"),
+        learnt: folder.join("learnt.json"),
         runs: RunFolder::new(folder.join("history"), folder.join("runs")),
     }
 }

@@ -95,11 +95,13 @@ impl Core {
         let device = &description.identity.device;
         if self.mind.as_ref().is_none_or(|mind| mind.device() != device) {
             let recording = self.config.recording;
+            self.keep_learnt(outputs);
             if let Some(mut old) = self.mind.take() {
                 let over = self.runs.change_robot(now_us, old.brain());
                 old.end_run(now_us, RunEnd::OtherRobot, &mut recorder(recording, outputs));
                 self.keep_run(over, outputs);
             }
+            self.tell_learnt(now_us, device, outputs);
             let mut mind = Mind::new(description, &self.config, &self.floors);
             let mut resumed = None;
             match self.config.resume.take() {

@@ -52,6 +52,7 @@ impl Core {
         let actions = mind.step(&mut recorder(recording, outputs));
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();
+            self.keep_learnt(outputs);
         }
         self.follow_run(now_us, &actions.decisions, outputs);
         self.note_kept_home(outputs);

@@ -158,6 +158,7 @@ impl Mind {
             backed_m: present.backed_m,
             job: present.job,
             energy: present.energy,
+            gyro: present.gyro,
             ..Checkpoint::default()
         }
     }

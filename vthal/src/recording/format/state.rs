@@ -3,7 +3,7 @@
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
 use brain::{
-    Checkpoint, CleaningOrder, EnergyModel, JobCheckpoint, JobFigures, JobKind, StrategyName,
+    Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, StrategyName,
     TrackingCheckpoint,
 };
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,9 @@ pub struct BrainState {
     /// Beams until the place counts as confirmed; absent = none.
     #[serde(default, skip_serializing_if = "is_zero")]
     unconfirmed_beams: u32,
+    /// Scale of the gyro, its deviation, and bias, as learnt; absent = nothing worth keeping, or in states of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    gyro: Option<[f64; 3]>,
     /// Shares of the charge that a second of cleaning and of driving takes, and the seconds from which that was learnt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<[f64; 3]>,
@@ -101,6 +104,9 @@ impl From<&Checkpoint> for BrainState {
             unconfirmed_beams: checkpoint
                 .tracking
                 .map_or(0, |tracking| tracking.unconfirmed_beams),
+            gyro: checkpoint
+                .gyro
+                .map(|gyro| [gyro.scale, gyro.scale_sigma, gyro.bias_rad_per_s]),
             energy: Some(checkpoint.energy)
                 .filter(|energy| energy.seen_s > 0.0)
                 .map(|energy| [energy.cleaning_per_s, energy.driving_per_s, energy.seen_s]),
@@ -155,6 +161,14 @@ impl BrainState {
                     gyro_bias_rad_per_s: bias,
                     unconfirmed_beams: self.unconfirmed_beams,
                 }),
+            gyro: self.gyro.and_then(|[scale, scale_sigma, bias_rad_per_s]| {
+                GyroLearnt {
+                    scale,
+                    scale_sigma,
+                    bias_rad_per_s,
+                }
+                .checked()
+            }),
             energy: self.energy.map_or_else(
                 EnergyModel::default,
                 |[cleaning_per_s, driving_per_s, seen_s]| {

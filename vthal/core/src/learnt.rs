@@ -1,0 +1,256 @@
+//! What each robot has learnt of itself, as it outlives the daemon: JSON of the file `learnt.json`.
+
+use brain::{EnergyModel, GyroLearnt, Learnt};
+use serde::{Deserialize, Serialize};
+
+const VERSION: u32 = 1;
+/// Robots of which something is kept: a board is moved from one to another now and then.
+const DEVICES_MAX: usize = 8;
+
+/// What robots have learnt, by their names, the newest last.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Learnings {
+    devices: Vec<(String, Learnt)>,
+}
+
+impl Learnings {
+    /// What this robot has learnt.
+    #[must_use]
+    pub fn of(&self, device: &str) -> Learnt {
+        let known = self.devices.iter().find(|(name, _)| name == device);
+        known.map(|(_, learnt)| *learnt).unwrap_or_default()
+    }
+
+    /// This robot knows this now. `true` when that is something new.
+    pub fn take(&mut self, device: &str, learnt: Learnt) -> bool {
+        if self.of(device) == learnt {
+            return false;
+        }
+        self.devices.retain(|(name, _)| name != device);
+        if self.devices.len() >= DEVICES_MAX {
+            self.devices.remove(0);
+        }
+        self.devices.push((device.to_owned(), learnt));
+        true
+    }
+}
+
+/// For people; `None` when nothing was learnt.
+pub(crate) fn told(learnt: &Learnt) -> Option<String> {
+    let gyro = learnt.gyro.map(|gyro| {
+        format!(
+            "the gyro counts {:+.2} % too little (sure to {:.2} %)",
+            100.0 * gyro.scale,
+            100.0 * gyro.scale_sigma
+        )
+    });
+    let energy = (learnt.energy.seen_s > 0.0).then(|| {
+        format!(
+            "an hour of cleaning takes {:.0} % of the charge, one of driving {:.0} %",
+            360_000.0 * learnt.energy.cleaning_per_s,
+            360_000.0 * learnt.energy.driving_per_s
+        )
+    });
+    let parts: Vec<String> = gyro.into_iter().chain(energy).collect();
+    (!parts.is_empty()).then(|| format!("begins with what was learnt before: {}", parts.join("; ")))
+}
+
+/// Version and robots.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StoredLearnings {
+    version: u32,
+    devices: Vec<StoredDevice>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct StoredDevice {
+    device: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    gyro: Option<StoredGyro>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    energy: Option<StoredEnergy>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct StoredGyro {
+    scale: f64,
+    scale_sigma: f64,
+    bias_rad_per_s: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct StoredEnergy {
+    cleaning_per_s: f64,
+    driving_per_s: f64,
+    seen_s: f64,
+}
+
+/// Why what was kept cannot be taken.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LearntError {
+    /// Of another daemon.
+    #[error("it has version {0}, and this daemon reads version {VERSION}")]
+    Version(u32),
+    /// More than this daemon keeps.
+    #[error("it names {0} robots, and at most {DEVICES_MAX} are kept")]
+    Devices(usize),
+    /// No gyro is so wrong.
+    #[error("what it says of the gyro of {0} cannot be")]
+    Gyro(String),
+    /// No pack empties at such a rate.
+    #[error("what it says of the pack of {0} cannot be")]
+    Energy(String),
+}
+
+impl From<&Learnings> for StoredLearnings {
+    fn from(learnings: &Learnings) -> Self {
+        let devices = learnings.devices.iter().map(|(device, learnt)| StoredDevice {
+            device: device.clone(),
+            gyro: learnt.gyro.map(|gyro| StoredGyro {
+                scale: gyro.scale,
+                scale_sigma: gyro.scale_sigma,
+                bias_rad_per_s: gyro.bias_rad_per_s,
+            }),
+            energy: Some(learnt.energy)
+                .filter(|energy| energy.seen_s > 0.0)
+                .map(|energy| StoredEnergy {
+                    cleaning_per_s: energy.cleaning_per_s,
+                    driving_per_s: energy.driving_per_s,
+                    seen_s: energy.seen_s,
+                }),
+        });
+        Self {
+            version: VERSION,
+            devices: devices.collect(),
+        }
+    }
+}
+
+impl TryFrom<StoredLearnings> for Learnings {
+    type Error = LearntError;
+
+    fn try_from(stored: StoredLearnings) -> Result<Self, LearntError> {
+        if stored.version != VERSION {
+            return Err(LearntError::Version(stored.version));
+        }
+        if stored.devices.len() > DEVICES_MAX {
+            return Err(LearntError::Devices(stored.devices.len()));
+        }
+        let mut learnings = Self::default();
+        for stored in stored.devices {
+            let learnt = Learnt {
+                gyro: stored.gyro()?,
+                energy: stored.energy()?,
+            };
+            learnings.take(&stored.device, learnt);
+        }
+        Ok(learnings)
+    }
+}
+
+impl StoredDevice {
+    fn gyro(&self) -> Result<Option<GyroLearnt>, LearntError> {
+        let Some(gyro) = self.gyro else { return Ok(None) };
+        let learnt = GyroLearnt {
+            scale: gyro.scale,
+            scale_sigma: gyro.scale_sigma,
+            bias_rad_per_s: gyro.bias_rad_per_s,
+        };
+        let checked = learnt.checked();
+        checked
+            .map(Some)
+            .ok_or_else(|| LearntError::Gyro(self.device.clone()))
+    }
+
+    fn energy(&self) -> Result<EnergyModel, LearntError> {
+        let Some(energy) = self.energy else {
+            return Ok(EnergyModel::default());
+        };
+        let model = EnergyModel {
+            cleaning_per_s: energy.cleaning_per_s,
+            driving_per_s: energy.driving_per_s,
+            seen_s: energy.seen_s,
+        };
+        if model.checked() == model {
+            Ok(model)
+        } else {
+            Err(LearntError::Energy(self.device.clone()))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DEVICES_MAX, Learnings, LearntError, StoredLearnings, told};
+    use brain::{EnergyModel, GyroLearnt, Learnt};
+
+    fn learnt(scale: f64) -> Learnt {
+        Learnt {
+            gyro: Some(GyroLearnt {
+                scale,
+                scale_sigma: 0.001,
+                bias_rad_per_s: -0.002,
+            }),
+            energy: EnergyModel {
+                seen_s: 1_200.0,
+                ..EnergyModel::default()
+            },
+        }
+    }
+
+    #[test]
+    fn each_robot_has_its_own_and_only_news_are_news() {
+        let mut learnings = Learnings::default();
+        assert_eq!(learnings.of("sr8730"), Learnt::default());
+        assert!(learnings.take("sr8730", learnt(0.01)));
+        assert!(!learnings.take("sr8730", learnt(0.01)));
+        assert!(learnings.take("relax", learnt(-0.02)));
+        assert_eq!(learnings.of("sr8730"), learnt(0.01));
+        assert!(!learnings.take("other", Learnt::default()), "nothing was learnt");
+        let stored = StoredLearnings::from(&learnings);
+        assert_eq!(Learnings::try_from(stored), Ok(learnings));
+    }
+
+    #[test]
+    fn the_robots_that_were_seen_longest_ago_are_forgotten() {
+        let mut learnings = Learnings::default();
+        for number in 0..=DEVICES_MAX {
+            learnings.take(&number.to_string(), learnt(0.01));
+        }
+        assert_eq!(learnings.of("0"), Learnt::default());
+        assert_eq!(learnings.of("1"), learnt(0.01));
+        assert!(Learnings::try_from(StoredLearnings::from(&learnings)).is_ok());
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let mut learnings = Learnings::default();
+        learnings.take("a", learnt(0.01));
+        let stored = StoredLearnings::from(&learnings);
+        let mut wrong = stored.clone();
+        wrong.version = 2;
+        assert_eq!(Learnings::try_from(wrong), Err(LearntError::Version(2)));
+        let mut wrong = stored.clone();
+        wrong.devices[0].gyro.as_mut().expect("is kept").scale = 0.5;
+        assert_eq!(Learnings::try_from(wrong), Err(LearntError::Gyro("a".to_owned())));
+        let mut wrong = stored.clone();
+        wrong.devices[0].energy.as_mut().expect("is kept").driving_per_s = -1.0;
+        assert_eq!(
+            Learnings::try_from(wrong),
+            Err(LearntError::Energy("a".to_owned()))
+        );
+        let mut wrong = stored;
+        wrong.devices = vec![wrong.devices[0].clone(); DEVICES_MAX + 1];
+        assert_eq!(
+            Learnings::try_from(wrong),
+            Err(LearntError::Devices(DEVICES_MAX + 1))
+        );
+    }
+
+    #[test]
+    fn people_are_told_what_it_begins_with() {
+        assert_eq!(told(&Learnt::default()), None);
+        let text = told(&learnt(0.012)).expect("something was learnt");
+        assert!(text.contains("+1.20 %") && text.contains("100 %"), "{text}");
+    }
+}
