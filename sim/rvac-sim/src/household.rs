@@ -179,6 +179,12 @@ impl Household {
         self.figures.job_is_over()
     }
 
+    /// Seconds since the job began, whether it is over or not; 0 before.
+    #[must_use]
+    pub fn job_s(&self) -> f64 {
+        self.figures.job_s(self.robot.now_ms())
+    }
+
     /// 95 % of the reachable floor were swept during the job.
     #[must_use]
     pub fn reached_all_shares(&self) -> bool {

@@ -27,7 +27,7 @@ mod sensors;
 pub mod serve;
 pub mod trace;
 
-pub use figures::{Figures, TimeSpent};
+pub use figures::{Figures, LostStretch, TimeSpent};
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use host_cost::HostCost;

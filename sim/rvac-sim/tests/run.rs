@@ -59,6 +59,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "heading_rmse_deg",
         "lost_seconds",
         "lost_times",
+        "lost_stretches",
         "lost_unnoticed_s",
         "lost_unnoticed_aligned_s",
         "lost_false_alarm_s",

@@ -1,17 +1,29 @@
 //! Whether the robot is lost: its believed place is wrong by more than it can work with, for longer than a moment.
 
+use serde::Serialize;
+
 /// Wrong by more than this, metres.
 const LOST_M: f64 = 0.5;
 /// For longer than this, milliseconds.
 const LOST_MS: u64 = 60_000;
 
+/// A stretch of being lost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LostStretch {
+    /// Simulated second at which it began.
+    pub begun_s: f64,
+    /// How long it lasted.
+    pub length_s: f64,
+    /// Whether the robot knew its place again before the run was over.
+    pub found_again: bool,
+}
+
 /// Measures stretches of being lost.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct LostWatch {
     since_ms: Option<u64>,
     now_ms: u64,
-    finished_ms: u64,
-    finished_times: u32,
+    finished: Vec<LostStretch>,
 }
 
 impl LostWatch {
@@ -20,24 +32,29 @@ impl LostWatch {
         if error_m > LOST_M {
             self.since_ms.get_or_insert(now_ms);
         } else {
-            self.finished_ms += self.present_ms();
-            self.finished_times += u32::from(self.present_ms() > 0);
+            let finished = self.present().map(|stretch| LostStretch {
+                found_again: true,
+                ..stretch
+            });
+            self.finished.extend(finished);
             self.since_ms = None;
         }
     }
 
     /// The stretch that still lasts, if it is long enough.
-    fn present_ms(&self) -> u64 {
-        let lasts_ms = self.since_ms.map_or(0, |since_ms| self.now_ms - since_ms);
-        if lasts_ms > LOST_MS { lasts_ms } else { 0 }
+    fn present(&self) -> Option<LostStretch> {
+        let since_ms = self.since_ms?;
+        let lasts_ms = self.now_ms - since_ms;
+        (lasts_ms > LOST_MS).then(|| LostStretch {
+            begun_s: since_ms as f64 / 1000.0,
+            length_s: lasts_ms as f64 / 1000.0,
+            found_again: false,
+        })
     }
 
-    pub(super) fn seconds(&self) -> f64 {
-        (self.finished_ms + self.present_ms()) as f64 / 1000.0
-    }
-
-    pub(super) fn times(&self) -> u32 {
-        self.finished_times + u32::from(self.present_ms() > 0)
+    /// All that were long enough, in the order of time.
+    pub(super) fn stretches(&self) -> Vec<LostStretch> {
+        self.finished.iter().copied().chain(self.present()).collect()
     }
 }
 
@@ -52,6 +69,11 @@ mod tests {
             let wrong = (10..50).contains(&second) || (100..200).contains(&second) || second >= 300;
             lost.sample(second * 1000, if wrong { 0.6 } else { 0.1 });
         }
-        assert_eq!((lost.seconds(), lost.times()), (100.0 + 99.0, 2));
+        let stretches = lost
+            .stretches()
+            .iter()
+            .map(|stretch| (stretch.begun_s, stretch.length_s, stretch.found_again))
+            .collect::<Vec<_>>();
+        assert_eq!(stretches, [(100.0, 100.0, true), (300.0, 99.0, false)]);
     }
 }

@@ -16,6 +16,7 @@ use serde::Serialize;
 
 use alignment::Alignment;
 use honesty::HonestyWatch;
+pub use lost::LostStretch;
 use lost::LostWatch;
 use pose_error::PoseError;
 pub use time_spent::TimeSpent;
@@ -73,6 +74,8 @@ pub struct Figures {
     pub lost_seconds: f64,
     /// How often that happened.
     pub lost_times: u32,
+    /// Each of these stretches.
+    pub lost_stretches: Vec<LostStretch>,
     /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
     pub lost_unnoticed_s: f64,
     /// The same when the believed way is laid over the true one as a whole.
@@ -212,7 +215,8 @@ impl Collector {
         self.honesty.sample(now_ms, error_m, belief.lost);
     }
 
-    fn job_s(&self, now_ms: u64) -> f64 {
+    /// Seconds since the job began.
+    pub(crate) fn job_s(&self, now_ms: u64) -> f64 {
         let begun_ms = self.job.begun_ms.unwrap_or(now_ms);
         (now_ms - begun_ms) as f64 / 1000.0
     }
@@ -243,6 +247,7 @@ impl Collector {
         let per_m2 = |value: f64| value / self.floor.reachable_m2;
         let [at_10, at_30, at_60, at_120] = self.pose_error.at_marks();
         let left_over = self.alignment.left_over();
+        let lost_stretches = self.lost.stretches();
         Figures {
             t80_over_t0: t80,
             t90_over_t0: t90,
@@ -262,8 +267,11 @@ impl Collector {
             pose_error_max_m: self.pose_error.max_m(),
             pose_error_max_aligned_m: left_over.max_m,
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
-            lost_seconds: self.lost.seconds(),
-            lost_times: self.lost.times(),
+            lost_seconds: lost_stretches
+                .iter()
+                .fold(0.0, |sum_s, stretch| sum_s + stretch.length_s),
+            lost_times: lost_stretches.len() as u32,
+            lost_stretches,
             lost_unnoticed_s: self.honesty.unnoticed_s(),
             lost_unnoticed_aligned_s: left_over.unnoticed_s,
             lost_false_alarm_s: self.honesty.false_alarm_s(),
