@@ -69,11 +69,17 @@ pub fn household(scene: &Scene, settings: &RunSettings) -> Household {
             ..RobotSettings::default()
         },
     );
-    let config = CoreConfig {
-        sensors: scene.sensors(),
-        ..Host::config(settings.seed, settings.strategy)
-    };
+    let config = core_config(scene, settings.seed, settings.strategy);
     Household::new(robot, Host::start(0, config))
+}
+
+/// What the host of a scene's robot begins with: where the robot's sensors sit is told by no packet.
+#[must_use]
+pub fn core_config(scene: &Scene, seed: u64, strategy: StrategyName) -> CoreConfig {
+    CoreConfig {
+        sensors: scene.sensors(),
+        ..Host::config(seed, strategy)
+    }
 }
 
 /// Lets the household connect and asks it to clean. Gives `false` when the robot did not answer in time.

@@ -5,10 +5,9 @@ use std::fmt;
 use brain::command::StrategyName;
 use brain::{BehaviorState, JobKind};
 use robot::RobotSettings;
-use rvac_sim::run::start_cleaning;
+use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use serde::Serialize;
-use vthal_core::CoreConfig;
 
 /// What came of one job.
 #[derive(Clone, Debug, Serialize)]
@@ -53,10 +52,7 @@ impl Job {
             ..RobotSettings::default()
         };
         let robot = scene.robot(seed, &settings);
-        let config = CoreConfig {
-            sensors: scene.sensors(),
-            ..Host::config(seed, StrategyName::Systematic)
-        };
+        let config = core_config(scene, seed, StrategyName::Systematic);
         let mut household = Household::new(robot, Host::start(0, config)).with_known_map();
         let half_s = 0.5 * JOB_OVER_T0 * scene.home().t0_s();
         let world = household.robot_mut().world_mut();
@@ -110,10 +106,7 @@ fn again_without_break(scene: &Scene, seed: u64, from_share: f64) -> f64 {
         seed,
         ..RobotSettings::default()
     };
-    let config = CoreConfig {
-        sensors: scene.sensors(),
-        ..Host::config(seed, StrategyName::Systematic)
-    };
+    let config = core_config(scene, seed, StrategyName::Systematic);
     let robot = scene.robot(seed, &settings);
     let mut household = Household::new(robot, Host::start(0, config)).with_known_map();
     household.robot_mut().world_mut().begin_stretch();

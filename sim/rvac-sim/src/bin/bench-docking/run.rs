@@ -7,10 +7,9 @@ use brain::command::StrategyName;
 use home::{DockBeams, Pcg, wrap_angle};
 use robot::RobotSettings;
 use rvac_api::{LogEntry, RequestBody};
-use rvac_sim::run::start_cleaning;
+use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use serde::Serialize;
-use vthal_core::CoreConfig;
 
 use crate::place;
 
@@ -108,10 +107,7 @@ impl Run {
         };
         let start = (situation != Situation::Lifted).then_some(there);
         let robot = scene.robot_at(start, seed, &settings);
-        let config = CoreConfig {
-            sensors: scene.sensors(),
-            ..Host::config(seed, StrategyName::Systematic)
-        };
+        let config = core_config(scene, seed, StrategyName::Systematic);
         let mut host = Host::start(0, config);
         host.keep_log();
         let mut household = Household::new(robot, host);

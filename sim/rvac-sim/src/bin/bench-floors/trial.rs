@@ -5,7 +5,7 @@ use brain::StoredMap;
 use brain::command::StrategyName;
 use home::{Pcg, Pose};
 use robot::RobotSettings;
-use rvac_sim::run::{RunEnd, RunSettings, household, run_until, start_cleaning};
+use rvac_sim::run::{RunEnd, RunSettings, core_config, household, run_until, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use serde::Serialize;
 use vthal_core::{CoreConfig, KeptFloor};
@@ -156,9 +156,8 @@ fn put_down(floor: &Floor, seed: u64, floors: Vec<KeptFloor>) -> Household {
     };
     let robot = scene.robot_at(Some(start), settings.seed, &settings);
     let config = CoreConfig {
-        sensors: scene.sensors(),
         floors,
-        ..Host::config(settings.seed, StrategyName::Systematic)
+        ..core_config(scene, settings.seed, StrategyName::Systematic)
     };
     Household::new(robot, Host::start(0, config))
 }
