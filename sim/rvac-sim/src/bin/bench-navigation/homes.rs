@@ -6,8 +6,9 @@ use std::sync::Arc;
 use anyhow::Context;
 use home::generate::{GeneratedHome, PUBLISHED};
 use home::traps::Trap;
-use home::{Home, Noise, RobotModel};
-use rvac_sim::Scene;
+use home::{Home, RobotModel};
+
+use crate::ground::{Ground, Setup};
 
 /// Where a home comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,22 +62,24 @@ impl Place {
         Ok(homes.map(Self::Generated).collect())
     }
 
-    /// The home as it was on its first day, empty; the present one where there is no other day.
-    pub(crate) fn first_day(&self, model: &RobotModel) -> anyhow::Result<Home> {
-        Ok(match self {
-            Self::File(path) => Home::load(Path::new(path), model)?,
-            Self::Generated(home) => GeneratedHome::number(home.number).home(model)?,
-            Self::Trap(trap) => trap.home(model)?,
-        })
+    /// The home, and how it was on its first day, empty, where there is another day.
+    pub(crate) fn ground(&self, setup: &Setup) -> anyhow::Result<Ground> {
+        let home = Arc::new(self.home(&setup.model)?);
+        let first_day = match self {
+            Self::Generated(today) if *today != GeneratedHome::number(today.number) => {
+                Arc::new(GeneratedHome::number(today.number).home(&setup.model)?)
+            }
+            Self::Generated(_) | Self::File(_) | Self::Trap(_) => Arc::clone(&home),
+        };
+        Ok(Ground::new(home, first_day, setup))
     }
 
-    pub(crate) fn scene(&self, model: &RobotModel, noise: Noise) -> anyhow::Result<Scene> {
-        let home = match self {
+    fn home(&self, model: &RobotModel) -> anyhow::Result<Home> {
+        Ok(match self {
             Self::File(path) => Home::load(Path::new(path), model)?,
             Self::Generated(home) => home.home(model)?,
             Self::Trap(trap) => trap.home(model)?,
-        };
-        Ok(Scene::new(Arc::new(home), model.clone(), noise))
+        })
     }
 }
 

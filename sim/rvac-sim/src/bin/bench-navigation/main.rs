@@ -2,7 +2,12 @@
 //! `cargo xtask bench navigation` builds and runs it.
 #![forbid(unsafe_code)]
 
+mod crew;
+mod ground;
 mod homes;
+mod lost;
+mod memory;
+mod mode;
 #[path = "../../progress.rs"]
 mod progress;
 mod run;
@@ -10,15 +15,18 @@ mod table;
 mod traps;
 
 use std::io::{self, Write};
+use std::thread;
 
 use anyhow::Context;
 use clap::Parser;
 use home::traps::{Trap, TrapKind};
 use home::{Noise, RobotModel};
 
+use crew::{SharedProgress, in_order};
+use ground::{BoardGyro, Ground, Setup};
 use homes::Place;
-use progress::Progress;
-use run::{Mode, Run};
+use mode::Mode;
+use run::{Length, Run, rounds};
 use table::Table;
 use traps::{TrapRun, TrapTable};
 
@@ -33,7 +41,7 @@ struct Arguments {
     )]
     homes: String,
     /// Measure in drawn traps of every kind instead of homes: whether the robot comes free, and whether it ends. Takes --seeds,
-    /// --noise, --modes.
+    /// --noise, --modes, --robot, --board-gyro and --threads.
     #[arg(long)]
     traps: bool,
     /// Seeds of each home: 1 to this.
@@ -44,89 +52,158 @@ struct Arguments {
     noise: String,
     /// What is compared, separated by commas: `bounce`, `known-map` (systematic with a perfect map),
     /// `old-map` (the same with the map of the first day of a home like generated:7/2+people), `first-run` (systematic
-    /// without), `perfect-pose` (with perfect map and pose: what the planner can do).
+    /// without), `learnt-map` (a first run, a second and a third, each with the map that the one before saved),
+    /// `perfect-pose` (with perfect map and pose: what the planner can do).
     #[arg(long, default_value = "bounce,known-map,first-run")]
     modes: String,
+    /// Robot by name.
+    #[arg(long, default_value = "sr8730")]
+    robot: String,
+    /// A gyro on the Linux board, for a robot whose own board has none.
+    #[arg(long)]
+    board_gyro: bool,
     /// Most T0 that a run may take.
     #[arg(long, default_value_t = 10.0)]
     longest: f64,
+    /// Let each run last so many minutes of work instead: as soon as a job is over, the robot is asked for the next where it
+    /// is. Figures of covering are those of the first job then.
+    #[arg(long, value_name = "MINUTES", conflicts_with = "longest")]
+    work_minutes: Option<f64>,
+    /// Runs at a time; as many as there are cores, if it is not said.
+    #[arg(long)]
+    threads: Option<usize>,
     /// Print one JSON object, with the figures of each run.
     #[arg(long)]
     json: bool,
 }
 
-fn main() -> anyhow::Result<()> {
-    let arguments = Arguments::parse();
-    let model = RobotModel::by_name("sr8730")?;
-    let noise = Noise::by_name(&arguments.noise)
-        .with_context(|| format!("there is no noise class `{}`", arguments.noise))?;
-    let modes = Mode::list(&arguments.modes)?;
-    if arguments.traps {
-        return measure_traps(&arguments, (&model, noise), &modes);
+impl Arguments {
+    fn setup(&self) -> anyhow::Result<Setup> {
+        Ok(Setup {
+            model: RobotModel::by_name(&self.robot)?,
+            noise: Noise::by_name(&self.noise)
+                .with_context(|| format!("there is no noise class `{}`", self.noise))?,
+            board_gyro: if self.board_gyro {
+                BoardGyro::Fitted
+            } else {
+                BoardGyro::Absent
+            },
+        })
     }
-    let places = Place::list(&arguments.homes)?;
-    let count = places.len() as f64 * modes.len() as f64 * arguments.seeds as f64;
-    let progress = Progress::new("navigation");
-    let mut runs = Vec::new();
-    for place in &places {
-        let scene = place.scene(&model, noise)?;
-        let first_day = place.first_day(&model)?;
-        for mode in &modes {
-            for seed in 1..=arguments.seeds {
-                let done = runs.len() as f64;
-                let run = Run::of((&scene, &first_day), (*mode, seed), arguments.longest, |share| {
-                    progress.show((done + share) / count);
-                });
-                runs.push(run);
-            }
+
+    const fn length(&self) -> Length {
+        match self.work_minutes {
+            Some(minutes) => Length::Work { minutes },
+            None => Length::OneJob {
+                longest_over_t0: self.longest,
+            },
         }
     }
+
+    fn threads(&self) -> usize {
+        let cores = || thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(cores).max(1)
+    }
+
+    /// What each thing is measured with: modes and seeds, in the order of the output.
+    fn ways(&self, modes: &[Mode]) -> Vec<(Mode, u64)> {
+        let seeds = |mode: &Mode| {
+            let mode = *mode;
+            (1..=self.seeds).map(move |seed| (mode, seed))
+        };
+        modes.iter().flat_map(seeds).collect()
+    }
+}
+
+fn main() -> anyhow::Result<()> {
+    let arguments = Arguments::parse();
+    let setup = arguments.setup()?;
+    let modes = Mode::list(&arguments.modes)?;
+    if arguments.traps {
+        return measure_traps(&arguments, &setup, &modes);
+    }
+    let places = Place::list(&arguments.homes)?;
+    let runs = runs_in(&places, (&arguments, &setup), &arguments.ways(&modes))?;
+    print(&arguments, (&places, &modes), &runs)
+}
+
+/// What a thread has before it: the home that it was in last, with its number.
+type Desk = Option<(usize, Ground)>;
+
+fn runs_in(
+    places: &[Place],
+    (arguments, setup): (&Arguments, &Setup),
+    ways: &[(Mode, u64)],
+) -> anyhow::Result<Vec<Run>> {
+    let count = places.len() * ways.len();
+    let progress = SharedProgress::new("navigation", count);
+    let runs = in_order(count, arguments.threads(), |desk: &mut Desk, number| {
+        let (place, way) = (number / ways.len(), number % ways.len());
+        if desk.as_ref().is_none_or(|(other, _)| *other != place) {
+            *desk = Some((place, places[place].ground(setup)?));
+        }
+        let (_, ground) = desk.as_ref().context("a home was put there")?;
+        let piece = progress.piece();
+        Ok(rounds((ground, setup), ways[way], arguments.length(), piece))
+    });
     progress.clear();
-    let table = Table::of(&runs, &modes);
+    Ok(runs?.concat())
+}
+
+fn print(arguments: &Arguments, (places, modes): (&[Place], &[Mode]), runs: &[Run]) -> anyhow::Result<()> {
+    let table = Table::of(runs, modes);
+    let peak_mib = memory::peak_mib();
     let mut out = io::stdout().lock();
     if arguments.json {
         let object = serde_json::json!({
             "homes": arguments.homes,
             "seeds": arguments.seeds,
             "noise": arguments.noise,
+            "robot": arguments.robot,
+            "board_gyro": arguments.board_gyro,
             "longest_over_t0": arguments.longest,
+            "work_minutes": arguments.work_minutes,
+            "peak_memory_mib": peak_mib,
             "modes": table,
             "runs": runs,
         });
         writeln!(out, "{object}")?;
-    } else {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "{}, {} homes, {} seeds, noise {}: median (90th percentile)\n{table}",
+        arguments.robot,
+        places.len(),
+        arguments.seeds,
+        arguments.noise
+    )?;
+    if let Some(peak_mib) = peak_mib {
+        let threads = arguments.threads();
         writeln!(
             out,
-            "{} homes, {} seeds, noise {}: median (90th percentile)\n{table}",
-            places.len(),
-            arguments.seeds,
-            arguments.noise
+            "this process held {peak_mib:.0} MiB at most, with {threads} runs at a time"
         )?;
     }
     Ok(())
 }
 
-fn measure_traps(
-    arguments: &Arguments,
-    (model, noise): (&RobotModel, Noise),
-    modes: &[Mode],
-) -> anyhow::Result<()> {
-    let progress = Progress::new("traps");
-    let count = TrapKind::ALL.len() as f64 * modes.len() as f64 * arguments.seeds as f64;
-    let mut runs = Vec::new();
-    for kind in TrapKind::ALL {
-        for mode in modes {
-            for seed in 1..=arguments.seeds {
-                let trap = Trap {
-                    kind: *kind,
-                    seed: u32::try_from(seed)?,
-                };
-                runs.push(TrapRun::of(trap, model, (noise, *mode))?);
-                progress.show(runs.len() as f64 / count);
-            }
-        }
-    }
+fn measure_traps(arguments: &Arguments, setup: &Setup, modes: &[Mode]) -> anyhow::Result<()> {
+    let ways = arguments.ways(modes);
+    let count = TrapKind::ALL.len() * ways.len();
+    let progress = SharedProgress::new("traps", count);
+    let runs = in_order(count, arguments.threads(), |_: &mut (), number| {
+        let (mode, seed) = ways[number % ways.len()];
+        let trap = Trap {
+            kind: TrapKind::ALL[number / ways.len()],
+            seed: u32::try_from(seed)?,
+        };
+        let run = TrapRun::of(trap, setup, mode)?;
+        progress.piece()(1.0);
+        Ok(run)
+    });
     progress.clear();
+    let runs = runs?;
     let table = TrapTable::of(&runs, modes);
     let mut out = io::stdout().lock();
     if arguments.json {

@@ -1,72 +1,23 @@
-//! One run: a mode, a home, a seed.
+//! Runs: a mode, a home, a seed.
 
 use std::time::Instant;
 
+use brain::StoredMap;
 use brain::command::StrategyName;
-use home::Home;
-use robot::RobotSettings;
-use rvac_sim::run::{RunEnd, start_cleaning};
-use rvac_sim::{Figures, Host, HostCost, Household, PoseSource, Scene};
+use rvac_api::RequestBody;
+use rvac_sim::run::start_cleaning;
+use rvac_sim::{Figures, Host, HostCost, Household, Report};
 use serde::Serialize;
-use vthal_core::CoreConfig;
 
-/// What is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Mode {
-    Bounce,
-    KnownMap,
-    OldMap,
-    FirstRun,
-    PerfectPose,
-}
-
-impl Mode {
-    const ALL: [Self; 5] = [
-        Self::Bounce,
-        Self::KnownMap,
-        Self::OldMap,
-        Self::FirstRun,
-        Self::PerfectPose,
-    ];
-
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Bounce => "bounce",
-            Self::KnownMap => "known-map",
-            Self::OldMap => "old-map",
-            Self::FirstRun => "first-run",
-            Self::PerfectPose => "perfect-pose",
-        }
-    }
-
-    pub(crate) fn list(text: &str) -> anyhow::Result<Vec<Self>> {
-        let named = |name: &str| Self::ALL.into_iter().find(|mode| mode.name() == name);
-        text.split(',')
-            .map(|name| named(name.trim()).ok_or_else(|| anyhow::anyhow!("there is no mode `{name}`")))
-            .collect()
-    }
-
-    pub(crate) const fn strategy(self) -> StrategyName {
-        match self {
-            Self::Bounce => StrategyName::Bounce,
-            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => StrategyName::Systematic,
-        }
-    }
-
-    /// Bounce knows no end, so it has had its chance when 95 % are swept.
-    const fn end(self) -> RunEnd {
-        match self {
-            Self::Bounce => RunEnd::Covered,
-            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => RunEnd::JobOver,
-        }
-    }
-}
+use crate::ground::{Ground, Setup};
+use crate::mode::Mode;
 
 /// The figures of a run.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Run {
     pub(crate) mode: Mode,
+    /// Which run in this home it was, from 1.
+    pub(crate) round: u32,
     pub(crate) home: String,
     pub(crate) seed: u64,
     pub(crate) t0_s: f64,
@@ -75,6 +26,8 @@ pub(crate) struct Run {
     pub(crate) foot_contacts: u32,
     pub(crate) foot_pushed_max_ms: u32,
     pub(crate) violations: u32,
+    /// Jobs that were begun.
+    pub(crate) jobs: u32,
     pub(crate) sim_seconds: f64,
     pub(crate) wall_seconds: f64,
     pub(crate) host_cost: HostCost,
@@ -82,71 +35,148 @@ pub(crate) struct Run {
     pub(crate) figures: Figures,
 }
 
+/// How long a run lasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Length {
+    /// One job and the way home, given up after so many T0.
+    OneJob { longest_over_t0: f64 },
+    /// One job after the other for so long: as soon as one is over, the next begins where the robot is.
+    Work { minutes: f64 },
+}
+
 /// The battery is filled up so often, milliseconds: what energy allows is another measurement.
 const REFILL_MS: u64 = 300_000;
-/// So much more than the longest cleaning may pass, for the way home.
-const HOMING_MS: u64 = 1_200_000;
-/// Longest job that the host allows itself in these runs, seconds.
-const BUDGET_S: u32 = 86_400;
+/// So much more than its length a run may take: for the way home, or until work begins.
+const SPARE_MS: u64 = 1_200_000;
+/// A robot whose job is over is asked for the next one so often, milliseconds.
+const ASK_MS: u64 = 5_000;
 
-impl Run {
-    pub(crate) fn of(
-        (scene, first_day): (&Scene, &Home),
-        (mode, seed): (Mode, u64),
-        longest: f64,
-        mut progress: impl FnMut(f64),
-    ) -> Self {
-        let started = Instant::now();
-        let mut household = household((scene, first_day), mode, seed);
-        if let Some(host) = household.host_mut() {
-            host.measure_cost();
+/// All runs of a mode in a home with a seed, one after the other.
+pub(crate) fn rounds(
+    (ground, setup): (&Ground, &Setup),
+    (mode, seed): (Mode, u64),
+    length: Length,
+    mut progress: impl FnMut(f64),
+) -> Vec<Run> {
+    let mut map: Option<StoredMap> = None;
+    let mut runs = Vec::new();
+    for round in 1..=mode.rounds() {
+        let mut household = ground.household(setup, (mode, seed));
+        if let Some(map) = map {
+            household = household.with_map(map);
         }
-        start_cleaning(&mut household, mode.strategy());
-        let duration_ms = (scene.home().t0_s() * longest * 1000.0) as u64 + HOMING_MS;
-        while household.robot().now_ms() < duration_ms && !mode.end().is_reached(&household) {
-            household.pass_ms(1_000);
-            let now_ms = household.robot().now_ms();
-            if now_ms % REFILL_MS < 1_000 {
-                household.robot_mut().world_mut().set_battery_charge(1.0);
-            }
-            progress(now_ms as f64 / duration_ms as f64);
+        let before = f64::from(round - 1);
+        let run = one(&mut household, (mode, seed), length, |share| {
+            progress((before + share) / f64::from(mode.rounds()));
+        });
+        runs.push(Run { round, ..run });
+        let brain = household.host().and_then(Host::brain);
+        map = brain.map(|brain| brain.map().stored());
+    }
+    runs
+}
+
+fn one(
+    household: &mut Household,
+    (mode, seed): (Mode, u64),
+    length: Length,
+    progress: impl FnMut(f64),
+) -> Run {
+    let started = Instant::now();
+    if let Some(host) = household.host_mut() {
+        host.measure_cost();
+    }
+    start_cleaning(household, mode.strategy());
+    let (first, jobs) = match length {
+        Length::OneJob { longest_over_t0 } => {
+            one_job(household, (mode, longest_over_t0), progress);
+            (None, 1)
         }
-        let report = household.report();
-        Self {
-            mode,
-            home: report.home,
-            seed,
-            t0_s: report.t0_s,
-            covered: report.covered,
-            stuck: report.stuck,
-            foot_contacts: report.foot_contacts,
-            foot_pushed_max_ms: report.foot_pushed_max_ms,
-            violations: report.monitor_violations,
-            sim_seconds: report.sim_seconds,
-            wall_seconds: started.elapsed().as_secs_f64(),
-            host_cost: household.host().and_then(Host::cost).unwrap_or_default(),
-            figures: report.figures.map_or_else(Figures::default, |figures| *figures),
-        }
+        Length::Work { minutes } => work(household, (mode.strategy(), minutes), progress),
+    };
+    let last = household.report();
+    let figures = figures(first.as_ref().unwrap_or(&last), &last);
+    let report = first.unwrap_or_else(|| last.clone());
+    Run {
+        mode,
+        round: 1,
+        home: report.home,
+        seed,
+        t0_s: report.t0_s,
+        covered: report.covered,
+        stuck: last.stuck,
+        foot_contacts: last.foot_contacts,
+        foot_pushed_max_ms: last.foot_pushed_max_ms,
+        violations: last.monitor_violations,
+        jobs,
+        sim_seconds: last.sim_seconds,
+        wall_seconds: started.elapsed().as_secs_f64(),
+        host_cost: household.host().and_then(Host::cost).unwrap_or_default(),
+        figures,
     }
 }
 
-/// A robot and a host for a mode. `first_day` is the home as it was when its map was made, where the mode has an old map.
-pub(crate) fn household((scene, first_day): (&Scene, &Home), mode: Mode, seed: u64) -> Household {
-    let settings = RobotSettings {
-        seed,
-        ..RobotSettings::default()
-    };
-    let robot = scene.robot(seed, &settings);
-    let config = CoreConfig {
-        task_budget_s: BUDGET_S,
-        sensors: scene.sensors(),
-        ..Host::config(seed, mode.strategy())
-    };
-    let household = Household::new(robot, Host::start(0, config));
-    match mode {
-        Mode::Bounce | Mode::FirstRun => household,
-        Mode::KnownMap => household.with_known_map(),
-        Mode::OldMap => household.with_map_of(first_day),
-        Mode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
+fn one_job(household: &mut Household, (mode, longest_over_t0): (Mode, f64), mut progress: impl FnMut(f64)) {
+    let t0_s = household.robot().world().home().t0_s();
+    let duration_ms = (t0_s * longest_over_t0 * 1000.0) as u64 + SPARE_MS;
+    while household.robot().now_ms() < duration_ms && !mode.end().is_reached(household) {
+        second(household);
+        progress(household.robot().now_ms() as f64 / duration_ms as f64);
+    }
+    progress(1.0);
+}
+
+/// Gives what was reported at the end of the first job, if that came, and the number of jobs.
+fn work(
+    household: &mut Household,
+    (strategy, minutes): (StrategyName, f64),
+    mut progress: impl FnMut(f64),
+) -> (Option<Report>, u32) {
+    let length_s = 60.0 * minutes;
+    let duration_ms = (1000.0 * length_s) as u64 + SPARE_MS;
+    let (mut first, mut jobs, mut was_over) = (None, 1, false);
+    while household.job_s() < length_s && household.robot().now_ms() < duration_ms {
+        second(household);
+        let is_over = household.job_is_over();
+        if is_over {
+            first.get_or_insert_with(|| household.report());
+            if household.robot().now_ms() % ASK_MS < 1_000 {
+                household.ask(RequestBody::Start {
+                    strategy: Some(strategy.name().to_owned()),
+                });
+            }
+        }
+        jobs += u32::from(was_over && !is_over);
+        was_over = is_over;
+        progress(household.job_s() / length_s);
+    }
+    progress(1.0);
+    (first, jobs)
+}
+
+fn second(household: &mut Household) {
+    household.pass_ms(1_000);
+    if household.robot().now_ms() % REFILL_MS < 1_000 {
+        household.robot_mut().world_mut().set_battery_charge(1.0);
+    }
+}
+
+/// How well a job was done is told of the first one; how well the robot knew its place, and its map, of the whole run.
+fn figures(first: &Report, last: &Report) -> Figures {
+    let of = |report: &Report| report.figures.as_deref().cloned().unwrap_or_default();
+    let (job, run) = (of(first), of(last));
+    Figures {
+        t80_over_t0: job.t80_over_t0,
+        t90_over_t0: job.t90_over_t0,
+        t95_over_t0: job.t95_over_t0,
+        share_at_t0: job.share_at_t0,
+        share_at_1_8_t0: job.share_at_1_8_t0,
+        job_over_t0: job.job_over_t0,
+        away_s: job.away_s,
+        time_spent: job.time_spent,
+        turn_deg_per_m2: job.turn_deg_per_m2,
+        bumps_per_m2: job.bumps_per_m2,
+        estimate_error: job.estimate_error,
+        ..run
     }
 }

@@ -4,7 +4,9 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use crate::run::{Mode, Run};
+use crate::lost::LostShares;
+use crate::mode::Mode;
+use crate::run::Run;
 
 /// A figure over all runs of a mode.
 #[derive(Clone, Debug, Serialize)]
@@ -30,7 +32,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 27] = [
+const FIGURES: [Figure; 31] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -44,6 +46,7 @@ const FIGURES: [Figure; 27] = [
     less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
     less("pose_rmse_30_min_m", |run| run.figures.pose_rmse_30_min_m),
     less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),
+    less("pose_rmse_120_min_m", |run| run.figures.pose_rmse_120_min_m),
     less("pose_rmse_aligned_m", |run| run.figures.pose_rmse_aligned_m),
     less("heading_rmse_deg", |run| run.figures.heading_rmse_deg),
     less("lost_seconds", |run| Some(run.figures.lost_seconds)),
@@ -52,6 +55,9 @@ const FIGURES: [Figure; 27] = [
         Some(run.figures.lost_unnoticed_aligned_s)
     }),
     less("lost_false_alarm_s", |run| Some(run.figures.lost_false_alarm_s)),
+    more("map_iou", |run| run.figures.map_iou),
+    less("wall_error_m", |run| run.figures.wall_error_m),
+    less("estimate_error", |run| run.figures.estimate_error.map(f64::abs)),
     more("docked", |run| Some(f64::from(u8::from(run.figures.docked)))),
     less("stuck", |run| Some(f64::from(run.stuck))),
     less("foot_contacts", |run| Some(f64::from(run.foot_contacts))),
@@ -82,25 +88,48 @@ const fn more(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
     }
 }
 
-/// All modes side by side.
+/// All modes side by side; where several runs follow each other in a home, the first, the second and so on apart.
 pub(crate) struct Table {
-    columns: Vec<(Mode, usize, Vec<Spread>)>,
+    columns: Vec<Column>,
+}
+
+struct Column {
+    name: String,
+    runs: usize,
+    spreads: Vec<Spread>,
+    lost: LostShares,
 }
 
 impl Table {
     pub(crate) fn of(runs: &[Run], modes: &[Mode]) -> Self {
-        let column = |mode: &Mode| {
-            let runs: Vec<&Run> = runs.iter().filter(|run| run.mode == *mode).collect();
-            let spreads = FIGURES.iter().map(|figure| {
-                spread(
-                    &runs.iter().map(|run| (figure.of)(run)).collect::<Vec<_>>(),
-                    figure.better,
-                )
-            });
-            (*mode, runs.len(), spreads.collect())
+        let columns = modes
+            .iter()
+            .flat_map(|mode| (1..=mode.rounds()).map(|round| Column::of(runs, (*mode, round))));
+        Self {
+            columns: columns.collect(),
+        }
+    }
+}
+
+impl Column {
+    fn of(runs: &[Run], (mode, round): (Mode, u32)) -> Self {
+        let runs: Vec<&Run> = runs
+            .iter()
+            .filter(|run| (run.mode, run.round) == (mode, round))
+            .collect();
+        let spreads = FIGURES.iter().map(|figure| {
+            let values: Vec<_> = runs.iter().map(|run| (figure.of)(run)).collect();
+            spread(&values, figure.better)
+        });
+        let name = match mode.rounds() {
+            1 => mode.name().to_owned(),
+            _ => format!("{}-{round}", mode.name()),
         };
         Self {
-            columns: modes.iter().map(column).collect(),
+            name,
+            runs: runs.len(),
+            spreads: spreads.collect(),
+            lost: LostShares::of(runs.iter().map(|run| run.figures.lost_stretches.as_slice())),
         }
     }
 }
@@ -125,54 +154,63 @@ fn spread(values: &[Option<f64>], better: Better) -> Spread {
 
 impl Serialize for Table {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.columns.iter().map(|(mode, runs, spreads)| {
+        serializer.collect_map(self.columns.iter().map(|column| {
             let figures: serde_json::Map<String, serde_json::Value> = FIGURES
                 .iter()
-                .zip(spreads)
+                .zip(&column.spreads)
                 .map(|(figure, spread)| (figure.name.to_owned(), serde_json::json!(spread)))
-                .chain([("runs".to_owned(), (*runs).into())])
+                .chain([
+                    ("runs".to_owned(), column.runs.into()),
+                    ("lost".to_owned(), serde_json::json!(column.lost)),
+                ])
                 .collect();
-            (mode.name(), figures)
+            (&column.name, figures)
         }))
     }
 }
 
 impl fmt::Display for Table {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{:<20}", "")?;
-        for (mode, _, _) in &self.columns {
-            write!(formatter, " {:>18}", mode.name())?;
-        }
-        write!(formatter, "\n{:<20}", "lower bound (T0)")?;
-        for _ in &self.columns {
-            write!(formatter, " {:>18}", "1.00")?;
-        }
-        writeln!(formatter)?;
+        self.row(formatter, "", |column| column.name.clone())?;
+        self.row(formatter, "lower bound (T0)", |_| "1.00".to_owned())?;
         for (number, figure) in FIGURES.iter().enumerate() {
-            write!(formatter, "{:<20}", figure.name)?;
-            for (_, _, spreads) in &self.columns {
-                let text = spreads.get(number).map_or_else(String::new, Spread::text);
-                write!(formatter, " {text:>18}")?;
-            }
-            writeln!(formatter)?;
+            self.row(formatter, figure.name, |column| {
+                column.spreads.get(number).map_or_else(String::new, Spread::text)
+            })?;
         }
-        Ok(())
+        let share = |share: Option<f64>| share.map_or_else(|| "-".to_owned(), |share| format!("{share:.3}"));
+        self.row(formatter, "runs ever lost", |column| share(column.lost.runs_lost))?;
+        self.row(formatter, "lost stretches", |column| {
+            column.lost.stretches.to_string()
+        })?;
+        self.row(formatter, "ended in 180 s", |column| {
+            share(column.lost.found_in_180_s)
+        })
+    }
+}
+
+impl Table {
+    fn row(
+        &self,
+        formatter: &mut fmt::Formatter<'_>,
+        name: &str,
+        text: impl Fn(&Column) -> String,
+    ) -> fmt::Result {
+        write!(formatter, "{name:<24}")?;
+        for column in &self.columns {
+            write!(formatter, " {:>18}", text(column))?;
+        }
+        writeln!(formatter)
     }
 }
 
 impl Spread {
     fn text(&self) -> String {
-        let number = |value: Option<f64>| {
-            value.map_or_else(
-                || "-".to_owned(),
-                |value| {
-                    if value.abs() >= 100.0 {
-                        format!("{value:.0}")
-                    } else {
-                        format!("{value:.2}")
-                    }
-                },
-            )
+        let number = |value: Option<f64>| match value {
+            None => "-".to_owned(),
+            Some(value) if value.abs() >= 100.0 => format!("{value:.0}"),
+            Some(value) if value.abs() >= 1.0 => format!("{value:.2}"),
+            Some(value) => format!("{value:.3}"),
         };
         format!("{} ({})", number(self.median), number(self.p90))
     }

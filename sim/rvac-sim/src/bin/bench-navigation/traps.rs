@@ -4,16 +4,17 @@
 //! end.
 
 use std::fmt;
-use std::sync::Arc;
 
 use brain::BehaviorState;
+use home::Pose;
 use home::traps::{Trap, TrapBounds, TrapKind};
-use home::{Noise, Pose, RobotModel};
+use rvac_sim::Household;
 use rvac_sim::run::start_cleaning;
-use rvac_sim::{Household, Scene};
 use serde::Serialize;
 
-use crate::run::{Mode, household};
+use crate::ground::Setup;
+use crate::homes::Place;
+use crate::mode::Mode;
 
 /// Nobody waits longer for an end.
 const LONGEST_S: u64 = 2_400;
@@ -36,9 +37,9 @@ pub(crate) struct TrapRun {
 }
 
 impl TrapRun {
-    pub(crate) fn of(trap: Trap, model: &RobotModel, (noise, mode): (Noise, Mode)) -> anyhow::Result<Self> {
-        let scene = Scene::new(Arc::new(trap.home(model)?), model.clone(), noise);
-        let mut household = household((&scene, scene.home()), mode, u64::from(trap.seed));
+    pub(crate) fn of(trap: Trap, setup: &Setup, mode: Mode) -> anyhow::Result<Self> {
+        let ground = Place::Trap(trap).ground(setup)?;
+        let mut household = ground.household(setup, (mode, u64::from(trap.seed)));
         anyhow::ensure!(
             start_cleaning(&mut household, mode.strategy()),
             "the robot does not answer"

@@ -1,0 +1,109 @@
+//! What a run begins with: a robot in a home, and the host that drives it.
+
+use std::sync::Arc;
+
+use home::{Home, Noise, RobotModel};
+use robot::RobotSettings;
+use rvac_sim::run::core_config;
+use rvac_sim::{Host, Household, PoseSource, Scene};
+use vthal_core::CoreConfig;
+
+use crate::mode::Mode;
+
+/// What all runs have in common.
+#[derive(Clone, Debug)]
+pub(crate) struct Setup {
+    pub(crate) model: RobotModel,
+    pub(crate) noise: Noise,
+    pub(crate) board_gyro: BoardGyro,
+}
+
+/// Whether the robot's Linux board has a gyro.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BoardGyro {
+    Absent,
+    Fitted,
+}
+
+/// A home as it is and as it was when an old map of it was made.
+#[derive(Clone, Debug)]
+pub(crate) struct Ground {
+    pub(crate) scene: Scene,
+    first_day: Arc<Home>,
+}
+
+/// Longest job that the host allows itself in these runs, seconds.
+const BUDGET_S: u32 = 86_400;
+
+impl Ground {
+    pub(crate) fn new(home: Arc<Home>, first_day: Arc<Home>, setup: &Setup) -> Self {
+        Self {
+            scene: Scene::new(home, setup.model.clone(), setup.noise),
+            first_day,
+        }
+    }
+
+    /// A robot and a host for a mode.
+    pub(crate) fn household(&self, setup: &Setup, (mode, seed): (Mode, u64)) -> Household {
+        let settings = RobotSettings {
+            seed,
+            ..RobotSettings::default()
+        };
+        let robot = self.scene.robot(seed, &settings);
+        let household = Household::new(robot, Host::start(0, self.config((mode, seed))));
+        let household = match setup.board_gyro {
+            BoardGyro::Absent => household,
+            BoardGyro::Fitted => household.with_board_gyro(self.scene.board_gyro(seed)),
+        };
+        match mode {
+            Mode::Bounce | Mode::FirstRun | Mode::LearntMap => household,
+            Mode::KnownMap => household.with_known_map(),
+            Mode::OldMap => household.with_map_of(&self.first_day),
+            Mode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
+        }
+    }
+
+    fn config(&self, (mode, seed): (Mode, u64)) -> CoreConfig {
+        CoreConfig {
+            task_budget_s: BUDGET_S,
+            ..core_config(&self.scene, seed, mode.strategy())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use home::{Home, Noise, RobotModel};
+    use rvac_sim::run::core_config;
+    use vthal_core::CoreConfig;
+
+    use super::{BUDGET_S, BoardGyro, Ground, Setup};
+    use crate::mode::Mode;
+
+    const PLAN: &str =
+        "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0, 0], [2, 0], [2, 2], [0, 2]]\n";
+
+    #[test]
+    fn the_host_is_told_what_a_single_run_tells_it() {
+        for name in ["sr8730", "relax"] {
+            let model = RobotModel::by_name(name).unwrap();
+            let home = Arc::new(Home::from_floorplan("room", PLAN, &model).unwrap());
+            let setup = Setup {
+                model,
+                noise: Noise::ideal(),
+                board_gyro: BoardGyro::Absent,
+            };
+            let ground = Ground::new(Arc::clone(&home), home, &setup);
+            let single = core_config(&ground.scene, 3, Mode::FirstRun.strategy());
+            assert_eq!(single.sensors, ground.scene.sensors(), "{name}");
+            let wanted = CoreConfig {
+                task_budget_s: BUDGET_S,
+                ..single
+            };
+            let told = ground.config((Mode::FirstRun, 3));
+            assert_eq!(format!("{told:?}"), format!("{wanted:?}"), "{name}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! What is compared.
+
+use brain::command::StrategyName;
+use rvac_sim::run::RunEnd;
+use serde::Serialize;
+
+/// A way of cleaning, and what the robot knows of the home.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Mode {
+    Bounce,
+    KnownMap,
+    OldMap,
+    FirstRun,
+    LearntMap,
+    PerfectPose,
+}
+
+impl Mode {
+    const ALL: [Self; 6] = [
+        Self::Bounce,
+        Self::KnownMap,
+        Self::OldMap,
+        Self::FirstRun,
+        Self::LearntMap,
+        Self::PerfectPose,
+    ];
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Bounce => "bounce",
+            Self::KnownMap => "known-map",
+            Self::OldMap => "old-map",
+            Self::FirstRun => "first-run",
+            Self::LearntMap => "learnt-map",
+            Self::PerfectPose => "perfect-pose",
+        }
+    }
+
+    pub(crate) fn list(text: &str) -> anyhow::Result<Vec<Self>> {
+        let named = |name: &str| Self::ALL.into_iter().find(|mode| mode.name() == name);
+        text.split(',')
+            .map(|name| named(name.trim()).ok_or_else(|| anyhow::anyhow!("there is no mode `{name}`")))
+            .collect()
+    }
+
+    pub(crate) const fn strategy(self) -> StrategyName {
+        match self {
+            Self::Bounce => StrategyName::Bounce,
+            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::LearntMap | Self::PerfectPose => {
+                StrategyName::Systematic
+            }
+        }
+    }
+
+    /// Bounce knows no end, so it has had its chance when 95 % are swept.
+    pub(crate) const fn end(self) -> RunEnd {
+        match self {
+            Self::Bounce => RunEnd::Covered,
+            Self::KnownMap | Self::OldMap | Self::FirstRun | Self::LearntMap | Self::PerfectPose => {
+                RunEnd::JobOver
+            }
+        }
+    }
+
+    /// So many runs follow each other in the same home, each with the map that the run before saved.
+    pub(crate) const fn rounds(self) -> u32 {
+        match self {
+            Self::LearntMap => 3,
+            Self::Bounce | Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => 1,
+        }
+    }
+}
