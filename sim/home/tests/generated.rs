@@ -31,29 +31,30 @@ fn every_published_home_has_a_dock_and_hangs_together() {
         areas_m2[5] < 40.0 && areas_m2[30] > 80.0,
         "small and large: {areas_m2:?}"
     );
-    assert_eq!(format!("{:016x}", digest.value()), "19b7c90d2fc68086");
+    assert_eq!(format!("{:016x}", digest.value()), "fa83fb485a1b3a41");
 }
 
+/// What makes homes difficult, by what stands for it in a plan.
+const TRAPS: [&str; 6] = [
+    "[[cliff]]",
+    "[[mirror]]",
+    "black = true",
+    "# a cable",
+    "[[threshold]]",
+    "legs = ",
+];
+
 #[test]
-fn the_set_holds_what_makes_homes_difficult() {
+fn each_half_of_the_set_holds_what_makes_homes_difficult() {
     let model = sr8730();
-    let mut found = [0; 5];
+    let mut found = [[0; TRAPS.len()]; 2];
     for number in PUBLISHED {
         let text = GeneratedHome::number(number).floorplan(&model).unwrap();
-        for (word, count) in [
-            "[[cliff]]",
-            "[[mirror]]",
-            "black = true",
-            "# a cable",
-            "[[threshold]]",
-        ]
-        .iter()
-        .zip(&mut found)
-        {
-            *count += u32::from(text.contains(word));
+        for (trap, count) in TRAPS.iter().zip(&mut found[number as usize % 2]) {
+            *count += u32::from(text.contains(trap));
         }
     }
-    assert!(found.iter().all(|count| *count >= 2), "{found:?}");
+    assert!(found.as_flattened().iter().all(|count| *count >= 1), "{found:?}");
 }
 
 #[test]

@@ -47,6 +47,8 @@ pub enum People {
 
 /// The published set.
 pub const PUBLISHED: RangeInclusive<u32> = 1..=50;
+/// Every so many homes there is a black rug, an odd number, so that both halves have some.
+const BLACK_EVERY: u32 = 5;
 /// Draws before a home is given up.
 const ATTEMPTS: u64 = 60;
 /// Share of the floor where the body fits that must hang together.
@@ -144,7 +146,7 @@ impl GeneratedHome {
         slant(&mut draw, &mut things);
         door_leaves(&mut draw, &mut things);
         furnish(&mut draw, &mut moved, &mut things, dock_clear);
-        if self.number % 10 == 3 {
+        if self.number % BLACK_EVERY == 3 {
             blacken(&mut draw, &mut things);
         }
         if self.people == People::In {
