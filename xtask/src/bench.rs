@@ -18,7 +18,7 @@ enum Subject {
     Kill,
     /// Daemon and panel's server killed at random moments while they write what people entrusted to them.
     Writes,
-    /// The simulator against real time.
+    /// The simulator against real time with each strategy, and where the time goes.
     Sim,
     /// Size of cordlib's state.
     Cordlib,
@@ -151,7 +151,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Panel => &["--bin", "bench-panel"],
         Subject::Kill => &["--bin", "bench-kill"],
         Subject::Writes => &["--bin", "bench-writes"],
-        Subject::Sim => &["--bin", "rvac-sim"],
+        Subject::Sim => &["--bin", "bench-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
         Subject::Flips => &["--bin", "bench-flips"],
@@ -166,17 +166,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
 
 fn fixed(subject: Subject) -> &'static [&'static str] {
     match subject {
-        Subject::Sim => &[
-            "run",
-            "--home",
-            "homes/two-room-flat.toml",
-            "--robot",
-            "sr8730",
-            "--strategy",
-            "bounce",
-            "--minutes",
-            "60",
-        ],
+        Subject::Sim => &["--parts"],
         Subject::Kill | Subject::Firmware => &["--home", "homes/two-room-flat.toml"],
         Subject::Safety => &["--phases", "20"],
         Subject::Link
@@ -205,7 +195,8 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
+        Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Sim | Subject::Cordlib => &[],
+        Subject::Cordlib => &[],
     }
 }

@@ -11,7 +11,7 @@ use rvac_api::{
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
 use vthal_core::schedule::{Book, StoredBook};
-use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, Outputs};
+use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, Outputs, Record};
 
 use crate::HostCost;
 use crate::host_floors::HostFloors;
@@ -27,6 +27,8 @@ pub struct Host {
     checkpoint: Option<Checkpoint>,
     /// Lines of its log, if somebody wants them.
     log: Option<Vec<LogEntry>>,
+    /// What its core recorded and nobody took yet, if somebody wants it.
+    records: Option<Vec<Record>>,
     /// What its core takes of a processor, if somebody wants to know.
     cost: Option<HostCost>,
     born_us: u64,
@@ -56,6 +58,7 @@ impl Host {
             pending: Vec::new(),
             checkpoint: None,
             log: None,
+            records: None,
             cost: None,
             born_us: now_us,
             wall: None,
@@ -188,6 +191,9 @@ impl Host {
         if let Some(log) = &mut self.log {
             log.append(&mut self.outputs.log);
         }
+        if let Some(records) = &mut self.records {
+            records.append(&mut self.outputs.records);
+        }
         let schedules = self.outputs.schedules.take();
         let health = self.outputs.health.take();
         let run = self.outputs.run.take();
@@ -266,6 +272,16 @@ impl Host {
     #[must_use]
     pub fn log(&self) -> &[LogEntry] {
         self.log.as_deref().unwrap_or_default()
+    }
+
+    /// From now on what its core records is kept; a core records when its settings say so.
+    pub fn keep_records(&mut self) {
+        self.records.get_or_insert_default();
+    }
+
+    /// What was recorded since it was taken last.
+    pub fn take_records(&mut self) -> Vec<Record> {
+        self.records.as_mut().map_or_else(Vec::new, core::mem::take)
     }
 
     /// Bytes for the robot; what is not taken stays.

@@ -19,6 +19,8 @@ pub struct HostCost {
     pub step_max_at_s: f64,
     /// Steps longer than 2 ms.
     pub long_steps: u32,
+    /// How many steps there were.
+    pub steps: u32,
     /// All steps, seconds.
     pub processor_s: f64,
 }
@@ -26,22 +28,24 @@ pub struct HostCost {
 impl HostCost {
     /// Does a step and counts it.
     pub(crate) fn measure<T>(&mut self, now_us: u64, step: impl FnOnce() -> T) -> T {
-        let began_us = processor_us();
+        let began_s = thread_processor_s();
         let answer = step();
-        let step_us = processor_us() - began_us;
+        let step_us = 1e6 * (thread_processor_s() - began_s);
         if step_us > self.step_max_us {
             (self.step_max_us, self.step_max_at_s) = (step_us, now_us as f64 * 1e-6);
         }
         self.long_steps += u32::from(step_us > LONG_US);
+        self.steps += 1;
         self.processor_s += step_us * 1e-6;
         answer
     }
 }
 
-/// Microseconds that this thread has had a processor.
-fn processor_us() -> f64 {
+/// Seconds that this thread has had a processor.
+#[must_use]
+pub fn thread_processor_s() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 * 1e6 + time.tv_nsec as f64 * 1e-3
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
 #[cfg(test)]
@@ -57,7 +61,7 @@ mod tests {
             });
             assert!(sum < u64::MAX);
         }
-        assert_eq!(cost.step_max_at_s, 2.0);
+        assert_eq!((cost.step_max_at_s, cost.steps), (2.0, 3));
         assert!(cost.step_max_us <= cost.processor_s * 1e6 + 1e-6, "{cost:?}");
     }
 }

@@ -30,7 +30,7 @@ pub mod trace;
 pub use figures::{Figures, LostStretch, TimeSpent};
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
-pub use host_cost::HostCost;
+pub use host_cost::{HostCost, thread_processor_s};
 pub use household::{Household, PoseSource, TICK_US};
 pub use pic32::board::{GyroFitted, Record};
 pub use report::{Report, StuckWatch};

@@ -90,6 +90,19 @@ pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool
     start_job(household, start)
 }
 
+/// A robot whose job is over is asked for the next one so often, milliseconds.
+const ASK_MS: u64 = 5_000;
+
+/// To be called each second: a household whose job is over is asked for the next one where it is, which may be on its way to the
+/// dock.
+pub fn keep_working(household: &mut Household, strategy: StrategyName) {
+    if household.job_is_over() && household.robot().now_ms() % ASK_MS < 1_000 {
+        household.ask(RequestBody::Start {
+            strategy: Some(strategy.name().to_owned()),
+        });
+    }
+}
+
 fn start_job(household: &mut Household, job: RequestBody) -> bool {
     for _ in 0..CONNECT_MS {
         household.tick();

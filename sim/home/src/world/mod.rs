@@ -69,6 +69,7 @@ pub struct World {
     on_foot: bool,
     foot_pushed_ms: u32,
     random: Pcg,
+    actuation: Actuation,
     sensors: Sensors,
     truth: Truth,
 }
@@ -126,6 +127,7 @@ impl World {
             on_foot: false,
             foot_pushed_ms: 0,
             random: Pcg::new(seed, Stream::Run as u64),
+            actuation: Actuation::default(),
             sensors: Sensors {
                 dust_box: true,
                 gyro: model.gyro.map(|_| GyroReading::default()),
@@ -144,6 +146,12 @@ impl World {
     #[must_use]
     pub fn sensors(&self) -> &Sensors {
         self.faults.shown().unwrap_or(&self.sensors)
+    }
+
+    /// What the firmware put on its pins in the last step: a copy of this world that is stepped with the same goes the same way.
+    #[must_use]
+    pub const fn actuation(&self) -> &Actuation {
+        &self.actuation
     }
 
     /// The last complete turn of the lidar, if the robot has one.

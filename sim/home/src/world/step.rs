@@ -47,6 +47,7 @@ impl World {
     /// Advances exactly one millisecond with these outputs of the firmware.
     pub fn step(&mut self, actuation: &Actuation) {
         self.truth.time_ms += 1;
+        self.actuation = *actuation;
         let turn_rad = self.move_body(actuation);
         self.judge_foot();
         if let Some(gyro) = &mut self.gyro {

@@ -4,8 +4,7 @@ use std::time::Instant;
 
 use brain::StoredMap;
 use brain::command::StrategyName;
-use rvac_api::RequestBody;
-use rvac_sim::run::start_cleaning;
+use rvac_sim::run::{keep_working, start_cleaning};
 use rvac_sim::{Figures, Host, HostCost, Household, Report};
 use serde::Serialize;
 
@@ -48,8 +47,6 @@ pub(crate) enum Length {
 const REFILL_MS: u64 = 300_000;
 /// So much more than its length a run may take: for the way home, or until work begins.
 const SPARE_MS: u64 = 1_200_000;
-/// A robot whose job is over is asked for the next one so often, milliseconds.
-const ASK_MS: u64 = 5_000;
 
 /// All runs of a mode in a home with a seed, one after the other.
 pub(crate) fn rounds(
@@ -120,7 +117,8 @@ fn one_job(household: &mut Household, (mode, longest_over_t0): (Mode, f64), mut 
     let t0_s = household.robot().world().home().t0_s();
     let duration_ms = (t0_s * longest_over_t0 * 1000.0) as u64 + SPARE_MS;
     while household.robot().now_ms() < duration_ms && !mode.end().is_reached(household) {
-        second(household);
+        household.pass_ms(1_000);
+        refill(household);
         progress(household.robot().now_ms() as f64 / duration_ms as f64);
     }
     progress(1.0);
@@ -136,15 +134,12 @@ fn work(
     let duration_ms = (1000.0 * length_s) as u64 + SPARE_MS;
     let (mut first, mut jobs, mut was_over) = (None, 1, false);
     while household.job_s() < length_s && household.robot().now_ms() < duration_ms {
-        second(household);
+        household.pass_ms(1_000);
+        refill(household);
+        keep_working(household, strategy);
         let is_over = household.job_is_over();
         if is_over {
             first.get_or_insert_with(|| household.report());
-            if household.robot().now_ms() % ASK_MS < 1_000 {
-                household.ask(RequestBody::Start {
-                    strategy: Some(strategy.name().to_owned()),
-                });
-            }
         }
         jobs += u32::from(was_over && !is_over);
         was_over = is_over;
@@ -154,8 +149,7 @@ fn work(
     (first, jobs)
 }
 
-fn second(household: &mut Household) {
-    household.pass_ms(1_000);
+fn refill(household: &mut Household) {
     if household.robot().now_ms() % REFILL_MS < 1_000 {
         household.robot_mut().world_mut().set_battery_charge(1.0);
     }
