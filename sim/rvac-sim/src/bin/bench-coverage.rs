@@ -5,6 +5,9 @@
 //! nothing, so each seed is run with both, and what is told is the mean of the differences and how sure it is.
 #![forbid(unsafe_code)]
 
+#[path = "../progress.rs"]
+mod progress;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,6 +18,7 @@ use brain::command::StrategyName;
 use clap::Parser;
 use home::{Home, Noise, RobotModel};
 use pic32::board::Record;
+use progress::Progress;
 use rvac_sim::run::{RunSettings, household, run};
 use rvac_sim::{Firmware, Report, Scene};
 use serde::Serialize;
@@ -128,7 +132,8 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
     let home = Arc::new(Home::load(path, &model)?);
     let built_in = Scene::new(home, model, noise);
     let emulated = built_in.clone().with_firmware(firmware.clone());
-    let clean = |scene: &Scene, seed| {
+    let progress = Progress::new("coverage");
+    let clean = |scene: &Scene, (seed, before): (u64, f64)| {
         let settings = RunSettings {
             strategy,
             pattern: None,
@@ -141,15 +146,19 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
         } else {
             household
         };
-        run(&mut household, &settings, |_| {})
+        run(&mut household, &settings, |share| {
+            let runs = (seed - 1) as f64 * 2.0 + before + share;
+            progress.show(runs / (2 * arguments.seeds) as f64);
+        })
     };
     let mut pairs = Vec::new();
     for seed in 1..=arguments.seeds {
         let pair = Pair {
             seed,
-            built_in: clean(&built_in, seed)?,
-            emulated: clean(&emulated, seed)?,
+            built_in: clean(&built_in, (seed, 0.0))?,
+            emulated: clean(&emulated, (seed, 1.0))?,
         };
+        progress.clear();
         tell(&pair);
         pairs.push(pair);
     }

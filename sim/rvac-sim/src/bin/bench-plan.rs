@@ -2,6 +2,9 @@
 //! error at cruise speed and turns at its turn rate, with no time to speed up; so only the planner is measured.
 #![forbid(unsafe_code)]
 
+#[path = "../progress.rs"]
+mod progress;
+
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -11,6 +14,7 @@ use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_pattern};
 use brain::{CELL_M, Cell, Pattern, Pose2, Raster};
 use clap::{Parser, ValueEnum};
 use home::{Home, RobotModel};
+use progress::Progress;
 use serde::Serialize;
 
 /// How often a plan is made; the fastest counts.
@@ -77,14 +81,23 @@ struct Figures {
 fn main() -> anyhow::Result<()> {
     let arguments = Arguments::parse();
     let model = RobotModel::by_name(&arguments.robot)?;
-    for path in &arguments.home {
+    let progress = Progress::new("plans");
+    for (number, path) in arguments.home.iter().enumerate() {
         let home = Home::load(path, &model)?;
-        print(&measured(&home, &model, &arguments), arguments.json)?;
+        let figures = measured(&home, (&model, &arguments), |share| {
+            progress.show((number as f64 + share) / arguments.home.len() as f64);
+        });
+        progress.clear();
+        print(&figures, arguments.json)?;
     }
     Ok(())
 }
 
-fn measured(home: &Home, model: &RobotModel, arguments: &Arguments) -> Figures {
+fn measured(
+    home: &Home,
+    (model, arguments): (&RobotModel, &Arguments),
+    progress: impl FnMut(f64),
+) -> Figures {
     let settings = PlanSettings {
         swath_m: model.body.swath_m,
         sigma_m: arguments.sigma_m,
@@ -99,7 +112,7 @@ fn measured(home: &Home, model: &RobotModel, arguments: &Arguments) -> Figures {
         y_m: pose.y_m,
         heading_rad: pose.heading_rad,
     };
-    let (plan, planning_s) = timed_plan(&ground, start, (arguments.pattern.into(), &settings));
+    let (plan, planning_s) = timed_plan(&ground, start, (arguments.pattern.into(), &settings), progress);
     let curve = curve(home, &plan, &settings);
     let t0_s = home.t0_s();
     let reached = |share: f64| {
@@ -134,9 +147,10 @@ fn timed_plan(
     ground: &Raster<bool>,
     start: Pose2,
     (pattern, settings): (Pattern, &PlanSettings),
+    mut progress: impl FnMut(f64),
 ) -> (CoveragePlan, f64) {
     let mut best = (CoveragePlan::default(), f64::INFINITY);
-    for _ in 0..TRIES {
+    for number in 1..=TRIES {
         let (began, began_s) = (Instant::now(), processor_s());
         let plan = plan_pattern(ground, (pattern, |_| false), start, settings);
         let planning_s = match (began_s, processor_s()) {
@@ -146,6 +160,7 @@ fn timed_plan(
         if planning_s < best.1 {
             best = (plan, planning_s);
         }
+        progress(f64::from(number) / f64::from(TRIES));
     }
     best
 }

@@ -45,8 +45,9 @@ const LOW: f64 = 0.15;
 const LONGEST_MS: u64 = 4 * 3_600_000;
 
 impl Job {
-    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would.
-    pub(crate) fn of(scene: &Scene, seed: u64, speed: f64) -> Self {
+    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would. `progress` is
+    /// told about how much of all of it is done.
+    pub(crate) fn of(scene: &Scene, seed: u64, speed: f64, mut progress: impl FnMut(f64)) -> Self {
         let settings = RobotSettings {
             seed,
             ..RobotSettings::default()
@@ -60,17 +61,21 @@ impl Job {
         world.set_charging_speed(speed);
         world.begin_stretch();
         start_cleaning(&mut household, StrategyName::Systematic);
-        let job = Self::finish(&mut household, seed);
+        let job = Self::finish(&mut household, seed, |swept| progress(0.5 * swept));
+        let again = again_without_break(scene, (seed, job.swept_before), |swept| {
+            progress(0.5 + 0.5 * swept);
+        });
         Self {
-            again_without_break: again_without_break(scene, seed, job.swept_before),
+            again_without_break: again,
             ..job
         }
     }
 
-    fn finish(household: &mut Household, seed: u64) -> Self {
+    fn finish(household: &mut Household, seed: u64, mut progress: impl FnMut(f64)) -> Self {
         let mut watch = Watch::default();
         while household.robot().now_ms() < LONGEST_MS {
             household.pass_ms(1_000);
+            progress(household.robot().world().truth().swept_share);
             if watch.second(household) {
                 break;
             }
@@ -101,7 +106,7 @@ impl Job {
     }
 }
 
-fn again_without_break(scene: &Scene, seed: u64, from_share: f64) -> f64 {
+fn again_without_break(scene: &Scene, (seed, from_share): (u64, f64), mut progress: impl FnMut(f64)) -> f64 {
     let settings = RobotSettings {
         seed,
         ..RobotSettings::default()
@@ -115,6 +120,7 @@ fn again_without_break(scene: &Scene, seed: u64, from_share: f64) -> f64 {
     while household.robot().now_ms() < LONGEST_MS && !household.job_is_over() {
         household.pass_ms(1_000);
         let world = household.robot_mut().world_mut();
+        progress(world.truth().swept_share);
         if !is_second && world.truth().swept_share >= from_share {
             is_second = true;
             world.begin_stretch();

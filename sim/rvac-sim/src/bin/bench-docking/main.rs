@@ -160,8 +160,10 @@ fn low_batteries(
     for number in (0..homes).take(arguments.runs as usize) {
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
-            jobs.push(Job::of(&scene, seed, arguments.charging_speed));
-            progress.show(jobs.len() as f64 / arguments.runs as f64);
+            let done = jobs.len() as f64;
+            jobs.push(Job::of(&scene, seed, arguments.charging_speed, |share| {
+                progress.show((done + share) / arguments.runs as f64);
+            }));
         }
     }
     progress.clear();
