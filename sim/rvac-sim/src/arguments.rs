@@ -7,6 +7,7 @@ use anyhow::bail;
 use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
 use rvac_api::CleaningPattern;
+use rvac_sim::baseline::{Origin, title};
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::ServeSettings;
 use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
@@ -30,7 +31,7 @@ pub(crate) enum Command {
     /// Writes the published set of generated homes as home .toml files.
     Homes(FolderArguments),
     /// Makes one HTML page of the runs that `run --keep DIR` kept in a folder: DIR/index.html.
-    Report(FolderArguments),
+    Report(ReportArguments),
 }
 
 #[derive(Debug, Args)]
@@ -199,10 +200,7 @@ impl RunArguments {
 
     /// What the run is called in a page of several.
     pub(crate) fn title(&self) -> String {
-        let mut title = format!(
-            "{}, {} noise, seed {}",
-            self.strategy, self.scene.noise, self.seed
-        );
+        let mut title = title(&self.strategy, &self.scene.noise, self.seed);
         if let Some(pattern) = self.pattern {
             title.push_str(", ");
             title.push_str(pattern.name());
@@ -223,6 +221,16 @@ impl RunArguments {
             title.push_str(", perfect pose");
         }
         title
+    }
+
+    /// In what the run is made, if others can be made in the same without its firmware's image.
+    pub(crate) fn origin(&self) -> Option<Origin> {
+        self.scene.firmware.is_none().then(|| Origin {
+            home: self.scene.home.clone(),
+            robot: self.scene.robot.clone(),
+            noise: self.scene.noise.clone(),
+            seed: self.seed,
+        })
     }
 
     pub(crate) const fn pose_source(&self) -> PoseSource {
@@ -246,6 +254,15 @@ impl RunArguments {
 pub(crate) struct FolderArguments {
     /// The folder.
     pub(crate) folder: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// The folder.
+    pub(crate) folder: PathBuf,
+    /// Run bounce first for each home, noise class and seed of which the folder holds no such run, and keep that there, too.
+    #[arg(long)]
+    pub(crate) with_bounce: bool,
 }
 
 #[derive(Debug, Args)]

@@ -6,6 +6,7 @@
 //! and [`serve`] puts the robot alone behind a pseudoterminal for a daemon of flesh and blood.
 #![forbid(unsafe_code)]
 
+pub mod baseline;
 pub mod faults;
 mod figures;
 mod firmware;

@@ -11,12 +11,13 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context, bail};
-use arguments::{Arguments, Command, FaultArguments, RunArguments, ServeArguments};
+use arguments::{Arguments, Command, FaultArguments, ReportArguments, RunArguments, ServeArguments};
 use brain::StoredMap;
 use clap::Parser;
 use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
+use rvac_sim::baseline::add_missing;
 use rvac_sim::faults::{Campaign, Summary, trials};
 use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
@@ -33,7 +34,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run_household(&arguments),
         Command::Faults(arguments) => run_trials(&arguments),
         Command::Homes(arguments) => write_homes(&arguments.folder),
-        Command::Report(arguments) => write_page(&arguments.folder),
+        Command::Report(arguments) => write_page(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         // When even standard error is gone there is nobody left to tell.
@@ -83,7 +84,11 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         ..report
     };
     if let Some(folder) = &arguments.keep {
-        household.kept_run(arguments.title())?.keep(folder)?;
+        let kept = KeptRun {
+            origin: arguments.origin(),
+            ..household.kept_run(arguments.title())?
+        };
+        kept.keep(folder)?;
     }
     if let Some(path) = &arguments.save_map {
         save_map(path, &household)?;
@@ -126,8 +131,17 @@ fn write_homes(folder: &Path) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn write_page(folder: &Path) -> anyhow::Result<ExitCode> {
-    let page = page::write(&KeptRun::all(folder)?);
+fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
+    let folder = &arguments.folder;
+    let mut runs = KeptRun::all(folder)?;
+    if arguments.with_bounce {
+        let progress = Progress::new("bounce");
+        let added = add_missing(folder, &runs, |share| progress.show(share));
+        progress.clear();
+        added?;
+        runs = KeptRun::all(folder)?;
+    }
+    let page = page::write(&runs);
     let path = folder.join("index.html");
     fs::write(&path, page).with_context(|| format!("cannot write {}", path.display()))?;
     print(&path.display().to_string())?;

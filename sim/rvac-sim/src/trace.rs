@@ -8,6 +8,7 @@ use brain::mapping::{CELL_M, CellKnowledge};
 use home::{Cell, Home, Pose, Truth};
 use serde::{Deserialize, Serialize};
 
+use crate::baseline::Origin;
 use crate::figures::Belief;
 use crate::{Host, Report};
 
@@ -42,6 +43,9 @@ pub struct Sample {
 pub struct KeptRun {
     /// What it is called: strategy, noise, seed and what else was asked.
     pub title: String,
+    /// In what it was made; `None` = in an emulated chip, or by a version that did not keep it.
+    #[serde(default)]
+    pub origin: Option<Origin>,
     /// The figures.
     pub report: serde_json::Value,
     /// The plan of the home.
@@ -159,6 +163,7 @@ impl KeptRun {
     pub fn new(title: String, report: &Report, home: &Home) -> anyhow::Result<Self> {
         Ok(Self {
             title,
+            origin: None,
             report: serde_json::to_value(report)?,
             plan: Drawing::of_home(home),
             dock: home.dock().map(|dock| [dock.x_m, dock.y_m]),

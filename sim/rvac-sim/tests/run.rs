@@ -144,6 +144,40 @@ fn kept_runs_become_one_page_without_foreign_parts() {
 }
 
 #[test]
+fn a_page_shows_bounce_beside_a_run_that_came_without() {
+    let folder = std::env::temp_dir().join(format!("rvac-sim-bounce-{}", std::process::id()));
+    let name = folder.to_str().unwrap();
+    let home = "homes/furnished-room.toml";
+    let run = [
+        "run",
+        "--home",
+        home,
+        "--minutes",
+        "1",
+        "--strategy",
+        "systematic",
+    ];
+    assert!(
+        rvac_sim(&[run.as_slice(), &["--seed", "3", "--keep", name]].concat())
+            .status
+            .success()
+    );
+    let page = |arguments: &[&str]| {
+        let output = rvac_sim(&[&["report", name], arguments].concat());
+        assert!(output.status.success(), "{output:?}");
+        std::fs::read_to_string(folder.join("index.html")).unwrap()
+    };
+    let bounce = "bounce, nominal noise, seed 3";
+    assert!(!page(&[]).contains(bounce));
+    let both = page(&["--with-bounce"]);
+    assert!(both.contains(bounce) && both.contains("systematic, nominal noise, seed 3"));
+    assert_eq!(page(&["--with-bounce"]), both, "it is there already");
+    let kept = std::fs::read_dir(&folder).unwrap().count();
+    assert_eq!(kept, 3, "two runs and the page");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn trials_are_counted() {
     let output = rvac_sim(&["faults", "--seeds", "0..3", "--minutes", "1", "--json"]);
     assert!(output.status.success(), "{output:?}");

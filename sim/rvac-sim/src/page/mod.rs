@@ -14,7 +14,7 @@ use chart::{Chart, Curve};
 /// Colours of the runs of a home, told apart by most people who see colours differently, too (Okabe and Ito 2008).
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 /// Longest time that a chart of coverage shows, multiples of T0.
-const LONGEST: f64 = 8.0;
+pub(crate) const LONGEST: f64 = 8.0;
 
 const STYLE: &str = "\
 body{font:15px/1.45 system-ui,sans-serif;color:#1d2730;background:#f4f5f3;margin:0}\
