@@ -220,9 +220,7 @@ impl Daemon {
                     request: *request,
                 }),
                 Incoming::Broken(failure) => {
-                    if let Some(client) = self.clients.get_mut(&id) {
-                        client.push(Class::Lossless, client::spell(&Update::Failed(failure)));
-                    }
+                    self.handle(Input::Refused { client: id, failure });
                 }
                 Incoming::TooLong(failure) => {
                     if let Some(client) = self.clients.get_mut(&id) {

@@ -167,6 +167,9 @@ pub struct RunStop {
     pub reason: String,
     /// The same as a sentence for people.
     pub text: String,
+    /// What to do about it; absent when there is nothing to do, and in older records.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub remedy: String,
     /// Who wanted it, if somebody did, in English words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,

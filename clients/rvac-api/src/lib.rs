@@ -13,6 +13,7 @@ mod health;
 mod history;
 mod home;
 mod order;
+mod reasons;
 mod request;
 mod schedule;
 mod stop;
@@ -32,6 +33,7 @@ pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming,
     RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
+pub use reasons::{Explanation, explain, explanations, remedy};
 pub use request::{CleaningPower, Request, RequestBody, Topic};
 pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,

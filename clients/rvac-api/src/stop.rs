@@ -19,6 +19,9 @@ pub struct Standstill {
     pub reason: String,
     /// The same as a sentence for people.
     pub text: String,
+    /// What to do about it; absent when there is nothing to do, and from older daemons.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub remedy: String,
     /// Where it believed to be.
     pub place: Pose,
     /// It did not know where it was.

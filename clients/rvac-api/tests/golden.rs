@@ -1023,6 +1023,7 @@ fn a_run_in_full() {
         state: "paused".to_owned(),
         reason: "command".to_owned(),
         text: "Paused: somebody asked for it.".to_owned(),
+        remedy: String::new(),
         by: Some("panel".to_owned()),
         asker: Some(RunAsker::Client("panel".to_owned())),
         place: Pose {
@@ -1149,6 +1150,7 @@ fn standstill() {
         state: "stuck".to_owned(),
         reason: "boxed-in".to_owned(),
         text: "Gave up.".to_owned(),
+        remedy: "Move it.".to_owned(),
         place: Pose {
             t: 61.5,
             x: 1.0,
@@ -1160,6 +1162,6 @@ fn standstill() {
     };
     check(
         &Update::Standstill(Box::new(told)),
-        r#"{"e":"standstill","number":2,"t":61.5,"state":"stuck","reason":"boxed-in","text":"Gave up.","place":{"x":1.0,"y":2.0,"heading":0.5,"t":61.5}}"#,
+        r#"{"e":"standstill","number":2,"t":61.5,"state":"stuck","reason":"boxed-in","text":"Gave up.","remedy":"Move it.","place":{"x":1.0,"y":2.0,"heading":0.5,"t":61.5}}"#,
     );
 }

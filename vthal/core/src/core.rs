@@ -2,7 +2,6 @@
 
 mod buttons;
 mod checkpoints;
-mod explain;
 mod feed;
 mod firmware;
 mod floors;
@@ -13,6 +12,7 @@ mod link_facts;
 mod manual;
 mod orders;
 mod refusal;
+mod refusal_log;
 mod requests;
 mod room_edits;
 pub(crate) mod room_power;
@@ -41,6 +41,7 @@ use feed::Feed;
 use health::HealthDesk;
 use history::UnkeptRuns;
 use link_facts::LinkFacts;
+use refusal_log::RefusalLog;
 use rvac_api::LogLevel;
 use standstill::Standstills;
 
@@ -61,6 +62,7 @@ pub struct Core {
     /// How hard the robot cleans while a person drives it.
     driver_power: CleanerPower,
     journal: Journal,
+    refusal_log: RefusalLog,
     diary: Diary,
     felt: Evidence,
     standstills: Standstills,
@@ -113,6 +115,7 @@ impl Core {
             start_means_more: false,
             driver_power: CleanerPower::FULL,
             journal,
+            refusal_log: RefusalLog::default(),
             diary: Diary::default(),
             felt: Evidence::default(),
             standstills: Standstills::default(),
@@ -135,6 +138,7 @@ impl Core {
     /// appends what must be done to `outputs`.
     pub fn handle(&mut self, now_us: u64, input: Input<'_>, outputs: &mut Outputs) {
         let link_before = outputs.link.len();
+        let delivered_before = outputs.deliveries.len();
         match input {
             Input::LinkOpened => self.link_opened(now_us, outputs),
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
@@ -151,6 +155,7 @@ impl Core {
             }
             Input::ClientConnected(client) => self.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
+            Input::Refused { client, failure } => Self::refuse(client, failure, outputs),
             Input::MapRestored { floor, number, home } => {
                 self.map_restored(now_us, (floor, number, home), outputs)
             }
@@ -170,6 +175,7 @@ impl Core {
         }
         self.pass_time(now_us, outputs);
         self.tap_sent(now_us, link_before, outputs);
+        self.log_refusals(now_us, delivered_before, outputs);
         self.feed(now_us, outputs);
     }
 

@@ -1,6 +1,7 @@
 //! What the brain decided, as sentences, the newest kept for clients that come later.
 
 use brain::action::Decision;
+use rvac_api::{Explanation, explain};
 
 use crate::newest::Newest;
 use crate::to_api;
@@ -99,67 +100,7 @@ fn deed(what: &str, value: f64) -> String {
 
 /// A reason in words, for the end of a sentence.
 pub(crate) fn because(reason: &str) -> String {
-    let words = match reason {
-        "start-up" => "it was just switched on",
-        "command" => "somebody asked for it",
-        "finished" => "the job is done",
-        "continued" => "it goes on after an interruption",
-        "restored" => "it takes up the job of before a restart",
-        "link-lost" => "the robot does not answer",
-        "link-restored" => "the robot answers again",
-        "stopped" => "somebody said stop",
-        "button-stop" => "its button was pressed",
-        "wheel-drop" => "a wheel hangs, it was lifted or fell",
-        "docked" => "it stands on the dock",
-        "bump-left" => "its bumper touched something on the left",
-        "bump-right" => "its bumper touched something on the right",
-        "bump-front" => "its bumper touched something ahead",
-        "cliff-left" => "the floor ends on the left",
-        "cliff-right" => "the floor ends on the right",
-        "cliff-front" => "the floor ends ahead",
-        "contact-held" => "the bumper stays pressed although it backed off",
-        "cliff-held" => "the floor does not come back although it backed off",
-        "boxed-in" => "it found no way out by driving straight",
-        "shut-in" => "it had not left a small place for minutes",
-        "came-free" => "it is out of the place that held it",
-        "long-run" => "it drove straight for longer than any home is",
-        "unswept-floor" => "there is floor that it has not swept yet",
-        "planning" => "its plan is not made yet",
-        "off-the-way" => "it had come too far from it",
-        "no-map" => "it has no map of the home to plan on",
-        "rest-out-of-reach" => "what is left cannot be reached",
-        "obstructed" => "too many things stand in the way",
-        "not-moving" => "its wheels do not move although they should",
-        "slip" => "its wheels slip",
-        "gyro-drift" => "its gyro must be measured at rest now and then",
-        "task-budget" => "the time for the job is used up",
-        "battery-low" => "little charge is left",
-        "dock-not-found" => "it did not find the dock in time",
-        "dock-beam" => "it hears a beam of the dock",
-        "lease-ended" => "the person who drove was not heard any more",
-        "released" => "the person who drove let go",
-        "wall-ahead" => "something stands ahead",
-        "wall-ended" => "the wall ends here",
-        "alternation" => "it had gone on in the same manner for long enough",
-        "open-floor" => "it had met nothing for long",
-        "back-at-start" => "it is back where the lap began",
-        "island" => "it had gone round something that stands free",
-        "long-lap" => "the lap took too long",
-        "recharging" => "it waits for charge and then goes on",
-        "charged" => "there is charge enough to go on",
-        "dock-known" => "its map tells where the dock is",
-        "dock-missed" => "it touched something, but not the contacts of the dock",
-        "no-charge-current" => "it stands on the dock's contacts, but no current flows",
-        "no-beam" => "it hears no beam of the dock where one should be",
-        "dock-unknown" => "nobody knows where the dock is",
-        "place-unknown" => "it does not know where it is",
-        "way-blocked" => "no way is left to where it wants to go",
-        "not-armed" => "its microcontroller was reset",
-        "already-running" => "such a job already runs",
-        "no-job" => "there is no job",
-        other => return plain(other),
-    };
-    words.to_owned()
+    explain(reason).map_or_else(|| plain(reason), Explanation::clause)
 }
 
 /// A name as words.
@@ -183,7 +124,7 @@ mod tests {
         let entry = diary.write(2_500_000, &decision("back-off", "bump-left", 0.8));
         assert_eq!(
             entry.text,
-            "Backed off and turned away: its bumper touched something on the left."
+            "Backed off and turned away: it touched something on its left."
         );
         assert_eq!(
             (entry.number, entry.t, entry.reason.as_str()),

@@ -2,7 +2,7 @@
 
 use brain::StoredMap;
 use brain::observation::BeaconRange;
-use rvac_api::{Request, Run};
+use rvac_api::{Failure, Request, Run};
 
 use crate::{FloorTask, KeptFloor};
 
@@ -37,6 +37,13 @@ pub enum Input<'a> {
         client: ClientId,
         /// What.
         request: Request,
+    },
+    /// The shell cannot do what a client asks for; the core tells it, and the log.
+    Refused {
+        /// Who.
+        client: ClientId,
+        /// Why.
+        failure: Failure,
     },
     /// A version of the map of the home was read from the disk and is the newest there now, as
     /// [`crate::MapOrder::Restore`] asked.

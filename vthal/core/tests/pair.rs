@@ -135,6 +135,14 @@ impl Pair {
         )
     }
 
+    fn log_lines(&self) -> Vec<&str> {
+        let lines = self.updates.iter().filter_map(|update| match update {
+            Update::Log(entry) => Some(entry.text.as_str()),
+            _ => None,
+        });
+        lines.collect()
+    }
+
     /// The headings that the brain perceived, in order.
     fn headings(&self) -> Vec<Option<f64>> {
         let heading = |record: &Record| match record {
@@ -1309,7 +1317,7 @@ fn decisions_and_estimates_are_told_to_who_follows_them() {
 #[test]
 fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does_not() {
     let mut pair = Pair::new();
-    let topics = vec![Topic::Standstills];
+    let topics = vec![Topic::Standstills, Topic::Log];
     pair.ask(BERT, RequestBody::Watch { topics });
     pair.ask(ANNA, RequestBody::Start { strategy: None });
     pair.run_ms(6_000);
@@ -1337,6 +1345,15 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
         (stop.state.as_str(), stop.reason.as_str()),
         ("paused", "wheel-drop")
     );
+    assert_eq!(
+        (stop.text.as_str(), stop.remedy.as_str()),
+        (
+            "Paused: a wheel hangs in the air.",
+            "Put the robot flat on the floor."
+        )
+    );
+    let line = "state-paused (wheel-drop): A wheel hangs in the air. Put the robot flat on the floor.";
+    assert!(pair.log_lines().contains(&line), "{:?}", pair.log_lines());
     let newest = stop.evidence.felt.last().expect("it felt something");
     assert!(newest.signs.iter().any(|sign| sign == "wheel-drop"), "{newest:?}");
     let earlier = &stop.evidence.felt[stop.evidence.felt.len() - 3];
@@ -1364,6 +1381,31 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
             .felt
             .iter()
             .any(|felt| felt.signs.contains(&"wheel-drop".to_owned()))
+    );
+}
+
+#[test]
+fn a_refusal_is_in_the_log_in_the_words_of_the_answer_and_not_again_and_again() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Log];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    pair.run_ms(100);
+    assert_eq!(pair.drive(ANNA, 0.1), None);
+    let before = pair.updates.len();
+    for _ in 0..10 {
+        assert_eq!(pair.drive(BERT, 0.1).as_deref(), Some("driver-busy"));
+    }
+    let answer = pair.updates[before..].iter().find_map(|update| match update {
+        Update::Failed(failure) => Some(failure.text.clone()),
+        _ => None,
+    });
+    let answer = answer.expect("refused");
+    let lines = pair.log_lines();
+    let refusals: Vec<&&str> = lines.iter().filter(|line| line.contains("is refused")).collect();
+    assert_eq!(refusals.len(), 1, "{refusals:?}");
+    assert!(
+        refusals[0].ends_with(&format!(" is refused (driver-busy): {answer}")),
+        "{refusals:?}"
     );
 }
 

@@ -1,6 +1,6 @@
 //! What goes to the thread that writes and reads files, and what comes back from it.
 
-use rvac_api::{RunRecord, Update};
+use rvac_api::{Failure, RunRecord, Update};
 use vthal_core::{
     ArchiveOrder, ClientId, FloorOrder, HealthOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder,
 };
@@ -30,7 +30,7 @@ impl Daemon {
                 None
             }
             MapOutcome::Refused(reason, text) => {
-                self.tell(client, &refusal(id, reason, text));
+                self.refuse((client, id), reason, text);
                 return;
             }
         };
@@ -49,7 +49,7 @@ impl Daemon {
                 self.handle(Input::FloorsKept { task, floors, made });
                 self.tell_done((client, id), None);
             }
-            Err(error) => self.tell(client, &refusal(id, error.name(), error.to_string())),
+            Err(error) => self.refuse((client, id), error.name(), error.to_string()),
         }
     }
 
@@ -62,7 +62,7 @@ impl Daemon {
                 None
             }
             Err(error) => {
-                self.tell(client, &refusal(id, error.name(), error.to_string()));
+                self.refuse((client, id), error.name(), error.to_string());
                 return;
             }
         };
@@ -74,7 +74,7 @@ impl Daemon {
             Ok(MixOutcome::Listed(mixes)) => Some(Update::Mixes { mixes }),
             Ok(MixOutcome::Done) => None,
             Err(error) => {
-                self.tell(client, &refusal(id, error.name(), error.to_string()));
+                self.refuse((client, id), error.name(), error.to_string());
                 return;
             }
         };
@@ -84,7 +84,7 @@ impl Daemon {
     pub(super) fn take_run_answer(&mut self, RunAnswer { client, id, outcome }: RunAnswer) {
         match outcome {
             Ok(update) => self.tell_done((client, id), Some(*update)),
-            Err(error) => self.tell(client, &refusal(id, error.name(), error.to_string())),
+            Err(error) => self.refuse((client, id), error.name(), error.to_string()),
         }
     }
 
@@ -99,6 +99,13 @@ impl Daemon {
         if let Some(client) = self.clients.get_mut(&client) {
             client.push(Class::Lossless, client::spell(update));
         }
+    }
+
+    /// Not while outputs of the core are carried out, which this makes more of.
+    fn refuse(&mut self, (client, id): (ClientId, Option<u32>), reason: &str, text: String) {
+        let reason = reason.to_owned();
+        let failure = Failure { id, reason, text };
+        self.handle(Input::Refused { client, failure });
     }
 
     pub(super) fn order_map(&mut self, order: MapOrder) {

@@ -102,7 +102,7 @@ fn sign_text<'a>(words: &Words, sign: &'a str) -> &'a str {
         "wheel-drop" => told.wheel_drop,
         "docked" => told.docked,
         "link-lost" => told.link_lost,
-        other => explain(words, other).map_or(other, |explanation| explanation.what.trim_end_matches('.')),
+        other => explain(words, other).map_or(other, |explanation| explanation.cause.trim_end_matches('.')),
     }
 }
 

@@ -61,7 +61,7 @@ fn row(words: &Words, view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
 
 /// What a code means; a code without words is shown as it is.
 fn what_of<'a>(words: &Words, code: &'a str) -> &'a str {
-    explain(words, code).map_or(code, |found| found.what)
+    explain(words, code).map_or(code, |found| found.cause)
 }
 
 /// The next runs of all, each with its name and what keeps it.

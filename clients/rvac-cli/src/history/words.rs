@@ -88,13 +88,15 @@ fn stop_line(stop: &RunStop) -> String {
         |lasted_s| format!("for {}", span(lasted_s)),
     );
     let by = stop.by.as_ref().map_or_else(String::new, |by| format!(" ({by})"));
+    let between = if stop.remedy.is_empty() { "" } else { " " };
     format!(
-        "stop at {:>7}  {} {lasted}, at x {:.2} m, y {:.2} m: {} ({}){by}\n",
+        "stop at {:>7}  {} {lasted}, at x {:.2} m, y {:.2} m: {}{between}{} ({}){by}\n",
         span(stop.at_s),
         stop.state,
         stop.place.x,
         stop.place.y,
         stop.text,
+        stop.remedy,
         stop.reason
     )
 }

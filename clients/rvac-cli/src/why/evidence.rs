@@ -49,8 +49,13 @@ fn in_words(told: &Standstill, now_s: f64) -> String {
     } else {
         format!("at x {:.2} m, y {:.2} m", told.place.x, told.place.y)
     };
+    let remedy = if told.remedy.is_empty() {
+        String::new()
+    } else {
+        format!("{}\n", told.remedy)
+    };
     format!(
-        "{} ({}, {}, {place})\n{}",
+        "{} ({}, {}, {place})\n{remedy}{}",
         told.text,
         told.reason,
         ago(now_s - told.t),
@@ -105,9 +110,31 @@ fn plain(value: f64, steps: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::{Decision, Evidence, Felt};
+    use rvac_api::{Decision, Evidence, Felt, Pose, Standstill};
 
-    use super::table;
+    use super::{in_words, table};
+
+    #[test]
+    fn a_stop_is_told_with_what_to_do() {
+        let mut told = Standstill {
+            number: 1,
+            t: 60.0,
+            state: "paused".to_owned(),
+            reason: "wheel-drop".to_owned(),
+            text: "Paused: a wheel hangs in the air.".to_owned(),
+            remedy: "Put the robot flat on the floor.".to_owned(),
+            place: Pose::default(),
+            lost: false,
+            evidence: Evidence::default(),
+        };
+        let head = "Paused: a wheel hangs in the air. (wheel-drop, 5 s ago, at x 0.00 m, y 0.00 m)\n";
+        assert_eq!(
+            in_words(&told, 65.0),
+            format!("{head}Put the robot flat on the floor.\n")
+        );
+        told.remedy.clear();
+        assert_eq!(in_words(&told, 65.0), head);
+    }
 
     #[test]
     fn what_was_felt_stands_below_what_was_tried() {

@@ -5,7 +5,7 @@ use rvac_api::{FloorQuestion, FloorsView, LogLevel, RequestBody};
 
 use super::orders::to_name;
 use super::refusal::Refusal;
-use super::{Core, explain, recorder};
+use super::{Core, recorder, refusal};
 use crate::floors::{Floors, KeptFloor};
 use crate::journal::Part;
 use crate::mind::{FloorNews, Mind};
@@ -44,7 +44,7 @@ impl Core {
         let reason = self.mind.as_ref()?.asked()?.name();
         Some(FloorQuestion {
             reason: reason.to_owned(),
-            text: explain::explain(reason).to_owned(),
+            text: refusal::text(reason),
         })
     }
 
@@ -297,7 +297,7 @@ impl Core {
                 (LogLevel::Info, Part::Brain, text)
             }
             FloorNews::Asked(question) => {
-                let text = explain::explain(question.name()).to_owned();
+                let text = refusal::text(question.name());
                 (LogLevel::Warn, Part::Brain, text)
             }
         };

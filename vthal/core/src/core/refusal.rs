@@ -2,8 +2,10 @@
 //! do.
 
 use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Reason};
+use rvac_api::{Explanation, explain};
 
-use super::explain::explain;
+/// A refusal for which nobody has words.
+const NOT_NOW: &str = "The robot cannot do this in its present state; the reason has the name of the cause.";
 
 /// A refusal.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +18,7 @@ impl From<&'static str> for Refusal {
     fn from(reason: &'static str) -> Self {
         Self {
             reason,
-            text: explain(reason).to_owned(),
+            text: text(reason),
         }
     }
 }
@@ -101,9 +103,32 @@ impl Refusal {
     }
 }
 
+/// The sentences of a named reason: what, and what to do.
+pub(super) fn text(reason: &str) -> String {
+    explain(reason).map_or_else(|| NOT_NOW.to_owned(), Explanation::text)
+}
+
 /// From the lower edge of one cell to the upper edge of another.
 fn metres(low: i32, high: i32) -> String {
     let from_m = f64::from(low) * CELL_M;
     let to_m = (f64::from(high) + 1.0) * CELL_M;
     format!("{from_m:.1} to {to_m:.1} m")
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::Reason;
+    use rvac_api::explain;
+    use rvac_protocol::message::Inhibit;
+
+    #[test]
+    fn everything_that_stops_the_robot_or_refuses_is_explained() {
+        let reasons = Reason::ALL.iter().map(|reason| reason.name());
+        let inhibits = Inhibit::ALL.iter().map(|inhibit| inhibit.name());
+        let missing: Vec<&str> = reasons
+            .chain(inhibits)
+            .filter(|code| explain(code).is_none())
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
 }

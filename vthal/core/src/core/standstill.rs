@@ -1,7 +1,7 @@
 //! Why the robot stands by itself: told to clients with what it felt and what it tried.
 
 use brain::action::Decision;
-use rvac_api::{Evidence, Standstill, Topic, Update};
+use rvac_api::{Evidence, Standstill, Topic, Update, remedy};
 
 use super::Core;
 use super::feed::currents_a;
@@ -83,6 +83,7 @@ impl Core {
                 .to_owned(),
             reason: decision.reason.to_owned(),
             text: sentence(decision),
+            remedy: remedy(decision.reason).to_owned(),
             place: to_api::pose(estimate.pose, now_us),
             lost: estimate.lost,
             evidence,

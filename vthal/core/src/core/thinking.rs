@@ -7,7 +7,7 @@ use rvac_api::{LogLevel, Topic, Update};
 use rvac_protocol::quality::Verdict;
 
 use super::standstill::is_standstill;
-use super::{Core, recorder};
+use super::{Core, recorder, refusal};
 use crate::device::{CleanerDrive, Device, DeviceCommand, LeaveDock};
 use crate::journal::Part;
 use crate::observe::LinkView;
@@ -122,16 +122,23 @@ impl Core {
     }
 
     fn log_decision(&mut self, now_us: u64, decision: &Decision, outputs: &mut Outputs) {
-        let level = if decision.what.starts_with("state-") {
+        let is_refusal = decision.what == "refuse";
+        let level = if is_refusal || decision.what.starts_with("state-") {
             LogLevel::Info
         } else {
             LogLevel::Debug
         };
-        let text = if decision.value == 0.0 {
-            format!("{} ({})", decision.what, decision.reason)
+        let value = if decision.value == 0.0 {
+            String::new()
         } else {
-            format!("{} ({}) {:.2}", decision.what, decision.reason, decision.value)
+            format!(" {:.2}", decision.value)
         };
+        let told = if is_refusal || is_standstill(decision) {
+            format!(": {}", refusal::text(decision.reason))
+        } else {
+            String::new()
+        };
+        let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
         self.log(now_us, (level, Part::Brain, text), outputs);
         let entry = self.diary.write(now_us, decision);
         if self.clients.any(Topic::Decisions) {

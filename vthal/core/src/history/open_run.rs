@@ -2,7 +2,7 @@
 
 use brain::action::Decision;
 use brain::{Brain, JobFigures, JobKind};
-use rvac_api::{Evidence, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunStop};
+use rvac_api::{Evidence, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunStop, remedy};
 
 use super::ending::{Ending, LastWords, asker_name};
 use super::follower::{Asked, Moment};
@@ -231,6 +231,7 @@ impl OpenRun {
                 state: state.to_owned(),
                 reason: decision.reason.to_owned(),
                 text: sentence(decision),
+                remedy: remedy(decision.reason).to_owned(),
                 by: asker.map(asker_name),
                 asker: asker.cloned(),
                 place: to_api::pose(brain.pose(), now_us),

@@ -2,32 +2,15 @@
 //! English sentence, or shown as it is.
 
 mod diary;
-mod english;
 mod estonian;
 
+pub use rvac_api::Explanation;
 use rvac_api::{Decision, Failure, FloorQuestion, LogEntry, Run, RunResult, RunStop};
 
 use crate::words::{Language, Words};
 
-/// What a code means for the person in front of the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Explanation {
-    /// What happened.
-    pub what: &'static str,
-    /// What to do about it; empty when there is nothing to do.
-    pub remedy: &'static str,
-}
-
-impl Explanation {
-    /// Both.
-    #[must_use]
-    pub fn text(self) -> String {
-        format!("{} {}", self.what, self.remedy).trim_end().to_owned()
-    }
-}
-
-const fn entry(code: &'static str, what: &'static str, remedy: &'static str) -> (&'static str, Explanation) {
-    (code, Explanation { what, remedy })
+const fn entry(code: &'static str, cause: &'static str, remedy: &'static str) -> (&'static str, Explanation) {
+    (code, Explanation { cause, remedy })
 }
 
 fn find<T: Copy>(entries: &[(&str, T)], code: &str) -> Option<T> {
@@ -60,20 +43,20 @@ pub fn state_title(words: &Words, state: &str) -> &'static str {
 /// The explanation of a code; a code that nobody has explained yet gives none and is shown as it is.
 #[must_use]
 pub fn explain(words: &Words, code: &str) -> Option<Explanation> {
-    let catalogue = match words.language {
-        Language::English => english::CATALOGUE,
-        Language::Estonian => estonian::CATALOGUE,
-    };
-    find(catalogue, code)
+    match words.language {
+        Language::English => rvac_api::explain(code),
+        Language::Estonian => find(estonian::CATALOGUE, code),
+    }
 }
 
 /// What is said when the robot refuses, in few words that fit everywhere.
 #[must_use]
 pub fn failure_text(words: &Words, failure: &Failure) -> String {
-    explain(words, &failure.reason).map_or_else(
-        || refusal_text(words, &failure.reason, &failure.text),
-        Explanation::text,
-    )
+    if failure.text.is_empty() {
+        explain(words, &failure.reason).map_or_else(|| failure.reason.clone(), Explanation::text)
+    } else {
+        refusal_text(words, &failure.reason, &failure.text)
+    }
 }
 
 /// What is said when the robot refuses something that has a place of its own for it: its own sentence is for that very thing.
@@ -126,10 +109,11 @@ fn deeds(words: &Words) -> Option<&'static [(&'static str, &'static str)]> {
     }
 }
 
-fn cause(words: &Words, code: &str) -> Option<&'static str> {
+/// A cause for the end of a sentence, in a language that is not the robot's own.
+fn cause(words: &Words, code: &str) -> Option<String> {
     match words.language {
         Language::English => None,
-        Language::Estonian => find(diary::CAUSES, code),
+        Language::Estonian => explain(words, code).map(estonian::clause),
     }
 }
 
@@ -146,7 +130,15 @@ fn with_value(deed: &str, decision: &Decision) -> String {
 /// the daemon says besides are sentences in English.
 #[must_use]
 pub fn log_text(words: &Words, entry: &LogEntry) -> (String, bool) {
-    let told = decided(entry).and_then(|decision| told_decision(words, &decision));
+    let told = decided(entry).and_then(|decision| {
+        let sentence = told_decision(words, &decision)?;
+        let remedy = if entry.text.contains("): ") {
+            explain(words, &decision.reason).map_or("", |told| told.remedy)
+        } else {
+            ""
+        };
+        Some(format!("{sentence} {remedy}").trim_end().to_owned())
+    });
     let is_told = told.is_some() || words.language == Language::English;
     (told.unwrap_or_else(|| entry.text.clone()), is_told)
 }
@@ -186,58 +178,54 @@ pub fn run_text(words: &Words, run: &Run) -> String {
     }
 }
 
-/// Why the robot stood on the way.
+/// Why the robot stood on the way, and what can be done about it.
 #[must_use]
 pub fn stop_cause_text(words: &Words, stop: &RunStop) -> String {
-    cause(words, &stop.reason).map_or_else(
+    let told = cause(words, &stop.reason).map_or_else(
         || stop.text.clone(),
         |cause| format!("{}: {cause}.", state_title(words, &stop.state)),
-    )
+    );
+    let remedy = explain(words, &stop.reason).map_or(stop.remedy.as_str(), |known| known.remedy);
+    format!("{told} {remedy}").trim_end().to_owned()
 }
 
 #[cfg(test)]
 mod tests {
     use rvac_api::{Decision, LogEntry, LogLevel};
 
-    use super::{decision_text, english, estonian, explain, find, log_text, state_title};
+    use super::{decision_text, estonian, explain, find, log_text, state_title};
     use crate::words::Language;
 
     #[test]
-    fn every_code_is_explained_once_in_whole_sentences() {
-        for catalogue in [english::CATALOGUE, estonian::CATALOGUE] {
-            for (index, (code, explanation)) in catalogue.iter().enumerate() {
-                assert!(
-                    catalogue[index + 1..].iter().all(|(other, _)| other != code),
-                    "{code} stands twice"
-                );
-                assert!(explanation.what.ends_with('.'), "{code}");
-                assert!(
-                    explanation.remedy.is_empty() || explanation.remedy.ends_with('.'),
-                    "{code}"
-                );
+    fn every_language_explains_the_same_codes() {
+        for (code, english) in rvac_api::explanations() {
+            let other = find(estonian::CATALOGUE, code).unwrap_or_else(|| panic!("{code} has no Estonian"));
+            assert_eq!(other.remedy.is_empty(), english.remedy.is_empty(), "{code}");
+            assert_ne!(other.cause, english.cause, "{code}");
+            for sentence in [other.cause, other.remedy] {
+                assert!(sentence.is_empty() || sentence.ends_with('.'), "{code}");
             }
         }
+        assert_eq!(rvac_api::explanations().count(), estonian::CATALOGUE.len());
     }
 
     #[test]
-    fn every_language_explains_the_same_codes() {
-        for (code, explanation) in english::CATALOGUE {
-            let other = find(estonian::CATALOGUE, code).unwrap_or_else(|| panic!("{code} has no Estonian"));
-            assert_eq!(other.remedy.is_empty(), explanation.remedy.is_empty(), "{code}");
-            assert_ne!(other.what, explanation.what, "{code}");
+    fn nothing_of_the_catalogue_has_a_second_wording() {
+        for (code, _) in estonian::REFUSALS {
+            assert_eq!(rvac_api::explain(code), None, "{code}");
         }
-        assert_eq!(english::CATALOGUE.len(), estonian::CATALOGUE.len());
     }
 
     #[test]
     fn every_reason_of_the_brain_is_a_cause_in_estonian() {
-        let causes = super::diary::CAUSES;
-        let missing = |reason: &&brain::Reason| find(causes, reason.name()).is_none();
+        let words = Language::Estonian.words();
+        let missing = |reason: &&brain::Reason| super::cause(words, reason.name()).is_none();
         let missing: Vec<_> = brain::Reason::ALL.iter().filter(missing).collect();
         assert!(missing.is_empty(), "{missing:?}");
-        for (code, _) in causes {
-            assert!(brain::Reason::from_name(code).is_some(), "nobody says {code}");
-        }
+        let clause = |code| super::cause(words, code).expect("known");
+        assert_eq!(clause("wheel-drop"), "ratas ripub õhus");
+        assert_eq!(clause("place-unknown"), "ta ei tea, kus ta on");
+        assert_eq!(clause("no-map"), "tal ei ole veel kodu kaarti");
     }
 
     /// The book names every code with which a request is refused.
@@ -289,6 +277,14 @@ mod tests {
                 "Kavandas teekonna, 2 min: osa põrandast on veel koristamata.".to_owned(),
                 true
             )
+        );
+        let stood = entry(
+            "brain",
+            "state-paused (wheel-drop): A wheel hangs in the air. Put the robot flat on the floor.",
+        );
+        assert_eq!(
+            log_text(estonian, &stood).0,
+            "Jäi pausile: ratas ripub õhus. Pane robot kindlalt põrandale."
         );
         for other in [
             entry("vthal", "plan (unswept-floor)"),

@@ -224,6 +224,7 @@ mod tests {
                 state: "paused".to_owned(),
                 reason: "command".to_owned(),
                 text: "Paused: somebody asked for it.".to_owned(),
+                remedy: String::new(),
                 by: Some("panel".to_owned()),
                 asker: None,
                 place: rvac_api::Pose::default(),
