@@ -38,6 +38,9 @@ const NOTED: &str = "
 /// A page that has had nothing long to do for so long is at rest.
 const QUIET: &str = "return window.usefulAt !== undefined && performance.now() - Math.max(window.usefulAt, window.busyUntil) > 5000";
 
+/// What a first visit may bring over the network, bytes.
+const FIRST_LOAD_MAX: u64 = 900_000;
+
 /// How much longer than on this computer loading may take.
 const SLOW: Duration = Duration::from_secs(120);
 
@@ -82,6 +85,7 @@ async fn the_first_visit_of_a_slow_phone() {
          last long task ends at {busy} ms, {bytes} bytes"
     );
     assert!(bytes > 100_000, "the page came over the network: {bytes}");
+    assert!(bytes < FIRST_LOAD_MAX, "a first visit brings {bytes} bytes");
     assert!(first <= useful);
 }
 
