@@ -44,9 +44,13 @@ pub struct Route {
     pub need: Need,
 }
 
-/// Every address below `/api/`; one that ends with `/` stands for all that begin so. The page and its files are for anybody: they hold no secret.
+/// Every address below `/api/`, and the files that the server makes itself; one that ends with `/` stands for all that begin so. The page and
+/// its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 13] = [
+pub const ROUTES: [Route; 16] = [
+    Route { method: Method::Get,  path: "/robot.crt",          need: Need::Nobody },
+    Route { method: Method::Get,  path: "/robot.mobileconfig", need: Need::Nobody },
+    Route { method: Method::Get,  path: "/api/openapi.json",   need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/pairing",        need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/begin",  need: Need::Nobody },
     Route { method: Method::Post, path: "/api/pairing/finish", need: Need::Nobody },

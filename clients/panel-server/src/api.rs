@@ -103,6 +103,7 @@ pub(crate) fn json(status: StatusCode, body: &impl Serialize) -> Response<Body> 
 /// The addresses of this interface, without the WebSocket. `pairing::ROUTES` says who may use each.
 pub(crate) fn routes() -> Router<Arc<Site>> {
     Router::new()
+        .route("/api/openapi.json", get(description))
         .route("/api/session", get(session))
         .route("/api/pairing", get(invitation))
         .route("/api/pairing/begin", post(begin))
@@ -113,6 +114,15 @@ pub(crate) fn routes() -> Router<Arc<Site>> {
         .route("/api/clients", get(clients))
         .route("/api/clients/revoke", post(revoke))
         .route("/api/clients/role", post(set_role))
+}
+
+/// What all of this is, for programs.
+async fn description() -> Response<Body> {
+    let headers = [
+        (header::CONTENT_TYPE, "application/json"),
+        (header::CACHE_CONTROL, "no-cache"),
+    ];
+    (headers, include_str!("../openapi.json")).into_response()
 }
 
 fn gate(site: &Site) -> Result<&Arc<Gate>, Fault> {

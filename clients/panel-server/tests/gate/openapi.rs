@@ -53,13 +53,22 @@ fn the_description_has_exactly_the_routes_and_their_roles() {
 #[track_caller]
 fn expect_described(spec: &Value, (method, path): (&str, &str), answer: &Answer) {
     let responses = &spec["paths"][path][method]["responses"];
-    let response = &responses[answer.status.to_string()];
+    let mut response = &responses[answer.status.to_string()];
+    if let Some(reference) = response["$ref"].as_str() {
+        response = spec.pointer(reference.trim_start_matches('#')).unwrap();
+    }
     assert!(response.is_object(), "{method} {path} answers {answer:?}");
-    let schema = &response["content"]["application/json"]["schema"];
-    if schema.is_null() {
+    let Some(kinds) = response["content"].as_object() else {
         assert!(answer.body.is_empty(), "{method} {path} answers {answer:?}");
         return;
+    };
+    let is_told = |kind: &&String| answer.head.contains(&format!("content-type: {kind}"));
+    let kind = kinds.keys().find(is_told);
+    let kind = kind.unwrap_or_else(|| panic!("{method} {path} answers {answer:?}"));
+    if kind != "application/json" {
+        return;
     }
+    let schema = &kinds[kind]["schema"];
     let body: Value = serde_json::from_str(&answer.body).unwrap();
     assert_eq!(misfit(spec, schema, &body), None, "{method} {path}");
 }
@@ -96,6 +105,60 @@ async fn real_answers_are_as_described() {
         assert_eq!(gone.status, expected);
         expect_described(&spec, ("post", "/api/clients/revoke"), &gone);
     }
+}
+
+#[tokio::test]
+async fn the_description_is_for_everybody_and_so_are_the_files_that_it_names() {
+    let (rig, spec) = (Rig::start().await, described());
+    for path in ["/api/openapi.json", "/robot.crt", "/robot.mobileconfig"] {
+        let answer = rig.get(path, "").await;
+        assert_eq!(answer.status, 200, "{path}");
+        expect_described(&spec, ("get", path), &answer);
+    }
+    let told: Value = serde_json::from_str(&rig.get("/api/openapi.json", "").await.body).unwrap();
+    assert_eq!(told, spec);
+}
+
+/// Every operation, broken in each way that the server's rules know.
+#[tokio::test]
+async fn what_breaks_the_rules_is_refused_as_described() {
+    let (rig, spec) = (Rig::start().await, described());
+    let (host, origin) = (rig.host(), rig.origin());
+    let strange = "Host: strange.example".to_owned();
+    let ours = format!("Host: {host}\r\nOrigin: {origin}");
+    for (method, path, _) in operations(&spec) {
+        let mut tries = vec![
+            (strange.clone(), 421),
+            (format!("Host: {host}\r\nHost: {host}"), 400),
+            (format!("Host: {host}\r\nSec-Fetch-Site: cross-site"), 403),
+        ];
+        if method == "post" {
+            tries.push((format!("Host: {host}"), 403));
+            tries.push((ours.clone(), 415));
+        }
+        for (lines, status) in tries {
+            let head = format!("{} {path} HTTP/1.1\r\n{lines}\r\n", method.to_uppercase());
+            let request = format!("{head}Content-Length: 0\r\nConnection: close\r\n\r\n");
+            let answer = rig.raw(&request).await;
+            assert_eq!(answer.status, status, "{request}");
+            expect_described(&spec, (&method, &path), &answer);
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_program_shows_its_token_as_described() {
+    let (rig, spec) = (Rig::start().await, described());
+    assert_eq!(
+        spec["components"]["securitySchemes"]["bearer"]["scheme"],
+        "bearer"
+    );
+    let cookie = rig.pair(Role::View).await;
+    let token = cookie.trim_start_matches("__Host-rvac=");
+    let shown = format!("Authorization: Bearer {token}\r\n");
+    let answer = rig.ask(("GET", "/api/session"), &shown, "").await;
+    assert_eq!(answer.status, 200, "{answer:?}");
+    expect_described(&spec, ("get", "/api/session"), &answer);
 }
 
 #[tokio::test]
