@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use panel_logic::{FeltRow, decision_text, felt_rows};
-use rvac_api::{Evidence, Status};
+use rvac_api::{Evidence, Standstill, Status};
 
 use crate::language::words;
 use crate::store::Store;
@@ -10,20 +10,62 @@ use crate::store::Store;
 /// Of the standstill that goes on, folded; nothing while the robot works or stands because somebody wanted it.
 #[component]
 pub(crate) fn StandstillView(store: Store) -> impl IntoView {
+    let told = Memo::new(move |_| going_on(store));
+    let place = Memo::new(move |_| {
+        let told = told.get().filter(|told| !told.lost);
+        told.map(|told| (told.place.x, told.place.y))
+    });
+    Effect::new(move |_| {
+        let place = place.get();
+        store.map.with_value(|map| map.mark_stop(place));
+    });
     let evidence = Memo::new(move |_| {
-        let told = store.standstill.get()?;
-        let is_now = store.status.with(|status| {
-            let fits = |status: &Status| status.state == told.state && status.reason == told.reason;
-            status.as_ref().is_some_and(fits)
-        });
-        (is_now && !told.evidence.is_empty()).then_some(told.evidence)
+        told.get()
+            .map(|told| told.evidence)
+            .filter(|felt| !felt.is_empty())
     });
     move || evidence.get().map(|evidence| view! { <EvidenceView evidence /> })
+}
+
+/// The standstill that the robot told last, if it still stands for it.
+fn going_on(store: Store) -> Option<Standstill> {
+    let told = store.standstill.get()?;
+    let is_now = store.status.with(|status| {
+        let fits = |status: &Status| status.state == told.state && status.reason == told.reason;
+        status.as_ref().is_some_and(fits)
+    });
+    is_now.then_some(told)
+}
+
+/// Of a refusal: asked for when it is unfolded, because most are clear without.
+#[component]
+pub(crate) fn FeltView(store: Store) -> impl IntoView {
+    let ask = move |_| {
+        if store.felt.with_untracked(Option::is_none) {
+            store.ask_what_it_felt();
+        }
+    };
+    view! {
+        <details class="evidence" on:toggle=ask>
+            <summary>{words().evidence.title}</summary>
+            {move || store.felt.get().map(|evidence| view! { <EvidenceTables evidence /> })}
+        </details>
+    }
 }
 
 /// As a part of the page that unfolds.
 #[component]
 pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
+    view! {
+        <details class="evidence">
+            <summary>{words().evidence.title}</summary>
+            <EvidenceTables evidence />
+        </details>
+    }
+}
+
+#[component]
+fn EvidenceTables(evidence: Evidence) -> impl IntoView {
     let told = &words().evidence;
     let rows = felt_rows(words(), &evidence);
     let tried: Vec<String> = evidence
@@ -33,25 +75,22 @@ pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
         .collect();
     let has_tried = !tried.is_empty();
     view! {
-        <details class="evidence">
-            <summary>{told.title}</summary>
-            <table>
-                <caption>{told.felt}</caption>
-                <thead>
-                    <tr>
-                        <th scope="col">{told.when}</th>
-                        <th scope="col">{told.motion}</th>
-                        <th scope="col">{told.signs}</th>
-                        <th scope="col">{told.echo}</th>
-                    </tr>
-                </thead>
-                <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
-            </table>
-            <Show when=move || has_tried>
-                <h4>{told.tried}</h4>
-            </Show>
-            <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
-        </details>
+        <table>
+            <caption>{told.felt}</caption>
+            <thead>
+                <tr>
+                    <th scope="col">{told.when}</th>
+                    <th scope="col">{told.motion}</th>
+                    <th scope="col">{told.signs}</th>
+                    <th scope="col">{told.echo}</th>
+                </tr>
+            </thead>
+            <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
+        </table>
+        <Show when=move || has_tried>
+            <h4>{told.tried}</h4>
+        </Show>
+        <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
     }
 }
 

@@ -7,7 +7,7 @@ use panel_logic::{
 };
 use rvac_api::Status;
 
-use crate::evidence_view::StandstillView;
+use crate::evidence_view::{FeltView, StandstillView};
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
@@ -189,12 +189,21 @@ pub(crate) fn RefusalView(store: Store) -> impl IntoView {
             .refusal
             .with(|refusal| refusal.as_ref().map(|refusal| failure_text(words(), refusal)))
     };
+    Effect::new(move |_| {
+        store.refusal.track();
+        store.felt.set(None);
+    });
     view! {
         <div role="alert" class="alert-place">
             <Show when=move || text().is_some()>
                 <div class="alert" id="refusal">
                     {icon(Icon::Warning)}
-                    <p>{text}</p>
+                    <div>
+                        <p>{text}</p>
+                        <Show when=move || store.robot_refused()>
+                            <FeltView store />
+                        </Show>
+                    </div>
                     <button type="button" class="round" aria-label=words().frame.dismiss on:click=move |_| store.refusal.set(None)>
                         {icon(Icon::Close)}
                     </button>

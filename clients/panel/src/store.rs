@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Failure, FloorsView, KeptMap, Request, RequestBody,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, KeptMap, Request, RequestBody,
     RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
@@ -22,6 +22,8 @@ use crate::schedules::ScheduleDesk;
 
 /// Under this reason a button that waits tells why. No robot gives it.
 const NOT_NOW: &str = "not-now";
+/// Under this one an edit of the map tells why it cannot be.
+pub(crate) const NOT_DRAWN: &str = "edit";
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 
@@ -85,6 +87,8 @@ pub(crate) struct Store {
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
+    /// What the robot had felt and tried when somebody asked about that refusal.
+    pub(crate) felt: RwSignal<Option<Evidence>>,
     /// Who drives, and by which mix.
     pub(crate) seat: Seat,
     /// The mix that is edited.
@@ -121,6 +125,7 @@ impl Store {
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
+            felt: RwSignal::new(None),
             seat: Seat::new(),
             bench: Bench::new(),
             entrance: Entrance::new(),
@@ -151,6 +156,19 @@ impl Store {
     /// Asks for something that nobody pressed a button for.
     pub(crate) fn ask_quietly(self, body: RequestBody) {
         self.send(None, body);
+    }
+
+    /// Asks what the robot has felt and tried up to now; the refusal about which somebody asks stays.
+    pub(crate) fn ask_what_it_felt(self) {
+        self.send(Some(OTHER_ID), RequestBody::Evidence);
+    }
+
+    /// Whether the robot itself refused, and not this page.
+    pub(crate) fn robot_refused(self) -> bool {
+        self.refusal.with(|refusal| {
+            let is_robots = |told: &Failure| !matches!(told.reason.as_str(), NOT_NOW | NOT_DRAWN);
+            refusal.as_ref().is_some_and(is_robots)
+        })
     }
 
     /// Asks under a number of its own.
@@ -310,6 +328,7 @@ impl Store {
                 self.estimate.set(Some(estimate));
             }
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
+            Message::Evidence { evidence, .. } => self.felt.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { floor, maps } => {
@@ -332,7 +351,6 @@ impl Store {
             Message::Packet { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
-            | Message::Evidence { .. }
             | Message::Button { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));

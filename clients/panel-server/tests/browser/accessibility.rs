@@ -50,7 +50,7 @@ async fn dress(browser: &Browser, language: &str, look: &str) {
 }
 
 /// What is done on the way to a view, and a script that is true when it is there.
-const VIEWS: [(&str, &[&str], &str); 11] = [
+const VIEWS: [(&str, &[&str], &str); 12] = [
     ("drive", &["#tab-drive"], "#pad"),
     (
         "mixes",
@@ -66,6 +66,7 @@ const VIEWS: [(&str, &[&str], &str); 11] = [
     ("rename", &["#rename-floor-1"], "#floor-name"),
     // The only floor must stay.
     ("refusal", &["#rename-floor-1", "#remove-floor-1"], "#refusal"),
+    ("felt", &["#refusal summary"], "#refusal .evidence tbody tr"),
     (
         "room",
         &[

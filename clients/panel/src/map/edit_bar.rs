@@ -8,7 +8,7 @@ use wasm_bindgen::JsCast;
 
 use crate::icons::{Icon, icon};
 use crate::language::words;
-use crate::store::Store;
+use crate::store::{NOT_DRAWN, Store};
 
 /// What was edited on this page; cheap to copy.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +74,7 @@ impl Store {
             }
             Some(Err(error)) => self.refusal.set(Some(Failure {
                 id: None,
-                reason: "edit".to_owned(),
+                reason: NOT_DRAWN.to_owned(),
                 text: error.text(words()).to_owned(),
             })),
         }

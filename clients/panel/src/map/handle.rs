@@ -127,6 +127,12 @@ impl MapHandle {
         self.change(|scene| scene.choose(choice));
     }
 
+    /// Marks where the robot stands and waits for help, if it does.
+    pub(crate) fn mark_stop(&self, place: Option<(f64, f64)>) {
+        self.shared.labels.borrow_mut().mark_stop(place);
+        self.change(|_| {});
+    }
+
     pub(crate) fn on_way(&self, way: &PlannedWay) {
         self.change(|scene| scene.on_way(way));
     }

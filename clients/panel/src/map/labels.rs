@@ -1,4 +1,4 @@
-//! Names of rooms, and the places of zones and spots in the order, over the canvas: text that the browser draws, moved along with the camera. Who cannot see the map finds
+//! Names of rooms, the places of zones and spots in the order, and where the robot waits for help, over the canvas: text that the browser draws, moved along with the camera. Who cannot see the map finds
 //! them as lists on the page, so these are hidden from screen readers.
 
 use leptos::prelude::document;
@@ -20,6 +20,7 @@ pub(crate) struct Labels {
     place: Option<HtmlElement>,
     rooms: Vec<Label>,
     parts: Vec<Label>,
+    stop: Option<Label>,
     elements: Vec<HtmlElement>,
 }
 
@@ -29,6 +30,7 @@ struct Label {
     at: (f64, f64),
     /// Area of the room whose name it is.
     room_m2: Option<f64>,
+    class: &'static str,
 }
 
 impl Label {
@@ -53,6 +55,7 @@ impl Labels {
             text: room_name(words(), room),
             at: (room.x, room.y),
             room_m2: Some(room.area_m2),
+            class: "",
         };
         self.rooms = rooms.iter().take(ITEMS_MAX).map(label).collect();
         self.write();
@@ -64,13 +67,25 @@ impl Labels {
             text: part.place.to_string(),
             at: part.middle.into(),
             room_m2: None,
+            class: "number",
         };
         self.parts = parts.iter().map(label).collect();
         self.write();
     }
 
+    /// Takes where the robot stands and waits for help.
+    pub(crate) fn mark_stop(&mut self, at: Option<(f64, f64)>) {
+        self.stop = at.map(|at| Label {
+            text: "!".to_owned(),
+            at,
+            room_m2: None,
+            class: "number stop",
+        });
+        self.write();
+    }
+
     fn labels(&self) -> impl Iterator<Item = &Label> {
-        self.rooms.iter().chain(&self.parts)
+        self.rooms.iter().chain(&self.parts).chain(&self.stop)
     }
 
     fn write(&mut self) {
@@ -91,7 +106,7 @@ impl Labels {
         }
         for (element, label) in self.elements.iter().zip(self.labels()) {
             element.set_text_content(Some(&label.text));
-            element.set_class_name(if label.room_m2.is_some() { "" } else { "number" });
+            element.set_class_name(label.class);
         }
     }
 
