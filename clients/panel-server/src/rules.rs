@@ -101,7 +101,7 @@ impl Refusal {
                 "Another site led here: type the address of the panel into the address bar instead.\n"
             }
             Self::Method => "Only GET and HEAD are answered here.\n",
-            Self::NotOurs => "A change is sent as application/json with the header X-Rvac: 1.\n",
+            Self::NotOurs => "A change is sent as application/json, not packed, with the header X-Rvac: 1.\n",
         }
     }
 }
@@ -169,7 +169,10 @@ fn check_change(request: &Parts) -> Result<(), Refusal> {
     if request.method != Method::POST || !request.uri.path().starts_with("/api/") {
         return Err(Refusal::Method);
     }
-    let is_ours = only(&request.headers, &header::CONTENT_TYPE) == Some("application/json")
+    // Nothing here unpacks, so what is packed has no meaning that we know.
+    let is_packed = request.headers.contains_key(header::CONTENT_ENCODING);
+    let is_ours = !is_packed
+        && only(&request.headers, &header::CONTENT_TYPE) == Some("application/json")
         && only(&request.headers, &OURS) == Some("1");
     is_ours.then_some(()).ok_or(Refusal::NotOurs)
 }
@@ -332,6 +335,8 @@ mod tests {
         check(post, &[OURS, json, ours], Err(Refusal::OriginMissing));
         check(post, &[OURS, origin, json], Err(Refusal::NotOurs));
         check(post, &[OURS, origin, ours], Err(Refusal::NotOurs));
+        let packed = ("content-encoding", "gzip");
+        check(post, &[OURS, origin, json, ours, packed], Err(Refusal::NotOurs));
         check(
             post,
             &[OURS, origin, ours, ("content-type", "text/plain")],
