@@ -16,10 +16,11 @@ use tokio::sync::Notify;
 use tokio_rustls::TlsAcceptor;
 use tracing::{info, warn};
 
-use crate::guarded::{ClientsError, Guarded, NotDone, unix_s};
+use crate::guarded::{ClientsError, Guarded, NotDone};
 use crate::identity::{Authority, IdentityError, Leaf, Subjects, own_addresses, reckoned_now_s};
 use crate::reset_file::Wish;
 use crate::rules::{Rules, Scheme};
+use crate::settings::Guard;
 use crate::upstream::Upstream;
 
 /// How often names, addresses and the certificate's age are looked at.
@@ -58,17 +59,19 @@ pub(crate) struct Gate {
     extra_names: Vec<String>,
     port: u16,
     vthal: PathBuf,
+    clock: fn() -> u64,
     leaf: RwLock<Leaf>,
 }
 
 impl Gate {
-    /// The gate that is kept in `folder`, for a server that listens at `address`.
+    /// The gate that is kept in the folder of `guard`, for a server that listens at `address`.
     pub(crate) fn new(
-        folder: &Path,
+        guard: &Guard,
         extra_names: Vec<String>,
         address: SocketAddr,
         vthal: PathBuf,
     ) -> Result<Self, GateError> {
+        let folder = guard.state.as_path();
         make_folder(folder).map_err(|source| GateError::Folder {
             path: folder.to_owned(),
             source,
@@ -77,7 +80,7 @@ impl Gate {
         let authority = Authority::at(&identity, &extra_names)?;
         let guarded = Guarded::at(&folder.join("clients.json"), authority.robot().clone())?;
         let now = subjects(&authority, &extra_names);
-        let leaf = Leaf::issue(&authority, now, reckoned_now_s(unix_s()))?;
+        let leaf = Leaf::issue(&authority, now, reckoned_now_s((guard.clock)()))?;
         Ok(Self {
             guarded,
             authority: RwLock::new(Arc::new(authority)),
@@ -86,6 +89,7 @@ impl Gate {
             extra_names,
             port: address.port(),
             vthal,
+            clock: guard.clock,
             leaf: RwLock::new(leaf),
         })
     }
@@ -156,7 +160,8 @@ impl Gate {
     /// Whether there is a new certificate.
     fn renew(&self) -> bool {
         let authority = self.authority();
-        let (wanted, now_s) = (subjects(&authority, &self.extra_names), reckoned_now_s(unix_s()));
+        let wanted = subjects(&authority, &self.extra_names);
+        let now_s = reckoned_now_s((self.clock)());
         let due = self
             .leaf
             .read()

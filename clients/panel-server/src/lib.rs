@@ -30,7 +30,7 @@ mod upstream;
 
 pub use assets::{Assets, AssetsError};
 pub use gate::GateError;
-pub use guarded::ClientsError;
+pub use guarded::{ClientsError, unix_s};
 pub use identity::IdentityError;
 pub use outbox::{Outbox, Stalled};
 pub use rules::{Refusal, Rules, Scheme};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use panel_server::{Guard, Server, Settings, StartError};
+use panel_server::{Guard, Server, Settings, StartError, unix_s};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
@@ -54,6 +54,7 @@ impl From<Arguments> for Settings {
             console,
             card,
             page_port,
+            clock: unix_s,
         });
         Self {
             vthal: arguments.vthal,

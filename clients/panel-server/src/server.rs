@@ -128,7 +128,7 @@ impl Server {
         let Some(site) = Arc::get_mut(&mut self.site) else {
             return Ok(());
         };
-        let gate = Gate::new(&guard.state, host_names, self.address, site.vthal.clone())?;
+        let gate = Gate::new(&guard, host_names, self.address, site.vthal.clone())?;
         if let Some(wish) = guard.card.as_deref().and_then(reset_file::take) {
             gate.forget(wish)
                 .await

@@ -35,6 +35,8 @@ pub struct Guard {
     pub card: Option<PathBuf>,
     /// Port of a page that only tells the way to the HTTPS address.
     pub page_port: Option<u16>,
+    /// The board's clock, seconds since 1970, on which nothing but the life of the certificate depends: see [`crate::unix_s`].
+    pub clock: fn() -> u64,
 }
 
 /// Why the server does not start. Each is one sentence with its remedy.

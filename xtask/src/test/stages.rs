@@ -195,11 +195,13 @@ const ALL_ZONES: [&str; 7] = [
 const ATTACKS: [&str; 5] = ["test", "--quiet", "--locked", "--test", "attacks"];
 
 fn attacks(_long: bool) -> Result {
+    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
     check(&mut cargo(&ATTACKS))
 }
 
 /// The same for programs: nothing but the table goes to the output.
 pub(super) fn attacks_as_json() -> anyhow::Result<()> {
+    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
     let mut command = cargo(&ATTACKS);
     command.args(["--", "--json"]);
     let status = command.status()?;

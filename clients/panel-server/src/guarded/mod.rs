@@ -376,8 +376,9 @@ fn random<const N: usize>() -> Result<[u8; N], getrandom::Error> {
     Ok(bytes)
 }
 
-/// The time as far as the system knows it.
-pub(crate) fn unix_s() -> u64 {
+/// The time as far as the system knows it, seconds since 1970.
+#[must_use]
+pub fn unix_s() -> u64 {
     std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
         .map_or(0, |since| since.as_secs())

@@ -1,9 +1,12 @@
 //! A18: too many connections, too much in one, and too slow ones, while somebody else is served.
 
+use std::time::Duration;
+
 use futures_util::SinkExt as _;
 use pairing::Role;
-use tokio::io::AsyncWriteExt as _;
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::TcpStream;
+use tokio::time::timeout;
 use tokio_tungstenite::tungstenite::Message;
 
 use crate::report::Report;
@@ -11,6 +14,11 @@ use crate::rig::{Rig, read_all};
 
 /// What the crowd and the flood may take.
 const GROWTH_KIB_MAX: u64 = 48 << 10;
+
+/// A hundred thousand pings of the longest kind are 13 MB, and so are their answers, which nobody reads.
+const PINGS: usize = 100_000;
+const PINGS_KIB_MAX: u64 = 8 << 10;
+const PING_TIME_MAX: Duration = Duration::from_secs(2);
 
 /// Twice as many as all connections that are served at one time.
 const CROWD: usize = 256;
@@ -25,6 +33,8 @@ pub(crate) async fn try_all(report: &mut Report) {
     too_much(&rig, &cookie, report).await;
     endless_body(&rig, report).await;
     flood(&rig, &cookie, report).await;
+    pings(&rig, &cookie, report).await;
+    packed(&rig, &cookie, report).await;
     crowd(&rig, &cookie, report).await;
     let grown = resident_kib().saturating_sub(before);
     let seen = if grown < GROWTH_KIB_MAX {
@@ -121,6 +131,58 @@ async fn flood(rig: &Rig, cookie: &str, report: &mut Report) {
     }
     let seen = if said < 10_000 { "ended" } else { "goes on" };
     report.row(("A18", "a flood of requests"), "ended", seen);
+}
+
+/// Pings that nobody reads the answers of, as many as the server takes.
+async fn pings(rig: &Rig, cookie: &str, report: &mut Report) {
+    let before = resident_kib();
+    let mut socket = rig.socket(cookie).await;
+    rig.daemon().await;
+    let mut sent = 0;
+    let ping = || Message::Ping(vec![b'x'; 125].into());
+    while sent < PINGS {
+        let send = timeout(PING_TIME_MAX, socket.0.feed(ping()));
+        if !matches!(send.await, Ok(Ok(()))) {
+            break;
+        }
+        sent += 1;
+    }
+    let is_bounded = resident_kib().saturating_sub(before) < PINGS_KIB_MAX;
+    let owner = rig.get("/api/session", cookie).await.status;
+    report.row(
+        ("A18", "a flood of pings: memory stays, and the owner is answered"),
+        "true, 200",
+        format!("{is_bounded}, {owner}"),
+    );
+}
+
+/// A bomb needs somebody who unpacks.
+async fn packed(rig: &Rig, cookie: &str, report: &mut Report) {
+    let lines = format!("Cookie: {cookie}\r\nContent-Encoding: gzip\r\n");
+    let body = r#"{"name":"a","message":""}"#;
+    let status = rig.ask(("POST", "/api/pairing/begin"), &lines, body).await.status;
+    report.row(("A18", "a packed body"), "415", status.to_string());
+    let (host, origin) = (rig.host(), rig.origin());
+    let request = format!(
+        "GET /api/ws HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+         Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+         Sec-WebSocket-Extensions: permessage-deflate\r\nCookie: {cookie}\r\n\r\n"
+    );
+    let mut stream = rig.tls().await;
+    stream.write_all(request.as_bytes()).await.unwrap();
+    let mut head = vec![0; 4096];
+    let count = stream.read(&mut head).await.unwrap();
+    let head = String::from_utf8_lossy(&head[..count]).to_ascii_lowercase();
+    let seen = format!(
+        "{}, {}",
+        head.get(9..12).unwrap_or_default(),
+        head.contains("permessage-deflate")
+    );
+    report.row(
+        ("A18", "packed WebSocket messages are agreed on"),
+        "101, false",
+        seen,
+    );
 }
 
 async fn crowd(rig: &Rig, cookie: &str, report: &mut Report) {

@@ -1,9 +1,13 @@
 //! A3 to A6: pairing without a window, guessing, racing, and messages that are none.
 
-use pairing::{ATTEMPTS_MAX, Code, Role};
+use pairing::wire::{Begin, Begun};
+use pairing::{ATTEMPTS_MAX, Code, DeviceName, Ends, Guest, Role};
 
 use crate::report::Report;
 use crate::rig::Rig;
+
+/// Races over TLS; many more are run on a virtual clock by the tests of `pairing`.
+const RACES: u32 = 50;
 
 pub(crate) async fn try_all(report: &mut Report) {
     no_window(report).await;
@@ -89,7 +93,7 @@ async fn guessing(report: &mut Report) {
 async fn racing(report: &mut Report) {
     let rig = Rig::start().await;
     let mut outcomes = Vec::new();
-    for round in 0..20 {
+    for round in 0..RACES {
         let right = rig.open(Role::View).await.unwrap();
         let [first, second] = [1, 2].map(|number| (format!("device {round} {number}"), number));
         let first = rig.begin(&right, &first.0, first.1).await.unwrap();
@@ -104,7 +108,7 @@ async fn racing(report: &mut Report) {
     }
     outcomes.dedup();
     report.row(
-        ("A5", "two devices race, 20 times"),
+        ("A5", format!("two devices race, {RACES} times")),
         "200 and window-shut",
         outcomes.join(", "),
     );
@@ -135,6 +139,16 @@ async fn malformed(report: &mut Report) {
         report.row(("A6", what), expected, reason(&answer.body, answer.status));
     }
     let right = rig.open(Role::View).await.unwrap();
+    let reflected = reflected(&rig, &right).await;
+    report.row(
+        (
+            "A6",
+            "a message comes back to the robot, and to the guest, who sent it",
+        ),
+        "malformed, refused",
+        reflected,
+    );
+    let right = rig.open(Role::View).await.unwrap();
     let mut finish = rig.begin(&right, "thief", 1).await.unwrap();
     finish.proof = [0; 32];
     let answer = rig.finish(&finish).await;
@@ -153,4 +167,24 @@ async fn malformed(report: &mut Report) {
 
 fn message(point: &str) -> String {
     format!(r#"{{"name":"a","message":"{point}"}}"#)
+}
+
+/// What the robot says to a message of its own, and what a guest says to one.
+async fn reflected(rig: &Rig, right: &Code) -> String {
+    let name = DeviceName::new("mirror").unwrap();
+    let ends = Ends {
+        guest: &name,
+        robot: &rig.trust.robot,
+    };
+    let (guest, own) = Guest::begin(right, ends, [9; 64]);
+    let begin = |message| Begin {
+        name: name.clone(),
+        message,
+    };
+    let answer = rig.post("/api/pairing/begin", "", &begin(own)).await;
+    let begun: Begun = serde_json::from_str(&answer.body).unwrap();
+    let answer = rig.post("/api/pairing/begin", "", &begin(begun.message)).await;
+    let at_robot = reason(&answer.body, answer.status);
+    let at_guest = guest.hear(&own).map_or("refused", |_| "taken");
+    format!("{at_robot}, {at_guest}")
 }

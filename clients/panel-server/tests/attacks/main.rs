@@ -2,15 +2,23 @@
 //! the end how many there were and how many came out otherwise; `--json` for programs.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+mod absent;
 mod connections;
+mod drivers;
 mod entrance;
+mod identity;
 mod pages;
 mod presses;
 mod recovery;
 mod report;
 #[path = "../gate/rig.rs"]
 mod rig;
+#[path = "../browser/robot.rs"]
+mod robot;
 mod roles;
+#[path = "../stack/mod.rs"]
+mod stack;
+mod texts;
 mod tokens;
 mod transport;
 
@@ -33,19 +41,20 @@ async fn main() -> ExitCode {
     connections::try_all(&mut report).await;
     transport::try_all(&mut report).await;
     recovery::try_all(&mut report).await;
+    drivers::try_all(&mut report).await;
+    texts::try_all(&mut report).await;
+    identity::try_all(&mut report).await;
+    absent::try_all(&mut report).await;
     report.elsewhere(
         "A4: 100,000 guesses on a virtual clock, and A5: 500 races (clients/pairing/tests/door.rs)",
     );
     report.elsewhere("A8 to A12 by real pages in Chromium (panel-server's browser test of foreign pages)");
     report.elsewhere("A20: a name with HTML is text in Chromium (panel-server's browser test of pairing)");
-    report.elsewhere(
-        "A16: a second driver (vthal-core's tests); A17: a lost driver (vthal-core's and the browser tests)",
-    );
-    report.elsewhere(
-        "A23, A24: misuse of the authority, clocks that are wrong (panel-server's tests of identity)",
-    );
-    report.not_there_yet("A26: updates of firmware and daemon");
-    report.not_there_yet("A27: MQTT");
+    report.elsewhere("A20: texts of a robot in a terminal (rvac-cli's tests)");
+    report.elsewhere("A17: browsers that hide, freeze and lose their pad (panel-server's browser tests)");
+    report.elsewhere("A24: a window's time on a virtual clock (clients/pairing/tests/door.rs)");
+    report.not_there_yet("A26: updates of firmware and daemon; there is nothing to refuse them");
+    report.not_there_yet("A27: MQTT; there is nothing that could be told to publish");
     let wants_json = std::env::args().any(|argument| argument == "--json");
     println!("{}", if wants_json { report.json() } else { report.text() });
     if report.is_good() {

@@ -140,6 +140,19 @@ impl Page<'_> {
                 "400",
             ),
             (
+                "a length and a transfer encoding",
+                "POST /api/pairing/begin HTTP/1.1\r\nHost: HOST\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\
+                 Origin: https://HOST\r\nContent-Type: application/json\r\nX-Rvac: 1\r\nConnection: close\r\n\r\n\
+                 0\r\n\r\nGET /api/pairing HTTP/1.1\r\nHost: HOST\r\n\r\n",
+                "400",
+            ),
+            (
+                "a transfer encoding that nobody knows",
+                "POST /api/pairing/begin HTTP/1.1\r\nHost: HOST\r\nTransfer-Encoding: xchunked\r\n\
+                 Connection: close\r\n\r\n0\r\n\r\n",
+                "400",
+            ),
+            (
                 "a space before the colon",
                 "GET / HTTP/1.1\r\nHost : HOST\r\nConnection: close\r\n\r\n",
                 "400",

@@ -74,6 +74,7 @@ pub(crate) struct Rig {
     /// The connection on which the server hears of the robot's buttons.
     pub(crate) buttons: Daemon,
     pub(crate) trust: Trust,
+    clock: fn() -> u64,
     server: tokio::task::JoinHandle<()>,
 }
 
@@ -86,12 +87,17 @@ impl Drop for Rig {
 
 impl Rig {
     pub(crate) async fn start() -> Self {
+        Self::start_at(panel_server::unix_s).await
+    }
+
+    /// On a board with this clock.
+    pub(crate) async fn start_at(clock: fn() -> u64) -> Self {
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("panel-gate-{}-{number}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("index.html"), "<!doctype html><title>x</title>").unwrap();
         let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
-        let (server, address, page) = serve(&folder).await;
+        let (server, address, page) = serve(&folder, clock).await;
         let buttons = ears(&vthal).await;
         let trust = match console(&folder, &Order::Trust).await {
             Reply::Trust(trust) => trust,
@@ -104,6 +110,7 @@ impl Rig {
             vthal,
             buttons,
             trust,
+            clock,
             server,
         }
     }
@@ -112,7 +119,7 @@ impl Rig {
     pub(crate) async fn restart(&mut self) {
         self.server.abort();
         (&mut self.server).await.ok();
-        (self.server, self.address, self.page) = serve(&self.folder).await;
+        (self.server, self.address, self.page) = serve(&self.folder, self.clock).await;
         self.buttons = ears(&self.vthal).await;
     }
 
@@ -340,7 +347,10 @@ async fn ears(vthal: &UnixListener) -> Daemon {
     }
 }
 
-async fn serve(folder: &std::path::Path) -> (tokio::task::JoinHandle<()>, SocketAddr, SocketAddr) {
+async fn serve(
+    folder: &std::path::Path,
+    clock: fn() -> u64,
+) -> (tokio::task::JoinHandle<()>, SocketAddr, SocketAddr) {
     let settings = Settings {
         vthal: folder.join("vthal.sock"),
         simulator: None,
@@ -350,6 +360,7 @@ async fn serve(folder: &std::path::Path) -> (tokio::task::JoinHandle<()>, Socket
             console: None,
             card: Some(folder.join("card")),
             page_port: Some(0),
+            clock,
         }),
         assets: folder.to_owned(),
         host_names: Vec::new(),

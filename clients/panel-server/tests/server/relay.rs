@@ -136,6 +136,7 @@ async fn refusals_to_start_name_the_remedy() {
         console: None,
         card: None,
         page_port: None,
+        clock: panel_server::unix_s,
     });
     let server = Server::bind(open).await.unwrap();
     assert!(server.url().starts_with("https://"), "{}", server.url());
