@@ -16,6 +16,7 @@ mod listen;
 mod mixes;
 mod orders;
 mod packet;
+mod plain;
 mod probe;
 mod qr;
 mod remote;

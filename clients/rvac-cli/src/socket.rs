@@ -9,6 +9,7 @@ use anyhow::{Context as _, bail};
 use rvac_api::{Request, RequestBody, SEPARATOR, Topic, Update};
 
 use crate::arguments::Daemon;
+use crate::plain::{plain, plain_json};
 use crate::remote::{self, Address};
 
 /// A message longer than this is no message of ours.
@@ -133,8 +134,34 @@ impl Connection {
 }
 
 fn parse(message: &[u8]) -> Message {
-    Message {
-        text: String::from_utf8_lossy(message).into_owned(),
-        update: serde_json::from_slice(message).ok(),
+    let text = plain(&String::from_utf8_lossy(message));
+    // Without an escape there is nothing more to take out.
+    let update = if text.contains('\\') {
+        let value = serde_json::from_str(&text).map(plain_json);
+        value.and_then(serde_json::from_value).ok()
+    } else {
+        serde_json::from_str(&text).ok()
+    };
+    Message { text, update }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::Update;
+
+    use super::parse;
+
+    #[test]
+    fn no_text_of_a_robot_orders_the_terminal_about() {
+        let line =
+            r#"{"e":"log","number":1,"t":0.5,"level":"warn","part":"robot","text":"\u001b[2J<b>\u0007 ok"}"#;
+        let told = parse(line.as_bytes());
+        assert_eq!(told.text, line, "escapes of JSON are text already");
+        let Some(Update::Log(entry)) = told.update else {
+            panic!("{told:?}");
+        };
+        assert_eq!(entry.text, "\u{fffd}[2J<b>\u{fffd} ok");
+        let raw = parse("{\"e\":\"log\",\"text\":\"\u{9b}31m\"}".as_bytes());
+        assert!(!raw.text.contains('\u{9b}'));
     }
 }

@@ -9,6 +9,7 @@ use rvac_api::{DeviceTable, Status, Topic, Update};
 
 use crate::arguments::{StatusOptions, WatchOptions};
 use crate::home::sureness;
+use crate::plain::one_line;
 use crate::socket::{Connection, Message};
 
 /// Status comes at once, the device table twice a second.
@@ -64,7 +65,7 @@ pub(crate) fn watch(options: &WatchOptions) -> anyhow::Result<ExitCode> {
         let line = if options.json {
             Some(message.text)
         } else {
-            in_words(&message)
+            in_words(&message).map(|line| one_line(&line))
         };
         if let Some(line) = line {
             writeln!(stdout(), "{line}")?;
