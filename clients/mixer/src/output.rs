@@ -96,7 +96,14 @@ impl OutputName {
             Self::Suction => Some("vacuum"),
             Self::MainBrush => Some("brush-main"),
             Self::SideBrushes => Some("brush-sides"),
-            _ => None,
+            Self::Dock => Some("dock"),
+            Self::Forward
+            | Self::Turn
+            | Self::LeftWheel
+            | Self::RightWheel
+            | Self::Start
+            | Self::Stop
+            | Self::Spot => None,
         }
     }
 }

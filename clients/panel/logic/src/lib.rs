@@ -66,7 +66,7 @@ pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{
     CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
-    MixProblem, OutputPart, SwitchPart, profile_problem_text,
+    MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
 };
 pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};

@@ -41,7 +41,7 @@ pub(crate) fn MixEditor(store: Store) -> impl IntoView {
             <FieldView bench field=Field::MixName />
             <p class="hint" role="status" id="mix-state">{state}</p>
             <h3>{words().mix.outputs}</h3>
-            <Outputs bench />
+            <Outputs store />
             <h3>{words().mix.switches}</h3>
             <Switches bench />
             <h3>{words().mix.inputs}</h3>

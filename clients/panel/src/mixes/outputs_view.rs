@@ -2,20 +2,25 @@
 
 use leptos::prelude::*;
 use mixer::OutputName;
-use panel_logic::{Field, Group, OutputPart};
+use panel_logic::{Field, Group, OutputPart, robot_has};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
 use super::group_parts::Unfold;
+use super::group_problem;
 use super::lines_view::Lines;
-use super::{Bench, group_problem};
-
 use crate::language::words;
+use crate::store::Store;
 
 #[component]
-pub(super) fn Outputs(bench: Bench) -> impl IntoView {
+pub(super) fn Outputs(store: Store) -> impl IntoView {
+    let bench = store.bench;
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().outputs.len()));
-    let free = Memo::new(move |_| bench.of_draft(panel_logic::MixDraft::free_outputs));
+    let free = Memo::new(move |_| {
+        store
+            .robot
+            .with(|robot| bench.of_draft(|draft| draft.free_outputs(robot.as_ref())))
+    });
     let add = move |event| {
         let wanted = event_target_value(&event);
         let name = OutputName::ALL.into_iter().find(|name| name.name() == wanted);
@@ -27,7 +32,7 @@ pub(super) fn Outputs(bench: Bench) -> impl IntoView {
     view! {
         <ol class="outputs">
             <For each=move || 0..count.get() key=|output| *output let:output>
-                <OutputView bench output />
+                <OutputView store output />
             </For>
         </ol>
         <Show when=move || !free.with(Vec::is_empty)>
@@ -61,7 +66,8 @@ fn output_text(name: OutputName) -> &'static str {
 }
 
 #[component]
-fn OutputView(bench: Bench, output: usize) -> impl IntoView {
+fn OutputView(store: Store, output: usize) -> impl IntoView {
+    let bench = store.bench;
     let open = RwSignal::new(false);
     let name = Memo::new(move |_| {
         bench.of_draft(|draft| {
@@ -70,6 +76,10 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
         })
     });
     let value = Signal::derive(move || bench.mixed_output(output, |output| Some(output.value)));
+    let is_absent = Memo::new(move |_| {
+        name.get()
+            .is_some_and(|name| store.robot.with(|robot| !robot_has(name, robot.as_ref())))
+    });
     let group = Group::Output(output);
     view! {
         <li class="output" data-output=move || name.get().map(OutputName::name)>
@@ -77,6 +87,9 @@ fn OutputView(bench: Bench, output: usize) -> impl IntoView {
                 <span class="name">{move || name.get().map(output_text)}</span>
             </Unfold>
             <Bar label=words().mix.output value />
+            <Show when=move || is_absent.get()>
+                <p class="hint absent">{words().mix.not_on_robot}</p>
+            </Show>
             {group_problem(bench, group)}
             <Show when=move || open.get()>
                 <Lines bench output />

@@ -6,6 +6,7 @@ use mixer::{
     Calibration, Condition, Line, Name, NameError, Output, OutputName, Profile, ProfileError, Source, Switch,
     VERSION,
 };
+use rvac_api::RobotDescription;
 
 use super::{CalibrationRun, Field, FieldError, Group, MixProblem};
 use crate::words::Words;
@@ -164,16 +165,22 @@ impl MixDraft {
 
     /// Adds an output.
     pub fn add_output(&mut self, name: OutputName) {
-        if self.free_outputs().contains(&name) {
+        if !self.has_output(name) {
             self.profile.outputs.push(Output::new(name));
         }
     }
 
-    /// Outputs that the mix does not have yet.
+    /// Outputs that the mix does not have yet and that mean something to the robot.
     #[must_use]
-    pub fn free_outputs(&self) -> Vec<OutputName> {
-        let has = |name: &OutputName| self.profile.outputs.iter().any(|output| output.output == *name);
-        OutputName::ALL.into_iter().filter(|name| !has(name)).collect()
+    pub fn free_outputs(&self, robot: Option<&RobotDescription>) -> Vec<OutputName> {
+        OutputName::ALL
+            .into_iter()
+            .filter(|name| !self.has_output(*name) && robot_has(*name, robot))
+            .collect()
+    }
+
+    fn has_output(&self, name: OutputName) -> bool {
+        self.profile.outputs.iter().any(|output| output.output == name)
     }
 
     /// Adds a switch.
@@ -240,6 +247,15 @@ impl MixDraft {
             Group::Switch(switch) => move_up(&mut self.profile.switches, switch),
             Group::Output(_) | Group::Input(_) => {}
         }
+    }
+}
+
+/// Whether the robot has what an output moves; a robot that is not known yet is taken to have all.
+#[must_use]
+pub fn robot_has(name: OutputName, robot: Option<&RobotDescription>) -> bool {
+    match (name.part(), robot) {
+        (Some(part), Some(robot)) => robot.parts.iter().any(|has| has == part),
+        (None, _) | (_, None) => true,
     }
 }
 

@@ -11,7 +11,7 @@ mod switch_part;
 mod tests;
 
 pub use curve::LineCurve;
-pub use draft::MixDraft;
+pub use draft::{MixDraft, robot_has};
 pub use field::{Field, FieldKind, Group};
 pub use learning::{CalibrationRun, Learning};
 pub use parts::{InputPart, LinePart, OutputPart};

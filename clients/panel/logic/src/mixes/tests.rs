@@ -1,8 +1,11 @@
 //! The form as a person uses it.
 
-use super::{CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart};
+use super::{
+    CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart, robot_has,
+};
 use crate::words::{Language, Words};
-use mixer::{Name, PadReading, ProfileError, Readings, Source, standard_profile};
+use mixer::{Name, OutputName, PadReading, ProfileError, Readings, Source, standard_profile};
+use rvac_api::RobotDescription;
 
 const ENGLISH: &Words = Language::English.words();
 
@@ -130,12 +133,60 @@ fn lines_are_added_moved_and_removed() {
     draft.remove(Group::Line(0, count - 1));
     assert!(!draft.is_changed());
     draft.remove(Group::Output(0));
-    draft.add_output(draft.free_outputs()[0]);
+    draft.add_output(draft.free_outputs(None)[0]);
     assert_eq!(draft.problem(), None);
     assert_eq!(
-        draft.free_outputs().len(),
+        draft.free_outputs(None).len(),
         2,
         "one wheel each is not in the standard mix"
+    );
+}
+
+fn robot(parts: &[&str]) -> RobotDescription {
+    RobotDescription {
+        device: "x".to_owned(),
+        radius_m: 0.17,
+        swath_m: 0.3,
+        speed_max_m_per_s: 0.3,
+        turn_max_rad_per_s: 1.5,
+        proximity: 0,
+        parts: parts.iter().map(|&part| part.to_owned()).collect(),
+    }
+}
+
+#[test]
+fn only_outputs_of_parts_that_the_robot_has_are_offered() {
+    let draft = MixDraft::empty(ENGLISH, &[]).expect("names");
+    let bare = draft.free_outputs(Some(&robot(&["gyro"])));
+    for absent in [
+        OutputName::Suction,
+        OutputName::MainBrush,
+        OutputName::SideBrushes,
+        OutputName::Dock,
+    ] {
+        assert!(!bare.contains(&absent), "{absent}");
+    }
+    assert!(bare.contains(&OutputName::LeftWheel) && bare.contains(&OutputName::Start));
+    let fitted = robot(&["brush-main", "brush-sides", "vacuum", "dock"]);
+    assert_eq!(draft.free_outputs(Some(&fitted)), draft.free_outputs(None));
+}
+
+#[test]
+fn a_mix_keeps_outputs_that_the_robot_lacks() {
+    let draft = draft();
+    let bare = robot(&[]);
+    let absent: Vec<_> = draft
+        .profile()
+        .outputs
+        .iter()
+        .map(|output| output.output)
+        .filter(|name| !robot_has(*name, Some(&bare)))
+        .collect();
+    assert!(absent.contains(&OutputName::Suction));
+    assert_eq!(draft.problem(), None, "it can be saved all the same");
+    assert!(
+        absent.iter().all(|name| robot_has(*name, None)),
+        "as long as no robot is known"
     );
 }
 

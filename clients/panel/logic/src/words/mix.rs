@@ -24,6 +24,7 @@ screen! {
         remove_line: "Remove this line", "Eemalda rida";
         add_output: "Add an output", "Lisa väljund";
         which: "Which?", "Milline?";
+        not_on_robot: "Not on this robot: it lacks the part.", "Sellel robotil puudub see osa.";
         remove_output: "Remove this output", "Eemalda väljund";
         add_switch: "Add a switch", "Lisa lüliti";
         remove_switch: "Remove this switch", "Eemalda lüliti";
