@@ -1,11 +1,15 @@
 //! Schedules of a whole system on a virtual clock: one starts a job, and those that do not say why.
 
+use brain::StoredMap;
+use robot::RobotSettings;
 use rvac_api::{
-    InQuiet, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday,
+    InQuiet, JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduleTime,
+    ScheduledJob, Weekday,
 };
 use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
 use scenarios::{scene, settings};
+use vthal_core::{CoreConfig, KeptFloor};
 
 /// Monday 2026-11-23, midnight UTC.
 const MIDNIGHT_S: i64 = 1_795_392_000;
@@ -26,6 +30,7 @@ fn entry(name: &str, at: &str) -> ScheduleEntry {
         },
         late_min: 0,
         in_quiet: InQuiet::Refuse,
+        floor: None,
     }
 }
 
@@ -185,6 +190,116 @@ fn nothing_starts_while_the_clock_is_not_set() {
     let schedules = host(&mut household).schedules();
     assert_eq!((schedules.clock, schedules.decisions.len()), (None, 0));
     assert_eq!(state(&household), "docked");
+}
+
+/// A room of the floor on which the robot is.
+fn room_entry(household: &Household, at: &str) -> ScheduleEntry {
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    let room = brain.map().rooms().rooms()[0].id;
+    let order = JobOrder {
+        parts: vec![JobPart::Room(room)],
+        ..JobOrder::default()
+    };
+    ScheduleEntry {
+        job: ScheduledJob::Clean(order),
+        ..entry("Room", at)
+    }
+}
+
+fn map_of(name: &str) -> StoredMap {
+    let mut household = household(&scene(name, "nominal"), &settings(1, 0)).with_known_map();
+    household.pass_ms(3_000);
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    brain.map().stored()
+}
+
+/// A robot on the dock of the first of two floors.
+fn at_home_with_two_floors() -> Household {
+    let scene = scene("furnished-room", "nominal");
+    let floors = (1..).zip(["furnished-room", "two-room-flat"]);
+    let config = CoreConfig {
+        sensors: scene.sensors(),
+        floors: floors
+            .map(|(number, name)| KeptFloor {
+                home: Some(map_of(name)),
+                ..KeptFloor::new(number)
+            })
+            .collect(),
+        ..Host::config(5, brain::StrategyName::Systematic)
+    };
+    let robot = scene.robot_at(None, 5, &RobotSettings::default());
+    let mut household = Household::new(robot, Host::start(0, config));
+    household.pass_ms(CONNECT_MS);
+    set_clock(&mut household, 0);
+    household.pass_ms(2_000);
+    household
+}
+
+fn say_floor(household: &mut Household, floor: u16) {
+    household.ask(RequestBody::ChooseFloor { floor });
+    household.pass_ms(5_000);
+    assert_eq!(host(household).floors().here, Some(floor));
+}
+
+/// What would keep the next runs.
+fn keeps(household: &mut Household) -> Vec<Option<String>> {
+    let next = host(household).schedules().next.into_iter();
+    next.map(|run| run.kept_by).collect()
+}
+
+#[test]
+fn rooms_of_one_floor_are_cleaned_on_that_floor_only() {
+    let mut household = at_home_with_two_floors();
+    say_floor(&mut household, 1);
+    let room = room_entry(&household, "08:00");
+    household.ask(RequestBody::AddSchedule(room));
+    let kept = host(&mut household).schedules().entries.remove(0);
+    assert_eq!(kept.entry.floor, Some(1), "the floor where the robot was");
+    assert!(keeps(&mut household).iter().all(Option::is_none));
+
+    say_floor(&mut household, 2);
+    let next = keeps(&mut household);
+    assert!(next.len() == 10 && next.iter().all(|reason| reason.as_deref() == Some("other-floor")));
+    meet(&mut household, (8, 0));
+    assert_eq!(last(&mut household), told("Room", "refused", Some("other-floor")));
+    household.ask(RequestBody::RunSchedule { number: 1 });
+    household.pass_ms(15_000);
+    assert_eq!(state(&household), "docked", "not by hand either");
+
+    say_floor(&mut household, 1);
+    household.ask(RequestBody::RunSchedule { number: 1 });
+    household.pass_ms(15_000);
+    assert_eq!(state(&household), "cleaning");
+}
+
+#[test]
+fn an_entry_for_rooms_needs_a_floor_and_one_for_all_does_not() {
+    let mut household = at_home_with_two_floors();
+    assert_eq!(host(&mut household).floors().here, None);
+    let room = ScheduleEntry {
+        job: ScheduledJob::Clean(JobOrder {
+            parts: vec![JobPart::Room(1)],
+            ..JobOrder::default()
+        }),
+        ..entry("Room", "08:00")
+    };
+    household.ask(RequestBody::AddSchedule(room.clone()));
+    assert_eq!(host(&mut household).schedules().entries, []);
+    household.ask(RequestBody::AddSchedule(ScheduleEntry {
+        floor: Some(2),
+        ..room
+    }));
+    household.ask(RequestBody::AddSchedule(entry("All", "09:00")));
+    let floors: Vec<Option<u16>> = host(&mut household)
+        .schedules()
+        .entries
+        .iter()
+        .map(|view| view.entry.floor)
+        .collect();
+    assert_eq!(floors, [Some(2), None]);
+    let next = keeps(&mut household);
+    assert_eq!(next[0].as_deref(), Some("map-not-taken-up"));
+    assert_eq!(next[1], None);
 }
 
 fn replace_host(household: &mut Household) {

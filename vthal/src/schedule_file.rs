@@ -94,6 +94,7 @@ mod tests {
                 },
                 late_min: 5,
                 in_quiet: InQuiet::Wait,
+                floor: None,
             });
             let edit = Edit::Add(plan.expect("a plan"));
             book.edit(edit, (&Zone::utc(), 1_800_000_000)).expect("adds");
@@ -130,9 +131,30 @@ mod tests {
         let aside = scratch.0.join("schedules.json.damaged-1");
         assert_eq!(fs::read_to_string(aside).expect("is there"), "{\"version\":1,");
         let mut newer = serde_json::to_value(StoredBook::from(&book(1))).expect("is JSON");
-        newer["version"] = 2.into();
+        newer["version"] = 3.into();
         fs::write(scratch.file(), newer.to_string()).expect("writes");
-        assert!(load(&scratch.file()).complaints[0].contains("version 2"));
+        assert!(load(&scratch.file()).complaints[0].contains("version 3"));
         assert!(scratch.0.join("schedules.json.damaged-2").exists());
+    }
+
+    #[test]
+    fn entries_from_before_floors_start_on_any_and_newer_ones_keep_theirs() {
+        let file = |version: u32, floor: &str| {
+            format!(
+                r#"{{"version":{version},"last_number":1,"decisions":[],"entries":[{{"number":1,"name":"Room",
+                "job":{{"clean":{{"parts":[{{"room":2}}]}}}},"when":{{"weekly":{{"days":["mo"],"at":"08:00"}}}},{floor}
+                "since_s":0,"closed":[]}}]}}"#
+            )
+        };
+        let scratch = Scratch::new("floors");
+        for (text, expected) in [(file(1, ""), None), (file(2, r#""floor":2,"#), Some(2))] {
+            fs::write(scratch.file(), text).expect("writes");
+            let found = load(&scratch.file());
+            assert!(found.complaints.is_empty(), "{:?}", found.complaints);
+            let kept = found.book.entry(1).expect("is there").plan().floor;
+            assert_eq!(kept, expected);
+            save(&scratch.file(), &StoredBook::from(&found.book)).expect("writes");
+            assert_eq!(load(&scratch.file()).book, found.book);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The floors of the home: on which the robot is, and what a person can say of them.
 
 use leptos::prelude::*;
-use panel_logic::{area_text, question_text};
+use panel_logic::{area_text, floor_title, question_text};
 use rvac_api::{FloorView, RequestBody};
 
 use crate::floor_files::FloorFiles;
@@ -53,7 +53,7 @@ fn row(
     (floor, here): (FloorView, Option<u16>),
     renamed: RwSignal<Option<u16>>,
 ) -> impl IntoView {
-    let (number, title) = (floor.number, title_of(&floor));
+    let (number, title) = (floor.number, floor_title(words(), &floor));
     let is_here = here == Some(number);
     let extent = extent_text(&floor);
     let (named, rename_label) = (
@@ -142,13 +142,6 @@ fn action((id, label): (String, String), text: &'static str, press: impl Fn() + 
 }
 
 /// What people call a floor, else its number.
-fn title_of(floor: &FloorView) -> String {
-    floor
-        .name
-        .clone()
-        .unwrap_or_else(|| words().home.floor.fill([&floor.number]))
-}
-
 fn extent_text(floor: &FloorView) -> String {
     let removed = if floor.removed { words().home.removed } else { "" };
     if floor.area_m2 == 0.0 {

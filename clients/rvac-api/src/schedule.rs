@@ -7,7 +7,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::JobOrder;
+use crate::{JobOrder, JobPart, NoGoShape};
 
 /// Something that starts by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +28,11 @@ pub struct ScheduleEntry {
     /// What happens when its time falls into the quiet hours.
     #[serde(default)]
     pub in_quiet: InQuiet,
+    /// The floor in whose map its rooms, zones, spots and places to keep out of lie; on another one it does not start. Asked for
+    /// without a floor, a job that names such places is for the floor on which the robot is then. Entries without a floor
+    /// start on any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<u16>,
 }
 
 fn yes() -> bool {
@@ -46,6 +51,24 @@ pub enum ScheduledJob {
     },
     /// As [`crate::RequestBody::Clean`].
     Clean(JobOrder),
+}
+
+impl ScheduledJob {
+    /// Whether it names places of a map, which are others on another floor.
+    #[must_use]
+    pub fn names_places(&self) -> bool {
+        let (parts, avoid) = self.places();
+        !(parts.is_empty() && avoid.is_empty())
+    }
+
+    /// The parts that it cleans, and what it keeps out of.
+    #[must_use]
+    pub fn places(&self) -> (&[JobPart], &[NoGoShape]) {
+        match self {
+            Self::Start { .. } => (&[], &[]),
+            Self::Clean(order) => (&order.parts, &order.avoid),
+        }
+    }
 }
 
 /// When a schedule comes due.
@@ -166,7 +189,7 @@ pub struct PlannedRun {
     pub entry: u32,
     /// When it starts.
     pub at: String,
-    /// What keeps it from starting: `skipped`, `quiet-hours`.
+    /// What keeps it from starting: `skipped`, `quiet-hours`, or, were it to start now, `other-floor` or `map-not-taken-up`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept_by: Option<String>,
     /// What lets it start later than its entry says: `quiet-hours`, `no-robot`.

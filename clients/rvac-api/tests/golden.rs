@@ -803,6 +803,7 @@ fn weekday_entry() -> ScheduleEntry {
         },
         late_min: 15,
         in_quiet: InQuiet::Wait,
+        floor: None,
     }
 }
 
@@ -833,6 +834,14 @@ fn requests_of_schedules() {
     let short = r#"{"c":"add-schedule","name":"All","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}}"#;
     let read: Request = serde_json::from_str(short).unwrap();
     assert_eq!(read.body, RequestBody::AddSchedule(once));
+    let upstairs = ScheduleEntry {
+        floor: Some(2),
+        ..weekday_entry()
+    };
+    request(
+        RequestBody::AddSchedule(upstairs),
+        r#"{"c":"add-schedule","name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait","floor":2}"#,
+    );
     request(
         RequestBody::RemoveSchedule { number: 3 },
         r#"{"c":"remove-schedule","number":3}"#,

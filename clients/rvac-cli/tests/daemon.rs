@@ -574,6 +574,7 @@ fn hall_at(at: &str) -> ScheduleEntry {
         },
         late_min: 0,
         in_quiet: InQuiet::Refuse,
+        floor: None,
     }
 }
 

@@ -60,5 +60,6 @@ fn entry(number: u64) -> ScheduleEntry {
         },
         late_min: 30,
         in_quiet: rvac_api::InQuiet::Wait,
+        floor: None,
     }
 }

@@ -8,7 +8,8 @@ use std::collections::VecDeque;
 use rvac_api::Schedules;
 
 use crate::schedule::{
-    Book, CLOCK_IS_SET_FROM_S, Edit, EditError, Entry, Outcome, StoredBook, Verdict, Zone, verdict, view,
+    Book, CLOCK_IS_SET_FROM_S, Edit, EditError, Entry, Keeping, Outcome, StoredBook, Verdict, Zone, verdict,
+    view,
 };
 use crate::{ClientId, ScheduleOrder};
 
@@ -85,8 +86,8 @@ impl Scheduler {
     }
 
     /// All that clients are told.
-    pub(crate) fn view(&self, ready: impl Fn(&Entry) -> Result<(), &'static str>) -> Schedules {
-        view(&self.book, (self.zone(), self.now_s), ready)
+    pub(crate) fn view(&self, keeping: &impl Keeping) -> Schedules {
+        view(&self.book, (self.zone(), self.now_s), keeping)
     }
 
     /// The clock shows this. Whatever it showed before: it may have been set.

@@ -77,7 +77,9 @@ pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
 pub use room_choice::{DrawnPart, PASSES_MAX, RoomChoice, job_estimate_text, room_at};
 pub use room_settings::{PowerPart, pattern_text, room_settings_text};
 pub use schedule_form::ScheduleForm;
-pub use schedule_rows::{ScheduleRow, day_text, next_rows, past_rows, schedule_rows, zone_text};
+pub use schedule_rows::{
+    ScheduleRow, day_text, floor_elsewhere, floor_title, next_rows, past_rows, schedule_rows, zone_text,
+};
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};
 pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};

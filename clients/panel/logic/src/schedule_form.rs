@@ -33,6 +33,8 @@ pub struct ScheduleForm {
     pub late_min: u16,
     /// Whether it waits for the end of the quiet hours.
     pub waits: bool,
+    /// The floor of its rooms; none for a new one, whose floor is that on which the robot is.
+    pub floor: Option<u16>,
     enabled: bool,
     /// What it starts, with all that these fields cannot say.
     job: ScheduledJob,
@@ -52,6 +54,7 @@ impl Default for ScheduleForm {
             settings: JobSettings::default(),
             late_min: 0,
             waits: false,
+            floor: None,
             enabled: true,
             job: ScheduledJob::Start { strategy: None },
         }
@@ -80,6 +83,7 @@ impl ScheduleForm {
             settings: settings_of(&entry.job),
             late_min: entry.late_min,
             waits: entry.in_quiet == InQuiet::Wait,
+            floor: entry.floor,
             enabled: entry.enabled,
             job: entry.job.clone(),
         }
@@ -138,10 +142,12 @@ impl ScheduleForm {
                 at,
             },
         };
+        let job = self.job();
+        let is_same_place = job.places() == self.job.places();
         Ok(ScheduleEntry {
             name: self.name.trim().to_owned(),
             enabled: self.enabled,
-            job: self.job(),
+            job,
             when,
             late_min: self.late_min,
             in_quiet: if self.waits {
@@ -149,6 +155,7 @@ impl ScheduleForm {
             } else {
                 InQuiet::Refuse
             },
+            floor: self.floor.filter(|_| is_same_place),
         })
     }
 
@@ -257,6 +264,7 @@ mod tests {
                 },
                 late_min: 0,
                 in_quiet: InQuiet::Wait,
+                floor: None,
             }
         );
     }
@@ -274,6 +282,7 @@ mod tests {
         let entry = ScheduleEntry {
             job: job.clone(),
             enabled: false,
+            floor: Some(2),
             ..match filled().request(ENGLISH) {
                 Ok(RequestBody::AddSchedule(entry)) => entry,
                 other => panic!("{other:?}"),
@@ -299,10 +308,15 @@ mod tests {
         };
         assert_eq!(order.power, Some(CleaningPower::QUIET));
         assert_eq!(order.parts.len(), 2, "zone and spot are still there");
+        assert_eq!(entry.floor, Some(2));
         form.toggle_room(2);
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");
         };
         assert_ne!(entry.job, job);
+        assert_eq!(
+            entry.floor, None,
+            "the room is one of the floor where the robot is"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! Schedules as rows for people who read.
 
 use rvac_api::{
-    JobPart, PlannedRun, ScheduleDecision, ScheduleTime, ScheduleView, ScheduledJob, Schedules, Weekday,
+    FloorView, FloorsView, JobPart, PlannedRun, ScheduleDecision, ScheduleTime, ScheduleView, ScheduledJob,
+    Schedules, Weekday,
 };
 
 use crate::codes::explain;
@@ -30,13 +31,41 @@ pub struct ScheduleRow {
 
 /// The schedules, by their numbers.
 #[must_use]
-pub fn schedule_rows(words: &Words, schedules: &Schedules, rooms: &[RoomRow]) -> Vec<ScheduleRow> {
-    let row = |view| row(words, view, rooms);
+pub fn schedule_rows(
+    words: &Words,
+    schedules: &Schedules,
+    home: (&[RoomRow], &FloorsView),
+) -> Vec<ScheduleRow> {
+    let row = |view| row(words, view, home);
     schedules.entries.iter().map(row).collect()
 }
 
-fn row(words: &Words, view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
+/// What a floor is called.
+#[must_use]
+pub fn floor_title(words: &Words, floor: &FloorView) -> String {
+    let named = floor.name.clone();
+    named.unwrap_or_else(|| words.home.floor.fill([&floor.number]))
+}
+
+/// The floor of an entry, if it is not the one on which the robot is.
+#[must_use]
+pub fn floor_elsewhere(words: &Words, floor: Option<u16>, floors: &FloorsView) -> Option<String> {
+    let number = floor.filter(|number| floors.here != Some(*number))?;
+    let known = floors.floors.iter().find(|floor| floor.number == number);
+    Some(known.map_or_else(
+        || words.home.floor.fill([&number]),
+        |floor| floor_title(words, floor),
+    ))
+}
+
+fn row(words: &Words, view: &ScheduleView, (rooms, floors): (&[RoomRow], &FloorsView)) -> ScheduleRow {
     let (told, entry) = (&words.schedule, &view.entry);
+    let elsewhere = floor_elsewhere(words, entry.floor, floors);
+    // The rooms that are known are those of the floor on which the robot is.
+    let job = match &elsewhere {
+        Some(title) => told.on_floor.fill([&job_text(words, &entry.job, &[]), title]),
+        None => job_text(words, &entry.job, rooms),
+    };
     let next = match view.next.first() {
         Some(run) => told.next.fill([&planned_text(words, run)]),
         None if entry.enabled => told.no_run.to_owned(),
@@ -47,11 +76,7 @@ fn row(words: &Words, view: &ScheduleView, rooms: &[RoomRow]) -> ScheduleRow {
     ScheduleRow {
         number: view.number,
         name: entry.name.clone(),
-        words: format!(
-            "{}, {}",
-            time_text(words, &entry.when),
-            job_text(words, &entry.job, rooms)
-        ),
+        words: format!("{}, {job}", time_text(words, &entry.when)),
         next,
         now: now.unwrap_or_default(),
         enabled: entry.enabled,
@@ -188,8 +213,8 @@ fn weekday_from_monday(year: u32, month: u32, day: u32) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use rvac_api::{
-        InQuiet, JobOrder, JobPart, PlannedRun, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
-        ScheduledJob, Schedules, Weekday,
+        FloorView, FloorsView, InQuiet, JobOrder, JobPart, PlannedRun, ScheduleDecision, ScheduleEntry,
+        ScheduleTime, ScheduleView, ScheduledJob, Schedules, Weekday,
     };
 
     use super::{instant_text, next_rows, past_rows, schedule_rows, zone_text};
@@ -224,6 +249,7 @@ mod tests {
                     },
                     late_min: 0,
                     in_quiet: InQuiet::Refuse,
+                    floor: None,
                 },
                 skip_next: true,
                 next: vec![run.clone()],
@@ -249,7 +275,11 @@ mod tests {
             name: "Kitchen".to_owned(),
             words: String::new(),
         };
-        let rows = schedule_rows(ENGLISH, &told(), &[kitchen]);
+        let here = FloorsView {
+            here: Some(1),
+            ..FloorsView::default()
+        };
+        let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &here));
         assert_eq!(rows[0].words, "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
         assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, left out");
         assert_eq!(
@@ -263,6 +293,34 @@ mod tests {
         );
         assert!(zone_text(ENGLISH, &told()).contains("Europe/Tallinn, where it is Sun 22 Nov, 16:30."));
         assert!(zone_text(ENGLISH, &Schedules::default()).contains("clock is not set"));
+    }
+
+    #[test]
+    fn rooms_of_another_floor_have_no_names_of_this_one() {
+        let kitchen = RoomRow {
+            id: 4,
+            name: "Kitchen".to_owned(),
+            words: String::new(),
+        };
+        let mut upstairs = told();
+        upstairs.entries[0].entry.floor = Some(2);
+        let attic = FloorView {
+            number: 2,
+            name: Some("Attic".to_owned()),
+            ..FloorView::default()
+        };
+        let floors = |here| FloorsView {
+            floors: vec![attic.clone()],
+            here: Some(here),
+            ..FloorsView::default()
+        };
+        let words = |here| {
+            schedule_rows(ENGLISH, &upstairs, (&[kitchen.clone()], &floors(here)))[0]
+                .words
+                .clone()
+        };
+        assert_eq!(words(1), "Mon, Fri at 07:30, room 4, room 9, 2 times, on Attic");
+        assert_eq!(words(2), "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
     }
 
     #[test]

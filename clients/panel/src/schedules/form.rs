@@ -2,7 +2,7 @@
 
 use leptos::ev::{Event, SubmitEvent};
 use leptos::prelude::*;
-use panel_logic::{PASSES_MAX, ScheduleForm, day_text};
+use panel_logic::{PASSES_MAX, ScheduleForm, day_text, floor_elsewhere};
 use rvac_api::Weekday;
 
 use crate::job_settings_view::JobSettingsFields;
@@ -137,13 +137,31 @@ fn Days(store: Store) -> impl IntoView {
 fn Rooms(store: Store) -> impl IntoView {
     let form = store.schedules.form;
     let place = move |id: u16| form.with(|form| form.as_ref().is_some_and(|form| form.rooms.contains(&id)));
+    let elsewhere = Memo::new(move |_| {
+        let floor = form.with(|form| form.as_ref().and_then(|form| form.floor));
+        store
+            .floors
+            .with(|floors| floor_elsewhere(words(), floor, floors))
+    });
+    let rooms = move || {
+        if elsewhere.with(Option::is_some) {
+            Vec::new()
+        } else {
+            store.rooms.get()
+        }
+    };
+    let hint = move || match elsewhere.get() {
+        Some(title) => Some(words().schedule.other_floor.fill([&title])),
+        None => store
+            .rooms
+            .with(Vec::is_empty)
+            .then(|| words().schedule.no_rooms.to_owned()),
+    };
     view! {
         <fieldset class="rooms">
             <legend>{words().schedule.rooms}</legend>
-            <Show when=move || store.rooms.with(Vec::is_empty)>
-                <p class="hint">{words().schedule.no_rooms}</p>
-            </Show>
-            <For each=move || store.rooms.get() key=|row| (row.id, row.name.clone()) let:row>
+            {move || hint().map(|text| view! { <p class="hint">{text}</p> })}
+            <For each=rooms key=|row| (row.id, row.name.clone()) let:row>
                 <label class="check">
                     <input
                         type="checkbox"

@@ -77,9 +77,11 @@ impl ScheduleDesk {
 pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     let desk = store.schedules;
     let rows = Memo::new(move |_| {
+        let rows_of =
+            |rooms: &Vec<_>, floors: &_| desk.with(|known| schedule_rows(words(), known, (rooms, floors)));
         store
             .rooms
-            .with(|rooms| desk.with(|known| schedule_rows(words(), known, rooms)))
+            .with(|rooms| store.floors.with(|floors| rows_of(rooms, floors)))
     });
     view! {
         <div class="home" id="schedule-sheet">

@@ -89,6 +89,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("skipped", "Somebody wanted it left out.", ""),
     entry("missed", "Nobody was there to start it in time.", ""),
     entry("quiet-hours", "It fell into the quiet hours.", ""),
+    entry("other-floor", "The robot is on another floor than the schedule.", "Carry it there, or choose rooms of this floor."),
     entry("interrupted", "The robot's software ended just before it could start.", ""),
     entry("no-such-room", "The map has no such room any more.", "Choose other rooms."),
     entry("map-not-taken-up", "It does not know yet where in the map of which floor it is.", "Put it on its dock, or let it clean until it knows."),

@@ -108,6 +108,7 @@ fn added(
         },
         late_min: 0,
         in_quiet: InQuiet::Refuse,
+        floor: None,
     };
     changed(blank, options, connection)
 }
@@ -122,6 +123,7 @@ fn changed(
     entry.late_min = options.late.unwrap_or(entry.late_min);
     entry.in_quiet = options.in_quiet.map_or(entry.in_quiet, InQuiet::from);
     let order = orders::to_order(&options.parts, connection)?;
+    let known = entry.job.clone();
     entry.job = if options.strategy.is_some() || options.all && order == JobOrder::default() {
         ScheduledJob::Start {
             strategy: options.strategy.clone(),
@@ -131,6 +133,8 @@ fn changed(
     } else {
         with_order(entry.job, order)
     };
+    // Other places lie on the floor where the robot is, which the daemon knows.
+    entry.floor = entry.floor.filter(|_| known.places() == entry.job.places());
     Ok(entry)
 }
 

@@ -23,10 +23,11 @@ pub(super) fn list(schedules: &Schedules) -> String {
         line(
             &mut text,
             &format!(
-                "{number:<3} {}{state}: {}, {}",
+                "{number:<3} {}{state}: {}, {}{}",
                 entry.name,
                 time(&entry.when),
-                job(&entry.job)
+                job(&entry.job),
+                floor(entry.floor)
             ),
         );
         line(&mut text, &format!("    {next}"));
@@ -145,6 +146,12 @@ fn job(job: &ScheduledJob) -> String {
     format!("{parts}{passes}")
 }
 
+fn floor(number: Option<u16>) -> String {
+    number
+        .map(|number| format!(", on floor {number}"))
+        .unwrap_or_default()
+}
+
 fn line(text: &mut String, line: &str) {
     // Writing to a string does not fail.
     writeln!(text, "{line}").ok();
@@ -158,7 +165,7 @@ mod tests {
         let text = r#"{"zone":"Europe/Tallinn","zone_is_set":false,"clock":"2026-11-22T16:00",
             "quiet":{"from":"22:00","to":"07:00"},
             "entries":[{"number":3,"name":"Köök","job":{"clean":{"parts":[{"room":4}],"passes":2}},
-                "when":{"weekly":{"days":["mo","fr"],"at":"06:30"}},"late_min":30,"in_quiet":"wait","skip_next":false,
+                "when":{"weekly":{"days":["mo","fr"],"at":"06:30"}},"late_min":30,"in_quiet":"wait","floor":2,"skip_next":false,
                 "next":[{"entry":3,"at":"2026-11-23T07:00:00+02:00","held_by":"quiet-hours"}],
                 "refused_now":"wheel-drop"}],
             "next":[{"entry":3,"at":"2026-11-23T07:00:00+02:00","held_by":"quiet-hours"}],
@@ -172,7 +179,7 @@ mod tests {
         assert_eq!(
             list(&told()),
             "time zone Europe/Tallinn (the system's), 2026-11-22 16:00 there\nquiet hours 22:00 to 07:00\n\
-             3   Köök: mo,fr at 06:30, room 4, 2 times\n    next 2026-11-23T07:00:00+02:00 after waiting: quiet-hours\n    \
+             3   Köök: mo,fr at 06:30, room 4, 2 times, on floor 2\n    next 2026-11-23T07:00:00+02:00 after waiting: quiet-hours\n    \
              up to 30 min late\n    waits for the end of the quiet hours\n    would not start at this moment: wheel-drop\n"
         );
         assert!(next(&told()).ends_with("2026-11-23T07:00:00+02:00 after waiting: quiet-hours  3   Köök\n"));

@@ -36,7 +36,7 @@ impl Core {
         })
     }
 
-    fn floor(&self) -> Option<u16> {
+    pub(super) fn floor(&self) -> Option<u16> {
         self.mind.as_ref().and_then(Mind::floor)
     }
 
@@ -56,7 +56,7 @@ impl Core {
         }
     }
 
-    fn floor_named(&self, number: u16) -> Result<&KeptFloor, Refusal> {
+    pub(super) fn floor_named(&self, number: u16) -> Result<&KeptFloor, Refusal> {
         self.floors
             .get(number)
             .ok_or_else(|| no_such_floor(number, &self.floors))

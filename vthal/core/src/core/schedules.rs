@@ -10,12 +10,24 @@ use super::{Core, orders};
 use crate::arbiter::Source;
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
-use crate::schedule::{Edit, Entry, Outcome, Plan, ScheduleError, Verdict};
+use crate::schedule::{Edit, Entry, Keeping, Outcome, Plan, ScheduleError, Verdict};
 use crate::scheduler::{Asker, Task};
 use crate::{ClientId, Outputs};
 
 /// What the robot could start changes without a word; followers hear of it within this time.
 const TOLD_US: u64 = 5_000_000;
+/// The robot is on another floor than the one for which an entry is.
+const OTHER_FLOOR: &str = "other-floor";
+
+impl Keeping for Core {
+    fn ready(&self, entry: &Entry) -> Result<(), &'static str> {
+        self.could_start(entry)
+    }
+
+    fn on_floor(&self, entry: &Entry) -> Result<(), &'static str> {
+        self.on_floor_of(entry).map_err(|refusal| refusal.reason)
+    }
+}
 
 impl From<ScheduleError> for Refusal {
     fn from(error: ScheduleError) -> Self {
@@ -30,7 +42,7 @@ impl Core {
     /// All schedules, and what is to be expected of them.
     #[must_use]
     pub fn schedules(&self) -> Schedules {
-        self.scheduler.view(|entry| self.could_start(entry))
+        self.scheduler.view(self)
     }
 
     /// The clock on the wall shows this.
@@ -79,7 +91,49 @@ impl Core {
                 orders::to_order(order)?;
             }
         }
-        Ok(plan)
+        let floor = self.floor_of(&plan)?;
+        Ok(Plan { floor, ..plan })
+    }
+
+    /// The floor for which a plan is: as it says, or, if it names places, the one on which the robot is. Of one floor alone
+    /// nobody need say it.
+    fn floor_of(&self, plan: &Plan) -> Result<Option<u16>, Refusal> {
+        if let Some(number) = plan.floor {
+            return Ok(Some(self.floor_named(number)?.number));
+        }
+        if !plan.job.names_places() {
+            return Ok(None);
+        }
+        let only = Some(self.floors.first()).filter(|_| self.floors.present().nth(1).is_none());
+        match self.floor().or(only) {
+            Some(number) => Ok(Some(number)),
+            None => Err("floor-unknown".into()),
+        }
+    }
+
+    /// Whether the robot is on the floor of an entry.
+    fn on_floor_of(&self, entry: &Entry) -> Result<(), Refusal> {
+        match (entry.plan().floor, self.floor()) {
+            (None, _) => Ok(()),
+            (Some(_), None) => Err("map-not-taken-up".into()),
+            (Some(floor), Some(here)) if floor == here => Ok(()),
+            (Some(floor), Some(here)) => Err(self.on_other_floor((floor, here))),
+        }
+    }
+
+    fn on_other_floor(&self, (floor, here): (u16, u16)) -> Refusal {
+        let title = |number| match self.floors.get(number) {
+            Some(floor) => floor.title(),
+            None => format!("floor {number}, which is not there any more"),
+        };
+        Refusal {
+            reason: OTHER_FLOOR,
+            text: format!(
+                "The schedule is for {}, and the robot is on {}: carry it there, or choose rooms of this floor.",
+                title(floor),
+                title(here)
+            ),
+        }
     }
 
     /// Starts what a schedule starts, because a person wants it now.
@@ -91,6 +145,7 @@ impl Core {
     ) -> Result<(), Refusal> {
         let entry = self.scheduler.book().entry(number).map_err(ScheduleError::from)?;
         self.require_robot()?;
+        self.on_floor_of(entry)?;
         let command = self.command_of(&entry.plan().job)?;
         Ok(self.job(now_us, (client, command), outputs)?)
     }
@@ -197,6 +252,7 @@ impl Core {
         if self.mind.as_ref().is_some_and(works) {
             return Err("job-runs");
         }
+        self.on_floor_of(entry).map_err(|refusal| refusal.reason)?;
         let command = self
             .command_of(&entry.plan().job)
             .map_err(|refusal| refusal.reason)?;

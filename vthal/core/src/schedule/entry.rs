@@ -20,6 +20,8 @@ pub struct Plan {
     pub late_min: u16,
     /// What happens in the quiet hours.
     pub in_quiet: InQuiet,
+    /// The floor on which it starts; none for any.
+    pub floor: Option<u16>,
 }
 
 /// A plan that is kept.

@@ -75,6 +75,7 @@ impl Plan {
             job: entry.job,
             late_min: entry.late_min,
             in_quiet: entry.in_quiet,
+            floor: entry.floor,
         })
     }
 }
@@ -183,6 +184,7 @@ mod tests {
             when,
             late_min: 0,
             in_quiet: InQuiet::Refuse,
+            floor: None,
         }
     }
 

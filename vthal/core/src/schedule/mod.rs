@@ -26,7 +26,7 @@ pub use from_api::ScheduleError;
 pub use planned::{Held, Kept, Planned, planned};
 pub use quiet::Quiet;
 pub use stored::{StoredBook, StoredError};
-pub(crate) use to_api::view;
+pub(crate) use to_api::{Keeping, view};
 pub use verdict::{GRACE_S, NO_ROBOT, Outcome, Verdict, verdict};
 pub use when::{Days, When};
 pub use zone::Zone;

@@ -34,6 +34,8 @@ pub enum Kept {
     Skipped,
     /// It falls into the quiet hours.
     QuietHours,
+    /// The robot is not on its floor now, for this reason.
+    Elsewhere(&'static str),
 }
 
 /// What lets a run start later.

@@ -11,7 +11,9 @@ use super::marks::{Mark, Marks};
 use super::{Book, Entry, Outcome, Plan, ScheduleError, Verdict, from_api, to_api};
 
 /// Version of this form. Raised when an older program would misread a newer file.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+/// The oldest form that is still read: its entries have no floor.
+const OLDEST: u32 = 1;
 
 /// The schedules as they are kept on a disk.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -87,7 +89,7 @@ impl TryFrom<StoredBook> for Book {
     type Error = StoredError;
 
     fn try_from(stored: StoredBook) -> Result<Self, StoredError> {
-        if stored.version != VERSION {
+        if !(OLDEST..=VERSION).contains(&stored.version) {
             return Err(StoredError::Newer(stored.version));
         }
         let entries: Result<Vec<Entry>, StoredError> = stored.entries.into_iter().map(entry).collect();

@@ -25,19 +25,31 @@ impl Plan {
             when: when(&self.when),
             late_min: self.late_min,
             in_quiet: self.in_quiet,
+            floor: self.floor,
         }
     }
 }
 
-/// Everything that clients are told. `now_s` is `None` while nobody knows the time; `ready` says why the robot could not
-/// start an entry's job at this moment.
-pub(crate) fn view(
-    book: &Book,
-    (zone, now_s): (&Zone, Option<i64>),
-    ready: impl Fn(&Entry) -> Result<(), &'static str>,
-) -> Schedules {
+/// What keeps an entry at this moment.
+pub(crate) trait Keeping {
+    /// Why the robot could not start its job.
+    fn ready(&self, entry: &Entry) -> Result<(), &'static str>;
+    /// Why the robot is not on its floor, as far as anybody knows.
+    fn on_floor(&self, entry: &Entry) -> Result<(), &'static str>;
+}
+
+/// Everything that clients are told. `now_s` is `None` while nobody knows the time.
+pub(crate) fn view(book: &Book, (zone, now_s): (&Zone, Option<i64>), keeping: &impl Keeping) -> Schedules {
     let now_s = now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S);
-    let foretell = |entry: &Entry| now_s.map_or_else(Vec::new, |now_s| planned(book, entry, (zone, now_s)));
+    let foretell = |entry: &Entry| {
+        let elsewhere = keeping.on_floor(entry).err();
+        let runs = now_s.map_or_else(Vec::new, |now_s| planned(book, entry, (zone, now_s)));
+        let kept = |run: Planned| Planned {
+            kept: run.kept.or(elsewhere.map(Kept::Elsewhere)),
+            ..run
+        };
+        runs.into_iter().map(kept).collect()
+    };
     let plans: Vec<(&Entry, Vec<Planned>)> = book.entries().map(|entry| (entry, foretell(entry))).collect();
     let mut all: Vec<&Planned> = plans.iter().flat_map(|(_, runs)| runs).collect();
     all.sort_by_key(|run| (run.start_s, run.entry));
@@ -46,7 +58,7 @@ pub(crate) fn view(
         entry: entry.plan().to_api(),
         skip_next: entry.skips_next(),
         next: runs.iter().map(|run| planned_run(run, zone)).collect(),
-        refused_now: ready(entry).err().map(str::to_owned),
+        refused_now: keeping.ready(entry).err().map(str::to_owned),
     };
     let clock = now_s.and_then(|now_s| zone.local(now_s));
     Schedules {
@@ -68,6 +80,7 @@ fn planned_run(run: &Planned, zone: &Zone) -> PlannedRun {
     let kept = run.kept.map(|kept| match kept {
         Kept::Skipped => "skipped",
         Kept::QuietHours => "quiet-hours",
+        Kept::Elsewhere(reason) => reason,
     });
     let held = run.held.map(|held| match held {
         Held::QuietHours => "quiet-hours",

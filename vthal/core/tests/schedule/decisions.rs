@@ -208,6 +208,7 @@ fn the_preview_is_what_then_happens() {
                 None => Outcome::Starting,
                 Some(Kept::Skipped) => Outcome::Skipped,
                 Some(Kept::QuietHours) => Outcome::QuietHours,
+                Some(Kept::Elsewhere(reason)) => Outcome::Refused(reason.to_owned()),
             };
             (run.start_s, run.entry, outcome)
         }));

@@ -20,6 +20,7 @@ fn plan(when: When) -> Plan {
         when,
         late_min: 0,
         in_quiet: InQuiet::Refuse,
+        floor: None,
     }
 }
 

@@ -102,6 +102,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("skipped", "Keegi tahtis selle vahele jätta.", ""),
     entry("missed", "Õigel ajal ei olnud kedagi alustamas.", ""),
     entry("quiet-hours", "See langes vaiksele ajale.", ""),
+    entry("other-floor", "Robot on teisel korrusel kui see ajakava.", "Vii ta sinna või vali selle korruse toad."),
     entry("interrupted", "Roboti tarkvara lõpetas vahetult enne alustamist.", ""),
     entry("no-such-room", "Sellist tuba kaardil enam ei ole.", "Vali teised toad."),
     entry("map-not-taken-up", "Robot ei tea veel, kus ta mis korruse kaardil on.", "Pane ta dokki või lase koristada, kuni ta teab."),

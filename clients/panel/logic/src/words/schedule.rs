@@ -68,6 +68,9 @@ screen! {
         room[1]: "room {0}", "tuba {0}";
         a_zone: "a zone", "üks ala";
         a_spot: "a spot", "üks koht";
+        on_floor[2]: "{0}, on {1}", "{0}, korrus: {1}";
+        other_floor[1]: "Its rooms are those of {0}. Others can be chosen while the robot is there.",
+            "Selle toad on korrusel {0}. Teisi saab valida, kui robot on seal.";
         times[1]: "{0} times", "{0} korda";
     }
 }
