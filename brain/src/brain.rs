@@ -386,6 +386,7 @@ impl Brain {
         let refused = match command {
             Command::AddNoGo { no_go } => self.map.add_no_go(no_go.clone()).err(),
             Command::RemoveNoGo { number } => self.map.remove_no_go(*number).err(),
+            Command::NameNoGo { number, name } => self.map.name_no_go(*number, name.clone()).err(),
             Command::NameRoom { room, name } => self.map.name_room(*room, name.clone()).err(),
             Command::SetRoom { room, settings } => self.map.set_room(*room, *settings).err(),
             Command::SplitRoom { room, line } => self.map.split_room(*room, *line).err(),

@@ -29,6 +29,13 @@ pub enum Command {
         /// Its number in [`crate::mapping::Annotations`].
         number: u16,
     },
+    /// Give a no-go zone or virtual wall a name, or take it away.
+    NameNoGo {
+        /// Its number in [`crate::mapping::Annotations`].
+        number: u16,
+        /// Its name.
+        name: Option<RoomName>,
+    },
     /// Give a room a name, or take it away.
     NameRoom {
         /// Identity of the room.

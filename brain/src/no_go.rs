@@ -1,4 +1,4 @@
-//! Where a person does not want the robot, and what people call a room.
+//! Where a person does not want the robot, and what people call a room or a place.
 
 use crate::behavior::Reason;
 use crate::geometry::Point2;
@@ -14,6 +14,7 @@ const NAME_MAX: usize = 40;
 pub struct NoGo {
     shape: NoGoShape,
     area: Zone,
+    name: Option<RoomName>,
 }
 
 /// What a person has drawn.
@@ -40,6 +41,7 @@ impl NoGo {
         Ok(Self {
             shape: NoGoShape::Zone,
             area: Zone::new(corners)?,
+            name: None,
         })
     }
 
@@ -52,7 +54,20 @@ impl NoGo {
         Ok(Self {
             shape: NoGoShape::Wall { from, to },
             area: thin_zone(from, to)?,
+            name: None,
         })
+    }
+
+    /// The same under another name, or none.
+    #[must_use]
+    pub fn with_name(self, name: Option<RoomName>) -> Self {
+        Self { name, ..self }
+    }
+
+    /// What people call it, if anybody has named it.
+    #[must_use]
+    pub const fn name(&self) -> Option<&RoomName> {
+        self.name.as_ref()
     }
 
     /// What a person has drawn.
@@ -99,7 +114,7 @@ pub(crate) fn in_micrometres(point: Point2) -> Point2 {
     }
 }
 
-/// What people call a room: 1 to 40 characters in one line, no space at its ends.
+/// What people call a room, a place or a floor: 1 to 40 characters in one line, no space at its ends.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RoomName(String);
 

@@ -15,6 +15,7 @@ impl Behavior {
             Command::Stop | Command::ManualEnd => Ok(()),
             Command::AddNoGo { no_go } => map.admit_no_go(no_go),
             Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
+            Command::NameNoGo { number, name } => map.admit_no_go_name(*number, name.as_ref()),
             Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
             Command::SetRoom { room, .. } => map.admit_room_settings(*room),
             Command::SplitRoom { room, line } => map.admit_room_split(*room, line),
@@ -149,6 +150,7 @@ impl Behavior {
             // The map's business.
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
+            | Command::NameNoGo { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }
             | Command::SplitRoom { .. }

@@ -89,6 +89,16 @@ impl Annotations {
         }
     }
 
+    /// Two no-go zones of one name could not be told apart; a new one has no number yet.
+    pub(super) fn may_forbid_as(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
+        let sounds_like = |no_go: &NoGo| no_go.name().is_some_and(|taken| taken.sounds_like(name.as_str()));
+        let mut others = self.no_go.iter().filter(|(other, _)| Some(**other) != number);
+        if others.any(|(_, no_go)| sounds_like(no_go)) {
+            return Err(Reason::NameTaken);
+        }
+        Ok(())
+    }
+
     /// Two rooms of one name could not be told apart. One that a change of people hides has none.
     pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), Reason> {
         let is_taken = |(other, taken): (&u16, &RoomName)| {

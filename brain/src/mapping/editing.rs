@@ -25,6 +25,9 @@ impl Map {
     /// The named reason against it.
     pub fn admit_no_go(&self, no_go: &NoGo) -> Result<(), Reason> {
         self.home.annotations.has_room_for_another()?;
+        if let Some(name) = no_go.name() {
+            self.home.annotations.may_forbid_as(None, name)?;
+        }
         self.may_forbid(no_go)
     }
 
@@ -109,6 +112,30 @@ impl Map {
             }
         }
         self.home.paint_no_go();
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether a no-go zone or virtual wall may be called so; without a name it is called by its number.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchNoGo`], or [`Reason::NameTaken`] by another one.
+    pub fn admit_no_go_name(&self, number: u16, name: Option<&RoomName>) -> Result<(), Reason> {
+        self.admit_no_go_removal(number)?;
+        name.map_or(Ok(()), |name| {
+            self.home.annotations.may_forbid_as(Some(number), name)
+        })
+    }
+
+    /// Names a no-go zone or virtual wall, or takes its name away.
+    ///
+    /// # Errors
+    /// As [`Self::admit_no_go_name`]; then nothing is changed.
+    pub fn name_no_go(&mut self, number: u16, name: Option<RoomName>) -> Result<(), Reason> {
+        self.admit_no_go_name(number, name.as_ref())?;
+        let no_go = self.home.annotations.no_go.get_mut(&number);
+        let no_go = no_go.ok_or(Reason::NoSuchNoGo)?;
+        *no_go = no_go.clone().with_name(name);
         self.home.touch();
         Ok(())
     }

@@ -80,7 +80,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 51] = [
+pub const VERBS: [(&str, Role); 52] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -109,6 +109,7 @@ pub const VERBS: [(&str, Role); 51] = [
     ("choose-floor",    Role::Drive),
     ("add-no-go",       Role::Admin),
     ("remove-no-go",    Role::Admin),
+    ("name-no-go",      Role::Admin),
     ("name-room",       Role::Admin),
     ("set-room",        Role::Admin),
     ("split-room",      Role::Admin),

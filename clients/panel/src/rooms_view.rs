@@ -1,7 +1,7 @@
 //! The rooms as a list with actions, and what is forbidden: all that can be done on the map, for keyboard and screen reader.
 
 use leptos::prelude::*;
-use panel_logic::{Edit, NoGoRow, RoomChangeRow, RoomRow, Tool};
+use panel_logic::{Edit, Forbidden, NoGoRow, RoomChangeRow, RoomRow, Tool};
 
 use crate::language::words;
 use crate::rename_form::RenameForm;
@@ -198,11 +198,12 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
             </button>
         }
     };
+    let renamed = RwSignal::new(None::<u16>);
     view! {
         <h3 id="no-go-title">{words().home.no_go}</h3>
         <ul id="no-go" class="rows" aria-labelledby="no-go-title">
-            <For each=move || store.orders.no_go.get() key=|row| (row.number, row.words.clone()) let:row>
-                {no_go(store, row)}
+            <For each=move || store.orders.no_go.get() key=|row| (row.number, row.name.clone(), row.words.clone()) let:row>
+                {no_go(store, row, renamed)}
             </For>
         </ul>
         <Show when=move || store.orders.no_go.with(Vec::is_empty)>
@@ -215,7 +216,19 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
     }
 }
 
-fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
+/// Names what is forbidden, or takes its name away, so that it can be undone.
+fn rename_no_go(store: Store, number: u16, after: Option<String>) {
+    let home = store.known_home();
+    if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
+        store.edit(Edit::NameForbidden {
+            shape: kept.shape,
+            before: kept.name,
+            after,
+        });
+    }
+}
+
+fn no_go(store: Store, row: NoGoRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
     let NoGoRow {
         number,
         name,
@@ -225,13 +238,28 @@ fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
     let remove = move |_| {
         let home = store.known_home();
         if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
-            store.edit(Edit::Allow(kept.shape));
+            let (shape, name) = (kept.shape, kept.name);
+            store.edit(Edit::Allow(Forbidden { shape, name }));
         }
     };
+    let rename_label = words().home.rename_named.fill([&name]);
+    let form_label = words().home.no_go_name.fill([&name]);
+    let is_renamed = move || renamed.get() == Some(number);
+    let shown = name.clone();
     view! {
         <li>
-            <span class="name">{name}</span>
+            <span class="name">{shown}</span>
             <span class="words">{extent}</span>
+            <button
+                type="button"
+                class="small"
+                id=format!("rename-no-go-{number}")
+                aria-label=rename_label
+                aria-expanded=move || if is_renamed() { "true" } else { "false" }
+                on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(number)).then_some(number))
+            >
+                {words().frame.rename}
+            </button>
             <button
                 type="button"
                 class="small"
@@ -241,5 +269,17 @@ fn no_go(store: Store, row: NoGoRow) -> impl IntoView {
                 {words().frame.remove}
             </button>
         </li>
+        <Show when=is_renamed>
+            <RenameForm
+                label=form_label.clone()
+                field_id="no-go-name"
+                button_id="save-no-go-name"
+                name=name.clone()
+                on_save=move |name| {
+                    rename_no_go(store, number, name);
+                    renamed.set(None);
+                }
+            />
+        </Show>
     }
 }

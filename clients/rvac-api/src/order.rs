@@ -127,6 +127,9 @@ pub struct NoGoView {
     pub number: u16,
     /// What it forbids.
     pub shape: NoGoShape,
+    /// What people call it, if anybody has named it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
 }
 
 /// How a room is cleaned.

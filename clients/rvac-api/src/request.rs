@@ -114,6 +114,17 @@ pub enum RequestBody {
     AddNoGo {
         /// Where.
         shape: NoGoShape,
+        /// What it is called, 1 to 40 characters.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
+    },
+    /// Names what is forbidden. Answered when the map with the name is on the disk.
+    NameNoGo {
+        /// Number, as in [`crate::HomeView::no_go`].
+        number: u16,
+        /// 1 to 40 characters; absent = it has none any more.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
     },
     /// Allows it again.
     RemoveNoGo {

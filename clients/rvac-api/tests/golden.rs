@@ -490,10 +490,12 @@ fn the_home() {
             NoGoView {
                 number: 2,
                 shape: NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]]),
+                name: None,
             },
             NoGoView {
                 number: 4,
                 shape: NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+                name: None,
             },
         ],
         room_changes: changes_of_two_rooms(),
@@ -630,8 +632,16 @@ fn orders() {
     request(
         RequestBody::AddNoGo {
             shape: NoGoShape::Wall([[0.0, 0.5], [1.0, 0.5]]),
+            name: None,
         },
         r#"{"c":"add-no-go","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}}"#,
+    );
+    request(
+        RequestBody::NameNoGo {
+            number: 2,
+            name: Some("Cats".to_owned()),
+        },
+        r#"{"c":"name-no-go","number":2,"name":"Cats"}"#,
     );
     request(
         RequestBody::RemoveNoGo { number: 2 },

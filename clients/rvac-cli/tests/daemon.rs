@@ -309,8 +309,8 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
             name: name.map(str::to_owned),
         })
     };
-    let add = |shape| RequestBody::AddNoGo { shape };
-    let cases: [(&[&str], RequestBody); 8] = [
+    let add = |shape| RequestBody::AddNoGo { shape, name: None };
+    let cases: [(&[&str], RequestBody); 9] = [
         (&["clean"], RequestBody::Clean(job(vec![], 1))),
         (
             &[
@@ -338,6 +338,13 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         (
             &["zone", "wall", "-1,0", "2,1.5"],
             add(NoGoShape::Wall([[-1.0, 0.0], [2.0, 1.5]])),
+        ),
+        (
+            &["zone", "name", "4", "Cats"],
+            RequestBody::NameNoGo {
+                number: 4,
+                name: Some("Cats".to_owned()),
+            },
         ),
         (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
     ];

@@ -70,7 +70,7 @@ impl Store for Home {
                 let shape = wall(number);
                 Change {
                     after: replaced(kept, None, serde_json::to_string(&shape).ok()),
-                    request: RequestBody::AddNoGo { shape },
+                    request: RequestBody::AddNoGo { shape, name: None },
                 }
             }
         }

@@ -136,7 +136,11 @@ fn no_go((number, no_go): (u16, &NoGo)) -> NoGoView {
         }
         brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
     };
-    NoGoView { number, shape }
+    NoGoView {
+        number,
+        shape,
+        name: no_go.name().map(|name| name.as_str().to_owned()),
+    }
 }
 
 fn room_change((number, change): (u16, &RoomChange)) -> RoomChangeView {

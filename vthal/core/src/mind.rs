@@ -163,6 +163,7 @@ impl Mind {
             Command::Manual { .. } => Some(RunCause::Manual),
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
+            | Command::NameNoGo { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }
             | Command::SplitRoom { .. }

@@ -899,6 +899,7 @@ fn drive_off(pair: &mut Pair) {
 fn wall(from: [f64; 2], to: [f64; 2]) -> RequestBody {
     RequestBody::AddNoGo {
         shape: NoGoShape::Wall([from, to]),
+        name: None,
     }
 }
 
@@ -940,6 +941,44 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     let told = told.expect("a view at once");
     assert_eq!(told.rooms[0].name.as_deref(), Some("Kitchen"));
     assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
+}
+
+#[test]
+fn forbidden_floor_has_a_name_that_no_other_has() {
+    let mut pair = on_the_dock();
+    let named = |name: &str| match wall([3.0, 1.0], [3.0, 2.0]) {
+        RequestBody::AddNoGo { shape, .. } => RequestBody::AddNoGo {
+            shape,
+            name: Some(name.to_owned()),
+        },
+        other => other,
+    };
+    let naming = |number, name: Option<&str>| RequestBody::NameNoGo {
+        number,
+        name: name.map(str::to_owned),
+    };
+    assert_eq!(pair.ask(ANNA, named(" Cats ")), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, named("cats")).as_deref(), Some("name-taken"));
+    assert_eq!(pair.ask(ANNA, named("two\nlines")).as_deref(), Some("bad-name"));
+    assert_eq!(
+        pair.ask(ANNA, naming(7, Some("Dogs"))).as_deref(),
+        Some("no-such-no-go")
+    );
+    assert_eq!(pair.ask(ANNA, wall([3.5, 1.0], [3.5, 2.0])), None);
+    pair.run_ms(200);
+    assert_eq!(
+        pair.ask(ANNA, naming(2, Some("CATS"))).as_deref(),
+        Some("name-taken")
+    );
+    assert_eq!(pair.ask(ANNA, naming(1, None)), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(ANNA, naming(2, Some("Cats"))), None);
+    pair.run_ms(200);
+    let words = pair.edits.last().expect("kept").home.home.annotations();
+    let names: Vec<_> = words.no_go().map(|(_, no_go)| no_go.name()).collect();
+    assert_eq!(names[0], None);
+    assert_eq!(names[1].map(brain::RoomName::as_str), Some("Cats"));
 }
 
 fn dock_at(x: f64, y: f64) -> RequestBody {

@@ -6,6 +6,7 @@
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
 //! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
 //! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
+//! Version 7 adds the names of no-go zones and virtual walls.
 
 mod room_words;
 mod words;
@@ -17,7 +18,7 @@ use crate::mapping::{Annotations, Cell, DockPlace};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 6;
+const VERSION: u8 = 7;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -170,7 +171,7 @@ impl Reader<'_> {
         let rooms = self.layer(expected)?;
         let mut annotations = match version {
             1 => Annotations::default(),
-            _ => self.words()?,
+            _ => self.words(version)?,
         };
         if version >= 3 {
             annotations.rooms = self.room_changes(next_room)?;
@@ -341,7 +342,10 @@ mod tests {
         let at = |x_m, y_m| Point2 { x_m, y_m };
         let zone = Zone::new(vec![at(0.1, 0.2), at(1.0 / 3.0, 0.2), at(0.1, -7.0)]).unwrap();
         let mut words = Annotations::default();
-        words.add(NoGo::zone(&zone).unwrap()).unwrap();
+        let cats = RoomName::new("Cats").unwrap();
+        words
+            .add(NoGo::zone(&zone).unwrap().with_name(Some(cats)))
+            .unwrap();
         words
             .add(NoGo::wall(at(0.0, 0.0), at(2.0 / 3.0, 1e-5)).unwrap())
             .unwrap();
@@ -392,6 +396,32 @@ mod tests {
         assert_eq!(map.annotations().name(1).map(RoomName::as_str), Some("A"));
         assert!(map.annotations().room_changes().is_empty());
         assert_eq!(StoredMap::decode(&map.encode()), Ok(map));
+    }
+
+    #[test]
+    fn no_go_zones_of_the_sixth_version_have_no_names() {
+        // No dock was felt or told; the same cells; no-go zone 1 of 2 is a wall from 0, 0 to 1, 0 micrometres; no names, changes, settings.
+        let begin = [0, 0, 0, 0, 2, 3, 1, 1, 5, 6, 0, 2, 1, 1, 1, 0, 0, 2, 0];
+        let read = |version: u8, name: &[u8]| {
+            let mut bytes = b"RVACMAP".to_vec();
+            bytes.push(version);
+            bytes.extend(begin);
+            bytes.extend(name);
+            bytes.extend([0, 1, 0, 0, 0]);
+            bytes.extend(crc32(&bytes).to_le_bytes());
+            StoredMap::decode(&bytes)
+        };
+        let name = |map: &StoredMap| {
+            let mut all = map.annotations().no_go();
+            let (_, no_go) = all.next().unwrap();
+            no_go.name().map(|name| name.as_str().to_owned())
+        };
+        let older = read(6, &[]).unwrap();
+        assert_eq!(name(&older), None);
+        assert_eq!(StoredMap::decode(&older.encode()), Ok(older));
+        assert_eq!(name(&read(7, &[1, b'A']).unwrap()), Some("A".to_owned()));
+        assert_eq!(name(&read(7, &[0]).unwrap()), None);
+        assert_eq!(read(7, &[1, b' ']), Err(StoredMapError::Name));
     }
 
     #[test]

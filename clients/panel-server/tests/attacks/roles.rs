@@ -141,9 +141,8 @@ fn arguments_of(verb: &str) -> &'static str {
         "set-room" => r#","room":1"#,
         "move-dock" => r#","x":0.0,"y":0.0,"heading":0.0"#,
         "join-rooms" => r#","rooms":[1,2]"#,
-        "remove-no-go" | "undo-room-change" | "restore-map" | "remove-schedule" | "run-schedule" | "run" => {
-            r#","number":1"#
-        }
+        "remove-no-go" | "name-no-go" | "undo-room-change" | "restore-map" | "remove-schedule"
+        | "run-schedule" | "run" => r#","number":1"#,
         "run-file" => r#","number":1,"from":0"#,
         "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,

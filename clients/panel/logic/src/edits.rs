@@ -4,7 +4,8 @@
 //! and another client may have been there in between. Nothing counts before the robot has confirmed it.
 
 use rvac_api::{
-    HomeView, NoGoShape, Request, RequestBody, RoomChangeView, RoomNaming, RoomSettings, RoomSplitting,
+    HomeView, NoGoShape, NoGoView, Request, RequestBody, RoomChangeView, RoomNaming, RoomSettings,
+    RoomSplitting,
 };
 
 use crate::dock_place::{DockPose, is_same_dock, known_dock};
@@ -18,13 +19,31 @@ const LAST_ID: u32 = 999;
 /// Places that differ by less are the same: the robot may round them, metres.
 const SAME_M: f64 = 0.005;
 
+/// What a person forbids, and its name, which comes back with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Forbidden {
+    /// What it forbids.
+    pub shape: NoGoShape,
+    /// What it is called, if it has a name.
+    pub name: Option<String>,
+}
+
 /// A change of the map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// Floor was forbidden.
-    Forbid(NoGoShape),
+    Forbid(Forbidden),
     /// It was allowed again.
-    Allow(NoGoShape),
+    Allow(Forbidden),
+    /// What is forbidden got another name, or none.
+    NameForbidden {
+        /// What it forbids.
+        shape: NoGoShape,
+        /// What it was called.
+        before: Option<String>,
+        /// What it shall be called.
+        after: Option<String>,
+    },
     /// A room got another name, or none.
     Name {
         /// Its identity.
@@ -87,6 +106,11 @@ impl Edit {
         match self.clone() {
             Self::Forbid(shape) => Self::Allow(shape),
             Self::Allow(shape) => Self::Forbid(shape),
+            Self::NameForbidden { shape, before, after } => Self::NameForbidden {
+                shape,
+                before: after,
+                after: before,
+            },
             Self::Name { room, before, after } => Self::Name {
                 room,
                 before: after,
@@ -113,10 +137,15 @@ impl Edit {
     pub const fn what(&self, words: &Words) -> &'static str {
         let told = &words.map;
         match self {
-            Self::Forbid(NoGoShape::Wall(_)) => told.edit_wall,
-            Self::Forbid(NoGoShape::Zone(_)) => told.edit_zone,
-            Self::Allow(NoGoShape::Wall(_)) => told.edit_no_wall,
-            Self::Allow(NoGoShape::Zone(_)) => told.edit_no_zone,
+            Self::Forbid(forbidden) => match forbidden.shape {
+                NoGoShape::Wall(_) => told.edit_wall,
+                NoGoShape::Zone(_) => told.edit_zone,
+            },
+            Self::Allow(forbidden) => match forbidden.shape {
+                NoGoShape::Wall(_) => told.edit_no_wall,
+                NoGoShape::Zone(_) => told.edit_no_zone,
+            },
+            Self::NameForbidden { .. } => told.edit_no_go_name,
             Self::Name { .. } => told.edit_name,
             Self::Settings { .. } => told.edit_settings,
             Self::Split(_) => told.edit_split,
@@ -130,11 +159,23 @@ impl Edit {
     /// What asks the robot for it.
     fn request(&self, home: &HomeView) -> Result<RequestBody, EditError> {
         match self {
-            Self::Forbid(shape) => Ok(RequestBody::AddNoGo { shape: shape.clone() }),
-            Self::Allow(shape) => {
-                let found = home.no_go.iter().rev().find(|kept| is_same(&kept.shape, shape));
-                let number = found.ok_or(EditError::ChangedMeanwhile)?.number;
+            Self::Forbid(Forbidden { shape, name }) => Ok(RequestBody::AddNoGo {
+                shape: shape.clone(),
+                name: name.clone(),
+            }),
+            Self::Allow(Forbidden { shape, .. }) => {
+                let number = kept(home, shape)?.number;
                 Ok(RequestBody::RemoveNoGo { number })
+            }
+            Self::NameForbidden { shape, before, after } => {
+                let kept = kept(home, shape)?;
+                if kept.name != *before {
+                    return Err(EditError::ChangedMeanwhile);
+                }
+                Ok(RequestBody::NameNoGo {
+                    number: kept.number,
+                    name: after.clone(),
+                })
             }
             Self::Name { room, before, after } => {
                 let named = home.rooms.iter().find(|known| known.id == *room);
@@ -178,6 +219,12 @@ impl Edit {
             }),
         }
     }
+}
+
+/// What forbids this floor; the newest if there are several.
+fn kept<'home>(home: &'home HomeView, shape: &NoGoShape) -> Result<&'home NoGoView, EditError> {
+    let found = home.no_go.iter().rev().find(|kept| is_same(&kept.shape, shape));
+    found.ok_or(EditError::ChangedMeanwhile)
 }
 
 /// Takes back the newest such change of the rooms.
@@ -334,11 +381,18 @@ impl EditLog {
 
 #[cfg(test)]
 mod tests {
-    use super::{Edit, EditError, EditLog};
+    use super::{Edit, EditError, EditLog, Forbidden};
     use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody, RoomChangeView, RoomView};
 
     fn wall(x: f64) -> NoGoShape {
         NoGoShape::Wall([[x, 0.0], [x, 1.0]])
+    }
+
+    fn forbid(x: f64) -> Edit {
+        Edit::Forbid(Forbidden {
+            shape: wall(x),
+            name: None,
+        })
     }
 
     fn home(revision: u32, walls: &[(u16, f64)], name: Option<&str>) -> HomeView {
@@ -349,6 +403,7 @@ mod tests {
                 .map(|(number, x)| NoGoView {
                     number: *number,
                     shape: wall(*x),
+                    name: None,
                 })
                 .collect(),
             rooms: vec![RoomView {
@@ -370,7 +425,7 @@ mod tests {
     #[test]
     fn a_wall_goes_and_comes_back_under_whatever_number_it_has() {
         let mut log = EditLog::default();
-        let asked = log.begin(Edit::Forbid(wall(1.0)), &home(1, &[], None)).unwrap();
+        let asked = log.begin(forbid(1.0), &home(1, &[], None)).unwrap();
         assert_eq!(log.last(), None, "nothing counts before it is confirmed");
         log.on_done(number(&asked), 1);
         let kept = home(2, &[(6, 4.0), (7, 1.001)], None);
@@ -378,24 +433,65 @@ mod tests {
         assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
         log.on_done(number(&asked), 2);
         let asked = log.redo(&home(3, &[(6, 4.0)], None)).unwrap().unwrap();
-        assert_eq!(asked.body, RequestBody::AddNoGo { shape: wall(1.0) });
+        let again = RequestBody::AddNoGo {
+            shape: wall(1.0),
+            name: None,
+        };
+        assert_eq!(asked.body, again);
         log.on_done(number(&asked), 3);
         let asked = log.undo(&home(4, &[(6, 4.0), (8, 1.0)], None)).unwrap().unwrap();
         assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 8 });
     }
 
     #[test]
+    fn a_name_of_forbidden_floor_goes_back_and_comes_with_what_is_brought_back() {
+        let mut log = EditLog::default();
+        let named = |revision, name: Option<&str>| {
+            let mut home = home(revision, &[(7, 1.0)], None);
+            home.no_go[0].name = name.map(str::to_owned);
+            home
+        };
+        let edit = Edit::NameForbidden {
+            shape: wall(1.0),
+            before: None,
+            after: Some("Cats".to_owned()),
+        };
+        let asked = log.begin(edit, &named(1, None)).unwrap();
+        let naming = |number, name: Option<&str>| RequestBody::NameNoGo {
+            number,
+            name: name.map(str::to_owned),
+        };
+        assert_eq!(asked.body, naming(7, Some("Cats")));
+        log.on_done(number(&asked), 1);
+        let allow = Edit::Allow(Forbidden {
+            shape: wall(1.0),
+            name: Some("Cats".to_owned()),
+        });
+        let asked = log.begin(allow, &named(2, Some("Cats"))).unwrap();
+        log.on_done(number(&asked), 2);
+        let asked = log.undo(&home(3, &[], None)).unwrap().unwrap();
+        let back = RequestBody::AddNoGo {
+            shape: wall(1.0),
+            name: Some("Cats".to_owned()),
+        };
+        assert_eq!(asked.body, back);
+        log.on_done(number(&asked), 3);
+        let asked = log.undo(&named(4, Some("Cats"))).unwrap().unwrap();
+        assert_eq!(asked.body, naming(7, None));
+    }
+
+    #[test]
     fn what_is_refused_has_not_happened() {
         let mut log = EditLog::default();
         let empty = home(1, &[], None);
-        let asked = log.begin(Edit::Forbid(wall(1.0)), &empty).unwrap();
+        let asked = log.begin(forbid(1.0), &empty).unwrap();
         log.on_failed(number(&asked));
         assert!(log.undo(&empty).is_none());
-        let asked = log.begin(Edit::Forbid(wall(2.0)), &empty).unwrap();
+        let asked = log.begin(forbid(2.0), &empty).unwrap();
         log.on_done(number(&asked), 1);
         let asked = log.undo(&home(2, &[(1, 2.0)], None)).unwrap().unwrap();
         log.on_failed(number(&asked));
-        assert_eq!(log.last(), Some(&Edit::Forbid(wall(2.0))));
+        assert_eq!(log.last(), Some(&forbid(2.0)));
         assert_eq!(log.next(), None);
     }
 
@@ -495,11 +591,11 @@ mod tests {
     fn a_new_edit_ends_what_could_be_done_again() {
         let mut log = EditLog::default();
         let none = home(1, &[], None);
-        let asked = log.begin(Edit::Forbid(wall(1.0)), &none).unwrap();
+        let asked = log.begin(forbid(1.0), &none).unwrap();
         log.on_done(number(&asked), 1);
         let asked = log.undo(&home(2, &[(1, 1.0)], None)).unwrap().unwrap();
         log.on_done(number(&asked), 2);
-        let asked = log.begin(Edit::Forbid(wall(5.0)), &none).unwrap();
+        let asked = log.begin(forbid(5.0), &none).unwrap();
         log.on_done(number(&asked), 3);
         assert_eq!(log.next(), None);
         log.clear();

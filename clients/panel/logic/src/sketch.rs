@@ -177,26 +177,32 @@ pub fn no_go_strokes(shape: &NoGoShape) -> Vec<f32> {
 pub struct NoGoRow {
     /// Its number.
     pub number: u16,
-    /// `Virtual wall 3`
+    /// `Virtual wall 3`, or what people call it.
     pub name: String,
-    /// `1.2 m`
+    /// `1.2 m`, or with a name `Virtual wall 3, 1.2 m`.
     pub words: String,
 }
 
 /// What is forbidden, by number.
 #[must_use]
 pub fn no_go_rows(words: &Words, home: &HomeView) -> Vec<NoGoRow> {
-    let row = |no_go: &rvac_api::NoGoView| match &no_go.shape {
-        NoGoShape::Wall([from, to]) => NoGoRow {
+    let row = |no_go: &rvac_api::NoGoView| {
+        let (kind, words) = match &no_go.shape {
+            NoGoShape::Wall([from, to]) => {
+                let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+                (words.home.wall, metres(words, length_m))
+            }
+            NoGoShape::Zone(corners) => (words.home.zone, extent(words, corners)),
+        };
+        let numbered = kind.fill([&no_go.number]);
+        NoGoRow {
             number: no_go.number,
-            name: words.home.wall.fill([&no_go.number]),
-            words: metres(words, (to[0] - from[0]).hypot(to[1] - from[1])),
-        },
-        NoGoShape::Zone(corners) => NoGoRow {
-            number: no_go.number,
-            name: words.home.zone.fill([&no_go.number]),
-            words: extent(words, corners),
-        },
+            words: no_go
+                .name
+                .as_ref()
+                .map_or_else(|| words.clone(), |_| format!("{numbered}, {words}")),
+            name: no_go.name.clone().unwrap_or(numbered),
+        }
     };
     home.no_go.iter().map(row).collect()
 }
@@ -303,7 +309,11 @@ mod tests {
 
     #[test]
     fn what_is_forbidden_has_a_name_and_a_size() {
-        let view = |number, shape| NoGoView { number, shape };
+        let view = |number, shape| NoGoView {
+            number,
+            shape,
+            name: (number == 5).then(|| "Cats".to_owned()),
+        };
         let home = HomeView {
             no_go: vec![
                 view(2, NoGoShape::Wall([[0.0, 0.0], [3.0, 4.0]])),
@@ -320,7 +330,7 @@ mod tests {
             words,
             [
                 "Virtual wall 2, 5.0 m",
-                "No-go zone 5, 1.5 x 0.8 m",
+                "Cats, No-go zone 5, 1.5 x 0.8 m",
                 "No-go zone 6, 0.0 x 0.0 m"
             ]
         );

@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text, job_estimate_text, joinable,
-    known_dock, no_go_rows, refusal_text, room_change_rows,
+    Drawn, Edit, Forbidden, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text, job_estimate_text,
+    joinable, known_dock, no_go_rows, refusal_text, room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
@@ -133,7 +133,7 @@ impl Store {
         let choice = self.orders.choice;
         match drawn {
             None => return,
-            Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(shape)),
+            Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(Forbidden { shape, name: None })),
             Some(Drawn::Cut(line)) => self.edit(Edit::Split(line)),
             Some(Drawn::Dock(after)) => {
                 if let Some(before) = known_dock(&self.known_home()) {

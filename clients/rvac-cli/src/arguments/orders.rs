@@ -184,6 +184,9 @@ pub(crate) enum ZoneVerb {
         /// The third corner of a polygon; again for each further one.
         #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
         corner: Vec<Place>,
+        /// What it is called, in one line of 1 to 40 characters.
+        #[arg(long)]
+        name: Option<String>,
     },
     /// Draw a wall that the robot shall see where there is none.
     Wall {
@@ -193,11 +196,26 @@ pub(crate) enum ZoneVerb {
         /// The other end.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         to: Place,
+        /// What it is called, in one line of 1 to 40 characters.
+        #[arg(long)]
+        name: Option<String>,
+    },
+    /// Name a zone or wall.
+    Name {
+        /// Its number, as `rvac zone` tells it, or the name it has.
+        zone: String,
+        /// One line of 1 to 40 characters.
+        name: String,
+    },
+    /// Take the name of a zone or wall away.
+    Unname {
+        /// Its name or number.
+        zone: String,
     },
     /// Allow again what a zone or wall forbids.
     Remove {
-        /// Its number, as `rvac zone` tells it.
-        number: u16,
+        /// Its name or number.
+        zone: String,
     },
 }
 

@@ -3,7 +3,8 @@
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
-use rvac_api::{HomeView, NoGoShape, RequestBody};
+use anyhow::bail;
+use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody};
 
 use crate::arguments::{Place, ZoneJob, ZoneVerb};
 use crate::control;
@@ -11,24 +12,59 @@ use crate::home::known;
 use crate::socket::Connection;
 
 pub(crate) fn zones(job: &ZoneJob) -> anyhow::Result<ExitCode> {
+    let mut connection = Connection::open(&job.daemon)?;
     let body = match &job.verb {
         None => {
-            let home = known::ask(&mut Connection::open(&job.daemon)?)?.home;
+            let home = known::ask(&mut connection)?.home;
             write!(stdout(), "{}", table(&home))?;
             return Ok(ExitCode::SUCCESS);
         }
-        Some(ZoneVerb::Add { from, to, corner }) => {
+        Some(ZoneVerb::Add {
+            from,
+            to,
+            corner,
+            name,
+        }) => {
             let corners = [from, to].into_iter().chain(corner).map(pair).collect();
             RequestBody::AddNoGo {
                 shape: NoGoShape::Zone(outline(corners)),
+                name: name.clone(),
             }
         }
-        Some(ZoneVerb::Wall { from, to }) => RequestBody::AddNoGo {
+        Some(ZoneVerb::Wall { from, to, name }) => RequestBody::AddNoGo {
             shape: NoGoShape::Wall([pair(from), pair(to)]),
+            name: name.clone(),
         },
-        Some(ZoneVerb::Remove { number }) => RequestBody::RemoveNoGo { number: *number },
+        Some(ZoneVerb::Name { zone, name }) => RequestBody::NameNoGo {
+            number: find(&known::ask(&mut connection)?.home, zone)?,
+            name: Some(name.clone()),
+        },
+        Some(ZoneVerb::Unname { zone }) => RequestBody::NameNoGo {
+            number: find(&known::ask(&mut connection)?.home, zone)?,
+            name: None,
+        },
+        Some(ZoneVerb::Remove { zone }) => RequestBody::RemoveNoGo {
+            number: match zone.trim().parse() {
+                Ok(number) => number,
+                Err(_) => find(&known::ask(&mut connection)?.home, zone)?,
+            },
+        },
     };
-    control::send(body, &job.daemon)
+    control::ask(&mut connection, body)
+}
+
+/// The number of the zone or wall with this name or number.
+fn find(home: &HomeView, wanted: &str) -> anyhow::Result<u16> {
+    let wanted = wanted.trim();
+    let is_called = |no_go: &&NoGoView| {
+        let name = no_go.name.as_deref();
+        name.is_some_and(|name| name.to_lowercase() == wanted.to_lowercase())
+    };
+    let by_name = home.no_go.iter().find(is_called).map(|no_go| no_go.number);
+    match by_name.or_else(|| wanted.parse().ok()) {
+        Some(number) => Ok(number),
+        None => bail!("no no-go zone or virtual wall is called {wanted:?}: `rvac zone` lists them"),
+    }
 }
 
 fn pair(place: &Place) -> [f64; 2] {
@@ -54,14 +90,16 @@ fn table(home: &HomeView) -> String {
             NoGoShape::Wall(ends) => ("virtual wall ", ends.as_slice()),
         };
         let places: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-        text += &format!("{:<7} {kind} {}\n", no_go.number, places.join(" "));
+        let name = no_go.name.as_ref();
+        let name = name.map(|name| format!("  {name}")).unwrap_or_default();
+        text += &format!("{:<7} {kind} {}{name}\n", no_go.number, places.join(" "));
     }
     text
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{outline, table};
+    use super::{find, outline, table};
     use rvac_api::{HomeView, NoGoShape, NoGoView};
 
     #[test]
@@ -78,13 +116,18 @@ mod tests {
             no_go: vec![NoGoView {
                 number: 3,
                 shape: NoGoShape::Wall([[0.0, -0.5], [1.0, 0.5]]),
+                name: Some("Cats".to_owned()),
             }],
             ..HomeView::default()
         };
         assert_eq!(
             table(&home),
-            "number  what\n3       virtual wall  0.00,-0.50 1.00,0.50\n"
+            "number  what\n3       virtual wall  0.00,-0.50 1.00,0.50  Cats\n"
         );
+        for (wanted, number) in [("cats", 3), (" 3", 3), ("9", 9)] {
+            assert_eq!(find(&home, wanted).expect("is found"), number, "{wanted}");
+        }
+        assert!(find(&home, "Dogs").is_err());
         assert_eq!(table(&HomeView::default()), "nothing is forbidden\n");
     }
 }

@@ -82,7 +82,14 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<(), Refusal> {
         match body {
-            RequestBody::AddNoGo { shape } => self.add_no_go(now_us, (asker, &shape), outputs),
+            RequestBody::AddNoGo { shape, name } => {
+                let name = name.as_deref().map(to_name).transpose()?;
+                let no_go = to_no_go(&shape)?.with_name(name);
+                self.add_no_go(now_us, (asker, no_go), outputs)
+            }
+            RequestBody::NameNoGo { number, name } => {
+                self.name_no_go(now_us, (asker, number, name.as_deref()), outputs)
+            }
             RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, (asker, number), outputs),
             RequestBody::NameRoom(naming) => self.name_room(now_us, (asker, &naming), outputs),
             RequestBody::SetRoom { room, settings } => {
@@ -106,15 +113,15 @@ impl Core {
     fn add_no_go(
         &mut self,
         now_us: u64,
-        (asker, shape): (Asker, &NoGoShape),
+        (asker, no_go): (Asker, NoGo),
         outputs: &mut Outputs,
     ) -> Result<(), Refusal> {
-        let no_go = to_no_go(shape)?;
         let brain = self.known_home()?.brain();
         let command = Command::AddNoGo { no_go };
         brain.admit(&command).map_err(|reason| match reason {
             Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
             Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
+            Reason::NameTaken => another_no_go(),
             _ => Refusal::from(reason),
         })?;
         self.edit(now_us, (asker, command, "forbids floor of the map"), outputs);
@@ -133,6 +140,23 @@ impl Core {
             .admit(&command)
             .map_err(|reason| Refusal::because(reason, no_such_no_go(number, brain)))?;
         self.edit(now_us, (asker, command, "allows floor of the map again"), outputs);
+        Ok(())
+    }
+
+    fn name_no_go(
+        &mut self,
+        now_us: u64,
+        (asker, number, name): (Asker, u16, Option<&str>),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let name = name.map(to_name).transpose()?;
+        let brain = self.known_home()?.brain();
+        let command = Command::NameNoGo { number, name };
+        brain.admit(&command).map_err(|reason| match reason {
+            Reason::NameTaken => another_no_go(),
+            _ => Refusal::because(reason, no_such_no_go(number, brain)),
+        })?;
+        self.edit(now_us, (asker, command, "names forbidden floor"), outputs);
         Ok(())
     }
 
@@ -309,6 +333,11 @@ fn dock_inside(brain: &brain::Brain) -> String {
         "The dock stands there (x {:.2} m, y {:.2} m), and the robot could not reach it any more: leave room around it.",
         place.x_m, place.y_m
     )
+}
+
+fn another_no_go() -> Refusal {
+    let text = "Another no-go zone or virtual wall is called so: take another name.";
+    Refusal::because(Reason::NameTaken, text.to_owned())
 }
 
 fn no_such_no_go(number: u16, brain: &brain::Brain) -> String {

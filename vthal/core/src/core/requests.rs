@@ -44,6 +44,7 @@ impl Core {
                 | RequestBody::RemoveMix { .. }
                 | RequestBody::AddNoGo { .. }
                 | RequestBody::RemoveNoGo { .. }
+                | RequestBody::NameNoGo { .. }
                 | RequestBody::NameRoom(_)
                 | RequestBody::SetRoom { .. }
                 | RequestBody::SplitRoom(_)
@@ -101,6 +102,7 @@ impl Core {
             RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }
+            | RequestBody::NameNoGo { .. }
             | RequestBody::NameRoom(_)
             | RequestBody::SetRoom { .. }
             | RequestBody::SplitRoom(_)

@@ -254,8 +254,17 @@ pub enum GivenCommand {
     CleanParts(GivenOrder),
     /// [`Command::AddNoGo`]
     AddNoGo(GivenNoGo),
+    /// [`Command::AddNoGo`] of one that has a name.
+    AddNamedNoGo(GivenNoGo, String),
     /// [`Command::RemoveNoGo`] by its number.
     RemoveNoGo(u16),
+    /// [`Command::NameNoGo`]
+    NameNoGo {
+        /// Its number.
+        number: u16,
+        /// Its name; absent = none any more.
+        name: Option<String>,
+    },
     /// [`Command::NameRoom`]
     NameRoom {
         /// Identity of the room.
@@ -318,11 +327,18 @@ impl From<&Command> for GivenCommand {
         match command {
             Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
             Command::CleanParts { order } => Self::CleanParts(order.into()),
-            Command::AddNoGo { no_go } => Self::AddNoGo(no_go.into()),
+            Command::AddNoGo { no_go } => match no_go.name() {
+                None => Self::AddNoGo(no_go.into()),
+                Some(name) => Self::AddNamedNoGo(no_go.into(), name.as_str().to_owned()),
+            },
             Command::RemoveNoGo { number } => Self::RemoveNoGo(*number),
+            Command::NameNoGo { number, name } => Self::NameNoGo {
+                number: *number,
+                name: from_name(name.as_ref()),
+            },
             Command::NameRoom { room, name } => Self::NameRoom {
                 room: *room,
-                name: name.as_ref().map(|name| name.as_str().to_owned()),
+                name: from_name(name.as_ref()),
             },
             Command::SetRoom { room, settings } => Self::SetRoom {
                 room: *room,
@@ -361,6 +377,15 @@ impl From<&Command> for GivenCommand {
     }
 }
 
+fn from_name(name: Option<&RoomName>) -> Option<String> {
+    name.map(|name| name.as_str().to_owned())
+}
+
+/// `None` for a name that the brain would refuse.
+fn to_name(name: Option<&str>) -> Option<Option<RoomName>> {
+    name.map(RoomName::new).transpose().ok()
+}
+
 impl GivenCommand {
     /// Back to the brain's own type; `None` for a strategy that this version does not have.
     #[must_use]
@@ -375,13 +400,17 @@ impl GivenCommand {
             Self::AddNoGo(no_go) => Command::AddNoGo {
                 no_go: no_go.to_brain()?,
             },
+            Self::AddNamedNoGo(no_go, name) => Command::AddNoGo {
+                no_go: no_go.to_brain()?.with_name(Some(RoomName::new(name).ok()?)),
+            },
             Self::RemoveNoGo(number) => Command::RemoveNoGo { number: *number },
+            Self::NameNoGo { number, name } => Command::NameNoGo {
+                number: *number,
+                name: to_name(name.as_deref())?,
+            },
             Self::NameRoom { room, name } => Command::NameRoom {
                 room: *room,
-                name: match name {
-                    None => None,
-                    Some(name) => Some(RoomName::new(name).ok()?),
-                },
+                name: to_name(name.as_deref())?,
             },
             Self::SetRoom {
                 room,
@@ -500,7 +529,20 @@ mod tests {
             Command::AddNoGo {
                 no_go: NoGo::wall(corners[0], corners[1]).expect("two places"),
             },
+            Command::AddNoGo {
+                no_go: NoGo::wall(corners[0], corners[1])
+                    .expect("two places")
+                    .with_name(RoomName::new("Cats").ok()),
+            },
             Command::RemoveNoGo { number: 7 },
+            Command::NameNoGo {
+                number: 7,
+                name: RoomName::new("Bowl").ok(),
+            },
+            Command::NameNoGo {
+                number: 7,
+                name: None,
+            },
             Command::NameRoom {
                 room: 3,
                 name: Some(RoomName::new("Köök").expect("a good name")),

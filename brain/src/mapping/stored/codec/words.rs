@@ -1,4 +1,5 @@
-//! What people have said of the home, as bytes: the number of the next no-go zone, the zones and walls, the names.
+//! What people have said of the home, as bytes: the number of the next no-go zone, the zones and walls with their names, the names
+//! of rooms. A name is its length in bytes and these; length 0 is no name.
 
 use super::{Reader, StoredMapError, put, put_signed};
 use crate::geometry::Point2;
@@ -29,13 +30,19 @@ pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
                 put_point(bytes, to);
             }
         }
+        put_name(bytes, no_go.name());
     }
     put(bytes, words.names.len() as u64);
     for (room, name) in &words.names {
         put(bytes, u64::from(*room));
-        put(bytes, name.as_str().len() as u64);
-        bytes.extend_from_slice(name.as_str().as_bytes());
+        put_name(bytes, Some(name));
     }
+}
+
+fn put_name(bytes: &mut Vec<u8>, name: Option<&RoomName>) {
+    let name = name.map_or("", RoomName::as_str);
+    put(bytes, name.len() as u64);
+    bytes.extend_from_slice(name.as_bytes());
 }
 
 pub(super) fn put_point(bytes: &mut Vec<u8>, point: Point2) {
@@ -45,14 +52,18 @@ pub(super) fn put_point(bytes: &mut Vec<u8>, point: Point2) {
 }
 
 impl Reader<'_> {
-    pub(super) fn words(&mut self) -> Result<Annotations, StoredMapError> {
+    /// Before version 7 what is forbidden has no names.
+    pub(super) fn words(&mut self, version: u8) -> Result<Annotations, StoredMapError> {
         let mut words = Annotations {
             next_no_go: self.short()?,
             ..Annotations::default()
         };
         for _ in 0..self.count(NO_GO_MAX)? {
             let number = self.short()?;
-            let no_go = self.no_go()?;
+            let no_go = match version {
+                ..7 => self.no_go()?,
+                _ => self.no_go()?.with_name(self.name_or_none()?),
+            };
             if number >= words.next_no_go || words.no_go.insert(number, no_go).is_some() {
                 return Err(StoredMapError::NoGo);
             }
@@ -82,11 +93,18 @@ impl Reader<'_> {
     }
 
     fn name(&mut self) -> Result<RoomName, StoredMapError> {
+        self.name_or_none()?.ok_or(StoredMapError::Name)
+    }
+
+    fn name_or_none(&mut self) -> Result<Option<RoomName>, StoredMapError> {
         let length = usize::try_from(self.number()?).map_err(|_| StoredMapError::Name)?;
         let (name, rest) = self.rest.split_at_checked(length).ok_or(StoredMapError::Cut)?;
         self.rest = rest;
         let name = core::str::from_utf8(name).map_err(|_| StoredMapError::Name)?;
-        RoomName::new(name).map_err(|_| StoredMapError::Name)
+        if name.is_empty() {
+            return Ok(None);
+        }
+        RoomName::new(name).map(Some).map_err(|_| StoredMapError::Name)
     }
 
     pub(super) fn point(&mut self) -> Result<Point2, StoredMapError> {

@@ -95,6 +95,7 @@ screen! {
         draw_zone: "Draw a no-go zone", "Joonista keeluala";
         wall[1]: "Virtual wall {0}", "Virtuaalsein {0}";
         zone[1]: "No-go zone {0}", "Keeluala {0}";
+        no_go_name[1]: "New name of {0}; empty for its number", "Uus nimi kohale „{0}“; tühjana jääb number";
         extent[2]: "{0} x {1} m", "{0} × {1} m";
     }
 }
