@@ -1,6 +1,7 @@
 //! What people and schedules ask of the brain.
 
 use crate::geometry::Pose2;
+use crate::kept_place::KeptPlace;
 use crate::mapping::CutLine;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::CleaningOrder;
@@ -35,6 +36,25 @@ pub enum Command {
         number: u16,
         /// Its name.
         name: Option<RoomName>,
+    },
+    /// Keep a zone or spot under a name.
+    KeepPlace {
+        /// Which.
+        place: KeptPlace,
+        /// The number that it had before it was forgotten.
+        number: Option<u16>,
+    },
+    /// Give a kept place another name.
+    NamePlace {
+        /// Its number in [`crate::mapping::Annotations`].
+        number: u16,
+        /// Its name.
+        name: RoomName,
+    },
+    /// Keep a place no longer.
+    ForgetPlace {
+        /// Its number.
+        number: u16,
     },
     /// Give a room a name, or take it away.
     NameRoom {

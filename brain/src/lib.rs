@@ -16,6 +16,7 @@ pub mod energy;
 pub mod geometry;
 mod gradual;
 pub mod learnt;
+mod kept_place;
 pub mod localization;
 mod manoeuvre;
 pub mod mapping;
@@ -38,6 +39,7 @@ pub use coverage::{JobEstimate, SweptShare};
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
 pub use learnt::{GyroLearnt, Learnt};
+pub use kept_place::{KeptPlace, PlaceShape};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,

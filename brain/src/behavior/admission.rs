@@ -16,6 +16,9 @@ impl Behavior {
             Command::AddNoGo { no_go } => map.admit_no_go(no_go),
             Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
             Command::NameNoGo { number, name } => map.admit_no_go_name(*number, name.as_ref()),
+            Command::KeepPlace { place, number } => map.admit_place(place, *number),
+            Command::NamePlace { number, name } => map.admit_place_name(*number, name),
+            Command::ForgetPlace { number } => map.admit_place_removal(*number),
             Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
             Command::SetRoom { room, .. } => map.admit_room_settings(*room),
             Command::SplitRoom { room, line } => map.admit_room_split(*room, line),
@@ -151,6 +154,9 @@ impl Behavior {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameNoGo { .. }
+            | Command::KeepPlace { .. }
+            | Command::NamePlace { .. }
+            | Command::ForgetPlace { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }
             | Command::SplitRoom { .. }

@@ -165,6 +165,10 @@ reasons! {
     NoSuchNoGo => "no-such-no-go",
     /// As many no-go zones and virtual walls as a home can have.
     TooManyNoGos => "too-many-no-gos",
+    /// No zone or spot is kept under this number.
+    NoSuchPlace => "no-such-place",
+    /// As many zones and spots as a home can keep.
+    TooManyPlaces => "too-many-places",
     /// The robot could not reach its dock any more.
     DockInside => "dock-inside",
     /// A name is one line of 1 to 40 characters.

@@ -1,14 +1,18 @@
-//! What people have said of the home: where the robot must not go, which rooms it has, and what they are called.
+//! What people have said of the home: where the robot must not go, which rooms it has, what they are called, and which places
+//! are kept to be cleaned again.
 
 use std::collections::BTreeMap;
 
 use super::room_changes::RoomChanges;
 use crate::behavior::Reason;
+use crate::kept_place::KeptPlace;
 use crate::no_go::{NoGo, RoomName};
 use crate::room_settings::RoomSettings;
 
 /// Most no-go zones and virtual walls of a home.
 pub(super) const NO_GO_MAX: usize = 64;
+/// Most zones and spots that are kept.
+pub(super) const PLACES_MAX: usize = 64;
 /// Most rooms with names, those included that are not found any more.
 pub(super) const NAMES_MAX: usize = 1_000;
 
@@ -21,6 +25,35 @@ pub struct Annotations {
     pub(super) names: BTreeMap<u16, RoomName>,
     pub(super) rooms: RoomChanges,
     pub(super) settings: BTreeMap<u16, RoomSettings>,
+    pub(super) places: KeptPlaces,
+}
+
+/// Zones and spots that people keep.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct KeptPlaces {
+    pub(super) kept: BTreeMap<u16, KeptPlace>,
+    /// Number of the next one; a number is used again only for what had it before.
+    pub(super) next: u16,
+}
+
+impl Default for KeptPlaces {
+    fn default() -> Self {
+        Self {
+            kept: BTreeMap::new(),
+            next: 1,
+        }
+    }
+}
+
+impl KeptPlaces {
+    /// Two places of one name could not be told apart; a new one has no number yet.
+    pub(super) fn may_be_called(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
+        let mut others = self.kept.iter().filter(|(other, _)| Some(**other) != number);
+        if others.any(|(_, place)| place.name().sounds_like(name.as_str())) {
+            return Err(Reason::NameTaken);
+        }
+        Ok(())
+    }
 }
 
 impl Default for Annotations {
@@ -31,6 +64,7 @@ impl Default for Annotations {
             names: BTreeMap::new(),
             rooms: RoomChanges::default(),
             settings: BTreeMap::new(),
+            places: KeptPlaces::default(),
         }
     }
 }
@@ -59,6 +93,17 @@ impl Annotations {
         self.settings.get(&room)
     }
 
+    /// Zones and spots that are kept, by their numbers, which are from 1.
+    pub fn places(&self) -> impl Iterator<Item = (u16, &KeptPlace)> {
+        self.places.kept.iter().map(|(number, place)| (*number, place))
+    }
+
+    /// The kept place of a number.
+    #[must_use]
+    pub fn place(&self, number: u16) -> Option<&KeptPlace> {
+        self.places.kept.get(&number)
+    }
+
     /// Rooms with settings like these.
     pub(crate) fn rooms_with(&self, is_like: impl Fn(&RoomSettings) -> bool) -> impl Iterator<Item = u16> {
         let settings = self.settings.iter();
@@ -70,7 +115,9 @@ impl Annotations {
     /// Whether nobody has said anything.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.no_go.is_empty() && self.names.is_empty() && self.rooms.is_empty() && self.settings.is_empty()
+        let says_nothing_of_rooms =
+            self.names.is_empty() && self.rooms.is_empty() && self.settings.is_empty();
+        says_nothing_of_rooms && self.no_go.is_empty() && self.places.kept.is_empty()
     }
 
     pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), Reason> {

@@ -18,6 +18,7 @@ mod draw;
 mod editing;
 mod home;
 mod layers;
+mod place_editing;
 mod raster;
 mod reach;
 mod redraw;

@@ -80,7 +80,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 52] = [
+pub const VERBS: [(&str, Role); 55] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -110,6 +110,9 @@ pub const VERBS: [(&str, Role); 52] = [
     ("add-no-go",       Role::Admin),
     ("remove-no-go",    Role::Admin),
     ("name-no-go",      Role::Admin),
+    ("keep-place",      Role::Admin),
+    ("name-place",      Role::Admin),
+    ("forget-place",    Role::Admin),
     ("name-room",       Role::Admin),
     ("set-room",        Role::Admin),
     ("split-room",      Role::Admin),
@@ -176,7 +179,9 @@ pub fn checked_request(text: &str, (role, is_present): (Role, bool)) -> Result<S
     Ok(value.to_string())
 }
 
-fn role_for(verb: &str) -> Role {
+/// The role that a request needs, by its word in `c`; one that is not in the table needs the highest.
+#[must_use]
+pub fn role_for(verb: &str) -> Role {
     let row = VERBS.iter().find(|(known, _)| *known == verb);
     row.map_or(Role::Admin, |(_, role)| *role)
 }

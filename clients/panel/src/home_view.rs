@@ -9,6 +9,7 @@ use rvac_api::{KeptMap, RequestBody};
 use crate::dock_view::DockPlace;
 use crate::floors_view::FloorList;
 use crate::language::words;
+use crate::places_view::PlaceList;
 use crate::rooms_view::{NoGoList, RoomList};
 use crate::store::Store;
 
@@ -37,6 +38,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             </ul>
             <FloorList store />
             <RoomList store />
+            <PlaceList store />
             <NoGoList store />
             <DockPlace store />
             <h3 id="maps-title">{words().home.maps}</h3>

@@ -22,6 +22,7 @@ mod log_view;
 mod map;
 mod mixes;
 mod parts_view;
+mod places_view;
 mod rename_form;
 mod room_settings_view;
 mod rooms_view;

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{NoGoView, Pose, Rle, RoomChangeView, RoomSettings};
+use crate::{NoGoView, PlaceView, Pose, Rle, RoomChangeView, RoomSettings};
 
 /// The home as far as the robot knows it, in the frame of its poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,6 +40,9 @@ pub struct HomeView {
     /// No-go zones and virtual walls, by their numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_go: Vec<NoGoView>,
+    /// Zones and spots that are kept, by their numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<PlaceView>,
     /// How people have changed the rooms, in the order in which they did.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub room_changes: Vec<RoomChangeView>,

@@ -30,8 +30,8 @@ pub use history::{
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
 pub use order::{
-    CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, RoomChangeView, RoomNaming,
-    RoomSettings, RoomSplitting, SPOT_RADIUS_M,
+    CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,
+    RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
 pub use reasons::{Explanation, explain, explanations, remedy};
 pub use request::{CleaningPower, Request, RequestBody, Topic};

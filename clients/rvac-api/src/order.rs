@@ -87,6 +87,29 @@ pub enum JobPart {
     Zone(Vec<[f64; 2]>),
     /// The disc of [`SPOT_RADIUS_M`] around a place, metres.
     Spot([f64; 2]),
+    /// A zone or spot that is kept, by its number, as it is when the job starts.
+    Place(u16),
+}
+
+/// What can be kept under a name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlaceShape {
+    /// As [`JobPart::Zone`].
+    Zone(Vec<[f64; 2]>),
+    /// As [`JobPart::Spot`].
+    Spot([f64; 2]),
+}
+
+/// A zone or spot that is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlaceView {
+    /// Its number, from 1; it stays the same.
+    pub number: u16,
+    /// What people call it.
+    pub name: String,
+    /// Where it is.
+    pub shape: PlaceShape,
 }
 
 /// Radius of a spot, metres.

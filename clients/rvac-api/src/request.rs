@@ -4,7 +4,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::{JobOrder, NoGoShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting, ScheduleEntry};
+use crate::{
+    JobOrder, NoGoShape, PlaceShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting, ScheduleEntry,
+};
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -129,6 +131,28 @@ pub enum RequestBody {
     /// Allows it again.
     RemoveNoGo {
         /// Number, as in [`crate::HomeView::no_go`].
+        number: u16,
+    },
+    /// Keeps a zone or spot under a name, so that jobs can name it. Answered when the map with it is on the disk.
+    KeepPlace {
+        /// 1 to 40 characters that no other place has.
+        name: String,
+        /// Where it is.
+        shape: PlaceShape,
+        /// The number that it had before it was forgotten, so that schedules find it again; absent = a new one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        number: Option<u16>,
+    },
+    /// Gives a kept place another name.
+    NamePlace {
+        /// Number, as in [`crate::HomeView::places`].
+        number: u16,
+        /// 1 to 40 characters that no other place has.
+        name: String,
+    },
+    /// Keeps a place no longer.
+    ForgetPlace {
+        /// Number, as in [`crate::HomeView::places`].
         number: u16,
     },
     /// Names a room. Answered when the map with the name is on the disk.

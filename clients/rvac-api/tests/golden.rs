@@ -9,11 +9,11 @@ use rvac_api::{
     BatteryReading, BumpMark, CleaningPattern, CleaningPower, ComponentHealth, Decision, DeviceTable,
     DoorView, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView,
     InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
-    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
-    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
-    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
-    Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request,
+    RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
+    RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
+    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
+    SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -473,6 +473,7 @@ fn the_home() {
         dock: None,
         dock_told: false,
         no_go: vec![],
+        places: vec![],
         room_changes: vec![],
     };
     check(
@@ -495,15 +496,20 @@ fn the_home() {
             NoGoView {
                 number: 4,
                 shape: NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
-                name: None,
+                name: Some("Cats".to_owned()),
             },
         ],
+        places: vec![PlaceView {
+            number: 3,
+            name: "Bowl".to_owned(),
+            shape: PlaceShape::Spot([2.5, -0.5]),
+        }],
         room_changes: changes_of_two_rooms(),
         ..home
     };
     check(
         &Update::Home(told),
-        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}]}"#,
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]},"name":"Cats"}],"places":[{"number":3,"name":"Bowl","shape":{"spot":[2.5,-0.5]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}]}"#,
     );
 }
 
@@ -635,6 +641,41 @@ fn orders() {
             name: None,
         },
         r#"{"c":"add-no-go","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}}"#,
+    );
+    request(
+        RequestBody::KeepPlace {
+            name: "Table".to_owned(),
+            shape: PlaceShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
+            number: None,
+        },
+        r#"{"c":"keep-place","name":"Table","shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}}"#,
+    );
+    request(
+        RequestBody::KeepPlace {
+            name: "Bowl".to_owned(),
+            shape: PlaceShape::Spot([2.5, -0.5]),
+            number: Some(3),
+        },
+        r#"{"c":"keep-place","name":"Bowl","shape":{"spot":[2.5,-0.5]},"number":3}"#,
+    );
+    request(
+        RequestBody::NamePlace {
+            number: 3,
+            name: "Dish".to_owned(),
+        },
+        r#"{"c":"name-place","number":3,"name":"Dish"}"#,
+    );
+    request(
+        RequestBody::ForgetPlace { number: 3 },
+        r#"{"c":"forget-place","number":3}"#,
+    );
+    let at_place = JobOrder {
+        parts: vec![JobPart::Place(3)],
+        ..JobOrder::default()
+    };
+    request(
+        RequestBody::Clean(at_place),
+        r#"{"c":"clean","parts":[{"place":3}],"passes":1}"#,
     );
     request(
         RequestBody::NameNoGo {

@@ -18,7 +18,8 @@ pub(crate) use floors::{FloorJob, FloorVerb};
 pub(crate) use health::{HealthJob, HealthVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
 pub(crate) use orders::{
-    EstimateOptions, OrderOptions, OrderParts, Place, RoomsJob, RoomsVerb, ZoneJob, ZoneVerb,
+    EstimateOptions, OrderOptions, OrderParts, Place, PlacesJob, PlacesVerb, RoomsJob, RoomsVerb, ZoneJob,
+    ZoneVerb,
 };
 pub(crate) use schedules::{ScheduleJob, ScheduleOptions, ScheduleVerb, day_name};
 
@@ -51,6 +52,8 @@ pub(crate) enum Subcommand {
     /// The rooms of the home, their names, and how they are split and joined.
     #[command(visible_alias = "room")]
     Rooms(RoomsJob),
+    /// Zones and spots that are kept under names, to be cleaned again.
+    Places(PlacesJob),
     /// No-go zones and virtual walls.
     Zone(ZoneJob),
     /// What starts by itself, and when; without a verb: list it.

@@ -47,6 +47,7 @@ fn main() -> ExitCode {
         Subcommand::Clean(order) => orders::clean(&order),
         Subcommand::Estimate(options) => orders::estimate(&options),
         Subcommand::Rooms(job) => orders::rooms(&job),
+        Subcommand::Places(job) => orders::places(&job),
         Subcommand::Zone(job) => orders::zones(&job),
         Subcommand::Schedule(job) => schedules::run(&job),
         Subcommand::History(job) => history::run(&job),

@@ -14,7 +14,7 @@ use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
     ARCHIVE_PIECE_BYTES, CleaningPattern, CleaningPower, Decision, DeviceTable, Estimate, Failure,
     FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel,
-    NoGoShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings,
+    NoGoShape, PlaceShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings,
     RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
     Status, Topic, Update, Weekday,
 };
@@ -310,7 +310,7 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         })
     };
     let add = |shape| RequestBody::AddNoGo { shape, name: None };
-    let cases: [(&[&str], RequestBody); 9] = [
+    let cases: [(&[&str], RequestBody); 13] = [
         (&["clean"], RequestBody::Clean(job(vec![], 1))),
         (
             &[
@@ -325,6 +325,27 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
                 2,
             )),
         ),
+        (
+            &["clean", "--place", "4", "--room", "hall"],
+            RequestBody::Clean(job(vec![JobPart::Room(1), JobPart::Place(4)], 1)),
+        ),
+        (
+            &["places", "keep", "Table", "--zone", "-1,0", "2,1.5"],
+            RequestBody::KeepPlace {
+                name: "Table".to_owned(),
+                shape: PlaceShape::Zone(rectangle()),
+                number: None,
+            },
+        ),
+        (
+            &["places", "keep", "Bowl", "--spot", "-0.5,2"],
+            RequestBody::KeepPlace {
+                name: "Bowl".to_owned(),
+                shape: PlaceShape::Spot([-0.5, 2.0]),
+                number: None,
+            },
+        ),
+        (&["places", "forget", "4"], RequestBody::ForgetPlace { number: 4 }),
         (&["rooms", "name", "1", "Entrance"], naming(Some("Entrance"))),
         (&["rooms", "unname", "Hall"], naming(None)),
         (

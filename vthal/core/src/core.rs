@@ -11,6 +11,7 @@ mod learnt;
 mod link_facts;
 mod manual;
 mod orders;
+pub(crate) mod places;
 mod refusal;
 mod refusal_log;
 mod requests;

@@ -1,8 +1,8 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
 use brain::mapping::{Annotations, Door, Room, RoomChange, WallSegment};
-use brain::{CELL_M, CellKnowledge, Map, NoGo, Raster};
-use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, Rle, RoomChangeView, RoomView, WallView};
+use brain::{CELL_M, CellKnowledge, KeptPlace, Map, NoGo, Raster};
+use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, WallView};
 
 use crate::to_api;
 
@@ -31,6 +31,7 @@ pub(crate) fn home_view(map: &Map) -> HomeView {
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
         dock_told: map.dock_place().is_told(),
         no_go: map.annotations().no_go().map(no_go).collect(),
+        places: map.annotations().places().map(place).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
         ..view
     }
@@ -140,6 +141,14 @@ fn no_go((number, no_go): (u16, &NoGo)) -> NoGoView {
         number,
         shape,
         name: no_go.name().map(|name| name.as_str().to_owned()),
+    }
+}
+
+fn place((number, place): (u16, &KeptPlace)) -> PlaceView {
+    PlaceView {
+        number,
+        name: place.name().as_str().to_owned(),
+        shape: crate::core::places::to_api(place.shape()),
     }
 }
 

@@ -164,6 +164,9 @@ impl Mind {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameNoGo { .. }
+            | Command::KeepPlace { .. }
+            | Command::NamePlace { .. }
+            | Command::ForgetPlace { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }
             | Command::SplitRoom { .. }

@@ -2,8 +2,8 @@
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, Request, RequestBody, RoomNaming,
-    RoomSettings, RoomSplitting, Topic, Update,
+    CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, PlaceShape, Request, RequestBody,
+    RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -979,6 +979,58 @@ fn forbidden_floor_has_a_name_that_no_other_has() {
     let names: Vec<_> = words.no_go().map(|(_, no_go)| no_go.name()).collect();
     assert_eq!(names[0], None);
     assert_eq!(names[1].map(brain::RoomName::as_str), Some("Cats"));
+}
+
+fn keep(name: &str, middle: [f64; 2]) -> RequestBody {
+    RequestBody::KeepPlace {
+        name: name.to_owned(),
+        shape: PlaceShape::Spot(middle),
+        number: None,
+    }
+}
+
+#[test]
+fn a_kept_place_is_cleaned_by_its_number_and_comes_back_under_it() {
+    let mut pair = on_the_dock();
+    let cleaning = |number| clean(vec![JobPart::Place(number)], 1);
+    assert_eq!(
+        pair.ask(ANNA, RequestBody::Clean(cleaning(1))).as_deref(),
+        Some("no-such-place")
+    );
+    assert_eq!(pair.ask(ANNA, keep("Bowl", [3.0, 1.5])), None);
+    pair.run_ms(200);
+    let refused = [
+        (keep(" bowl", [3.0, 1.5]), "name-taken"),
+        (keep("", [3.0, 1.5]), "bad-name"),
+        (keep("Far", [90.0, 1.5]), "no-floor-there"),
+        (keep("Far", [900.0, 1.5]), "bad-zone"),
+        (RequestBody::ForgetPlace { number: 2 }, "no-such-place"),
+    ];
+    for (body, reason) in refused {
+        assert_eq!(pair.ask(ANNA, body.clone()).as_deref(), Some(reason), "{body:?}");
+    }
+    assert_eq!(pair.ask(ANNA, RequestBody::ForgetPlace { number: 1 }), None);
+    pair.run_ms(200);
+    let again = |number| RequestBody::KeepPlace {
+        name: "Bowl".to_owned(),
+        shape: PlaceShape::Spot([3.0, 1.5]),
+        number: Some(number),
+    };
+    assert_eq!(pair.ask(ANNA, again(7)).as_deref(), Some("no-such-place"));
+    assert_eq!(pair.ask(ANNA, again(1)), None);
+    pair.run_ms(200);
+    let renamed = RequestBody::NamePlace {
+        number: 1,
+        name: "Dish".to_owned(),
+    };
+    assert_eq!(pair.ask(ANNA, renamed), None);
+    pair.run_ms(200);
+    let words = pair.edits.last().expect("kept").home.home.annotations();
+    let name = words.place(1).map(|place| place.name().as_str());
+    assert_eq!((name, words.places().count()), (Some("Dish"), 1));
+    let estimate = pair.ask(ANNA, RequestBody::Estimate(cleaning(1)));
+    assert_eq!(estimate, None);
+    assert_eq!(pair.ask(ANNA, RequestBody::Clean(cleaning(1))), None);
 }
 
 fn dock_at(x: f64, y: f64) -> RequestBody {

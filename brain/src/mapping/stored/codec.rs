@@ -6,7 +6,7 @@
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
 //! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
 //! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
-//! Version 7 adds the names of no-go zones and virtual walls.
+//! Version 7 adds the names of no-go zones and virtual walls, version 8 the zones and spots that are kept.
 
 mod room_words;
 mod words;
@@ -18,7 +18,7 @@ use crate::mapping::{Annotations, Cell, DockPlace};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 7;
+const VERSION: u8 = 8;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -58,6 +58,8 @@ pub enum StoredMapError {
     },
     /// A no-go zone that no map can have.
     NoGo,
+    /// A place that no map can keep.
+    Place,
     /// A name that no room can have.
     Name,
     /// A change of rooms that no map can have.
@@ -93,6 +95,7 @@ impl core::fmt::Display for StoredMapError {
             }
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
+            Self::Place => formatter.write_str("it keeps a place that cannot be"),
             Self::RoomChange => formatter.write_str("it has a change of rooms that cannot be"),
             Self::RoomSettings => formatter.write_str("it has settings of a room that cannot be"),
             Self::Trailing => formatter.write_str("something follows its end"),
@@ -126,6 +129,7 @@ impl StoredMap {
         words::put_words(&mut bytes, &self.annotations);
         room_words::put_room_changes(&mut bytes, &self.annotations.rooms);
         room_words::put_room_settings(&mut bytes, &self.annotations.settings);
+        words::put_places(&mut bytes, &self.annotations.places);
         let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -178,6 +182,9 @@ impl Reader<'_> {
         }
         if version >= 4 {
             annotations.settings = self.room_settings(version)?;
+        }
+        if version >= 8 {
+            annotations.places = self.places()?;
         }
         if !self.rest.is_empty() {
             return Err(StoredMapError::Trailing);
@@ -306,6 +313,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
     use crate::geometry::{Point2, Pose2};
+    use crate::kept_place::{KeptPlace, PlaceShape};
     use crate::mapping::dock::Felt;
     use crate::mapping::{
         Annotations, Cell, CellKnowledge, CutLine, DockPlace, PartSide, Raster, RoomChange, RoomJoin,
@@ -371,6 +379,14 @@ mod tests {
         };
         let settings = RoomSettings::new(2, power).unwrap();
         words.settings.insert(3, settings.with_pattern(Pattern::Contour));
+        let named =
+            |name: &str, shape: PlaceShape| KeptPlace::new(RoomName::new(name).unwrap(), &shape).unwrap();
+        let places = [
+            (2, named("Table", PlaceShape::Zone(zone))),
+            (4, named("Bowl", PlaceShape::Spot(at(1.0 / 7.0, -0.2)))),
+        ];
+        words.places.kept.extend(places);
+        words.places.next = 9;
         words
     }
 
@@ -422,6 +438,35 @@ mod tests {
         assert_eq!(name(&read(7, &[1, b'A']).unwrap()), Some("A".to_owned()));
         assert_eq!(name(&read(7, &[0]).unwrap()), None);
         assert_eq!(read(7, &[1, b' ']), Err(StoredMapError::Name));
+    }
+
+    #[test]
+    fn a_map_before_the_eighth_version_keeps_no_places_and_bad_ones_are_refused() {
+        let read = |version: u8, places: &[u8]| {
+            let mut bytes = b"RVACMAP".to_vec();
+            bytes.push(version);
+            bytes.extend([0, 0, 0, 0, 2, 3, 1, 1, 5, 6, 0, 1, 0, 0, 1, 0, 0, 0]);
+            bytes.extend(places);
+            bytes.extend(crc32(&bytes).to_le_bytes());
+            StoredMap::decode(&bytes)
+        };
+        let older = read(7, &[]).unwrap();
+        assert_eq!(older.annotations().places().count(), 0);
+        assert_eq!(StoredMap::decode(&older.encode()), Ok(older));
+        // The next number, how many; number, name, kind, middle.
+        let newer = read(8, &[3, 1, 2, 1, b'A', 1, 2, 4]).unwrap();
+        let place = newer.annotations().place(2).unwrap();
+        assert_eq!(place.name().as_str(), "A");
+        assert_eq!(StoredMap::decode(&newer.encode()), Ok(newer));
+        for bad in [
+            // Number 3 where the next one is 3; kind 7; a zone of no corners.
+            &[3, 1, 3, 1, b'A', 1, 2, 4][..],
+            &[3, 1, 2, 1, b'A', 7, 2, 4],
+            &[3, 1, 2, 1, b'A', 0, 0],
+        ] {
+            assert_eq!(read(8, bad), Err(StoredMapError::Place), "{bad:?}");
+        }
+        assert_eq!(read(8, &[3, 1, 2, 0, 1, 2, 4]), Err(StoredMapError::Name));
     }
 
     #[test]

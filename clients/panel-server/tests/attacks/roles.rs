@@ -136,13 +136,15 @@ fn arguments_of(verb: &str) -> &'static str {
         "drive" => r#","v":0.1,"w":0.0,"ttl":250"#,
         "clear" => r#","reason":"x""#,
         "add-no-go" => r#","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
+        "keep-place" => r#","name":"x","shape":{"spot":[0.0,0.5]}"#,
+        "name-place" => r#","number":1,"name":"x""#,
         "name-room" => r#","room":1,"name":"x""#,
         "split-room" => r#","line":[[0.0,0.5],[1.0,0.5]]"#,
         "set-room" => r#","room":1"#,
         "move-dock" => r#","x":0.0,"y":0.0,"heading":0.0"#,
         "join-rooms" => r#","rooms":[1,2]"#,
-        "remove-no-go" | "name-no-go" | "undo-room-change" | "restore-map" | "remove-schedule"
-        | "run-schedule" | "run" => r#","number":1"#,
+        "remove-no-go" | "name-no-go" | "forget-place" | "undo-room-change" | "restore-map"
+        | "remove-schedule" | "run-schedule" | "run" => r#","number":1"#,
         "run-file" => r#","number":1,"from":0"#,
         "run-track" => r#","number":1"#,
         "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,

@@ -4,8 +4,8 @@
 //! and another client may have been there in between. Nothing counts before the robot has confirmed it.
 
 use rvac_api::{
-    HomeView, NoGoShape, NoGoView, Request, RequestBody, RoomChangeView, RoomNaming, RoomSettings,
-    RoomSplitting,
+    HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, Request, RequestBody, RoomChangeView, RoomNaming,
+    RoomSettings, RoomSplitting,
 };
 
 use crate::dock_place::{DockPose, is_same_dock, known_dock};
@@ -28,6 +28,17 @@ pub struct Forbidden {
     pub name: Option<String>,
 }
 
+/// A zone or spot that is kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// The number under which it comes back, for schedules know it by that; none for what was not kept before.
+    pub number: Option<u16>,
+    /// What it is called.
+    pub name: String,
+    /// Where it is.
+    pub shape: PlaceShape,
+}
+
 /// A change of the map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
@@ -43,6 +54,17 @@ pub enum Edit {
         before: Option<String>,
         /// What it shall be called.
         after: Option<String>,
+    },
+    /// A zone or spot was kept under a name.
+    Keep(Kept),
+    /// It is kept no longer.
+    Forget(Kept),
+    /// A kept place got another name.
+    NamePlace {
+        /// What it was called.
+        before: String,
+        /// What it shall be called.
+        after: String,
     },
     /// A room got another name, or none.
     Name {
@@ -111,6 +133,12 @@ impl Edit {
                 before: after,
                 after: before,
             },
+            Self::Keep(kept) => Self::Forget(kept),
+            Self::Forget(kept) => Self::Keep(kept),
+            Self::NamePlace { before, after } => Self::NamePlace {
+                before: after,
+                after: before,
+            },
             Self::Name { room, before, after } => Self::Name {
                 room,
                 before: after,
@@ -146,6 +174,9 @@ impl Edit {
                 NoGoShape::Zone(_) => told.edit_no_zone,
             },
             Self::NameForbidden { .. } => told.edit_no_go_name,
+            Self::Keep(_) => told.edit_keep,
+            Self::Forget(_) => told.edit_forget,
+            Self::NamePlace { .. } => told.edit_place_name,
             Self::Name { .. } => told.edit_name,
             Self::Settings { .. } => told.edit_settings,
             Self::Split(_) => told.edit_split,
@@ -168,15 +199,24 @@ impl Edit {
                 Ok(RequestBody::RemoveNoGo { number })
             }
             Self::NameForbidden { shape, before, after } => {
-                let kept = kept(home, shape)?;
-                if kept.name != *before {
-                    return Err(EditError::ChangedMeanwhile);
-                }
-                Ok(RequestBody::NameNoGo {
-                    number: kept.number,
-                    name: after.clone(),
-                })
+                let found = kept(home, shape).ok().filter(|kept| kept.name == *before);
+                let number = found.ok_or(EditError::ChangedMeanwhile)?.number;
+                let name = after.clone();
+                Ok(RequestBody::NameNoGo { number, name })
             }
+            Self::Keep(Kept { number, name, shape }) => Ok(RequestBody::KeepPlace {
+                name: name.clone(),
+                shape: shape.clone(),
+                number: *number,
+            }),
+            Self::Forget(Kept { name, .. }) => {
+                let number = place_called(home, name)?.number;
+                Ok(RequestBody::ForgetPlace { number })
+            }
+            Self::NamePlace { before, after } => Ok(RequestBody::NamePlace {
+                number: place_called(home, before)?.number,
+                name: after.clone(),
+            }),
             Self::Name { room, before, after } => {
                 let named = home.rooms.iter().find(|known| known.id == *room);
                 if named.is_none_or(|known| known.name != *before) {
@@ -224,6 +264,12 @@ impl Edit {
 /// What forbids this floor; the newest if there are several.
 fn kept<'home>(home: &'home HomeView, shape: &NoGoShape) -> Result<&'home NoGoView, EditError> {
     let found = home.no_go.iter().rev().find(|kept| is_same(&kept.shape, shape));
+    found.ok_or(EditError::ChangedMeanwhile)
+}
+
+/// Names of places are used once.
+fn place_called<'home>(home: &'home HomeView, name: &str) -> Result<&'home PlaceView, EditError> {
+    let found = home.places.iter().find(|place| place.name == name.trim());
     found.ok_or(EditError::ChangedMeanwhile)
 }
 
@@ -381,8 +427,10 @@ impl EditLog {
 
 #[cfg(test)]
 mod tests {
-    use super::{Edit, EditError, EditLog, Forbidden};
-    use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody, RoomChangeView, RoomView};
+    use super::{Edit, EditError, EditLog, Forbidden, Kept};
+    use rvac_api::{
+        HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomChangeView, RoomView,
+    };
 
     fn wall(x: f64) -> NoGoShape {
         NoGoShape::Wall([[x, 0.0], [x, 1.0]])
@@ -478,6 +526,55 @@ mod tests {
         log.on_done(number(&asked), 3);
         let asked = log.undo(&named(4, Some("Cats"))).unwrap().unwrap();
         assert_eq!(asked.body, naming(7, None));
+    }
+
+    #[test]
+    fn a_place_that_was_forgotten_comes_back_under_its_number() {
+        let mut log = EditLog::default();
+        let bowl = |number| Kept {
+            number,
+            name: "Bowl".to_owned(),
+            shape: PlaceShape::Spot([1.0, 2.0]),
+        };
+        let with = |revision, name: &str| HomeView {
+            places: vec![PlaceView {
+                number: 4,
+                name: name.to_owned(),
+                shape: PlaceShape::Spot([1.0, 2.0]),
+            }],
+            ..home(revision, &[], None)
+        };
+        let naming = Edit::NamePlace {
+            before: "Bowl".to_owned(),
+            after: "Dish".to_owned(),
+        };
+        let asked = log.begin(naming, &with(1, "Bowl")).unwrap();
+        log.on_done(number(&asked), 1);
+        let asked = log.undo(&with(2, "Dish")).unwrap().unwrap();
+        let back = RequestBody::NamePlace {
+            number: 4,
+            name: "Bowl".to_owned(),
+        };
+        assert_eq!(asked.body, back);
+        log.on_done(number(&asked), 2);
+        let asked = log.begin(Edit::Forget(bowl(Some(4))), &with(3, "Bowl")).unwrap();
+        assert_eq!(asked.body, RequestBody::ForgetPlace { number: 4 });
+        log.on_done(number(&asked), 3);
+        let asked = log.undo(&home(4, &[], None)).unwrap().unwrap();
+        let back = RequestBody::KeepPlace {
+            name: "Bowl".to_owned(),
+            shape: PlaceShape::Spot([1.0, 2.0]),
+            number: Some(4),
+        };
+        assert_eq!(asked.body, back);
+        log.on_done(number(&asked), 4);
+        let new = log.begin(Edit::Keep(bowl(None)), &home(5, &[], None)).unwrap();
+        log.on_done(number(&new), 5);
+        assert_eq!(
+            log.undo(&with(6, "Dish")),
+            Some(Err(EditError::ChangedMeanwhile)),
+            "somebody else has named it"
+        );
     }
 
     #[test]

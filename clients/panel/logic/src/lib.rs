@@ -21,6 +21,7 @@ mod health;
 mod history;
 mod home;
 mod job_settings;
+mod kept_places;
 mod latency;
 mod log_book;
 mod mixes;
@@ -50,7 +51,7 @@ pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
-pub use edits::{Edit, EditError, EditLog, Forbidden};
+pub use edits::{Edit, EditError, EditLog, Forbidden, Kept};
 pub use evidence::{FeltRow, felt_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use floor_upload::{FloorUpload, floor_file_problem};
@@ -62,6 +63,7 @@ pub use history::{
 };
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
 pub use job_settings::{JobSettings, SettingChoice};
+pub use kept_places::{PlaceRow, place_rows};
 pub use latency::LatencyMeter;
 pub use log_book::{LogBook, LogFilter};
 pub use mixes::{

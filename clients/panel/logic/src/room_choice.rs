@@ -1,10 +1,11 @@
 //! Which rooms, zones and spots a person has chosen, in which order, and what cleaning them takes.
 
-use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, SPOT_RADIUS_M};
+use rvac_api::{HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, PlaceShape, PlaceView, SPOT_RADIUS_M};
 
 use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
+use crate::kept_places::shape_text;
 use crate::sketch::{extent, spot_border};
 use crate::words::Words;
 
@@ -18,6 +19,8 @@ pub struct RoomChoice {
     avoid: Vec<NoGoShape>,
     passes: u8,
     settings: JobSettings,
+    /// Zones and spots that the robot keeps.
+    places: Vec<PlaceView>,
 }
 
 impl Default for RoomChoice {
@@ -27,6 +30,7 @@ impl Default for RoomChoice {
             avoid: Vec::new(),
             passes: 1,
             settings: JobSettings::default(),
+            places: Vec::new(),
         }
     }
 }
@@ -45,10 +49,19 @@ pub struct DrawnPart {
 impl RoomChoice {
     /// Chooses a room as the last one, or takes it out.
     pub fn toggle(&mut self, room: u16) {
-        if self.place(room).is_some() {
-            self.parts.retain(|part| *part != JobPart::Room(room));
+        self.toggle_part(JobPart::Room(room));
+    }
+
+    /// Chooses a kept place as the last part, or takes it out.
+    pub fn toggle_place(&mut self, number: u16) {
+        self.toggle_part(JobPart::Place(number));
+    }
+
+    fn toggle_part(&mut self, part: JobPart) {
+        if self.parts.contains(&part) {
+            self.parts.retain(|chosen| *chosen != part);
         } else {
-            self.parts.push(JobPart::Room(room));
+            self.parts.push(part);
         }
     }
 
@@ -87,8 +100,44 @@ impl RoomChoice {
     /// Place of a room in the order, from 1; none if it is not chosen.
     #[must_use]
     pub fn place(&self, room: u16) -> Option<usize> {
-        let is_it = |part: &JobPart| *part == JobPart::Room(room);
-        Some(self.parts.iter().position(is_it)? + 1)
+        self.order_of(&JobPart::Room(room))
+    }
+
+    /// The same of a kept place.
+    #[must_use]
+    pub fn place_of_kept(&self, number: u16) -> Option<usize> {
+        self.order_of(&JobPart::Place(number))
+    }
+
+    fn order_of(&self, wanted: &JobPart) -> Option<usize> {
+        Some(self.parts.iter().position(|part| part == wanted)? + 1)
+    }
+
+    /// Where a part is that is not a room.
+    fn shape_of(&self, part: &JobPart) -> Option<PlaceShape> {
+        match part {
+            JobPart::Room(_) => None,
+            JobPart::Zone(corners) => Some(PlaceShape::Zone(corners.clone())),
+            JobPart::Spot(middle) => Some(PlaceShape::Spot(*middle)),
+            JobPart::Place(number) => self.kept(*number).map(|place| place.shape.clone()),
+        }
+    }
+
+    fn kept(&self, number: u16) -> Option<&PlaceView> {
+        self.places.iter().find(|place| place.number == number)
+    }
+
+    /// Zones and spots that were drawn and are not kept: their places in the order, what they are, and where.
+    #[must_use]
+    pub fn not_kept(&self, words: &Words) -> Vec<(usize, String, PlaceShape)> {
+        let part = |(index, part): (usize, &JobPart)| {
+            let shape = match part {
+                JobPart::Room(_) | JobPart::Place(_) => return None,
+                JobPart::Zone(_) | JobPart::Spot(_) => self.shape_of(part)?,
+            };
+            Some((index + 1, shape_text(words, &shape), shape))
+        };
+        self.parts.iter().enumerate().filter_map(part).collect()
     }
 
     /// The chosen rooms in their order.
@@ -96,17 +145,16 @@ impl RoomChoice {
     pub fn rooms(&self) -> Vec<u16> {
         let room = |part: &JobPart| match part {
             JobPart::Room(room) => Some(*room),
-            JobPart::Zone(_) | JobPart::Spot(_) => None,
+            JobPart::Zone(_) | JobPart::Spot(_) | JobPart::Place(_) => None,
         };
         self.parts.iter().filter_map(room).collect()
     }
 
     /// Borders of the chosen zones and spots in their order.
     pub fn borders(&self) -> impl Iterator<Item = Vec<[f64; 2]>> + '_ {
-        self.parts.iter().filter_map(|part| match part {
-            JobPart::Zone(corners) => Some(corners.clone()),
-            JobPart::Spot(middle) => Some(spot_border(*middle)),
-            JobPart::Room(_) => None,
+        self.parts.iter().filter_map(|part| match self.shape_of(part)? {
+            PlaceShape::Zone(corners) => Some(corners),
+            PlaceShape::Spot(middle) => Some(spot_border(middle)),
         })
     }
 
@@ -114,13 +162,14 @@ impl RoomChoice {
     #[must_use]
     pub fn drawn(&self, words: &Words) -> Vec<DrawnPart> {
         let drawn = |(index, part): (usize, &JobPart)| {
-            let (name, middle) = match part {
-                JobPart::Room(_) => return None,
-                JobPart::Zone(corners) => (
-                    words.map.zone_of.fill([&extent(words, corners)]),
-                    middle_of(corners),
-                ),
-                JobPart::Spot(middle) => (words.map.spot.to_owned(), *middle),
+            let shape = self.shape_of(part)?;
+            let name = match part {
+                JobPart::Place(number) => self.kept(*number)?.name.clone(),
+                _ => shape_text(words, &shape),
+            };
+            let middle = match shape {
+                PlaceShape::Zone(corners) => middle_of(&corners),
+                PlaceShape::Spot(middle) => middle,
             };
             Some(DrawnPart {
                 place: index + 1,
@@ -150,6 +199,7 @@ impl RoomChoice {
         let word = |part: &JobPart| match part {
             JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
             JobPart::Zone(corners) => Some(told.zone_of.fill([&extent(words, corners)])),
+            JobPart::Place(number) => self.kept(*number).map(|place| place.name.clone()),
             JobPart::Spot(_) => None,
         };
         let is_spot = |part: &&JobPart| matches!(part, JobPart::Spot(_));
@@ -171,14 +221,18 @@ impl RoomChoice {
         }
     }
 
-    /// Drops rooms that the home does not have any more. `true` when there were any.
+    /// Takes the places that are kept, and drops rooms and places that the home does not have any more. `true` when that changes
+    /// anything.
     pub fn retain_known(&mut self, home: &HomeView) -> bool {
         let before = self.parts.len();
+        let is_told = self.places == home.places;
+        self.places.clone_from(&home.places);
         self.parts.retain(|part| match part {
             JobPart::Room(chosen) => home.rooms.iter().any(|room| room.id == *chosen),
+            JobPart::Place(chosen) => home.places.iter().any(|place| place.number == *chosen),
             JobPart::Zone(_) | JobPart::Spot(_) => true,
         });
-        self.parts.len() != before
+        self.parts.len() != before || !is_told
     }
 
     /// Chooses nothing.
@@ -289,7 +343,7 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 mod tests {
     use super::{JobSettings, RoomChoice, job_estimate_text, room_at};
     use crate::words::{Language, Words};
-    use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape};
+    use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape, PlaceShape, PlaceView};
 
     const ENGLISH: &Words = Language::English.words();
 
@@ -362,6 +416,31 @@ mod tests {
         choice.take_out(0);
         let order = choice.order().expect("something is chosen");
         assert_eq!(order.parts, [JobPart::Room(3), JobPart::Spot([1.0, 2.0])]);
+    }
+
+    #[test]
+    fn a_kept_place_is_a_part_by_its_number_and_goes_when_it_is_forgotten() {
+        let mut choice = RoomChoice::default();
+        let home = HomeView {
+            places: vec![PlaceView {
+                number: 3,
+                name: "Bowl".to_owned(),
+                shape: PlaceShape::Spot([1.0, 2.0]),
+            }],
+            ..HomeView::default()
+        };
+        assert!(choice.retain_known(&home) && !choice.retain_known(&home));
+        choice.add_spot([5.0, 5.0]);
+        choice.toggle_place(3);
+        assert_eq!(choice.place_of_kept(3), Some(2));
+        assert_eq!(choice.text(ENGLISH, &[]), "Bowl, spot");
+        assert_eq!(choice.borders().count(), 2);
+        assert_eq!(choice.drawn(ENGLISH)[1].middle, [1.0, 2.0]);
+        assert_eq!(choice.not_kept(ENGLISH).len(), 1, "what is drawn can be kept");
+        let order = choice.order().expect("something is chosen");
+        assert_eq!(order.parts, [JobPart::Spot([5.0, 5.0]), JobPart::Place(3)]);
+        assert!(choice.retain_known(&HomeView::default()));
+        assert_eq!(choice.place_of_kept(3), None);
     }
 
     #[test]

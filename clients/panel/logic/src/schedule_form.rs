@@ -1,10 +1,12 @@
 //! A schedule while a person fills it in.
 
 use rvac_api::{
-    InQuiet, JobOrder, JobPart, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Weekday,
+    InQuiet, JobOrder, JobPart, PlaceShape, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView,
+    ScheduledJob, Weekday,
 };
 
 use crate::job_settings::JobSettings;
+use crate::kept_places::shape_text;
 use crate::room_choice::PASSES_MAX;
 use crate::words::Words;
 
@@ -23,8 +25,8 @@ pub struct ScheduleForm {
     pub is_once: bool,
     /// Days of the week.
     pub days: Vec<Weekday>,
-    /// Rooms in their order; none for the whole home.
-    pub rooms: Vec<u16>,
+    /// Rooms, kept places, zones and spots in their order; none for the whole home.
+    pub parts: Vec<JobPart>,
     /// How often each room is cleaned.
     pub passes: u8,
     /// How hard and in which way it cleans.
@@ -49,7 +51,7 @@ impl Default for ScheduleForm {
             date: String::new(),
             is_once: false,
             days: Weekday::ALL.into_iter().take(5).collect(),
-            rooms: Vec::new(),
+            parts: Vec::new(),
             passes: 1,
             settings: JobSettings::default(),
             late_min: 0,
@@ -70,7 +72,7 @@ impl ScheduleForm {
             ScheduleTime::Weekly { days, at } => (false, days.clone(), String::new(), at),
             ScheduleTime::Once { date, at } => (true, Vec::new(), date.clone(), at),
         };
-        let (rooms, passes) = rooms_of(&entry.job);
+        let (parts, passes) = parts_of(&entry.job);
         Self {
             number: Some(view.number),
             name: entry.name.clone(),
@@ -78,7 +80,7 @@ impl ScheduleForm {
             date,
             is_once,
             days,
-            rooms,
+            parts,
             passes,
             settings: settings_of(&entry.job),
             late_min: entry.late_min,
@@ -99,13 +101,27 @@ impl ScheduleForm {
         }
     }
 
-    /// Takes a room in as the last one, or out.
-    pub fn toggle_room(&mut self, room: u16) {
-        if self.rooms.contains(&room) {
-            self.rooms.retain(|chosen| *chosen != room);
+    /// Takes a part in as the last one, or out.
+    pub fn toggle_part(&mut self, part: JobPart) {
+        if self.parts.contains(&part) {
+            self.parts.retain(|chosen| *chosen != part);
         } else {
-            self.rooms.push(room);
+            self.parts.push(part);
         }
+    }
+
+    /// Zones and spots that were drawn elsewhere: they can only be taken out.
+    #[must_use]
+    pub fn drawn(&self, words: &Words) -> Vec<(JobPart, String)> {
+        let drawn = |part: &JobPart| {
+            let shape = match part {
+                JobPart::Zone(corners) => PlaceShape::Zone(corners.clone()),
+                JobPart::Spot(middle) => PlaceShape::Spot(*middle),
+                JobPart::Room(_) | JobPart::Place(_) => return None,
+            };
+            Some((part.clone(), shape_text(words, &shape)))
+        };
+        self.parts.iter().filter_map(drawn).collect()
     }
 
     /// What is asked of the daemon.
@@ -143,7 +159,8 @@ impl ScheduleForm {
             },
         };
         let job = self.job();
-        let is_same_place = job.places() == self.job.places();
+        // Other parts can be chosen only while the robot is on this floor.
+        let is_bound = job.names_places() || job == self.job;
         Ok(ScheduleEntry {
             name: self.name.trim().to_owned(),
             enabled: self.enabled,
@@ -155,24 +172,25 @@ impl ScheduleForm {
             } else {
                 InQuiet::Refuse
             },
-            floor: self.floor.filter(|_| is_same_place),
+            floor: self.floor.filter(|_| is_bound),
         })
     }
 
-    /// Zones, spots, strategies and places to keep out of stay as they are as long as nobody chooses other rooms.
+    /// Places to keep out of stay as they are, and strategies as long as nobody chooses parts.
     fn job(&self) -> ScheduledJob {
         let passes = self.passes.clamp(1, PASSES_MAX);
-        let is_same = (self.rooms.clone(), passes) == rooms_of(&self.job);
+        let is_same = (self.parts.clone(), passes) == parts_of(&self.job);
         if is_same && self.settings == settings_of(&self.job) {
             return self.job.clone();
         }
-        let order = match &self.job {
-            ScheduledJob::Clean(order) if is_same => order.clone(),
-            _ => JobOrder {
-                parts: self.rooms.iter().copied().map(JobPart::Room).collect(),
-                passes,
-                ..JobOrder::default()
-            },
+        let known = match &self.job {
+            ScheduledJob::Clean(order) => order.clone(),
+            ScheduledJob::Start { .. } => JobOrder::default(),
+        };
+        let order = JobOrder {
+            parts: self.parts.clone(),
+            passes,
+            ..known
         };
         let order = self.settings.said_by(order);
         if order == JobOrder::default() {
@@ -189,16 +207,10 @@ fn settings_of(job: &ScheduledJob) -> JobSettings {
     }
 }
 
-fn rooms_of(job: &ScheduledJob) -> (Vec<u16>, u8) {
+fn parts_of(job: &ScheduledJob) -> (Vec<JobPart>, u8) {
     match job {
         ScheduledJob::Start { .. } => (Vec::new(), 1),
-        ScheduledJob::Clean(order) => {
-            let room = |part: &JobPart| match part {
-                JobPart::Room(room) => Some(*room),
-                JobPart::Zone(_) | JobPart::Spot(_) => None,
-            };
-            (order.parts.iter().filter_map(room).collect(), order.passes)
-        }
+        ScheduledJob::Clean(order) => (order.parts.clone(), order.passes),
     }
 }
 
@@ -240,7 +252,7 @@ mod tests {
     fn a_new_one_for_rooms_is_asked_for() {
         let mut form = filled();
         for room in [4, 2, 7, 4] {
-            form.toggle_room(room);
+            form.toggle_part(JobPart::Room(room));
         }
         form.toggle_day(Weekday::Su);
         form.toggle_day(Weekday::Mo);
@@ -309,14 +321,15 @@ mod tests {
         assert_eq!(order.power, Some(CleaningPower::QUIET));
         assert_eq!(order.parts.len(), 2, "zone and spot are still there");
         assert_eq!(entry.floor, Some(2));
-        form.toggle_room(2);
+        form.toggle_part(JobPart::Room(2));
+        form.toggle_part(JobPart::Place(9));
+        assert_eq!(form.drawn(ENGLISH).len(), 2);
+        form.toggle_part(JobPart::Spot([1.0, 2.0]));
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");
         };
-        assert_ne!(entry.job, job);
-        assert_eq!(
-            entry.floor, None,
-            "the room is one of the floor where the robot is"
-        );
+        let zone = job.places().0[0].clone();
+        assert_eq!(entry.job.places().0, [zone, JobPart::Room(2), JobPart::Place(9)]);
+        assert_eq!(entry.floor, Some(2));
     }
 }

@@ -8,6 +8,7 @@ use rvac_api::{
 use crate::codes::explain;
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
+use crate::kept_places::PlaceRow;
 use crate::words::Words;
 
 /// A schedule.
@@ -34,7 +35,7 @@ pub struct ScheduleRow {
 pub fn schedule_rows(
     words: &Words,
     schedules: &Schedules,
-    home: (&[RoomRow], &FloorsView),
+    home: (&[RoomRow], &[PlaceRow], &FloorsView),
 ) -> Vec<ScheduleRow> {
     let row = |view| row(words, view, home);
     schedules.entries.iter().map(row).collect()
@@ -58,13 +59,19 @@ pub fn floor_elsewhere(words: &Words, floor: Option<u16>, floors: &FloorsView) -
     ))
 }
 
-fn row(words: &Words, view: &ScheduleView, (rooms, floors): (&[RoomRow], &FloorsView)) -> ScheduleRow {
+fn row(
+    words: &Words,
+    view: &ScheduleView,
+    (rooms, places, floors): (&[RoomRow], &[PlaceRow], &FloorsView),
+) -> ScheduleRow {
     let (told, entry) = (&words.schedule, &view.entry);
     let elsewhere = floor_elsewhere(words, entry.floor, floors);
-    // The rooms that are known are those of the floor on which the robot is.
+    // The rooms and places that are known are those of the floor on which the robot is.
     let job = match &elsewhere {
-        Some(title) => told.on_floor.fill([&job_text(words, &entry.job, &[]), title]),
-        None => job_text(words, &entry.job, rooms),
+        Some(title) => told
+            .on_floor
+            .fill([&job_text(words, &entry.job, (&[], &[])), title]),
+        None => job_text(words, &entry.job, (rooms, places)),
     };
     let next = match view.next.first() {
         Some(run) => told.next.fill([&planned_text(words, run)]),
@@ -147,7 +154,7 @@ fn time_text(words: &Words, when: &ScheduleTime) -> String {
     }
 }
 
-fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow]) -> String {
+fn job_text(words: &Words, job: &ScheduledJob, (rooms, places): (&[RoomRow], &[PlaceRow])) -> String {
     let told = &words.schedule;
     let order = match job {
         ScheduledJob::Start { strategy: None } => return told.whole_home.to_owned(),
@@ -160,6 +167,10 @@ fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow]) -> String {
         JobPart::Room(id) => {
             let known = rooms.iter().find(|row| row.id == *id);
             known.map_or_else(|| told.room.fill([id]), |row| row.name.clone())
+        }
+        JobPart::Place(number) => {
+            let known = places.iter().find(|row| row.number == *number);
+            known.map_or_else(|| told.place.fill([number]), |row| row.name.clone())
         }
         JobPart::Zone(_) => told.a_zone.to_owned(),
         JobPart::Spot(_) => told.a_spot.to_owned(),
@@ -279,7 +290,7 @@ mod tests {
             here: Some(1),
             ..FloorsView::default()
         };
-        let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &here));
+        let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &[], &here));
         assert_eq!(rows[0].words, "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
         assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, left out");
         assert_eq!(
@@ -315,7 +326,7 @@ mod tests {
             ..FloorsView::default()
         };
         let words = |here| {
-            schedule_rows(ENGLISH, &upstairs, (&[kitchen.clone()], &floors(here)))[0]
+            schedule_rows(ENGLISH, &upstairs, (&[kitchen.clone()], &[], &floors(here)))[0]
                 .words
                 .clone()
         };

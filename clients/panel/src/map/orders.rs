@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, Forbidden, NoGoRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text, job_estimate_text,
-    joinable, known_dock, no_go_rows, refusal_text, room_change_rows,
+    Drawn, Edit, Forbidden, NoGoRow, PlaceRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text,
+    job_estimate_text, joinable, known_dock, no_go_rows, place_rows, refusal_text, room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
@@ -27,6 +27,8 @@ pub(crate) struct Orders {
     pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
     /// What is forbidden.
     pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
+    /// Zones and spots that are kept.
+    pub(crate) places: RwSignal<Vec<PlaceRow>>,
     /// What is known of the dock's place.
     pub(crate) dock: RwSignal<Option<&'static str>>,
     /// How the rooms were split and joined.
@@ -42,6 +44,7 @@ impl Orders {
             sketch: RwSignal::new(Sketch::default()),
             pointer: RwSignal::new(None),
             no_go: RwSignal::new(Vec::new()),
+            places: RwSignal::new(Vec::new()),
             dock: RwSignal::new(None),
             room_changes: RwSignal::new(Vec::new()),
             asked: StoredValue::new(FIRST_ESTIMATE),
@@ -52,6 +55,10 @@ impl Orders {
         let rows = no_go_rows(words(), home);
         if self.no_go.with_untracked(|known| *known != rows) {
             self.no_go.set(rows);
+        }
+        let places = place_rows(words(), home);
+        if self.places.with_untracked(|known| *known != places) {
+            self.places.set(places);
         }
         let dock = dock_text(words(), home);
         if self.dock.get_untracked() != dock {
@@ -99,6 +106,12 @@ impl Store {
     /// Chooses a room or takes it out.
     pub(crate) fn toggle_room(self, room: u16) {
         self.orders.choice.update(|choice| choice.toggle(room));
+        self.show_known_home();
+    }
+
+    /// Chooses a kept place or takes it out.
+    pub(crate) fn toggle_place(self, number: u16) {
+        self.orders.choice.update(|choice| choice.toggle_place(number));
         self.show_known_home();
     }
 

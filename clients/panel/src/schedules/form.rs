@@ -3,8 +3,9 @@
 use leptos::ev::{Event, SubmitEvent};
 use leptos::prelude::*;
 use panel_logic::{PASSES_MAX, ScheduleForm, day_text, floor_elsewhere};
-use rvac_api::Weekday;
+use rvac_api::{JobPart, Weekday};
 
+use crate::icons::{Icon, icon};
 use crate::job_settings_view::JobSettingsFields;
 use crate::language::words;
 use crate::store::Store;
@@ -136,20 +137,12 @@ fn Days(store: Store) -> impl IntoView {
 #[component]
 fn Rooms(store: Store) -> impl IntoView {
     let form = store.schedules.form;
-    let place = move |id: u16| form.with(|form| form.as_ref().is_some_and(|form| form.rooms.contains(&id)));
     let elsewhere = Memo::new(move |_| {
         let floor = form.with(|form| form.as_ref().and_then(|form| form.floor));
         store
             .floors
             .with(|floors| floor_elsewhere(words(), floor, floors))
     });
-    let rooms = move || {
-        if elsewhere.with(Option::is_some) {
-            Vec::new()
-        } else {
-            store.rooms.get()
-        }
-    };
     let hint = move || match elsewhere.get() {
         Some(title) => Some(words().schedule.other_floor.fill([&title])),
         None => store
@@ -161,18 +154,62 @@ fn Rooms(store: Store) -> impl IntoView {
         <fieldset class="rooms">
             <legend>{words().schedule.rooms}</legend>
             {move || hint().map(|text| view! { <p class="hint">{text}</p> })}
-            <For each=rooms key=|row| (row.id, row.name.clone()) let:row>
-                <label class="check">
-                    <input
-                        type="checkbox"
-                        id=format!("schedule-room-{}", row.id)
-                        prop:checked=move || place(row.id)
-                        on:change=move |_| form.update(|form| if let Some(form) = form { form.toggle_room(row.id) })
-                    />
-                    {row.name}
-                </label>
-            </For>
+            <Show when=move || elsewhere.with(Option::is_none)>
+                <For each=move || store.rooms.get() key=|row| (row.id, row.name.clone()) let:row>
+                    {choice(form, (format!("schedule-room-{}", row.id), row.name), JobPart::Room(row.id))}
+                </For>
+                <For each=move || store.orders.places.get() key=|row| (row.number, row.name.clone()) let:row>
+                    {choice(form, (format!("schedule-place-{}", row.number), row.name), JobPart::Place(row.number))}
+                </For>
+            </Show>
+            <Drawn form />
         </fieldset>
+    }
+}
+
+fn choice(form: Form, (id, name): (String, String), part: JobPart) -> impl IntoView {
+    let chosen = part.clone();
+    let is_chosen = move || form.with(|form| form.as_ref().is_some_and(|form| form.parts.contains(&chosen)));
+    view! {
+        <label class="check">
+            <input
+                type="checkbox"
+                id=id
+                prop:checked=is_chosen
+                on:change=move |_| form.update(|form| if let Some(form) = form { form.toggle_part(part.clone()) })
+            />
+            {name}
+        </label>
+    }
+}
+
+/// Zones and spots of a schedule that was made by `rvac` or a program, each to be taken out.
+#[component]
+fn Drawn(form: Form) -> impl IntoView {
+    let drawn = Memo::new(move |_| {
+        form.with(|form| form.as_ref().map(|form| form.drawn(words())).unwrap_or_default())
+    });
+    let part = move |(part, name): (JobPart, String)| {
+        let label = words().map.take_out.fill([&name]);
+        view! {
+            <button
+                type="button"
+                class="small part"
+                aria-label=label.clone()
+                title=label
+                on:click=move |_| form.update(|form| if let Some(form) = form { form.toggle_part(part.clone()) })
+            >
+                {name}
+                {icon(Icon::Close)}
+            </button>
+        }
+    };
+    view! {
+        <Show when=move || drawn.with(|drawn| !drawn.is_empty())>
+            <div class="order-tools" id="schedule-drawn">
+                {move || drawn.get().into_iter().map(part).collect_view()}
+            </div>
+        </Show>
     }
 }
 

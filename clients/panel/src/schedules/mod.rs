@@ -77,8 +77,10 @@ impl ScheduleDesk {
 pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     let desk = store.schedules;
     let rows = Memo::new(move |_| {
-        let rows_of =
-            |rooms: &Vec<_>, floors: &_| desk.with(|known| schedule_rows(words(), known, (rooms, floors)));
+        let places = store.orders.places.get();
+        let rows_of = |rooms: &Vec<_>, floors: &_| {
+            desk.with(|known| schedule_rows(words(), known, (rooms, &places, floors)))
+        };
         store
             .rooms
             .with(|rooms| store.floors.with(|floors| rows_of(rooms, floors)))

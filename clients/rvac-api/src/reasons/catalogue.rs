@@ -132,6 +132,8 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("too-many-room-changes", "The rooms were split and joined as often as those of a home can be.", "Take a change back first."),
     entry("no-floor-there", "The map knows no floor there.", "Choose a place where the robot has been."),
     entry("no-such-no-go", "There is no such no-go zone any more.", "Look at the list."),
+    entry("no-such-place", "The map does not keep such a place any more.", "Choose another one."),
+    entry("too-many-places", "There are as many kept zones and spots as a home can have.", "Remove one first."),
     entry("too-many-no-gos", "There are as many no-go zones and virtual walls as a home can have.", "Remove one first."),
     entry("dock-inside", "The robot could not reach its dock any more.", "Leave room around the dock."),
     entry("floor-unknown", "The robot does not know on which floor it is.", "Choose the floor, or begin a new one."),

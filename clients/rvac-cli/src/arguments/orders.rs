@@ -27,6 +27,9 @@ pub(crate) struct OrderParts {
     /// A place, metres in the map: the metre around it is cleaned; may be given several times, spots come after zones.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub(crate) spot: Vec<Place>,
+    /// A kept zone or spot by its name or number, as `rvac places` tells them; may be given several times, they come last.
+    #[arg(long, value_name = "PLACE")]
+    pub(crate) place: Vec<String>,
     /// A rectangle between two opposite corners, metres in the map, that the robot keeps out of until the next job begins; may be
     /// given several times. `rvac zone` forbids floor for good.
     #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
@@ -216,6 +219,42 @@ pub(crate) enum ZoneVerb {
     Remove {
         /// Its name or number.
         zone: String,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlacesJob {
+    #[command(subcommand)]
+    pub(crate) verb: Option<PlacesVerb>,
+    #[command(flatten)]
+    pub(crate) daemon: Daemon,
+}
+
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum PlacesVerb {
+    /// Keep a zone or spot under a name.
+    #[command(group = ArgGroup::new("shape").required(true))]
+    Keep {
+        /// One line of 1 to 40 characters.
+        name: String,
+        /// A rectangle between two opposite corners, metres in the map; three corners or more are those of a polygon.
+        #[arg(long, group = "shape", value_name = "X,Y", num_args = 2.., allow_hyphen_values = true)]
+        zone: Vec<Place>,
+        /// The middle of a spot, metres in the map.
+        #[arg(long, group = "shape", value_name = "X,Y", allow_hyphen_values = true)]
+        spot: Option<Place>,
+    },
+    /// Give a place another name.
+    Name {
+        /// Its number, or the name it has.
+        place: String,
+        /// One line of 1 to 40 characters.
+        name: String,
+    },
+    /// Keep a place no longer.
+    Forget {
+        /// Its name or number.
+        place: String,
     },
 }
 

@@ -97,10 +97,10 @@ pub(crate) struct ScheduleOptions {
     #[command(flatten)]
     pub(crate) parts: OrderParts,
     /// Clean all, by this strategy.
-    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid", "power", "pattern"])]
+    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "place", "avoid", "power", "pattern"])]
     pub(crate) strategy: Option<String>,
     /// Clean all, not what it cleaned before.
-    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "avoid"])]
+    #[arg(long, conflicts_with_all = ["room", "zone", "spot", "place", "avoid"])]
     pub(crate) all: bool,
     /// Start up to so many minutes late when the daemon did not run, or had no robot, at its time.
     #[arg(long, value_name = "MINUTES")]

@@ -1,8 +1,10 @@
-//! `rvac clean`, `rvac estimate`, `rvac rooms` and `rvac zone`: jobs for parts of the home, and what people say of it.
+//! `rvac clean`, `rvac estimate`, `rvac rooms`, `rvac places` and `rvac zone`: jobs for parts of the home, and what people say of it.
 
+mod places;
 mod rooms;
 mod zones;
 
+pub(crate) use places::places;
 pub(crate) use rooms::rooms;
 pub(crate) use zones::zones;
 
@@ -61,7 +63,7 @@ fn in_words(estimate: &JobEstimate) -> String {
     )
 }
 
-/// Rooms first, then zones, then spots, each in the order in which they were given.
+/// Rooms first, then zones, then spots, then kept places, each in the order in which they were given.
 pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> anyhow::Result<JobOrder> {
     let mut parts = Vec::new();
     if !options.room.is_empty() {
@@ -77,6 +79,12 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
             .iter()
             .map(|place| JobPart::Spot([place.x_m, place.y_m])),
     );
+    if !options.place.is_empty() {
+        let home = known::ask(connection)?.home;
+        for name in &options.place {
+            parts.push(JobPart::Place(places::find(&home, name)?));
+        }
+    }
     Ok(JobOrder {
         parts,
         passes: options.passes,

@@ -131,6 +131,7 @@ fn job(job: &ScheduledJob) -> String {
     let part = |part: &JobPart| match part {
         JobPart::Room(number) => format!("room {number}"),
         JobPart::Zone(_) => "a zone".to_owned(),
+        JobPart::Place(number) => format!("place {number}"),
         JobPart::Spot([x, y]) => format!("a spot at {x:.2},{y:.2}"),
     };
     let parts: Vec<String> = order.parts.iter().map(part).collect();

@@ -7,6 +7,7 @@ use rvac_api::{
 };
 
 use super::Core;
+use super::places::with_places;
 use super::refusal::Refusal;
 use super::room_power::{to_pattern, to_power};
 use crate::journal::Part;
@@ -34,8 +35,8 @@ impl Core {
 
     /// What the brain is told to clean parts of the home; refused as the brain would refuse it.
     pub(super) fn clean_command(&self, order: &JobOrder) -> Result<Command, Refusal> {
-        let order = to_order(order)?;
         let brain = self.known_home()?.brain();
+        let order = to_order(&with_places(order, brain)?)?;
         let command = Command::CleanParts { order: order.clone() };
         match brain.admit(&command) {
             Ok(()) => Ok(command),
@@ -51,12 +52,12 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<(), Refusal> {
         self.require_robot()?;
-        let order = to_order(order)?;
         let mind = self.known_home()?;
+        let brain = mind.brain();
+        let order = to_order(&with_places(order, brain)?)?;
         if !mind.rests() {
             return Err("job-runs".into());
         }
-        let brain = mind.brain();
         let found = brain
             .estimate_order(&order)
             .map_err(|reason| Refusal::of_order(reason, &order, brain))?;
@@ -238,11 +239,13 @@ fn not_kept(id: Option<u32>) -> Update {
     })
 }
 
+/// An order whose places are zones and spots by now.
 pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
     let part = |(place, part): (usize, &JobPart)| match part {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
         JobPart::Spot([x_m, y_m]) => Ok(HomePart::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
+        JobPart::Place(_) => Err(Reason::NoSuchPlace.into()),
     };
     let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
     let whole = CleaningOrder::new(parts?, order.passes).map_err(|reason| {
@@ -276,7 +279,7 @@ fn with_settings(whole: CleaningOrder, order: &JobOrder) -> Result<CleaningOrder
     }
 }
 
-fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {
+pub(super) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {
     let points = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
     Zone::new(points.collect()).map_err(|reason| {
         let far = corners

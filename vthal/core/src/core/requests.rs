@@ -45,6 +45,9 @@ impl Core {
                 | RequestBody::AddNoGo { .. }
                 | RequestBody::RemoveNoGo { .. }
                 | RequestBody::NameNoGo { .. }
+                | RequestBody::KeepPlace { .. }
+                | RequestBody::NamePlace { .. }
+                | RequestBody::ForgetPlace { .. }
                 | RequestBody::NameRoom(_)
                 | RequestBody::SetRoom { .. }
                 | RequestBody::SplitRoom(_)
@@ -109,6 +112,9 @@ impl Core {
             | RequestBody::JoinRooms { .. }
             | RequestBody::UndoRoomChange { .. }
             | RequestBody::MoveDock { .. }) => self.change_home(now_us, ((client, id), body), outputs),
+            body @ (RequestBody::KeepPlace { .. }
+            | RequestBody::NamePlace { .. }
+            | RequestBody::ForgetPlace { .. }) => self.change_places(now_us, ((client, id), body), outputs),
             RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
             RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),
             RequestBody::Resume => Ok(self.job(now_us, (client, Command::Resume), outputs)?),

@@ -4,6 +4,7 @@ use brain::Command;
 use rvac_api::{Failure, LogLevel, RequestBody, RunAsker, ScheduledJob, Schedules, Topic, Update};
 
 use super::checkpoints::works;
+use super::places::with_any_places;
 use super::refusal::Refusal;
 use super::requests::denied;
 use super::{Core, orders};
@@ -88,7 +89,7 @@ impl Core {
                 self.strategy_named(strategy.as_deref())?;
             }
             ScheduledJob::Clean(order) => {
-                orders::to_order(order)?;
+                orders::to_order(&with_any_places(order))?;
             }
         }
         let floor = self.floor_of(&plan)?;

@@ -9,14 +9,15 @@ mod sensors;
 mod state;
 
 pub use answer::Answered;
-pub use order::{GivenNoGo, GivenOrder, GivenPattern};
+pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
 use order::{from_power, to_power};
 pub use state::BrainState;
 
 use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
 use brain::{
-    Body, BrainConfig, Command, Observation, Point2, Pose2, RoomName, RoomSettings, Speeds, StrategyName,
+    Body, BrainConfig, Command, KeptPlace, Observation, Point2, Pose2, RoomName, RoomSettings, Speeds,
+    StrategyName,
 };
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
@@ -265,6 +266,25 @@ pub enum GivenCommand {
         /// Its name; absent = none any more.
         name: Option<String>,
     },
+    /// [`Command::KeepPlace`]
+    KeepPlace {
+        /// Its name.
+        name: String,
+        /// Where.
+        place: GivenPart,
+        /// The number that it had.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        number: Option<u16>,
+    },
+    /// [`Command::NamePlace`]
+    NamePlace {
+        /// Its number.
+        number: u16,
+        /// Its name.
+        name: String,
+    },
+    /// [`Command::ForgetPlace`] by its number.
+    ForgetPlace(u16),
     /// [`Command::NameRoom`]
     NameRoom {
         /// Identity of the room.
@@ -336,6 +356,16 @@ impl From<&Command> for GivenCommand {
                 number: *number,
                 name: from_name(name.as_ref()),
             },
+            Command::KeepPlace { place, number } => Self::KeepPlace {
+                name: place.name().as_str().to_owned(),
+                place: GivenPart::from(&place.part()),
+                number: *number,
+            },
+            Command::NamePlace { number, name } => Self::NamePlace {
+                number: *number,
+                name: name.as_str().to_owned(),
+            },
+            Command::ForgetPlace { number } => Self::ForgetPlace(*number),
             Command::NameRoom { room, name } => Self::NameRoom {
                 room: *room,
                 name: from_name(name.as_ref()),
@@ -408,6 +438,15 @@ impl GivenCommand {
                 number: *number,
                 name: to_name(name.as_deref())?,
             },
+            Self::KeepPlace { name, place, number } => Command::KeepPlace {
+                place: KeptPlace::new(RoomName::new(name).ok()?, &place.to_shape()?).ok()?,
+                number: *number,
+            },
+            Self::NamePlace { number, name } => Command::NamePlace {
+                number: *number,
+                name: RoomName::new(name).ok()?,
+            },
+            Self::ForgetPlace(number) => Command::ForgetPlace { number: *number },
             Self::NameRoom { room, name } => Command::NameRoom {
                 room: *room,
                 name: to_name(name.as_deref())?,
@@ -469,8 +508,8 @@ mod tests {
     use brain::mapping::CutLine;
     use brain::observation::{BeaconRange, ChargeFlow};
     use brain::{
-        CleaningOrder, Command, HomePart, NoGo, Observation, Pattern, Point2, Pose2, RoomName, RoomPower,
-        RoomSettings, Zone,
+        CleaningOrder, Command, HomePart, KeptPlace, NoGo, Observation, Pattern, PlaceShape, Point2, Pose2,
+        RoomName, RoomPower, RoomSettings, Zone,
     };
 
     use super::{Given, GivenCommand, Seen};
@@ -534,6 +573,19 @@ mod tests {
                     .expect("two places")
                     .with_name(RoomName::new("Cats").ok()),
             },
+            Command::KeepPlace {
+                place: kept_place(PlaceShape::Zone(zone.clone())),
+                number: None,
+            },
+            Command::KeepPlace {
+                place: kept_place(PlaceShape::Spot(corners[1])),
+                number: Some(3),
+            },
+            Command::NamePlace {
+                number: 3,
+                name: RoomName::new("Bowl").expect("a good name"),
+            },
+            Command::ForgetPlace { number: 3 },
             Command::RemoveNoGo { number: 7 },
             Command::NameNoGo {
                 number: 7,
@@ -596,6 +648,10 @@ mod tests {
         ] {
             comes_back(command);
         }
+    }
+
+    fn kept_place(shape: PlaceShape) -> KeptPlace {
+        KeptPlace::new(RoomName::new("Table").expect("a good name"), &shape).expect("a good place")
     }
 
     fn comes_back(command: Command) {

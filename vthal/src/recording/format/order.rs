@@ -1,6 +1,6 @@
 //! Parts of a home as they stand in recordings and checkpoints.
 
-use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Pattern, Point2, RoomPower, Zone};
+use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Pattern, PlaceShape, Point2, RoomPower, Zone};
 use serde::{Deserialize, Serialize};
 
 /// [`CleaningOrder`]
@@ -65,7 +65,8 @@ pub(super) fn to_power([suction, main_brush, side_brushes]: [u8; 3]) -> RoomPowe
 /// [`HomePart`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum GivenPart {
+pub enum GivenPart {
+    /// A room by its identity.
     Room(u16),
     /// Corners, x and y in metres.
     Zone(Vec<[f64; 2]>),
@@ -73,15 +74,31 @@ enum GivenPart {
     Spot([f64; 2]),
 }
 
+impl From<&HomePart> for GivenPart {
+    fn from(part: &HomePart) -> Self {
+        match part {
+            HomePart::Room(id) => Self::Room(*id),
+            HomePart::Zone(zone) => Self::Zone(from_zone(zone)),
+            HomePart::Spot(place) => Self::Spot([place.x_m, place.y_m]),
+        }
+    }
+}
+
+impl GivenPart {
+    /// What a person keeps under a name; `None` for a room, and for what the brain would refuse.
+    pub(super) fn to_shape(&self) -> Option<PlaceShape> {
+        match self {
+            Self::Room(_) => None,
+            Self::Zone(corners) => to_zone(corners).map(PlaceShape::Zone),
+            Self::Spot([x_m, y_m]) => Some(PlaceShape::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
+        }
+    }
+}
+
 impl From<&CleaningOrder> for GivenOrder {
     fn from(order: &CleaningOrder) -> Self {
-        let part = |part: &HomePart| match part {
-            HomePart::Room(id) => GivenPart::Room(*id),
-            HomePart::Zone(zone) => GivenPart::Zone(from_zone(zone)),
-            HomePart::Spot(place) => GivenPart::Spot([place.x_m, place.y_m]),
-        };
         Self {
-            parts: order.parts().iter().map(part).collect(),
+            parts: order.parts().iter().map(GivenPart::from).collect(),
             passes: order.passes(),
             avoid: order.avoid().iter().map(GivenNoGo::from).collect(),
             power: order.power().map(from_power),

@@ -3,13 +3,15 @@
 
 use super::{Reader, StoredMapError, put, put_signed};
 use crate::geometry::Point2;
+use crate::kept_place::{KeptPlace, PlaceShape};
 use crate::mapping::Annotations;
-use crate::mapping::annotations::{NAMES_MAX, NO_GO_MAX};
+use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
 use crate::no_go::{NoGo, NoGoShape, RoomName};
 use crate::order::{CORNERS_MAX, Zone};
 
 const ZONE: u64 = 0;
 const WALL: u64 = 1;
+const SPOT: u64 = 1;
 
 pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
     put(bytes, words.next_no_go.into());
@@ -19,10 +21,7 @@ pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
         match no_go.shape() {
             NoGoShape::Zone => {
                 put(bytes, ZONE);
-                put(bytes, no_go.area().corners().len() as u64);
-                for corner in no_go.area().corners() {
-                    put_point(bytes, *corner);
-                }
+                put_corners(bytes, no_go.area());
             }
             NoGoShape::Wall { from, to } => {
                 put(bytes, WALL);
@@ -36,6 +35,33 @@ pub(super) fn put_words(bytes: &mut Vec<u8>, words: &Annotations) {
     for (room, name) in &words.names {
         put(bytes, u64::from(*room));
         put_name(bytes, Some(name));
+    }
+}
+
+/// The number of the next place, and the places: number, name, kind, corners or middle.
+pub(super) fn put_places(bytes: &mut Vec<u8>, places: &KeptPlaces) {
+    put(bytes, places.next.into());
+    put(bytes, places.kept.len() as u64);
+    for (number, place) in &places.kept {
+        put(bytes, u64::from(*number));
+        put_name(bytes, Some(place.name()));
+        match place.shape() {
+            PlaceShape::Zone(zone) => {
+                put(bytes, ZONE);
+                put_corners(bytes, zone);
+            }
+            PlaceShape::Spot(middle) => {
+                put(bytes, SPOT);
+                put_point(bytes, *middle);
+            }
+        }
+    }
+}
+
+fn put_corners(bytes: &mut Vec<u8>, zone: &Zone) {
+    put(bytes, zone.corners().len() as u64);
+    for corner in zone.corners() {
+        put_point(bytes, *corner);
     }
 }
 
@@ -76,16 +102,44 @@ impl Reader<'_> {
         Ok(words)
     }
 
+    pub(super) fn places(&mut self) -> Result<KeptPlaces, StoredMapError> {
+        let mut places = KeptPlaces {
+            next: self.short()?,
+            ..KeptPlaces::default()
+        };
+        for _ in 0..self.count(PLACES_MAX)? {
+            let number = self.short()?;
+            let place = self.place()?;
+            if number >= places.next || places.kept.insert(number, place).is_some() {
+                return Err(StoredMapError::Place);
+            }
+        }
+        Ok(places)
+    }
+
+    fn place(&mut self) -> Result<KeptPlace, StoredMapError> {
+        let name = self.name()?;
+        let shape = match self.number()? {
+            ZONE => PlaceShape::Zone(self.zone()?.ok_or(StoredMapError::Place)?),
+            SPOT => PlaceShape::Spot(self.point()?),
+            _ => return Err(StoredMapError::Place),
+        };
+        KeptPlace::new(name, &shape).map_err(|_| StoredMapError::Place)
+    }
+
+    /// `None` for corners that are those of no zone.
+    fn zone(&mut self) -> Result<Option<Zone>, StoredMapError> {
+        let count = self.number()?;
+        if count > CORNERS_MAX as u64 {
+            return Ok(None);
+        }
+        let corners: Result<Vec<Point2>, StoredMapError> = (0..count).map(|_| self.point()).collect();
+        Ok(Zone::new(corners?).ok())
+    }
+
     fn no_go(&mut self) -> Result<NoGo, StoredMapError> {
         let no_go = match self.number()? {
-            ZONE => {
-                let count = self.number()?;
-                if count > CORNERS_MAX as u64 {
-                    return Err(StoredMapError::NoGo);
-                }
-                let corners: Result<Vec<Point2>, StoredMapError> = (0..count).map(|_| self.point()).collect();
-                Zone::new(corners?).and_then(|zone| NoGo::zone(&zone))
-            }
+            ZONE => NoGo::zone(&self.zone()?.ok_or(StoredMapError::NoGo)?),
             WALL => NoGo::wall(self.point()?, self.point()?),
             _ => return Err(StoredMapError::NoGo),
         };

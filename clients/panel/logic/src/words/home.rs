@@ -84,6 +84,12 @@ screen! {
         room_name[1]: "New name of {0}; empty for its number", "Uus nimi toale „{0}“; tühjana jääb number";
         door_to[1]: ", door to {0}", ", uks: {0}";
         doors_to[2]: ", doors to {0} and {1}", ", uksed: {0} ja {1}";
+        places: "Kept places", "Alles hoitud kohad";
+        no_places: "None yet: draw a zone or set a spot to clean, and keep it here under a name.",
+            "Veel ühtegi: joonista koristatav ala või märgi koht ja hoia see siin nime all alles.";
+        keep_named[1]: "Keep: {0}", "Hoia alles: {0}";
+        keep_name[1]: "Name under which to keep: {0}", "Nimi, mille all alles hoida: {0}";
+        place_name[1]: "New name of {0}", "Uus nimi kohale „{0}“";
         no_go: "Not to be entered", "Keelatud kohad";
         nothing_forbidden: "Nothing is forbidden.", "Midagi ei ole keelatud.";
         dock: "Dock", "Dokk";

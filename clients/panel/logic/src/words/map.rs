@@ -17,6 +17,9 @@ screen! {
         edit_zone: "no-go zone", "keeluala";
         edit_no_wall: "removal of a virtual wall", "virtuaalseina eemaldamine";
         edit_no_zone: "removal of a no-go zone", "keeluala eemaldamine";
+        edit_keep: "kept place", "alles hoitud koht";
+        edit_forget: "removal of a kept place", "alles hoitud koha eemaldamine";
+        edit_place_name: "name of a kept place", "alles hoitud koha nimi";
         edit_no_go_name: "name of a forbidden place", "keelatud koha nimi";
         edit_name: "name of a room", "toa nimi";
         edit_settings: "settings of a room", "toa seaded";

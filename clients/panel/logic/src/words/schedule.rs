@@ -26,7 +26,7 @@ screen! {
         once: "On one day only", "Ainult ühel päeval";
         date: "Date", "Kuupäev";
         days: "Days of the week", "Nädalapäevad";
-        rooms: "Rooms; none for the whole home", "Toad; valimata jättes kogu kodu";
+        rooms: "Rooms and kept places; none for the whole home", "Toad ja alles hoitud kohad; valimata jättes kogu kodu";
         no_rooms: "No room is known yet.", "Ühtki tuba veel ei teata.";
         passes: "Passes over each room", "Mitu korda iga tuba koristatakse";
         late: "Minutes that it may start late, if the robot was off at its time",
@@ -66,6 +66,7 @@ screen! {
         whole_home: "the whole home", "kogu kodu";
         whole_home_by[1]: "the whole home, {0}", "kogu kodu, {0}";
         room[1]: "room {0}", "tuba {0}";
+        place[1]: "place {0}", "koht {0}";
         a_zone: "a zone", "üks ala";
         a_spot: "a spot", "üks koht";
         on_floor[2]: "{0}, on {1}", "{0}, korrus: {1}";

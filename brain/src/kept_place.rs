@@ -1,0 +1,69 @@
+//! Zones and spots that people keep under a name, to have them cleaned again.
+
+use crate::behavior::Reason;
+use crate::geometry::Point2;
+use crate::no_go::{RoomName, in_micrometres};
+use crate::order::{FAR_M, HomePart, Zone};
+
+/// What a person has drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlaceShape {
+    /// A zone.
+    Zone(Zone),
+    /// A spot, by its middle.
+    Spot(Point2),
+}
+
+/// A zone or spot with a name. Its corners are whole micrometres, as a stored map keeps them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptPlace {
+    name: RoomName,
+    shape: PlaceShape,
+}
+
+impl KeptPlace {
+    /// A place under a name.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] for one that is far away.
+    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, Reason> {
+        let shape = match shape {
+            PlaceShape::Zone(zone) => {
+                let corners = zone.corners().iter().copied().map(in_micrometres);
+                PlaceShape::Zone(Zone::new(corners.collect())?)
+            }
+            PlaceShape::Spot(place) if place.x_m.abs() < FAR_M && place.y_m.abs() < FAR_M => {
+                PlaceShape::Spot(in_micrometres(*place))
+            }
+            PlaceShape::Spot(_) => return Err(Reason::BadZone),
+        };
+        Ok(Self { name, shape })
+    }
+
+    /// The same under another name.
+    #[must_use]
+    pub fn with_name(self, name: RoomName) -> Self {
+        Self { name, ..self }
+    }
+
+    /// What people call it.
+    #[must_use]
+    pub const fn name(&self) -> &RoomName {
+        &self.name
+    }
+
+    /// What a person has drawn.
+    #[must_use]
+    pub const fn shape(&self) -> &PlaceShape {
+        &self.shape
+    }
+
+    /// The part of a job that cleans it.
+    #[must_use]
+    pub fn part(&self) -> HomePart {
+        match &self.shape {
+            PlaceShape::Zone(zone) => HomePart::Zone(zone.clone()),
+            PlaceShape::Spot(place) => HomePart::Spot(*place),
+        }
+    }
+}

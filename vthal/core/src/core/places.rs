@@ -1,0 +1,132 @@
+//! Zones and spots that clients keep under names, and jobs that name them.
+
+use brain::{Brain, Command, KeptPlace, PlaceShape, Point2, Reason};
+use rvac_api::{JobOrder, JobPart, RequestBody};
+
+use super::Core;
+use super::orders::{Asker, to_name, to_zone};
+use super::refusal::Refusal;
+use crate::Outputs;
+
+impl Core {
+    /// Changes which places are kept; nothing else comes here.
+    pub(super) fn change_places(
+        &mut self,
+        now_us: u64,
+        (asker, body): (Asker, RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let (command, what) = match body {
+            RequestBody::KeepPlace { name, shape, number } => {
+                let place = KeptPlace::new(to_name(&name)?, &to_shape(&shape)?)?;
+                (Command::KeepPlace { place, number }, "keeps a place")
+            }
+            RequestBody::NamePlace { number, name } => {
+                let name = to_name(&name)?;
+                (Command::NamePlace { number, name }, "names a place")
+            }
+            RequestBody::ForgetPlace { number } => {
+                (Command::ForgetPlace { number }, "keeps a place no longer")
+            }
+            _ => return Ok(()),
+        };
+        let brain = self.known_home()?.brain();
+        brain
+            .admit(&command)
+            .map_err(|reason| of_place(reason, &command, brain))?;
+        self.edit(now_us, (asker, command, what), outputs);
+        Ok(())
+    }
+}
+
+/// Why a place is not changed.
+fn of_place(reason: Reason, command: &Command, brain: &Brain) -> Refusal {
+    match (reason, command) {
+        (Reason::NoFloorThere, _) => Refusal::no_floor_there("in it", brain),
+        (Reason::NameTaken, _) => Refusal::because(
+            reason,
+            "Another place is called so: take another name.".to_owned(),
+        ),
+        (Reason::TooManyPlaces, _) => Refusal::because(
+            reason,
+            "As many zones and spots are kept as a home can have: forget one first.".to_owned(),
+        ),
+        (Reason::NoSuchPlace, Command::KeepPlace { number, .. }) => Refusal::because(
+            reason,
+            format!(
+                "No place can come back under the number {}: leave it out.",
+                number.unwrap_or_default()
+            ),
+        ),
+        (Reason::NoSuchPlace, Command::NamePlace { number, .. } | Command::ForgetPlace { number }) => {
+            no_such_place(*number, brain)
+        }
+        _ => Refusal::from(reason),
+    }
+}
+
+fn no_such_place(number: u16, brain: &Brain) -> Refusal {
+    let places = brain.map().annotations().places();
+    let known: Vec<String> = places
+        .map(|(number, place)| format!("{number} ({})", place.name().as_str()))
+        .collect();
+    let text = if known.is_empty() {
+        format!("There is no kept place {number}: the map has none.")
+    } else {
+        format!(
+            "There is no kept place {number}: the map has {}.",
+            known.join(", ")
+        )
+    };
+    Refusal::because(Reason::NoSuchPlace, text)
+}
+
+fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
+    match shape {
+        rvac_api::PlaceShape::Zone(corners) => to_zone("The place", corners).map(PlaceShape::Zone),
+        rvac_api::PlaceShape::Spot([x_m, y_m]) => Ok(PlaceShape::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
+    }
+}
+
+/// The order with the zones and spots that its places are now.
+pub(super) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, Refusal> {
+    let words = brain.map().annotations();
+    let part = |part: &JobPart| match part {
+        JobPart::Place(number) => match words.place(*number) {
+            Some(place) => Ok(match to_api(place.shape()) {
+                rvac_api::PlaceShape::Zone(corners) => JobPart::Zone(corners),
+                rvac_api::PlaceShape::Spot(middle) => JobPart::Spot(middle),
+            }),
+            None => Err(no_such_place(*number, brain)),
+        },
+        other => Ok(other.clone()),
+    };
+    let parts: Result<Vec<JobPart>, Refusal> = order.parts.iter().map(part).collect();
+    Ok(JobOrder {
+        parts: parts?,
+        ..order.clone()
+    })
+}
+
+/// The order as one that is looked at before anybody knows its places: each counts as a part.
+pub(super) fn with_any_places(order: &JobOrder) -> JobOrder {
+    let part = |part: &JobPart| match part {
+        JobPart::Place(_) => JobPart::Spot([0.0, 0.0]),
+        other => other.clone(),
+    };
+    JobOrder {
+        parts: order.parts.iter().map(part).collect(),
+        ..order.clone()
+    }
+}
+
+/// Where a place is, in the words of clients.
+pub(crate) fn to_api(shape: &PlaceShape) -> rvac_api::PlaceShape {
+    match shape {
+        PlaceShape::Zone(zone) => {
+            let corners = zone.corners().iter();
+            rvac_api::PlaceShape::Zone(corners.map(|corner| [corner.x_m, corner.y_m]).collect())
+        }
+        PlaceShape::Spot(middle) => rvac_api::PlaceShape::Spot([middle.x_m, middle.y_m]),
+    }
+}
