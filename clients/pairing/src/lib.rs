@@ -37,7 +37,7 @@ pub use name::{DeviceName, NameError};
 pub use presence::Presence;
 pub use refusal::Refusal;
 pub use register::{CLIENTS_MAX, Paired, Register, Wanted};
-pub use rights::{Denied, Method, Need, PRESENCE, ROUTES, Route, VERBS, checked_request, need_of};
+pub use rights::{Denied, Method, Need, PRESENCE, ROUTES, Route, VERBS, checked_request, need_of, role_for};
 pub use robot_id::{RobotId, sha256};
 pub use role::{Role, UnknownRole};
 pub use stored::StoredError;

@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
+use crate::access::{EDITS_HOME, OnlyLooks};
 use crate::dock_view::DockPlace;
 use crate::floors_view::FloorList;
 use crate::language::words;
@@ -33,6 +34,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
     };
     view! {
         <div class="home" id="home-sheet">
+            <OnlyLooks store verb=EDITS_HOME />
             <ul class="sentences">
                 {move || sentences().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
             </ul>

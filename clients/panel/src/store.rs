@@ -10,7 +10,7 @@ use rvac_api::{
 
 use rvac_api::Update as Message;
 
-use crate::access::{Entrance, Newcomer};
+use crate::access::{EDITS_MIXES, Entrance, Newcomer};
 use crate::drive::Seat;
 use crate::floor_files::FloorDesk;
 use crate::history::HistoryDesk;
@@ -144,13 +144,16 @@ impl Store {
         self.status.with(|status| {
             self.robot
                 .with(|robot| Offers::of(status.as_ref(), robot.as_ref()))
+                .within(|verb| self.may(verb))
         })
     }
 
     /// Asks for something that a person pressed.
     pub(crate) fn ask(self, body: RequestBody) {
-        self.refusal.set(None);
-        self.send(Some(OTHER_ID), body);
+        if self.admits_request(&body) {
+            self.refusal.set(None);
+            self.send(Some(OTHER_ID), body);
+        }
     }
 
     /// Asks for something that nobody pressed a button for.
@@ -207,7 +210,9 @@ impl Store {
 
     /// Asks the robot to keep the mix that is edited.
     pub(crate) fn save_mix(self) {
-        if let Some(profile) = self.bench.profile_to_save() {
+        if self.admits(EDITS_MIXES)
+            && let Some(profile) = self.bench.profile_to_save()
+        {
             self.refusal.set(None);
             self.send(Some(MIX_ID), RequestBody::SaveMix { profile });
         }
@@ -215,8 +220,11 @@ impl Store {
 
     /// Says that a part was cleaned.
     pub(crate) fn reset_health(self, component: String) {
-        self.refusal.set(None);
-        self.send(Some(HEALTH_ID), RequestBody::ResetHealth { component });
+        let body = RequestBody::ResetHealth { component };
+        if self.admits_request(&body) {
+            self.refusal.set(None);
+            self.send(Some(HEALTH_ID), body);
+        }
     }
 
     fn on_done(self, id: u32) {
@@ -238,7 +246,9 @@ impl Store {
         for press in steered.presses {
             self.ask(press);
         }
-        if let Some(body) = steered.seat {
+        // Sticks and keys are looked at fifty times a second: on a device that may not drive they say nothing.
+        let may_drive = self.entrance.access.with_untracked(|access| access.may("drive"));
+        if let Some(body) = steered.seat.filter(|_| may_drive) {
             self.send(Some(DRIVE_ID), body);
         }
     }

@@ -34,6 +34,8 @@ pub enum Wait {
     Docking,
     /// It is on the dock.
     Docked,
+    /// The role of this device is too low.
+    NotAllowed,
 }
 
 impl Wait {
@@ -50,6 +52,7 @@ impl Wait {
             Self::NoJob => told.no_job,
             Self::Docking => told.docking,
             Self::Docked => told.docked,
+            Self::NotAllowed => told.not_allowed,
         }
     }
 }
@@ -120,6 +123,32 @@ impl Offers {
     }
 }
 
+impl Offers {
+    /// The same on a device that may make only some requests, known by their words.
+    #[must_use]
+    pub fn within(self, may: impl Fn(&str) -> bool) -> Self {
+        let of = |verb: &str, offer: Offer| match offer {
+            Offer::Ready | Offer::NotNow(_) if !may(verb) => Offer::NotNow(Wait::NotAllowed),
+            offer => offer,
+        };
+        let pause = match self.pause_kind {
+            PauseKind::Pause => "pause",
+            PauseKind::Resume => "resume",
+        };
+        Self {
+            start: of("start", self.start),
+            spot: of("spot", self.spot),
+            pause: of(pause, self.pause),
+            pause_kind: self.pause_kind,
+            stop: of("stop", self.stop),
+            dock: of("dock", self.dock),
+            locate: of("locate", self.locate),
+            drive: of("drive", self.drive),
+            clear: of("clear", self.clear),
+        }
+    }
+}
+
 fn start(state: &str) -> Offer {
     match state {
         "idle" | "docked" => Offer::Ready,
@@ -160,7 +189,7 @@ fn drive(state: &str) -> Offer {
 
 #[cfg(test)]
 mod tests {
-    use super::{Offer, Offers, PauseKind};
+    use super::{Offer, Offers, PauseKind, Wait};
     use rvac_api::{RobotDescription, Status};
 
     fn offers(state: &str, parts: &[&str]) -> Offers {
@@ -190,6 +219,32 @@ mod tests {
             assert_eq!(offers(state, &[]).stop, Offer::Ready, "{state}");
         }
         assert!(matches!(offers("disconnected", &[]).stop, Offer::NotNow(_)));
+    }
+
+    #[test]
+    fn a_device_that_may_only_look_is_told_so_and_still_stops_the_robot() {
+        const NOT_ALLOWED: Offer = Offer::NotNow(Wait::NotAllowed);
+        for state in STATES {
+            let looking = offers(state, &["beeper"]).within(|verb| verb == "stop");
+            assert_eq!(looking.stop, Offer::Ready, "{state}");
+            assert_eq!(
+                (
+                    looking.start,
+                    looking.spot,
+                    looking.pause,
+                    looking.drive,
+                    looking.locate
+                ),
+                (NOT_ALLOWED, NOT_ALLOWED, NOT_ALLOWED, NOT_ALLOWED, NOT_ALLOWED),
+                "{state}"
+            );
+            assert_eq!(
+                looking.dock,
+                Offer::Absent,
+                "what the robot lacks is absent for all"
+            );
+            assert_eq!(offers(state, &[]).within(|_| true), offers(state, &[]));
+        }
     }
 
     #[test]

@@ -32,6 +32,17 @@ pub enum Tool {
     Dock,
 }
 
+impl Tool {
+    /// Whether what is drawn stays in the map, and is not only for one job.
+    #[must_use]
+    pub const fn changes_home(self) -> bool {
+        match self {
+            Self::Wall | Self::Zone | Self::Cut | Self::Dock => true,
+            Self::Choose | Self::CleanZone | Self::Spot | Self::AvoidZone => false,
+        }
+    }
+}
+
 /// What was drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drawn {

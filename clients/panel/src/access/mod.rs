@@ -1,14 +1,16 @@
 //! Who this device is to the robot, and which other devices there are.
 
+mod allowed;
 mod devices_view;
 mod http;
 mod pair_view;
 mod pairing_steps;
 
 use leptos::prelude::*;
-use pairing::Role;
 use pairing::wire::Session;
+use pairing::{Role, role_for};
 
+pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, OnlyLooks};
 pub(crate) use devices_view::DevicesView;
 pub(crate) use pair_view::PairView;
 
@@ -28,6 +30,14 @@ pub(crate) enum Access {
 }
 
 impl Access {
+    /// Whether its role is high enough for a request, by its word. As long as nobody knows, the robot decides.
+    pub(crate) fn may(&self, verb: &str) -> bool {
+        match self {
+            Self::Known(session) => session.role >= role_for(verb),
+            Self::Asked | Self::Stranger => true,
+        }
+    }
+
     /// Whether it decides about other devices.
     pub(crate) fn manages(&self) -> bool {
         matches!(self, Self::Known(session) if session.client.is_some() && session.role == Role::Admin)

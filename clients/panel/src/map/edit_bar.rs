@@ -6,6 +6,7 @@ use panel_logic::{Edit, EditError, EditLog, Told};
 use rvac_api::{Failure, HomeView, Request};
 use wasm_bindgen::JsCast;
 
+use crate::access::EDITS_HOME;
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::{NOT_DRAWN, Store};
@@ -48,6 +49,9 @@ impl Edits {
 impl Store {
     /// Asks for an edit of the map that can be taken back.
     pub(crate) fn edit(self, edit: Edit) {
+        if !self.admits(EDITS_HOME) {
+            return;
+        }
         let home = self.known_home();
         let asked = self.edits.log.try_update(|log| log.begin(edit, &home));
         self.ask_edit(asked);

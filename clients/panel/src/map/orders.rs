@@ -8,6 +8,7 @@ use panel_logic::{
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
 use super::scene::Ground;
+use crate::access::EDITS_HOME;
 use crate::language::words;
 use crate::store::Store;
 
@@ -117,6 +118,9 @@ impl Store {
 
     /// Begins to draw, or lays the tool down.
     pub(crate) fn take_tool(self, tool: Tool) {
+        if tool.changes_home() && !self.admits(EDITS_HOME) {
+            return;
+        }
         self.orders.sketch.update(|sketch| sketch.take(tool));
         self.orders.pointer.set(None);
         if tool != Tool::Choose {

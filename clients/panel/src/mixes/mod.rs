@@ -16,6 +16,7 @@ use leptos::prelude::*;
 use mixer::MixState;
 use panel_logic::{Field, Group, MixDraft};
 
+use crate::access::{EDITS_MIXES, OnlyLooks};
 use crate::language::words;
 use crate::store::Store;
 use field_view::FieldView;
@@ -37,6 +38,7 @@ pub(crate) fn MixEditor(store: Store) -> impl IntoView {
     };
     view! {
         <section class="mixes" id="mixes" aria-label=words().mix.editor>
+            <OnlyLooks store verb=EDITS_MIXES />
             <Tools store />
             <FieldView bench field=Field::MixName />
             <p class="hint" role="status" id="mix-state">{state}</p>

@@ -10,6 +10,7 @@ use panel_logic::{
 };
 use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
+use crate::access::{EDITS_SCHEDULES, OnlyLooks};
 use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
 use form::FormView;
@@ -87,6 +88,7 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     });
     view! {
         <div class="home" id="schedule-sheet">
+            <OnlyLooks store verb=EDITS_SCHEDULES />
             <p class="hint" id="schedule-zone">{move || desk.known.with(|known| known.as_ref().map(|known| zone_text(words(), known)))}</p>
             <h3 id="schedules-title">{words().schedule.schedules}</h3>
             <ul id="schedules" class="rows schedules" aria-labelledby="schedules-title">
@@ -101,7 +103,7 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
                 when=move || desk.form.with(Option::is_some)
                 fallback=move || view! {
                     <div class="draw-tools">
-                        <button type="button" class="small strong" id="add-schedule" on:click=move |_| desk.open(ScheduleForm::default())>
+                        <button type="button" class="small strong" id="add-schedule" on:click=move |_| store.open_schedule(ScheduleForm::default())>
                             {words().schedule.add}
                         </button>
                     </div>
@@ -149,7 +151,7 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
     };
     let edit = move |_| {
         if let Some(view) = store.schedules.view_of(number) {
-            store.schedules.open(ScheduleForm::of(&view));
+            store.open_schedule(ScheduleForm::of(&view));
         }
     };
     view! {
@@ -204,6 +206,13 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
 }
 
 impl Store {
+    /// Opens the form, on a device that may save it.
+    fn open_schedule(self, form: ScheduleForm) {
+        if self.admits(EDITS_SCHEDULES) {
+            self.schedules.open(form);
+        }
+    }
+
     /// Asks for what is filled in, or says what is missing.
     fn save_schedule(self) {
         let request = self

@@ -82,6 +82,10 @@ screen! {
         no_job: "No job is running.", "Ükski töö ei käi.";
         docking: "It is looking for the dock already.", "Robot juba otsib dokki.";
         docked: "It is on the dock.", "Robot on dokis.";
+        not_allowed: "Not allowed for this device: an administrator can give it another role.",
+            "Sellel seadmel ei ole selleks õigust: haldusõigusega seadmes saab anda sellele teise rolli.";
+        only_looks: "This device may not change anything here: an administrator can give it another role.",
+            "See seade ei tohi siin midagi muuta: haldusõigusega seadmes saab anda sellele teise rolli.";
     }
 }
 
