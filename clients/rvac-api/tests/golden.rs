@@ -480,6 +480,10 @@ fn the_home() {
         &Update::Home(home.clone()),
         r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0}],"doors":[{"rooms":[1,2],"x":3.0,"y":4.0,"width_m":0.75}],"walls":[{"from":[0.0,1.0],"to":[2.0,1.0],"sigma_m":0.25}]}"#,
     );
+    what_people_say_of_it(home);
+}
+
+fn what_people_say_of_it(home: HomeView) {
     let told = HomeView {
         rooms: vec![RoomView {
             name: Some("Kitchen".to_owned()),
@@ -643,48 +647,6 @@ fn orders() {
         r#"{"c":"add-no-go","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}}"#,
     );
     request(
-        RequestBody::KeepPlace {
-            name: "Table".to_owned(),
-            shape: PlaceShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
-            number: None,
-        },
-        r#"{"c":"keep-place","name":"Table","shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}}"#,
-    );
-    request(
-        RequestBody::KeepPlace {
-            name: "Bowl".to_owned(),
-            shape: PlaceShape::Spot([2.5, -0.5]),
-            number: Some(3),
-        },
-        r#"{"c":"keep-place","name":"Bowl","shape":{"spot":[2.5,-0.5]},"number":3}"#,
-    );
-    request(
-        RequestBody::NamePlace {
-            number: 3,
-            name: "Dish".to_owned(),
-        },
-        r#"{"c":"name-place","number":3,"name":"Dish"}"#,
-    );
-    request(
-        RequestBody::ForgetPlace { number: 3 },
-        r#"{"c":"forget-place","number":3}"#,
-    );
-    let at_place = JobOrder {
-        parts: vec![JobPart::Place(3)],
-        ..JobOrder::default()
-    };
-    request(
-        RequestBody::Clean(at_place),
-        r#"{"c":"clean","parts":[{"place":3}],"passes":1}"#,
-    );
-    request(
-        RequestBody::NameNoGo {
-            number: 2,
-            name: Some("Cats".to_owned()),
-        },
-        r#"{"c":"name-no-go","number":2,"name":"Cats"}"#,
-    );
-    request(
         RequestBody::RemoveNoGo { number: 2 },
         r#"{"c":"remove-no-go","number":2}"#,
     );
@@ -839,6 +801,52 @@ fn the_simulator() {
     );
 }
 
+#[test]
+fn names_of_places() {
+    request(
+        RequestBody::NameNoGo {
+            number: 2,
+            name: Some("Cats".to_owned()),
+        },
+        r#"{"c":"name-no-go","number":2,"name":"Cats"}"#,
+    );
+    request(
+        RequestBody::KeepPlace {
+            name: "Table".to_owned(),
+            shape: PlaceShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.5]]),
+            number: None,
+        },
+        r#"{"c":"keep-place","name":"Table","shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.5]]}}"#,
+    );
+    request(
+        RequestBody::KeepPlace {
+            name: "Bowl".to_owned(),
+            shape: PlaceShape::Spot([2.5, -0.5]),
+            number: Some(3),
+        },
+        r#"{"c":"keep-place","name":"Bowl","shape":{"spot":[2.5,-0.5]},"number":3}"#,
+    );
+    request(
+        RequestBody::NamePlace {
+            number: 3,
+            name: "Dish".to_owned(),
+        },
+        r#"{"c":"name-place","number":3,"name":"Dish"}"#,
+    );
+    request(
+        RequestBody::ForgetPlace { number: 3 },
+        r#"{"c":"forget-place","number":3}"#,
+    );
+    let at_place = JobOrder {
+        parts: vec![JobPart::Place(3)],
+        ..JobOrder::default()
+    };
+    request(
+        RequestBody::Clean(at_place),
+        r#"{"c":"clean","parts":[{"place":3}],"passes":1}"#,
+    );
+}
+
 fn weekday_entry() -> ScheduleEntry {
     ScheduleEntry {
         name: "Köök".to_owned(),
@@ -856,6 +864,18 @@ fn weekday_entry() -> ScheduleEntry {
         in_quiet: InQuiet::Wait,
         floor: None,
     }
+}
+
+#[test]
+fn a_schedule_of_one_floor() {
+    let upstairs = ScheduleEntry {
+        floor: Some(2),
+        ..weekday_entry()
+    };
+    request(
+        RequestBody::AddSchedule(upstairs),
+        r#"{"c":"add-schedule","name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait","floor":2}"#,
+    );
 }
 
 #[test]
@@ -885,14 +905,6 @@ fn requests_of_schedules() {
     let short = r#"{"c":"add-schedule","name":"All","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}}"#;
     let read: Request = serde_json::from_str(short).unwrap();
     assert_eq!(read.body, RequestBody::AddSchedule(once));
-    let upstairs = ScheduleEntry {
-        floor: Some(2),
-        ..weekday_entry()
-    };
-    request(
-        RequestBody::AddSchedule(upstairs),
-        r#"{"c":"add-schedule","name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait","floor":2}"#,
-    );
     request(
         RequestBody::RemoveSchedule { number: 3 },
         r#"{"c":"remove-schedule","number":3}"#,

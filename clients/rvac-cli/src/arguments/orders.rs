@@ -237,9 +237,12 @@ pub(crate) enum PlacesVerb {
     Keep {
         /// One line of 1 to 40 characters.
         name: String,
-        /// A rectangle between two opposite corners, metres in the map; three corners or more are those of a polygon.
-        #[arg(long, group = "shape", value_name = "X,Y", num_args = 2.., allow_hyphen_values = true)]
+        /// A rectangle between two opposite corners, metres in the map; of a polygon its first two corners.
+        #[arg(long, group = "shape", value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
         zone: Vec<Place>,
+        /// The third corner of a polygon; again for each further one.
+        #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "zone")]
+        corner: Vec<Place>,
         /// The middle of a spot, metres in the map.
         #[arg(long, group = "shape", value_name = "X,Y", allow_hyphen_values = true)]
         spot: Option<Place>,

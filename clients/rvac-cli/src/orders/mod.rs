@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use rvac_api::{
-    CleaningPattern, CleaningPower, JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update,
+    CleaningPattern, CleaningPower, HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update,
 };
 
 use crate::arguments::{EstimateOptions, OrderOptions, OrderParts, Place};
@@ -66,11 +66,14 @@ fn in_words(estimate: &JobEstimate) -> String {
 /// Rooms first, then zones, then spots, then kept places, each in the order in which they were given.
 pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> anyhow::Result<JobOrder> {
     let mut parts = Vec::new();
-    if !options.room.is_empty() {
-        let home = known::ask(connection)?.home;
-        for name in &options.room {
-            parts.push(JobPart::Room(rooms::find(&home, name)?));
-        }
+    let names_any = !(options.room.is_empty() && options.place.is_empty());
+    let home = if names_any {
+        known::ask(connection)?.home
+    } else {
+        HomeView::default()
+    };
+    for name in &options.room {
+        parts.push(JobPart::Room(rooms::find(&home, name)?));
     }
     parts.extend(rectangles(&options.zone).map(JobPart::Zone));
     parts.extend(
@@ -79,11 +82,8 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
             .iter()
             .map(|place| JobPart::Spot([place.x_m, place.y_m])),
     );
-    if !options.place.is_empty() {
-        let home = known::ask(connection)?.home;
-        for name in &options.place {
-            parts.push(JobPart::Place(places::find(&home, name)?));
-        }
+    for name in &options.place {
+        parts.push(JobPart::Place(places::find(&home, name)?));
     }
     Ok(JobOrder {
         parts,

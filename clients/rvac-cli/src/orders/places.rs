@@ -20,12 +20,20 @@ pub(crate) fn places(job: &PlacesJob) -> anyhow::Result<ExitCode> {
             write!(stdout(), "{}", table(&known::ask(&mut connection)?.home))?;
             return Ok(ExitCode::SUCCESS);
         }
-        Some(PlacesVerb::Keep { name, zone, spot }) => RequestBody::KeepPlace {
+        Some(PlacesVerb::Keep {
+            name,
+            zone,
+            corner,
+            spot,
+        }) => RequestBody::KeepPlace {
             name: name.clone(),
             shape: match spot {
                 Some(middle) => PlaceShape::Spot([middle.x_m, middle.y_m]),
                 None => PlaceShape::Zone(outline(
-                    zone.iter().map(|corner| [corner.x_m, corner.y_m]).collect(),
+                    zone.iter()
+                        .chain(corner)
+                        .map(|corner| [corner.x_m, corner.y_m])
+                        .collect(),
                 )),
             },
             number: None,

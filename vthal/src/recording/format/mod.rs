@@ -3,22 +3,19 @@
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
 mod answer;
+mod command;
 mod flow;
 mod order;
 mod sensors;
 mod state;
 
 pub use answer::Answered;
+pub use command::GivenCommand;
 pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
-use order::{from_power, to_power};
 pub use state::BrainState;
 
-use brain::mapping::CutLine;
 use brain::observation::{BeaconRange, Cliffs, Contacts};
-use brain::{
-    Body, BrainConfig, Command, KeptPlace, Observation, Point2, Pose2, RoomName, RoomSettings, Speeds,
-    StrategyName,
-};
+use brain::{Body, BrainConfig, Observation, Speeds};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
@@ -245,264 +242,6 @@ pub struct Given {
     pub command: GivenCommand,
 }
 
-/// [`Command`]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GivenCommand {
-    /// [`Command::Clean`] by the strategy's name.
-    Clean(String),
-    /// [`Command::CleanParts`]
-    CleanParts(GivenOrder),
-    /// [`Command::AddNoGo`]
-    AddNoGo(GivenNoGo),
-    /// [`Command::AddNoGo`] of one that has a name.
-    AddNamedNoGo(GivenNoGo, String),
-    /// [`Command::RemoveNoGo`] by its number.
-    RemoveNoGo(u16),
-    /// [`Command::NameNoGo`]
-    NameNoGo {
-        /// Its number.
-        number: u16,
-        /// Its name; absent = none any more.
-        name: Option<String>,
-    },
-    /// [`Command::KeepPlace`]
-    KeepPlace {
-        /// Its name.
-        name: String,
-        /// Where.
-        place: GivenPart,
-        /// The number that it had.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        number: Option<u16>,
-    },
-    /// [`Command::NamePlace`]
-    NamePlace {
-        /// Its number.
-        number: u16,
-        /// Its name.
-        name: String,
-    },
-    /// [`Command::ForgetPlace`] by its number.
-    ForgetPlace(u16),
-    /// [`Command::NameRoom`]
-    NameRoom {
-        /// Identity of the room.
-        room: u16,
-        /// Its name; absent = none any more.
-        name: Option<String>,
-    },
-    /// [`Command::SetRoom`]
-    SetRoom {
-        /// Identity of the room.
-        room: u16,
-        /// Passes, then percent of suction, main brush and side brushes; absent = as any other.
-        settings: Option<[u8; 4]>,
-        /// Absent = lines.
-        #[serde(default, skip_serializing_if = "GivenPattern::is_usual")]
-        pattern: GivenPattern,
-    },
-    /// [`Command::SplitRoom`]
-    SplitRoom {
-        /// Identity of the room.
-        room: Option<u16>,
-        /// The ends of the line.
-        line: [[f64; 2]; 2],
-    },
-    /// [`Command::JoinRooms`] by their identities.
-    JoinRooms([u16; 2]),
-    /// [`Command::UndoRoomChange`] by its number.
-    UndoRoomChange(u16),
-    /// [`Command::MoveDock`] by place and heading of a robot on it.
-    MoveDock([f64; 3]),
-    /// [`Command::Spot`]
-    Spot,
-    /// [`Command::Pause`]
-    Pause,
-    /// [`Command::Resume`]
-    Resume,
-    /// [`Command::Stop`]
-    Stop,
-    /// [`Command::Dock`]
-    Dock,
-    /// [`Command::Manual`]
-    Manual {
-        /// Forward speed.
-        speed_m_per_s: f64,
-        /// Turn rate.
-        turn_rad_per_s: f64,
-        /// End of the lease.
-        valid_until_us: u64,
-        /// Brushes and suction.
-        cleaners: bool,
-    },
-    /// [`Command::ManualEnd`]
-    ManualEnd,
-    /// [`Command::ClearError`]
-    ClearError,
-}
-
-impl From<&Command> for GivenCommand {
-    fn from(command: &Command) -> Self {
-        match command {
-            Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
-            Command::CleanParts { order } => Self::CleanParts(order.into()),
-            Command::AddNoGo { no_go } => match no_go.name() {
-                None => Self::AddNoGo(no_go.into()),
-                Some(name) => Self::AddNamedNoGo(no_go.into(), name.as_str().to_owned()),
-            },
-            Command::RemoveNoGo { number } => Self::RemoveNoGo(*number),
-            Command::NameNoGo { number, name } => Self::NameNoGo {
-                number: *number,
-                name: from_name(name.as_ref()),
-            },
-            Command::KeepPlace { place, number } => Self::KeepPlace {
-                name: place.name().as_str().to_owned(),
-                place: GivenPart::from(&place.part()),
-                number: *number,
-            },
-            Command::NamePlace { number, name } => Self::NamePlace {
-                number: *number,
-                name: name.as_str().to_owned(),
-            },
-            Command::ForgetPlace { number } => Self::ForgetPlace(*number),
-            Command::NameRoom { room, name } => Self::NameRoom {
-                room: *room,
-                name: from_name(name.as_ref()),
-            },
-            Command::SetRoom { room, settings } => Self::SetRoom {
-                room: *room,
-                settings: settings.map(|settings| {
-                    let [suction, main_brush, side_brushes] = from_power(settings.power());
-                    [settings.passes(), suction, main_brush, side_brushes]
-                }),
-                pattern: settings.unwrap_or_default().pattern().into(),
-            },
-            Command::SplitRoom { room, line } => Self::SplitRoom {
-                room: *room,
-                line: line.ends().map(|end| [end.x_m, end.y_m]),
-            },
-            Command::JoinRooms { rooms } => Self::JoinRooms(*rooms),
-            Command::UndoRoomChange { number } => Self::UndoRoomChange(*number),
-            Command::MoveDock { pose } => Self::MoveDock([pose.x_m, pose.y_m, pose.heading_rad]),
-            Command::Spot => Self::Spot,
-            Command::Pause => Self::Pause,
-            Command::Resume => Self::Resume,
-            Command::Stop => Self::Stop,
-            Command::Dock => Self::Dock,
-            Command::Manual {
-                speed_m_per_s,
-                turn_rad_per_s,
-                valid_until_us,
-                cleaners,
-            } => Self::Manual {
-                speed_m_per_s: *speed_m_per_s,
-                turn_rad_per_s: *turn_rad_per_s,
-                valid_until_us: *valid_until_us,
-                cleaners: *cleaners,
-            },
-            Command::ManualEnd => Self::ManualEnd,
-            Command::ClearError => Self::ClearError,
-        }
-    }
-}
-
-fn from_name(name: Option<&RoomName>) -> Option<String> {
-    name.map(|name| name.as_str().to_owned())
-}
-
-/// `None` for a name that the brain would refuse.
-fn to_name(name: Option<&str>) -> Option<Option<RoomName>> {
-    name.map(RoomName::new).transpose().ok()
-}
-
-impl GivenCommand {
-    /// Back to the brain's own type; `None` for a strategy that this version does not have.
-    #[must_use]
-    pub fn to_brain(&self) -> Option<Command> {
-        Some(match self {
-            Self::Clean(strategy) => Command::Clean {
-                strategy: StrategyName::from_name(strategy)?,
-            },
-            Self::CleanParts(order) => Command::CleanParts {
-                order: order.to_brain()?,
-            },
-            Self::AddNoGo(no_go) => Command::AddNoGo {
-                no_go: no_go.to_brain()?,
-            },
-            Self::AddNamedNoGo(no_go, name) => Command::AddNoGo {
-                no_go: no_go.to_brain()?.with_name(Some(RoomName::new(name).ok()?)),
-            },
-            Self::RemoveNoGo(number) => Command::RemoveNoGo { number: *number },
-            Self::NameNoGo { number, name } => Command::NameNoGo {
-                number: *number,
-                name: to_name(name.as_deref())?,
-            },
-            Self::KeepPlace { name, place, number } => Command::KeepPlace {
-                place: KeptPlace::new(RoomName::new(name).ok()?, &place.to_shape()?).ok()?,
-                number: *number,
-            },
-            Self::NamePlace { number, name } => Command::NamePlace {
-                number: *number,
-                name: RoomName::new(name).ok()?,
-            },
-            Self::ForgetPlace(number) => Command::ForgetPlace { number: *number },
-            Self::NameRoom { room, name } => Command::NameRoom {
-                room: *room,
-                name: to_name(name.as_deref())?,
-            },
-            Self::SetRoom {
-                room,
-                settings,
-                pattern,
-            } => Command::SetRoom {
-                room: *room,
-                settings: match settings {
-                    None => None,
-                    Some([passes, power @ ..]) => {
-                        let settings = RoomSettings::new(*passes, to_power(*power)).ok()?;
-                        Some(settings.with_pattern(pattern.to_brain()))
-                    }
-                },
-            },
-            Self::SplitRoom { room, line } => {
-                let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
-                Command::SplitRoom {
-                    room: *room,
-                    line: CutLine::new(from, to).ok()?,
-                }
-            }
-            Self::JoinRooms(rooms) => Command::JoinRooms { rooms: *rooms },
-            Self::UndoRoomChange(number) => Command::UndoRoomChange { number: *number },
-            Self::MoveDock([x_m, y_m, heading_rad]) => Command::MoveDock {
-                pose: Pose2 {
-                    x_m: *x_m,
-                    y_m: *y_m,
-                    heading_rad: *heading_rad,
-                },
-            },
-            Self::Spot => Command::Spot,
-            Self::Pause => Command::Pause,
-            Self::Resume => Command::Resume,
-            Self::Stop => Command::Stop,
-            Self::Dock => Command::Dock,
-            Self::Manual {
-                speed_m_per_s,
-                turn_rad_per_s,
-                valid_until_us,
-                cleaners,
-            } => Command::Manual {
-                speed_m_per_s: *speed_m_per_s,
-                turn_rad_per_s: *turn_rad_per_s,
-                valid_until_us: *valid_until_us,
-                cleaners: *cleaners,
-            },
-            Self::ManualEnd => Command::ManualEnd,
-            Self::ClearError => Command::ClearError,
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use brain::mapping::CutLine;
@@ -539,7 +278,7 @@ mod tests {
 
     #[test]
     fn commands_come_back() {
-        let corners = [(0.0, 0.1), (1.0 / 3.0, 0.0), (-1.0, 2.0)].map(|(x_m, y_m)| Point2 { x_m, y_m });
+        let corners = corners();
         let zone = Zone::new(corners.to_vec()).expect("a triangle");
         let manual = Command::Manual {
             speed_m_per_s: 0.1,
@@ -562,6 +301,19 @@ mod tests {
                 .and_then(|order| order.avoiding(vec![NoGo::zone(&zone)?]))
                 .expect("a good order"),
             },
+            Command::Clean {
+                strategy: brain::StrategyName::Bounce,
+            },
+        ] {
+            comes_back(command);
+        }
+    }
+
+    #[test]
+    fn changes_of_places_come_back() {
+        let corners = corners();
+        let zone = Zone::new(corners.to_vec()).expect("a triangle");
+        for command in [
             Command::AddNoGo {
                 no_go: NoGo::zone(&zone).expect("a good zone"),
             },
@@ -595,6 +347,15 @@ mod tests {
                 number: 7,
                 name: None,
             },
+        ] {
+            comes_back(command);
+        }
+    }
+
+    #[test]
+    fn changes_of_rooms_and_dock_come_back() {
+        let corners = corners();
+        for command in [
             Command::NameRoom {
                 room: 3,
                 name: Some(RoomName::new("Köök").expect("a good name")),
@@ -621,9 +382,6 @@ mod tests {
                     heading_rad: 3.0,
                 },
             },
-            Command::Clean {
-                strategy: brain::StrategyName::Bounce,
-            },
         ] {
             comes_back(command);
         }
@@ -648,6 +406,10 @@ mod tests {
         ] {
             comes_back(command);
         }
+    }
+
+    fn corners() -> [Point2; 3] {
+        [(0.0, 0.1), (1.0 / 3.0, 0.0), (-1.0, 2.0)].map(|(x_m, y_m)| Point2 { x_m, y_m })
     }
 
     fn kept_place(shape: PlaceShape) -> KeptPlace {
