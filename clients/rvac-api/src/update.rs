@@ -388,6 +388,10 @@ pub struct MapSnapshot {
     pub cell_m: f64,
     /// Swept cells as a list `[ix0,iy0,ix1,iy1,...]` of integer cell coordinates (cell ix spans ix*cell_m to (ix+1)*cell_m).
     pub swept: Vec<i32>,
+    /// How sure the robot was of its place when it swept them, as `[n0,s0,n1,s1,...]`: the first n0 cells with a standard deviation of
+    /// s0 centimetres, and so on. Cells for which nothing is said were swept with a sure place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swept_sigma: Vec<u32>,
     /// Path as `[x0,y0,x1,y1,...]` in millimetres, thinned to 2 cm.
     pub path_mm: Vec<i32>,
     /// Bumps.
@@ -401,6 +405,9 @@ pub struct MapDelta {
     pub map: u32,
     /// Newly swept cells, as in [`MapSnapshot::swept`].
     pub swept: Vec<i32>,
+    /// The same of these, as in [`MapSnapshot::swept_sigma`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swept_sigma: Vec<u32>,
     /// Continuation of the path, as in [`MapSnapshot::path_mm`].
     pub path_mm: Vec<i32>,
     /// New bumps.

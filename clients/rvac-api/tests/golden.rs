@@ -406,16 +406,18 @@ fn the_map() {
         map: 2,
         cell_m: 0.05,
         swept: vec![0, -1],
+        swept_sigma: vec![1, 12],
         path_mm: vec![10, 20],
         bumps: bumps.clone(),
     };
     check(
         &Update::Map(snapshot),
-        r#"{"e":"map","map":2,"cell_m":0.05,"swept":[0,-1],"path_mm":[10,20],"bumps":[{"x":1.5,"y":2.0,"contact":true}]}"#,
+        r#"{"e":"map","map":2,"cell_m":0.05,"swept":[0,-1],"swept_sigma":[1,12],"path_mm":[10,20],"bumps":[{"x":1.5,"y":2.0,"contact":true}]}"#,
     );
     let delta = MapDelta {
         map: 2,
         swept: vec![1, 1],
+        swept_sigma: vec![],
         path_mm: vec![],
         bumps,
     };

@@ -35,6 +35,7 @@ mod outputs;
 mod quest;
 pub mod schedule;
 mod scheduler;
+mod swept_sigma;
 mod tap;
 mod to_api;
 

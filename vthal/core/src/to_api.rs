@@ -8,6 +8,7 @@ use rvac_api::{
 use rvac_protocol::message::{Battery, ChargeState, ChargerStatus, LogLevel};
 
 use crate::device::{Description, Shape};
+use crate::swept_sigma::SweptSigma;
 
 /// A pose of the map frame at `time_us`.
 pub(crate) fn pose(pose: Pose2, time_us: u64) -> Pose {
@@ -45,22 +46,24 @@ pub(crate) fn robot(description: &Description) -> RobotDescription {
 }
 
 /// The whole map under the number `map`.
-pub(crate) fn map_snapshot(map: u32, part: &MapPart<'_>) -> MapSnapshot {
-    let delta = map_delta(map, part);
+pub(crate) fn map_snapshot(map: u32, part: &MapPart<'_>, sigma: &SweptSigma) -> MapSnapshot {
+    let delta = map_delta(map, part, sigma);
     MapSnapshot {
         map,
         cell_m: CELL_M,
         swept: delta.swept,
+        swept_sigma: delta.swept_sigma,
         path_mm: delta.path_mm,
         bumps: delta.bumps,
     }
 }
 
 /// A part of the map under the number `map`.
-pub(crate) fn map_delta(map: u32, part: &MapPart<'_>) -> MapDelta {
+pub(crate) fn map_delta(map: u32, part: &MapPart<'_>, sigma: &SweptSigma) -> MapDelta {
     MapDelta {
         map,
         swept: part.swept.iter().flat_map(|cell| [cell.x, cell.y]).collect(),
+        swept_sigma: sigma.of_last(part.swept.len()),
         path_mm: part
             .path
             .iter()

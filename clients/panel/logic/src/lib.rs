@@ -36,6 +36,7 @@ mod room_settings;
 mod schedule_form;
 mod schedule_rows;
 mod sketch;
+mod swept_chance;
 mod swept_grid;
 mod thoughts;
 mod tilt;

@@ -1,5 +1,7 @@
 //! The swept cells as a picture that grows.
 
+use crate::swept_chance::{Levels, chances, level, reach};
+
 /// Cells are added to the picture in blocks of this many.
 const BLOCK: i32 = 64;
 
@@ -15,7 +17,7 @@ pub struct DirtyRows {
     pub end: u32,
 }
 
-/// One byte a cell, 255 = swept, row by row from the lowest y.
+/// One byte a cell, 255 = surely swept, row by row from the lowest y.
 #[derive(Clone, Debug, Default)]
 pub struct SweptGrid {
     x0: i32,
@@ -23,8 +25,35 @@ pub struct SweptGrid {
     width: i32,
     height: i32,
     bytes: Vec<u8>,
+    /// How sure the robot was of its place when it swept, see [`level`].
+    levels: Vec<u8>,
+    /// Reach of the least sure cell.
+    reach: i32,
     dirty: Option<DirtyRows>,
     resized: bool,
+}
+
+/// Cells from one corner to the other, both included.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    low: (i32, i32),
+    high: (i32, i32),
+}
+
+impl Span {
+    fn with(self, (ix, iy): (i32, i32)) -> Self {
+        Self {
+            low: (self.low.0.min(ix), self.low.1.min(iy)),
+            high: (self.high.0.max(ix), self.high.1.max(iy)),
+        }
+    }
+
+    const fn grown(self, cells: i32) -> Self {
+        Self {
+            low: (self.low.0 - cells, self.low.1 - cells),
+            high: (self.high.0 + cells, self.high.1 + cells),
+        }
+    }
 }
 
 impl SweptGrid {
@@ -63,13 +92,87 @@ impl SweptGrid {
         };
     }
 
-    /// Marks cells given as `[ix0, iy0, ix1, iy1, ...]`.
-    pub fn mark_all(&mut self, cells: &[i32]) {
-        for cell in cells.chunks_exact(2) {
-            if let &[ix, iy] = cell {
-                self.mark(ix, iy);
+    /// Marks cells given as `[ix0, iy0, ix1, iy1, ...]`, with their deviations as `[n0, s0, n1, s1, ...]`, see
+    /// [`rvac_api::MapSnapshot`].
+    pub fn mark_all(&mut self, cells: &[i32], sigma: &[u32], cell_m: f64) {
+        let told = sigma.chunks_exact(2).flat_map(|run| {
+            let (count, sigma_cm) = (run[0], run[1]);
+            std::iter::repeat_n(level(0.01 * f64::from(sigma_cm)), count as usize)
+        });
+        let levels = told.chain(std::iter::repeat(level(0.0)));
+        let mut changed: Option<Span> = None;
+        for (cell, level) in cells.chunks_exact(2).zip(levels) {
+            if let &[ix, iy] = cell
+                && self.mark((ix, iy), level)
+            {
+                let point = Span {
+                    low: (ix, iy),
+                    high: (ix, iy),
+                };
+                changed = Some(changed.map_or(point, |span| span.with((ix, iy))));
+                self.reach = self.reach.max(reach(level, cell_m));
             }
         }
+        if let Some(span) = changed {
+            self.shade(span.grown(self.reach), cell_m);
+        }
+    }
+
+    /// Reckons the chances of some cells anew.
+    fn shade(&mut self, span: Span, cell_m: f64) {
+        self.make_room(span);
+        let target = self.clipped(span);
+        let source = self.clipped(target.grown(self.reach));
+        let width = (source.high.0 - source.low.0 + 1) as usize;
+        let cells: Vec<u8> = (source.low.1..=source.high.1)
+            .flat_map(|iy| {
+                let from = self.index((source.low.0, iy));
+                self.levels.get(from..from + width).unwrap_or_default()
+            })
+            .copied()
+            .collect();
+        let window = Levels { cells: &cells, width };
+        let chances = chances(window, cell_m);
+        let target_width = (target.high.0 - target.low.0 + 1) as usize;
+        for iy in target.low.1..=target.high.1 {
+            let row = (iy - source.low.1) as usize * width + (target.low.0 - source.low.0) as usize;
+            let to = self.index((target.low.0, iy));
+            let fresh = chances.get(row..row + target_width);
+            if let (Some(fresh), Some(old)) = (fresh, self.bytes.get_mut(to..to + target_width)) {
+                old.copy_from_slice(fresh);
+            }
+        }
+        self.touch_rows(target);
+    }
+
+    /// Chances reach beyond what was swept, as far as the picture can grow.
+    fn make_room(&mut self, Span { low, high }: Span) {
+        for (ix, iy) in [low, high] {
+            if !self.holds(ix, iy) {
+                self.grow_to(ix, iy);
+            }
+        }
+    }
+
+    fn clipped(&self, Span { low, high }: Span) -> Span {
+        let (last_x, last_y) = (self.x0 + self.width - 1, self.y0 + self.height - 1);
+        Span {
+            low: (low.0.max(self.x0), low.1.max(self.y0)),
+            high: (high.0.min(last_x), high.1.min(last_y)),
+        }
+    }
+
+    const fn index(&self, (ix, iy): (i32, i32)) -> usize {
+        (iy - self.y0) as usize * self.width as usize + (ix - self.x0) as usize
+    }
+
+    fn touch_rows(&mut self, Span { low, high }: Span) {
+        let (first, end) = ((low.1 - self.y0) as u32, (high.1 - self.y0 + 1) as u32);
+        let dirty = self.dirty.unwrap_or(DirtyRows { first, end });
+        self.dirty = Some(DirtyRows {
+            first: dirty.first.min(first),
+            end: dirty.end.max(end),
+        });
     }
 
     /// Whether the picture changed its size since this was last asked: then all of it must be taken anew.
@@ -86,24 +189,16 @@ impl SweptGrid {
         self.dirty.take()
     }
 
-    fn mark(&mut self, ix: i32, iy: i32) {
+    /// `false` for a cell that is too far away.
+    fn mark(&mut self, (ix, iy): (i32, i32), level: u8) -> bool {
         if !self.holds(ix, iy) && !self.grow_to(ix, iy) {
-            return;
+            return false;
         }
-        let row = iy - self.y0;
-        let index = row as usize * self.width as usize + (ix - self.x0) as usize;
-        if let Some(byte) = self.bytes.get_mut(index) {
-            *byte = 255;
+        let index = self.index((ix, iy));
+        if let Some(known) = self.levels.get_mut(index) {
+            *known = level;
         }
-        let row = row as u32;
-        let dirty = self.dirty.unwrap_or(DirtyRows {
-            first: row,
-            end: row + 1,
-        });
-        self.dirty = Some(DirtyRows {
-            first: dirty.first.min(row),
-            end: dirty.end.max(row + 1),
-        });
+        true
     }
 
     const fn holds(&self, ix: i32, iy: i32) -> bool {
@@ -131,21 +226,24 @@ impl SweptGrid {
     }
 
     fn move_into(&mut self, x0: i32, y0: i32, (width, height): (i32, i32)) {
-        let mut bytes = vec![0; width as usize * height as usize];
-        if self.width > 0 {
-            for (row, old) in self.bytes.chunks_exact(self.width as usize).enumerate() {
+        let moved = |cells: &[u8]| {
+            let mut larger = vec![0; width as usize * height as usize];
+            for (row, old) in cells.chunks_exact((self.width as usize).max(1)).enumerate() {
                 let at = (row + (self.y0 - y0) as usize) * width as usize + (self.x0 - x0) as usize;
-                if let Some(target) = bytes.get_mut(at..at + old.len()) {
+                if let Some(target) = larger.get_mut(at..at + old.len()) {
                     target.copy_from_slice(old);
                 }
             }
-        }
+            larger
+        };
         *self = Self {
             x0,
             y0,
             width,
             height,
-            bytes,
+            bytes: moved(&self.bytes),
+            levels: moved(&self.levels),
+            reach: self.reach,
             dirty: None,
             resized: true,
         };
@@ -155,6 +253,40 @@ impl SweptGrid {
 #[cfg(test)]
 mod tests {
     use super::{DirtyRows, SweptGrid};
+
+    const CELL_M: f64 = 0.025;
+
+    fn byte(grid: &SweptGrid, ix: i32, iy: i32) -> u8 {
+        let ((x0, y0), (width, _)) = (grid.origin(), grid.size());
+        grid.bytes()[((iy - y0) * width + ix - x0) as usize]
+    }
+
+    #[test]
+    fn what_was_swept_by_an_unsure_robot_is_paler_and_wider_and_grows_as_if_told_at_once() {
+        let cells: Vec<i32> = (0..400).flat_map(|index| [index % 20, index / 20]).collect();
+        let mut at_once = SweptGrid::default();
+        at_once.mark_all(&cells, &[400, 12], CELL_M);
+        let edge = byte(&at_once, 0, 10);
+        assert!((90..165).contains(&edge), "{edge}");
+        assert!(byte(&at_once, -4, 10) > 20, "it may have swept there, too");
+        assert!(byte(&at_once, 10, 10) > 230);
+        let mut by_and_by = SweptGrid::default();
+        for part in cells.chunks(80) {
+            by_and_by.mark_all(part, &[40, 12], CELL_M);
+        }
+        for (ix, iy) in [(0, 10), (-4, 10), (10, 10), (19, 19), (10, 3), (10, 4)] {
+            let apart = i32::from(byte(&at_once, ix, iy)) - i32::from(byte(&by_and_by, ix, iy));
+            assert!(apart.abs() <= 1, "{ix} {iy}: {apart}");
+        }
+    }
+
+    #[test]
+    fn deviations_belong_to_their_cells_and_what_is_not_told_is_sure() {
+        let mut grid = SweptGrid::default();
+        grid.mark_all(&[0, 0, 100, 0, 200, 0], &[1, 0, 1, 25], CELL_M);
+        assert_eq!((byte(&grid, 0, 0), byte(&grid, 200, 0)), (255, 255));
+        assert!(byte(&grid, 100, 0) < 20, "one cell of a robot that knows little");
+    }
 
     fn is_swept(grid: &SweptGrid, ix: i32, iy: i32) -> bool {
         let (x0, y0) = grid.origin();
@@ -168,7 +300,7 @@ mod tests {
         let mut grid = SweptGrid::default();
         let cells = [[0, 0], [-1, -1], [500, 3], [-300, 200], [64, -65]];
         for cell in cells {
-            grid.mark_all(&cell);
+            grid.mark_all(&cell, &[], CELL_M);
         }
         for [ix, iy] in cells {
             assert!(is_swept(&grid, ix, iy), "{ix} {iy}");
@@ -182,10 +314,10 @@ mod tests {
     #[test]
     fn changes_are_told_once() {
         let mut grid = SweptGrid::default();
-        grid.mark_all(&[3, 5]);
+        grid.mark_all(&[3, 5], &[], CELL_M);
         assert!(grid.take_resized());
         assert_eq!(grid.take_dirty(), None);
-        grid.mark_all(&[1, 7, 1, 9]);
+        grid.mark_all(&[1, 7, 1, 9], &[], CELL_M);
         assert!(!grid.take_resized());
         assert_eq!(grid.take_dirty(), Some(DirtyRows { first: 7, end: 10 }));
         assert_eq!(grid.take_dirty(), None);
@@ -194,7 +326,7 @@ mod tests {
     #[test]
     fn a_cell_at_the_end_of_the_world_costs_no_memory() {
         let mut grid = SweptGrid::default();
-        grid.mark_all(&[i32::MAX, i32::MIN, 0, 0, 4000, 0, -4000, 0]);
+        grid.mark_all(&[i32::MAX, i32::MIN, 0, 0, 4000, 0, -4000, 0], &[], CELL_M);
         assert!(grid.bytes().len() < 1 << 20, "{}", grid.bytes().len());
         assert!(is_swept(&grid, 0, 0));
     }
@@ -202,7 +334,7 @@ mod tests {
     #[test]
     fn an_odd_number_at_the_end_is_ignored() {
         let mut grid = SweptGrid::default();
-        grid.mark_all(&[1, 2, 3]);
+        grid.mark_all(&[1, 2, 3], &[], CELL_M);
         assert_eq!(grid.bytes().iter().filter(|byte| **byte == 255).count(), 1);
     }
 }

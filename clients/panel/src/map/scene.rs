@@ -265,19 +265,24 @@ impl Scene {
         self.path_restarted = true;
         self.bumps.clear();
         self.redraw = Redraw::All;
+        self.sweep(&snapshot.swept, &snapshot.swept_sigma);
         self.add(&snapshot.swept, &snapshot.path_mm, &snapshot.bumps);
     }
 
     /// Takes what was added. What belongs to another map waits for its snapshot.
     pub(crate) fn on_delta(&mut self, delta: &MapDelta) {
         if delta.map == self.map {
+            self.sweep(&delta.swept, &delta.swept_sigma);
             self.add(&delta.swept, &delta.path_mm, &delta.bumps);
         }
     }
 
-    fn add(&mut self, swept: &[i32], path_mm: &[i32], bumps: &[BumpMark]) {
-        self.swept.mark_all(swept);
+    fn sweep(&mut self, swept: &[i32], sigma: &[u32]) {
+        self.swept.mark_all(swept, sigma, self.cell_m);
         self.swept_cells += swept.len() / 2;
+    }
+
+    fn add(&mut self, swept: &[i32], path_mm: &[i32], bumps: &[BumpMark]) {
         let joint = self.path.len().saturating_sub(2);
         let whole_points = path_mm.len() / 2 * 2;
         self.path.extend(

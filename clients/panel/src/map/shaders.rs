@@ -35,7 +35,7 @@ void main() {
   vec4 cell = texture(plan, p) * inside(p);
   ground = ground * (1.0 - cell.a) + cell.rgb;
   vec2 s = (place - swept_box.xy) / swept_box.zw;
-  float done = smoothstep(0.3, 0.7, texture(swept, s).r * inside(s));
+  float done = texture(swept, s).r * inside(s);
   float light = dot(ground, vec3(0.3, 0.59, 0.11));
   float floor_light = dot(outside_colour, vec3(0.3, 0.59, 0.11));
   colour = vec4(mix(ground, swept_colour, done * (abs(light - floor_light) < 0.22 ? 0.75 : 0.3)), 1.0);

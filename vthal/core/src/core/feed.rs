@@ -13,6 +13,7 @@ use crate::device::{Description, Device, Part};
 use crate::home_view::home_view;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
+use crate::swept_sigma::SweptSigma;
 use crate::{ClientId, ExpertAccess, Outputs, Record, to_api};
 
 /// Poses go out at most this often.
@@ -48,6 +49,10 @@ pub(super) struct Feed {
     map_us: u64,
     map_cursor: MapCursor,
     map_number: u32,
+    swept_us: u64,
+    swept_cursor: MapCursor,
+    swept_number: u32,
+    swept_sigma: SweptSigma,
     home_us: u64,
     home_revision: u32,
     estimate_us: u64,
@@ -101,6 +106,11 @@ impl Core {
                 time_us: now_us,
                 table,
             });
+        }
+        // Whether or not anybody looks: later nobody knows how sure the robot was.
+        if now_us >= self.feed.swept_us + MAP_US {
+            self.feed.swept_us = now_us;
+            self.note_swept();
         }
         if self.clients.any(Topic::Map) && now_us >= self.feed.map_us + MAP_US {
             self.feed.map_us = now_us;
@@ -211,7 +221,30 @@ impl Core {
         }
     }
 
+    /// Notes how sure the robot was of its place when it swept what is new.
+    fn note_swept(&mut self) {
+        let Some(mind) = &self.mind else { return };
+        let (number, map) = (mind.map_number(), mind.brain().map());
+        let new = (number == self.feed.swept_number)
+            .then(|| map.since(self.feed.swept_cursor))
+            .flatten();
+        self.feed.swept_cursor = mind.map_cursor();
+        self.feed.swept_number = number;
+        let present_m = mind.brain().estimate().sigma_m;
+        if let Some(part) = new {
+            self.feed.swept_sigma.add(part.swept.len(), present_m);
+            return;
+        }
+        // Drawn anew or read from the disk: the home remembers how surely it was seen.
+        self.feed.swept_sigma = SweptSigma::default();
+        for cell in map.snapshot().swept {
+            let sigma_m = map.sigma_m(*cell).unwrap_or(present_m);
+            self.feed.swept_sigma.add(1, sigma_m);
+        }
+    }
+
     fn feed_map(&mut self, outputs: &mut Outputs) {
+        self.note_swept();
         let Some(mind) = &self.mind else { return };
         let number = mind.map_number();
         let delta = (number == self.feed.map_number)
@@ -221,8 +254,11 @@ impl Core {
         self.feed.map_number = number;
         let update = match delta {
             Some(part) if part.swept.is_empty() && part.path.is_empty() && part.marks.is_empty() => return,
-            Some(part) => Update::MapDelta(to_api::map_delta(number, &part)),
-            None => Update::Map(to_api::map_snapshot(number, &mind.brain().map().snapshot())),
+            Some(part) => Update::MapDelta(to_api::map_delta(number, &part, &self.feed.swept_sigma)),
+            None => {
+                let snapshot = mind.brain().map().snapshot();
+                Update::Map(to_api::map_snapshot(number, &snapshot, &self.feed.swept_sigma))
+            }
         };
         followers(Topic::Map, update, outputs);
     }
@@ -254,7 +290,8 @@ impl Core {
                 // Others first hear what is new, so that one cursor serves all.
                 self.feed_map(outputs);
                 if let Some(mind) = &self.mind {
-                    let map = to_api::map_snapshot(mind.map_number(), &mind.brain().map().snapshot());
+                    let snapshot = mind.brain().map().snapshot();
+                    let map = to_api::map_snapshot(mind.map_number(), &snapshot, &self.feed.swept_sigma);
                     outputs.deliveries.push(one(Update::Map(map)));
                 }
             }

@@ -54,7 +54,7 @@ screen! {
         ground_true: "True home", "Tegelik kodu";
         ground_known: "What it knows", "Mida robot teab";
         legend: "Legend", "Leppemärgid";
-        swept: "Swept", "Koristatud";
+        swept: "Swept; fainter where that is less sure", "Koristatud; ebakindlam koht on tuhmim";
         path: "Path", "Teekond";
         bump: "Bump", "Puude";
         planned: "Planned", "Kavas";
