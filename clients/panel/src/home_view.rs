@@ -9,11 +9,14 @@ use rvac_api::{KeptMap, RequestBody};
 use crate::access::{EDITS_HOME, OnlyLooks};
 use crate::dock_view::DockPlace;
 use crate::floors_view::FloorList;
+use crate::history::date_text;
 use crate::language::words;
 use crate::places_view::PlaceList;
 use crate::rooms_view::{NoGoList, RoomList};
 use crate::store::Store;
 
+/// A board whose clock shows less has a clock that was not set.
+const CLOCK_IS_SET_FROM_S: i64 = 1_704_067_200;
 /// The list of kept maps is asked for so often while it is looked at.
 const RENEW_EVERY: Duration = Duration::from_secs(5);
 
@@ -72,7 +75,13 @@ pub(crate) fn rooms_text(count: u32) -> String {
 
 fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
     let told = &words().home;
-    let extent = format!("{}, {}", area_text(words(), map.area_m2), rooms_text(map.rooms));
+    let kept_s = i64::try_from(map.kept_s).ok();
+    let extent = format!(
+        "{}, {}, {}",
+        date_text(kept_s.filter(|kept_s| *kept_s >= CLOCK_IS_SET_FROM_S)),
+        area_text(words(), map.area_m2),
+        rooms_text(map.rooms)
+    );
     let restore = move |_| {
         let floor = store.maps_floor.get_untracked();
         store.ask(RequestBody::RestoreMap {

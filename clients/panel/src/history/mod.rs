@@ -167,7 +167,7 @@ fn run_button(store: Store, row: RunRow) -> impl IntoView {
 }
 
 /// A time as clocks here show it.
-fn date_text(utc_s: Option<i64>) -> String {
+pub(crate) fn date_text(utc_s: Option<i64>) -> String {
     let Some(utc_s) = utc_s else {
         return words().history.no_clock.to_owned();
     };
