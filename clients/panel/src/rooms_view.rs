@@ -263,6 +263,7 @@ fn no_go(store: Store, row: NoGoRow, renamed: RwSignal<Option<u16>>) -> impl Int
             <button
                 type="button"
                 class="small"
+                id=format!("remove-no-go-{number}")
                 aria-label=label
                 on:click=remove
             >

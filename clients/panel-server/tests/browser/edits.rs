@@ -100,7 +100,7 @@ async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
     undo(browser, true).await;
     forbidden(browser, 1).await;
     onlooker.sees(|home| home.no_go.len() == 1);
-    browser.click("#no-go button").await;
+    browser.click("#no-go [id^=remove-no-go]").await;
     forbidden(browser, 0).await;
     browser.click("#undo").await;
     forbidden(browser, 1).await;
