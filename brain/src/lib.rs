@@ -15,8 +15,8 @@ mod docking;
 pub mod energy;
 pub mod geometry;
 mod gradual;
-pub mod learnt;
 mod kept_place;
+pub mod learnt;
 pub mod localization;
 mod manoeuvre;
 pub mod mapping;
@@ -38,8 +38,8 @@ pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResp
 pub use coverage::{JobEstimate, SweptShare};
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
-pub use learnt::{GyroLearnt, Learnt};
 pub use kept_place::{KeptPlace, PlaceShape};
+pub use learnt::{GyroLearnt, Learnt};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,

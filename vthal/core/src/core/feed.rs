@@ -31,7 +31,7 @@ const HOME_US: u64 = 5_000_000;
 /// Estimates go out at most this often.
 const ESTIMATE_US: u64 = 500_000;
 /// Pause between two looks at how much is swept: cells are counted in each.
-const SWEPT_US: u64 = 5_000_000;
+const SHARE_US: u64 = 5_000_000;
 /// Changes of an estimate that nobody would see: metres or radians, and shares.
 const UNSEEN: f64 = 0.002;
 /// Planned ways go out at most this often.
@@ -57,8 +57,8 @@ pub(super) struct Feed {
     home_revision: u32,
     estimate_us: u64,
     estimate: Estimate,
-    swept_us: u64,
-    swept: Option<SweptShare>,
+    share_us: u64,
+    share: Option<SweptShare>,
     floors: Option<FloorsView>,
     way_us: u64,
     way: PlannedWay,
@@ -136,11 +136,11 @@ impl Core {
 
     fn feed_estimate(&mut self, now_us: u64, outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
-        if now_us >= self.feed.swept_us + SWEPT_US {
-            self.feed.swept_us = now_us;
-            self.feed.swept = mind.brain().swept_share();
+        if now_us >= self.feed.share_us + SHARE_US {
+            self.feed.share_us = now_us;
+            self.feed.share = mind.brain().swept_share();
         }
-        let estimate = to_api::estimate(mind.brain(), self.feed.swept);
+        let estimate = to_api::estimate(mind.brain(), self.feed.share);
         if !looks_alike(&self.feed.estimate, &estimate) {
             self.feed.estimate = estimate;
             followers(Topic::Estimate, Update::Estimate(estimate), outputs);
