@@ -78,6 +78,17 @@ fn work_goes_on_after_the_job() {
 }
 
 #[test]
+fn the_end_of_a_run_is_seen() {
+    let object = bench(&["--modes", "known-map", "--seeds", "1"]);
+    let run = &object["runs"][0];
+    assert_eq!(
+        (&run["docked"], &run["state"]),
+        (&true.into(), &"docked".into()),
+        "{run}"
+    );
+}
+
+#[test]
 fn a_robot_without_a_gyro_may_get_one() {
     let length = ["--seeds", "1", "--work-minutes", "2", "--modes", "known-map"];
     let turned = bench(&[length.as_slice(), &["--robot", "relax", "--board-gyro"]].concat());

@@ -117,8 +117,7 @@ fn one_job(household: &mut Household, (mode, longest_over_t0): (Mode, f64), mut 
     let t0_s = household.robot().world().home().t0_s();
     let duration_ms = (t0_s * longest_over_t0 * 1000.0) as u64 + SPARE_MS;
     while household.robot().now_ms() < duration_ms && !mode.end().is_reached(household) {
-        household.pass_ms(1_000);
-        refill(household);
+        second(household);
         progress(household.robot().now_ms() as f64 / duration_ms as f64);
     }
     progress(1.0);
@@ -134,8 +133,7 @@ fn work(
     let duration_ms = (1000.0 * length_s) as u64 + SPARE_MS;
     let (mut first, mut jobs, mut was_over) = (None, 1, false);
     while household.job_s() < length_s && household.robot().now_ms() < duration_ms {
-        household.pass_ms(1_000);
-        refill(household);
+        second(household);
         keep_working(household, strategy);
         let is_over = household.job_is_over();
         if is_over {
@@ -149,7 +147,9 @@ fn work(
     (first, jobs)
 }
 
-fn refill(household: &mut Household) {
+/// Ends with a full second, at which the figures take a sample: so they tell the state in which the run is found.
+fn second(household: &mut Household) {
+    household.pass_ms(1_000 - household.robot().now_ms() % 1_000);
     if household.robot().now_ms() % REFILL_MS < 1_000 {
         household.robot_mut().world_mut().set_battery_charge(1.0);
     }
