@@ -99,27 +99,43 @@ fn shares(household: &Household) -> Option<(f64, f64, f64)> {
     Some((household.report().covered, told.share_low, told.share))
 }
 
-/// The edges of furniture and what lies behind legs differ between map and home.
+/// How far a share may be from the truth: the edges of furniture and what lies behind legs differ between map and home, and in a
+/// first run the robot does not know yet how much floor there is.
 const SHARE_OFF: f64 = 0.04;
+const FIRST_SHARE_OFF: f64 = 0.12;
+
+/// Compares what the robot says with the truth twice a minute; gives how often it said something.
+fn compared(household: &mut Household, (minutes, share_off): (u32, f64)) -> u32 {
+    let mut looks = 0;
+    for _ in 0..2 * minutes {
+        household.pass_ms(MINUTE_MS / 2);
+        let Some((truth, low, share)) = shares(household) else {
+            continue;
+        };
+        println!("in truth {truth:.3}, told {low:.3} to {share:.3}");
+        assert!(low <= share && share <= 1.0);
+        assert!(
+            truth >= low - share_off && truth <= share + share_off,
+            "{truth} is not within {low} and {share}"
+        );
+        looks += 1;
+    }
+    looks
+}
 
 #[test]
 fn the_share_that_a_robot_says_it_has_swept_is_the_true_one() {
     let mut household = household(&scene(HOME, "nominal"), &settings(4, 0)).with_known_map();
     assert!(start_cleaning(&mut household, StrategyName::Systematic));
     assert_eq!(shares(&household), None, "it has no plan yet");
-    let mut looks = 0;
-    for _ in 0..12 {
-        household.pass_ms(MINUTE_MS / 2);
-        let Some((truth, low, share)) = shares(&household) else {
-            continue;
-        };
-        println!("in truth {truth:.3}, told {low:.3} to {share:.3}");
-        assert!(low <= share && share <= 1.0);
-        assert!(
-            truth >= low - SHARE_OFF && truth <= share + SHARE_OFF,
-            "{truth} is not within {low} and {share}"
-        );
-        looks += 1;
-    }
+    let looks = compared(&mut household, (6, SHARE_OFF));
+    assert!(looks >= 8, "{looks} looks");
+}
+
+#[test]
+fn in_a_first_run_it_is_so_by_and_large() {
+    let mut household = household(&scene(HOME, "nominal"), &settings(4, 0));
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    let looks = compared(&mut household, (12, FIRST_SHARE_OFF));
     assert!(looks >= 8, "{looks} looks");
 }

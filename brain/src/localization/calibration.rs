@@ -24,7 +24,7 @@ const REST_GATE: f64 = 4.0;
 /// By how much a scale that was learnt before may have changed: the gyro was perhaps colder then.
 const RESUMED_SIGMA: f64 = 0.002;
 /// A scale that is known no better than this is not worth keeping.
-const LEARNT_SIGMA: f64 = 0.004;
+const LEARNT_SIGMA: f64 = 0.006;
 /// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
 pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
 /// A window that differs by more deviations than this is not believed.

@@ -21,9 +21,14 @@ impl Learnings {
         known.map(|(_, learnt)| *learnt).unwrap_or_default()
     }
 
-    /// This robot knows this now. `true` when that is something new.
+    /// This robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
     pub fn take(&mut self, device: &str, learnt: Learnt) -> bool {
-        if self.of(device) == learnt {
+        let before = self.of(device);
+        let learnt = Learnt {
+            gyro: learnt.gyro.or(before.gyro),
+            ..learnt
+        };
+        if before == learnt {
             return false;
         }
         self.devices.retain(|(name, _)| name != device);
@@ -207,6 +212,11 @@ mod tests {
         assert!(learnings.take("relax", learnt(-0.02)));
         assert_eq!(learnings.of("sr8730"), learnt(0.01));
         assert!(!learnings.take("other", Learnt::default()), "nothing was learnt");
+        let of_pack = Learnt {
+            gyro: None,
+            ..learnt(0.01)
+        };
+        assert!(!learnings.take("sr8730", of_pack), "the gyro is as it was");
         let stored = StoredLearnings::from(&learnings);
         assert_eq!(Learnings::try_from(stored), Ok(learnings));
     }
