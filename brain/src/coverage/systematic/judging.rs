@@ -1,0 +1,165 @@
+//! What becomes of a plan once it is made: it is followed, or nothing is left, or something must have been cut off.
+
+use super::{Outline, Systematic, shuts_in, squeeze};
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::coverage::astray::Astray;
+use crate::coverage::plan::CoveragePlan;
+use crate::manoeuvre::Follower;
+use crate::task::{Mind, Plan, Situation, Task};
+
+/// A plan that swept less than this brought nothing, square metres.
+const NOTHING_M2: f64 = 0.02;
+/// Plans in a row that brought nothing until the robot bounces out of the place.
+const VAIN_PLANS_MAX: u32 = 4;
+/// Times that obstructions are forgotten in order to try again before `FRESH_WON_M2` were won by it.
+const FRESH_STARTS_MAX: u32 = 2;
+/// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
+const STRAYS_MAX: u32 = 6;
+/// The same while a part of the home is cut off: giving up would leave all of that.
+const STRAYS_CUT_OFF_MAX: u32 = 18;
+/// Floor that makes a fresh start worth it, square metres.
+const FRESH_WON_M2: f64 = 0.5;
+/// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
+/// place is known to centimetres only loses a little floor along all walls.
+const WHOLE_SHARE: f64 = 0.85;
+
+impl Systematic {
+    /// Follows a plan if it is worth it; gives what to do instead if it is not.
+    pub(super) fn judge(
+        &mut self,
+        plan: CoveragePlan,
+        is_blocked: bool,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Option<Plan> {
+        mind.decide("plan", Reason::UnsweptFloor, plan.time_s);
+        if let Some(ended) = self.squeeze.end() {
+            return self.judge_squeeze(plan, &ended, (situation, mind));
+        }
+        let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
+        self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
+        self.open_before_m2 = plan.open_m2;
+        self.floor_m2 = self.floor_m2.max(plan.floor_m2);
+        self.shares.take(&plan);
+        self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
+        if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
+            (self.fresh_starts, self.strays) = (0, 0);
+            self.passed_at_start_m2 = plan.passed_m2();
+            self.squeeze.start_anew();
+        }
+        if plan.floor_m2 <= 0.0 {
+            if self.turns_to_next(true, (situation.map, mind)) {
+                return Some(Plan::Go(Motion::Halt));
+            }
+            let is_whole_home = self.assignment.is_whole_home();
+            return Some(Plan::Finished(if is_whole_home {
+                Reason::NoMap
+            } else {
+                Reason::RestOutOfReach
+            }));
+        }
+        if plan.lanes == 0 {
+            return Some(self.end(&plan, is_blocked, (situation, mind)));
+        }
+        if self.vain_plans > VAIN_PLANS_MAX {
+            return Some(self.go_astray(situation, mind));
+        }
+        self.follower = Some(Follower::new(plan.pieces));
+        None
+    }
+
+    /// Nothing is left to plan: the end, unless something may have been cut off.
+    fn end(
+        &mut self,
+        plan: &CoveragePlan,
+        is_blocked: bool,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Plan {
+        self.is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
+        if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
+            return self.start_afresh();
+        }
+        if self.hopes_for_more() {
+            return Plan::Go(Motion::Halt);
+        }
+        if self.assignment.is_whole_home() && self.squeeze.begin(plan) {
+            return Plan::Go(Motion::Halt);
+        }
+        if self.is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
+            return self.go_astray(situation, mind);
+        }
+        if self.turns_to_next(self.is_cut_off, (situation.map, mind)) {
+            return Plan::Go(Motion::Halt);
+        }
+        let reason = if self.assignment.is_missed {
+            Reason::RestOutOfReach
+        } else {
+            Reason::Finished
+        };
+        mind.decide("covered", reason, plan.passed_m2() / self.floor_m2);
+        Plan::Finished(reason)
+    }
+
+    /// Follows a plan for what lies behind a gap if that is worth it; what to do instead if it is not.
+    fn judge_squeeze(
+        &mut self,
+        plan: CoveragePlan,
+        ended: &CoveragePlan,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> Option<Plan> {
+        if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
+            mind.decide("squeeze", Reason::BoxedIn, plan.open_m2);
+            self.follower = Some(Follower::new(plan.pieces));
+            return None;
+        }
+        self.squeeze.give_up();
+        Some(self.end(ended, false, (situation, mind)))
+    }
+
+    /// Hopes for floor farther beyond what is known, once, after a lap that ended for want of anything new: it may have missed a
+    /// way on.
+    fn hopes_for_more(&mut self) -> bool {
+        match &mut self.outline {
+            Some(Outline::Growing(hope)) => hope.grow(),
+            _ => false,
+        }
+    }
+
+    /// Whether all of a home is to be cleaned whose map is drawn meanwhile.
+    fn is_first_run(&self) -> bool {
+        matches!(self.outline, Some(Outline::Growing(_))) && self.assignment.is_whole_home()
+    }
+
+    /// Whether a robot that has gone along all walls can hardly get anywhere on the map that it has drawn: it came there.
+    fn is_shut_in(&self, plan: &CoveragePlan, situation: &Situation<'_>) -> bool {
+        self.is_first_run() && shuts_in(plan.floor_m2, situation.map.free_m2())
+    }
+
+    /// Forgets what stood in the way: perhaps it is gone, or never was there.
+    fn start_afresh(&mut self) -> Plan {
+        self.interrupted();
+        self.fresh_starts += 1;
+        self.obstructions.clear();
+        Plan::Go(Motion::Halt)
+    }
+
+    /// No plan works here: bounces out of the place. That ends after a few times, too.
+    fn go_astray(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.interrupted();
+        self.vain_plans = 0;
+        self.strays += 1;
+        let most = if self.is_cut_off {
+            STRAYS_CUT_OFF_MAX
+        } else {
+            STRAYS_MAX
+        };
+        if self.strays > most {
+            return Plan::Finished(Reason::RestOutOfReach);
+        }
+        mind.decide("bounce", Reason::BoxedIn, f64::from(self.strays));
+        // What was touched in a narrow place blocks the way out of it on the map sooner than in truth.
+        self.obstructions.clear();
+        self.astray = Some(Astray::from(situation.pose.position()));
+        Plan::Go(Motion::Halt)
+    }
+}
