@@ -28,10 +28,11 @@ const PUT_BACK: Spread = Spread {
     sigma_m: 0.3,
     sigma_rad: 0.5,
 };
-/// How far the guesses of a doubtful robot are spread.
+/// How far the guesses of a doubtful robot are spread: as far as walls of a map that a robot has drawn itself are wrong. With 0.15 m
+/// and 0.12 rad a robot in such a map jumped to other furniture when it touched a leg that the map does not have.
 const DOUBT: Spread = Spread {
-    sigma_m: 0.15,
-    sigma_rad: 0.12,
+    sigma_m: 0.04,
+    sigma_rad: 0.03,
 };
 /// Weighings between two such spreads.
 const DOUBT_WEIGHINGS: u32 = 40;
