@@ -24,7 +24,13 @@ const ALLOWED: [&str; 14] = [
 ];
 
 /// What stands before a literal that nobody reads: names for the style sheet, words for the developer's console.
-const UNREAD: [&str; 5] = ["class=", "class: ", "class=format!(", "logging::warn!(", "GlError("];
+const UNREAD: [&str; 5] = [
+    "class=",
+    "class: ",
+    "class=format!(",
+    "logging::warn!(",
+    "GlError(",
+];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
