@@ -34,6 +34,11 @@ const DOUBT: Spread = Spread {
     sigma_m: 0.04,
     sigma_rad: 0.03,
 };
+/// The same for one that competes with others on other floors, which must not be sure too soon.
+const RIVAL_DOUBT: Spread = Spread {
+    sigma_m: 0.15,
+    sigma_rad: 0.12,
+};
 /// Weighings between two such spreads.
 const DOUBT_WEIGHINGS: u32 = 40;
 /// A lost robot has found itself when so much of its guesses is in one cluster that is so narrow.
@@ -319,7 +324,8 @@ impl Tracker {
         if verdict == Verdict::Wrong || estimate.sigma_m > LOST_SIGMA_M {
             self.lose(estimate.pose);
         } else if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
-            self.filter.widen(estimate.pose, DOUBT);
+            let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
+            self.filter.widen(estimate.pose, doubt);
             self.weighings = 0;
         }
         PoseEstimate {

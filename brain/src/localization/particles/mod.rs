@@ -271,6 +271,7 @@ impl ParticleFilter {
         self.beams
             .look(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
+            manner: self.manner,
             contacts: felt.contacts,
             edges: felt.edges,
         };

@@ -1,7 +1,7 @@
 //! How likely contacts, cliffs and the mere presence of the body are at a place of the map.
 
-use super::Surroundings;
 use super::infrared::Place;
+use super::{Manner, Surroundings};
 use crate::config::SensorLayout;
 use crate::geometry::Point2;
 use crate::observation::{Cliffs, Contacts};
@@ -12,10 +12,17 @@ const INSIDE_FREE_M: f64 = 0.015;
 const INSIDE_BAND_M: f64 = 0.03;
 /// Likelihood of a body deep in a wall: furniture moves, maps err.
 const INSIDE: f64 = 0.005;
-/// Deviation of the gap between rim and wall when a bumper closes, metres: maps that robots draw are wrong by 3 to 4 cm.
-const CONTACT_SIGMA_M: f64 = 0.025;
-/// Likelihood of a contact with what the map does not have: legs, mostly, of which such a map lacks many.
-const CONTACT_UNMAPPED: f64 = 0.3;
+/// What a closing bumper says of a place: deviation of the gap between rim and wall in metres, and likelihood of a contact with
+/// what the map does not have. Where the robot is known to be, they are those of maps that robots draw: wrong by 3 to 4 cm, and
+/// without many a leg. Where it looks for itself, a touch must tell places apart.
+const HOLDING: Bump = Bump {
+    sigma_m: 0.025,
+    unmapped: 0.3,
+};
+const SEARCHING: Bump = Bump {
+    sigma_m: 0.015,
+    unmapped: 0.08,
+};
 /// The same when the wall lies on the other side of the robot.
 const CONTACT_ASIDE: f64 = 0.2;
 /// The nearest point of a wall is this uncertain in direction, radians: corners, and cells for walls.
@@ -27,9 +34,17 @@ const EDGE_UNMAPPED: f64 = 0.1;
 /// Step for the direction towards the nearest thing, metres.
 const SLOPE_STEP_M: f64 = 0.02;
 
+/// How much a closing bumper tells.
+#[derive(Clone, Copy, Debug)]
+struct Bump {
+    sigma_m: f64,
+    unmapped: f64,
+}
+
 /// What the body felt.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
+    pub(super) manner: Manner,
     pub(super) contacts: Contacts,
     /// Cliffs that were seen first now.
     pub(super) edges: Cliffs,
@@ -80,9 +95,13 @@ impl Touch {
         place: &Place,
         (radius_m, layout): (f64, &SensorLayout),
     ) -> f64 {
-        let off = (place.clearance_m - radius_m) / CONTACT_SIGMA_M;
+        let bump = match self.manner {
+            Manner::Holding => HOLDING,
+            Manner::Searching => SEARCHING,
+        };
+        let off = (place.clearance_m - radius_m) / bump.sigma_m;
         if off.abs() > 5.0 {
-            return CONTACT_UNMAPPED;
+            return bump.unmapped;
         }
         let body = 1.0 + 0.25 * off * off;
         let (dx, dy) = towards(map, place.centre);
@@ -97,7 +116,7 @@ impl Touch {
         };
         let beside_rad = (low_rad - bearing_rad).max(bearing_rad - high_rad).max(0.0);
         let side = (1.0 - beside_rad / ASIDE_RAD).max(CONTACT_ASIDE);
-        CONTACT_UNMAPPED + (1.0 - CONTACT_UNMAPPED) * side / (body * body)
+        bump.unmapped + (1.0 - bump.unmapped) * side / (body * body)
     }
 }
 
