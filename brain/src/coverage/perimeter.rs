@@ -109,8 +109,7 @@ impl Perimeter {
     /// Turns its back to the wall that it follows, for another lap at what is met next.
     pub(crate) fn leave(&mut self) -> Motion {
         self.begin_again();
-        self.away = Some(Turn::by(AWAY_RAD));
-        Motion::Halt
+        self.turn_away()
     }
 
     /// Whether it is getting away from something that it touched.
@@ -178,6 +177,10 @@ impl Perimeter {
         self.islands += 1;
         self.again_m = 0.0;
         self.wall.interrupted();
+        self.turn_away()
+    }
+
+    fn turn_away(&mut self) -> Motion {
         self.away = Some(Turn::by(AWAY_RAD));
         Motion::Halt
     }
@@ -230,9 +233,7 @@ impl Perimeter {
             }
         })
     }
-}
 
-impl Perimeter {
     /// Counts a place of the track; `true` when there were enough that show nothing new.
     fn grows_stale(&mut self, is_stale: bool) -> bool {
         self.stale_m = if is_stale {

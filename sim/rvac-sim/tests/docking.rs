@@ -1,43 +1,13 @@
 //! The way home of a robot in a simulated home.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod flat;
+
 use brain::BehaviorState;
-use brain::command::StrategyName;
+use flat::scene;
 use home::{DockBeams, Pose};
-use robot::RobotSettings;
 use rvac_api::RequestBody;
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings};
-use vthal_core::CoreConfig;
-
-const HOME: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../homes/two-room-flat.toml");
-
-fn scene() -> Scene {
-    Scene::load(&SceneSettings {
-        home: HOME.into(),
-        robot: "sr8730".to_owned(),
-        noise: "nominal".to_owned(),
-        firmware: None,
-        record: Record::Complete,
-        gyro: GyroFitted::Placeholder,
-    })
-    .unwrap()
-}
-
-/// A robot that knows the home and its place in it.
-fn household(scene: &Scene, start: Pose, seed: u64) -> Household {
-    let settings = RobotSettings {
-        seed,
-        ..RobotSettings::default()
-    };
-    let robot = scene.robot_at(Some(start), seed, &settings);
-    let config = CoreConfig {
-        sensors: scene.sensors(),
-        ..Host::config(seed, StrategyName::Systematic)
-    };
-    let mut household = Household::new(robot, Host::start(0, config)).with_known_map();
-    household.pass_ms(3_000);
-    household
-}
+use rvac_sim::{Host, Household, Scene};
 
 /// Asks for the dock; the seconds until the robot says that it stands on it.
 fn seconds_home(household: &mut Household, longest_s: u64) -> Option<u64> {
@@ -59,7 +29,7 @@ fn before_the_dock(scene: &Scene, aside_m: f64, heading_rad: f64) -> Pose {
 fn it_comes_home_through_poor_beams_to_a_dock_that_was_pushed() {
     let scene = scene();
     for (seed, heading_rad) in [(1, 0.0), (2, 2.0), (3, -2.5)] {
-        let mut household = household(&scene, before_the_dock(&scene, 0.3, heading_rad), seed);
+        let mut household = flat::household(&scene, Some(before_the_dock(&scene, 0.3, heading_rad)), seed);
         let world = household.robot_mut().world_mut();
         world.set_dock_beams(DockBeams::POOR);
         world.push_dock(0.05, 0.05);
@@ -77,7 +47,7 @@ fn it_comes_home_through_poor_beams_to_a_dock_that_was_pushed() {
 #[test]
 fn every_phase_of_the_way_home_is_a_decision_with_a_reason() {
     let scene = scene();
-    let mut household = household(&scene, before_the_dock(&scene, 0.0, 0.5), 4);
+    let mut household = flat::household(&scene, Some(before_the_dock(&scene, 0.0, 0.5)), 4);
     household.host_mut().unwrap().keep_log();
     assert!(seconds_home(&mut household, 120).is_some());
     let log: Vec<&str> = household
@@ -102,7 +72,7 @@ fn every_phase_of_the_way_home_is_a_decision_with_a_reason() {
 #[test]
 fn a_stop_ends_the_way_home_at_once() {
     let scene = scene();
-    let mut household = household(&scene, before_the_dock(&scene, 0.0, 0.5), 5);
+    let mut household = flat::household(&scene, Some(before_the_dock(&scene, 0.0, 0.5)), 5);
     household.ask(RequestBody::Dock);
     household.pass_ms(6_000);
     assert!(household.robot().wheels_driven());

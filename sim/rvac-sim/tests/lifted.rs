@@ -1,41 +1,16 @@
 //! A robot that somebody lifts in the middle of its job and puts down in another room.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod flat;
+
 use brain::command::StrategyName;
 use home::Pose;
-use robot::RobotSettings;
 use rvac_api::RequestBody;
+use rvac_sim::Household;
 use rvac_sim::run::start_cleaning;
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings};
-use vthal_core::CoreConfig;
 
-const HOME: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../homes/two-room-flat.toml");
 /// How near it has to know its place again, metres.
 const NEAR_M: f64 = 0.2;
-
-fn household(seed: u64) -> Household {
-    let scene = Scene::load(&SceneSettings {
-        home: HOME.into(),
-        robot: "sr8730".to_owned(),
-        noise: "nominal".to_owned(),
-        firmware: None,
-        record: Record::Complete,
-        gyro: GyroFitted::Placeholder,
-    })
-    .unwrap();
-    let settings = RobotSettings {
-        seed,
-        ..RobotSettings::default()
-    };
-    let robot = scene.robot_at(None, seed, &settings);
-    let config = CoreConfig {
-        sensors: scene.sensors(),
-        ..Host::config(seed, StrategyName::Systematic)
-    };
-    let mut host = Host::start(0, config);
-    host.keep_log();
-    Household::new(robot, host).with_known_map()
-}
 
 /// Where the robot would be in the plan by what it believes.
 fn believed(household: &Household, map_from_plan: Pose) -> Pose {
@@ -55,8 +30,7 @@ fn swept_m2(household: &Household) -> f64 {
 
 #[test]
 fn it_follows_walls_until_it_knows_where_it_is_and_writes_down_nothing_until_then() {
-    let mut household = household(4);
-    household.pass_ms(3_000);
+    let mut household = flat::household(&flat::scene(), None, 4);
     let truth = household.robot().world().truth().pose;
     let pose = household.host().unwrap().pose();
     let map_from_plan = Pose::new(pose.x, pose.y, pose.heading).then(truth.inverse());

@@ -1,16 +1,16 @@
 //! A person moves the dock and shows on the map where it stands: by eye, so some decimetres and degrees off.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod flat;
+
 use brain::command::StrategyName;
 use brain::{BehaviorState, Brain, Pose2};
+use flat::scene;
 use home::{Pcg, Pose, wrap_angle};
-use robot::RobotSettings;
 use rvac_api::RequestBody;
 use rvac_sim::run::start_cleaning;
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings};
-use vthal_core::CoreConfig;
+use rvac_sim::{Host, Household, Scene};
 
-const HOME: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../homes/two-room-flat.toml");
 /// Where the file of the home puts the dock: the simulator's plan has a margin around it.
 const DOCK_IN_FILE: (f64, f64) = (0.0, 2.1);
 /// Walls of both rooms with floor before them, as in the file, in metres and degrees.
@@ -28,18 +28,6 @@ const WRONG_M: f64 = 0.2;
 const WRONG_RAD: f64 = 0.25;
 const STREAM: u64 = 91;
 
-fn scene() -> Scene {
-    Scene::load(&SceneSettings {
-        home: HOME.into(),
-        robot: "sr8730".to_owned(),
-        noise: "nominal".to_owned(),
-        firmware: None,
-        record: Record::Complete,
-        gyro: GyroFitted::Placeholder,
-    })
-    .unwrap()
-}
-
 /// A robot in a known home, and where the dock is carried.
 struct Move {
     household: Household,
@@ -49,19 +37,7 @@ struct Move {
 
 impl Move {
     fn new(scene: &Scene, seed: u64, start: Option<Pose>) -> Self {
-        let settings = RobotSettings {
-            seed,
-            ..RobotSettings::default()
-        };
-        let robot = scene.robot_at(start, seed, &settings);
-        let config = CoreConfig {
-            sensors: scene.sensors(),
-            ..Host::config(seed, StrategyName::Systematic)
-        };
-        let mut host = Host::start(0, config);
-        host.keep_log();
-        let mut household = Household::new(robot, host).with_known_map();
-        household.pass_ms(3_000);
+        let household = flat::household(scene, start, seed);
         let truth = household.robot().world().truth().pose;
         let believed = household.host().unwrap().pose();
         let believed = Pose::new(believed.x, believed.y, believed.heading);

@@ -23,7 +23,7 @@ const SEARCHING: Bump = Bump {
     sigma_m: 0.015,
     unmapped: 0.08,
 };
-/// The same when the wall lies on the other side of the robot.
+/// How well a contact fits a wall that lies on the other side of the robot.
 const CONTACT_ASIDE: f64 = 0.2;
 /// The nearest point of a wall is this uncertain in direction, radians: corners, and cells for walls.
 const ASIDE_RAD: f64 = 0.35;
