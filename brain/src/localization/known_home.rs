@@ -10,7 +10,7 @@ use crate::observation::{Contacts, Observation};
 use crate::random::Random;
 
 const RADIUS_M: f64 = 0.175;
-const TRACK_M: f64 = 0.23;
+pub(super) const TRACK_M: f64 = 0.23;
 const STEP_S: f64 = 0.02;
 const SPEED_M_PER_S: f64 = 0.25;
 const TURN_RAD_PER_S: f64 = 1.2;
@@ -113,7 +113,6 @@ impl<'map> Truth<'map> {
     }
 
     pub(super) fn step(&mut self) -> &Observation {
-        self.view.time_us += 20_000;
         let (way_m, turn_rad) = if self.turn_left_rad == 0.0 {
             (SPEED_M_PER_S * STEP_S, 0.0)
         } else {
@@ -122,6 +121,12 @@ impl<'map> Truth<'map> {
             self.turn_left_rad -= turn_rad;
             (0.0, turn_rad)
         };
+        self.drive(way_m, turn_rad)
+    }
+
+    /// One step of this way and turn, unless something is in the way.
+    pub(super) fn drive(&mut self, way_m: f64, turn_rad: f64) -> &Observation {
+        self.view.time_us += 20_000;
         let next = self.pose.after_arc(way_m, turn_rad);
         let touches = self.clear_m(next.position()) < RADIUS_M;
         if touches {
@@ -160,7 +165,7 @@ impl<'map> Truth<'map> {
         }
     }
 
-    fn off_m(&self, localization: &Localization) -> f64 {
+    pub(super) fn off_m(&self, localization: &Localization) -> f64 {
         self.pose.position().distance_m(localization.pose().position())
     }
 }
@@ -178,7 +183,7 @@ fn placed(map: &Map, at: Pose2) -> Localization {
     localization
 }
 
-fn take(localization: &mut Localization, view: &Observation) {
+pub(super) fn take(localization: &mut Localization, view: &Observation) {
     let advance = localization.update(view);
     localization.refine(view, advance);
 }

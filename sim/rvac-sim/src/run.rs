@@ -48,6 +48,18 @@ impl RunEnd {
     }
 }
 
+/// What docking tells of the way so far is fitted and drawn within so long, milliseconds: what a robot keeps of its home is not there
+/// before.
+const SETTLE_MS: u64 = 30_000;
+
+/// A robot that has just come to its dock gets the time to draw its map anew.
+fn settle(household: &mut Household) {
+    let state = household.host().and_then(Host::state);
+    if state == Some(brain::BehaviorState::Docked) {
+        household.pass_ms(SETTLE_MS);
+    }
+}
+
 /// The robot said nothing that its host understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
@@ -157,6 +169,7 @@ pub fn run_until(
         if now_ms.is_multiple_of(1000) {
             progress(now_ms as f64 / settings.duration_ms as f64);
             if end.is_reached(household) {
+                settle(household);
                 break;
             }
         }

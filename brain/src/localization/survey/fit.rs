@@ -113,6 +113,7 @@ impl Fitted {
             node.pose = self.moved * node.pose;
             self.graph.nodes.push(node);
         }
+        self.graph.docked.clone_from(&since.docked);
         let spells = &mut self.graph.turn_errors.spells;
         spells.extend(since.turn_errors.spells.iter().skip(spells.len()).copied());
         for wall in since.walls.iter().skip(self.became.len()) {

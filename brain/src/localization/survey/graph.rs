@@ -2,7 +2,8 @@
 //!
 //! *Node*: the pose at the end of a visit. *Wall*: a straight line that strokes of several visits lie on, with its front
 //! towards the free space. *Mark*: that a stroke seen from a node lies on a wall. *Quarter*: one of the four directions of a
-//! home whose walls are at right angles; walls of a quarter share one direction. All of it together is solved for the least
+//! home whose walls are at right angles; walls of a quarter share one direction. *Stand*: that the robot stood on its dock
+//! ([`super::dock`]). All of it together is solved for the least
 //! squares by Gauss and Newton; marks that do not fit count little (Cauchy's kernel).
 
 use super::kalman::StepVariance;
@@ -91,6 +92,8 @@ pub(super) struct Graph {
     pub(super) nodes: Vec<Node>,
     pub(super) walls: Vec<Wall>,
     pub(super) marks: Vec<Mark>,
+    /// Nodes at which the robot stood on its dock.
+    pub(super) docked: Vec<usize>,
     /// Direction of the first quarter; `None` = the home has no right angles, as far as is known.
     pub(super) square_rad: Option<f64>,
     pub(super) turn_errors: TurnErrors,
@@ -126,6 +129,13 @@ impl Graph {
         let mut first: Vec<usize> = (0..self.nodes.len())
             .flat_map(|node| [3 * node.saturating_sub(1); 3])
             .collect();
+        for node in self.docked.iter().skip(1) {
+            // A later stand speaks of the first one.
+            let dock = self.docked.first().copied().unwrap_or(0);
+            if let Some(rows) = first.get_mut(3 * node..3 * node + 3) {
+                rows.fill(3 * dock.min(*node));
+            }
+        }
         if self.square_rad.is_some() {
             first.push(0);
         }

@@ -5,6 +5,9 @@
 //! ([`graph`], [`optimization`]), with right angles where the home has them ([`square`]), while the robot drives on ([`fit`]).
 //! The map is then drawn again with the better poses.
 
+#[cfg(test)]
+mod closing;
+mod dock;
 mod fit;
 mod graph;
 mod kalman;
@@ -18,6 +21,7 @@ mod visit;
 mod walls;
 mod work;
 
+use dock::DockWatch;
 use fit::{Fit, Fitted};
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
@@ -65,6 +69,7 @@ pub(super) struct Fix {
 pub(super) struct Survey {
     layout: ProximityLayout,
     log: VisitLog,
+    dock: DockWatch,
     graph: Graph,
     belief: Belief,
     /// Where the belief is, by odometry.
@@ -79,6 +84,10 @@ pub(super) struct Survey {
     drawn: Vec<Pose2>,
     /// A pose has moved since by enough to draw the map again.
     outdated: bool,
+    /// The robot has come home, and what that tells is not in a fit yet.
+    is_closed_anew: bool,
+    /// It is in a fit: the map is drawn again at once, for the work may be over.
+    is_hurried: bool,
 }
 
 /// How well turns are counted.
@@ -159,6 +168,7 @@ impl Survey {
         Self {
             layout,
             log: VisitLog::default(),
+            dock: DockWatch::default(),
             graph: Graph::default(),
             belief: Belief {
                 pose,
@@ -172,6 +182,8 @@ impl Survey {
             drawn_us: 0,
             drawn: Vec::new(),
             outdated: false,
+            is_closed_anew: false,
+            is_hurried: false,
         }
     }
 
@@ -194,8 +206,12 @@ impl Survey {
         if let Some(visit) = &visit {
             self.take(visit, turns);
         }
+        let arrives = self.dock.arrives(advance.distance_m, observation.docked);
+        if arrives {
+            self.stand_on_dock((observation.time_us, odom), turns);
+        }
         let is_fitted = self.fit_on();
-        if visit.is_none() && !is_fitted {
+        if visit.is_none() && !arrives && !is_fitted {
             return None;
         }
         let mut now = self.belief;
@@ -293,7 +309,9 @@ impl Survey {
     fn begin_fit(&mut self) {
         let marks = self.graph.marks.len();
         let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
-        if marks >= self.marks_fitted + due {
+        let is_closed = core::mem::take(&mut self.is_closed_anew);
+        self.is_hurried |= is_closed;
+        if is_closed || marks >= self.marks_fitted + due {
             self.marks_fitted = marks;
             self.graph.count_anew(self.graph.turn_errors.scale);
             self.fit = Fit::of(&self.graph);
@@ -311,29 +329,34 @@ impl Survey {
             .iter()
             .zip(&self.drawn)
             .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
+        self.is_hurried &= self.outdated;
     }
 
     /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
     pub(super) fn redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
         let began_us = self.graph.nodes.first()?.time_us;
         let pause_us = REDRAW_US.max(self.drawn_us.saturating_sub(began_us) / REDRAW_SHARE);
-        if !self.outdated || time_us < self.drawn_us.max(began_us).saturating_add(pause_us) {
+        let is_early = time_us < self.drawn_us.max(began_us).saturating_add(pause_us);
+        let is_hurried = self.is_hurried && self.fit.is_none();
+        if !self.outdated || (is_early && !is_hurried) {
             return None;
         }
+        self.is_hurried = false;
         self.drawn_us = time_us;
         self.outdated = false;
         let nodes = &self.graph.nodes;
         self.drawn = nodes.iter().map(|node| node.pose).collect();
-        Some(
-            nodes
-                .iter()
-                .map(|node| Keyframe {
-                    time_us: node.time_us,
-                    was: node.odom,
-                    is: node.pose,
-                })
-                .collect(),
-        )
+        Some(self.keyframes())
+    }
+
+    /// Where the robot was at each node, as far as is known now.
+    pub(super) fn keyframes(&self) -> Vec<Keyframe> {
+        let keyframe = |node: &Node| Keyframe {
+            time_us: node.time_us,
+            was: node.odom,
+            is: node.pose,
+        };
+        self.graph.nodes.iter().map(keyframe).collect()
     }
 }
 

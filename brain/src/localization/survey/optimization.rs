@@ -26,7 +26,7 @@ pub(super) struct Optimization {
 enum Round {
     #[default]
     Begin,
-    /// Steps, then marks, go into the system.
+    /// Steps, then marks, then stands on the dock, go into the system.
     Gather {
         unknowns: Unknowns,
         system: System,
@@ -81,7 +81,7 @@ impl Optimization {
     }
 }
 
-/// Puts steps and marks from `next` on into the system while work is left.
+/// Puts steps, marks and stands from `next` on into the system while work is left.
 fn gather(
     unknowns: Unknowns,
     (mut system, mut next): (System, usize),
@@ -95,6 +95,9 @@ fn gather(
             work.spend(STEP_WORK);
         } else if let Some(mark) = graph.marks.get(next - steps) {
             graph.add_mark(mark, &unknowns, &mut system);
+            work.spend(MARK_WORK);
+        } else if next - steps - graph.marks.len() < graph.docked.len() {
+            graph.add_stand(next - steps - graph.marks.len(), &mut system);
             work.spend(MARK_WORK);
         } else {
             return Round::Solve {
