@@ -142,6 +142,7 @@ impl Brain {
             } else {
                 Brushes::Still
             },
+            observation.time_us,
         );
         Actions {
             motion: intent.motion,

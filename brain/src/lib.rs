@@ -43,7 +43,7 @@ pub use learnt::{GyroLearnt, Learnt};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
-    Raster, ReadyHome, StoredMap, StoredMapError, SweptRun, TakingUp,
+    Raster, ReadyHome, StoredMap, StoredMapError, Sweeping, SweptRun, TakingUp,
 };
 pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;

@@ -47,7 +47,7 @@ pub use room_changes::{RoomChange, RoomChanges, RoomJoin, RoomSplit};
 pub use room_cut::{CutLine, PartSide};
 pub use rooms::{Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};
-pub use swept::{CELL_M, Cell, SweptRun};
+pub use swept::{CELL_M, Cell, Sweeping, SweptRun};
 pub use taking_up::{ReadyHome, TakingUp};
 pub use traces::{Mark, MarkKind, PathPoint};
 pub use walls::WallSegment;
@@ -156,6 +156,12 @@ impl Map {
         })
     }
 
+    /// Length of the way of this job, metres.
+    #[must_use]
+    pub fn way_m(&self) -> f64 {
+        self.path.length_m()
+    }
+
     /// Swept area in square metres.
     #[must_use]
     pub fn swept_m2(&self) -> f64 {
@@ -166,6 +172,18 @@ impl Map {
     #[must_use]
     pub fn is_swept(&self, point: Point2) -> bool {
         self.swept.contains(Cell::under(point))
+    }
+
+    /// How a cell was swept in this job; `None` = it was not.
+    #[must_use]
+    pub fn sweeping(&self, cell: Cell) -> Option<Sweeping> {
+        self.swept.sweeping(cell)
+    }
+
+    /// The time that [`Sweeping::last_s`] of a cell has that is swept now.
+    #[must_use]
+    pub fn sweeping_now_s(&self) -> u32 {
+        self.swept.now_s()
     }
 
     /// Swept cells joined to rows, in a fixed order.
@@ -189,12 +207,13 @@ impl Map {
         self.redrawing = None;
     }
 
-    /// Follows the robot; with `Brushes::Sweeping` the floor under the swath becomes swept.
-    pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes) {
+    /// Follows the robot to where it is at a time; with `Brushes::Sweeping` the floor under the swath becomes swept.
+    pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes, time_us: u64) {
         self.path.follow(pose.position());
         match brushes {
             Brushes::Sweeping => {
                 self.home.note_sweeping();
+                self.swept.set_time(time_us);
                 self.swath.sweep_to(pose, &mut self.swept);
             }
             Brushes::Still => self.swath.lift(),

@@ -55,6 +55,7 @@ impl Redrawing {
             if self.next >= job_from {
                 self.path.follow(sighting.pose.position());
                 if sighting.touched.sweeps() {
+                    self.swept.set_time(sighting.time_us);
                     self.swath.sweep_to(sighting.pose, &mut self.swept);
                 } else {
                     self.swath.lift();

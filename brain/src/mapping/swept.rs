@@ -1,4 +1,7 @@
 //! The swept layer: a tiled grid and the brush that paints it.
+//!
+//! *Pass*: the brush over a cell, from when it comes there until it has been away for a while. A cell knows how many passes it has
+//! had and when the last one was.
 
 use std::collections::BTreeMap;
 
@@ -12,6 +15,16 @@ const TILE_CELLS: i32 = 64;
 const TILES_MAX: usize = 4096;
 /// The brush paints when one of its ends has moved this far since it last painted.
 const BRUSH_STEP_M: f64 = 0.5 * CELL_M;
+
+/// Step in which the time of the last pass is kept, seconds; with [`TIME_BITS`] it reaches over nine hours.
+const TICK_S: u32 = 4;
+/// Bits of a cell's word that hold that time; the rest counts passes.
+const TIME_BITS: u32 = 13;
+/// The last moment that can be told, and the most passes.
+const TICKS_MAX: u16 = (1 << TIME_BITS) - 1;
+const PASSES_MAX: u16 = (1 << (16 - TIME_BITS)) - 1;
+/// A brush that comes back after this time makes another pass, ticks: turning round on the spot and backing off take less.
+const AWAY_TICKS: u16 = 4;
 
 /// Integer coordinates of a cell: it spans `x * CELL_M` to `(x + 1) * CELL_M`, likewise in y.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -62,7 +75,54 @@ impl SweptRun {
     }
 }
 
-type Tile = [u64; TILE_CELLS as usize];
+/// How a cell was swept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sweeping {
+    /// How often the brush came there, from 1; 7 stands for more, too.
+    pub passes: u8,
+    /// When it came last, seconds since the job's first sweep, to four seconds; 0 for what was swept before a restart.
+    pub last_s: u32,
+}
+
+/// Passes and time of the last one of a cell: 0 = never swept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct CellWord(u16);
+
+impl CellWord {
+    fn swept_at(self, tick: u16) -> Self {
+        let (passes, before) = (self.passes(), self.0 & TICKS_MAX);
+        let is_new = passes == 0 || tick.saturating_sub(before) >= AWAY_TICKS;
+        let passes = (passes + u16::from(is_new)).min(PASSES_MAX);
+        Self(passes << TIME_BITS | tick.clamp(before, TICKS_MAX))
+    }
+
+    fn passes(self) -> u16 {
+        self.0 >> TIME_BITS
+    }
+
+    fn sweeping(self) -> Option<Sweeping> {
+        (self.0 != 0).then(|| Sweeping {
+            passes: self.passes() as u8,
+            last_s: u32::from(self.0 & TICKS_MAX) * TICK_S,
+        })
+    }
+}
+
+/// 64 rows of bits, and a word for each cell: 9 kB.
+#[derive(Clone, Debug)]
+struct Tile {
+    swept: [u64; TILE_CELLS as usize],
+    words: Vec<CellWord>,
+}
+
+impl Default for Tile {
+    fn default() -> Self {
+        Self {
+            swept: [0; TILE_CELLS as usize],
+            words: vec![CellWord::default(); (TILE_CELLS * TILE_CELLS) as usize],
+        }
+    }
+}
 
 /// Which cells were swept, and in which order.
 #[derive(Clone, Debug, Default)]
@@ -72,9 +132,32 @@ pub(super) struct SweptLayer {
     /// The tile painted last: nearly every cell falls into it.
     recent: Option<((i32, i32), usize)>,
     order: Vec<Cell>,
+    /// When the first cell was swept, microseconds of the host's time; `None` = not yet since a restart.
+    begun_us: Option<u64>,
+    /// Ticks since then.
+    tick: u16,
 }
 
 impl SweptLayer {
+    /// What is painted from now on is painted at this time.
+    pub(super) fn set_time(&mut self, time_us: u64) {
+        let begun_us = *self.begun_us.get_or_insert(time_us);
+        let ticks = time_us.saturating_sub(begun_us) / (1_000_000 * u64::from(TICK_S));
+        self.tick = u16::try_from(ticks).unwrap_or(TICKS_MAX).min(TICKS_MAX);
+    }
+
+    /// The time that [`Sweeping::last_s`] of a cell has that is swept now.
+    pub(super) fn now_s(&self) -> u32 {
+        u32::from(self.tick) * TICK_S
+    }
+
+    /// How a cell was swept; `None` = never.
+    pub(super) fn sweeping(&self, cell: Cell) -> Option<Sweeping> {
+        let place = locate(cell);
+        let tile = self.tiles.get(*self.tile_at.get(&place.key)?)?;
+        tile.words.get(place.index())?.sweeping()
+    }
+
     pub(super) fn cells(&self) -> &[Cell] {
         &self.order
     }
@@ -84,11 +167,11 @@ impl SweptLayer {
     }
 
     pub(super) fn contains(&self, cell: Cell) -> bool {
-        let (key, row, bit) = locate(cell);
+        let place = locate(cell);
         self.tile_at
-            .get(&key)
+            .get(&place.key)
             .and_then(|tile| self.tiles.get(*tile))
-            .is_some_and(|tile| tile[row] & bit != 0)
+            .is_some_and(|tile| tile.swept[place.row] & place.bit() != 0)
     }
 
     /// All cells, joined to runs in the order of their rows.
@@ -108,7 +191,7 @@ impl SweptLayer {
                         x: column * TILE_CELLS,
                         y,
                     };
-                    add_runs(&mut runs, start, tile[row as usize]);
+                    add_runs(&mut runs, start, tile.swept[row as usize]);
                 }
             }
         }
@@ -125,12 +208,15 @@ impl SweptLayer {
     }
 
     fn paint(&mut self, cell: Cell) {
-        let (key, row, bit) = locate(cell);
-        let Some(tile) = self.tile(key) else { return };
-        if self.tiles[tile][row] & bit == 0 {
-            self.tiles[tile][row] |= bit;
+        let place = locate(cell);
+        let Some(tile) = self.tile(place.key) else { return };
+        let tile = &mut self.tiles[tile];
+        if tile.swept[place.row] & place.bit() == 0 {
+            tile.swept[place.row] |= place.bit();
             self.order.push(cell);
         }
+        let word = &mut tile.words[place.index()];
+        *word = word.swept_at(self.tick);
     }
 
     fn tile(&mut self, key: (i32, i32)) -> Option<usize> {
@@ -143,7 +229,7 @@ impl SweptLayer {
             Some(tile) => *tile,
             None if self.tiles.len() >= TILES_MAX => return None,
             None => {
-                self.tiles.push([0; TILE_CELLS as usize]);
+                self.tiles.push(Tile::default());
                 self.tile_at.insert(key, self.tiles.len() - 1);
                 self.tiles.len() - 1
             }
@@ -191,11 +277,31 @@ fn add_runs(runs: &mut Vec<SweptRun>, start: Cell, bits: u64) {
     }
 }
 
-/// Tile, row in it and bit in the row.
-fn locate(cell: Cell) -> ((i32, i32), usize, u64) {
-    let key = (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS));
-    let row = cell.y.rem_euclid(TILE_CELLS) as usize;
-    (key, row, 1 << cell.x.rem_euclid(TILE_CELLS))
+/// Where a cell is kept.
+struct Located {
+    /// Its tile.
+    key: (i32, i32),
+    /// Row and column in that.
+    row: usize,
+    column: usize,
+}
+
+impl Located {
+    fn bit(&self) -> u64 {
+        1 << self.column
+    }
+
+    fn index(&self) -> usize {
+        self.row * TILE_CELLS as usize + self.column
+    }
+}
+
+fn locate(cell: Cell) -> Located {
+    Located {
+        key: (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS)),
+        row: cell.y.rem_euclid(TILE_CELLS) as usize,
+        column: cell.x.rem_euclid(TILE_CELLS) as usize,
+    }
 }
 
 fn extent(coordinates_m: [f64; 3]) -> (i32, i32) {
@@ -336,6 +442,40 @@ mod tests {
             2.0 * PI,
             PI * 0.25 * SWATH_M * SWATH_M,
         );
+    }
+
+    /// A cell under a brush that crosses it at these seconds of the host's time, standing on it for `dwell_s` each time.
+    fn crossed_at(times_s: &[u64], dwell_s: u64) -> SweptLayer {
+        let mut layer = SweptLayer::default();
+        for time_s in times_s {
+            for second in 0..=dwell_s {
+                layer.set_time((time_s + second) * 1_000_000);
+                layer.paint_run(SweptRun {
+                    start: Cell { x: -1, y: 70 },
+                    length: 2,
+                });
+            }
+        }
+        layer
+    }
+
+    #[test]
+    fn passes_are_counted_when_the_brush_comes_back_and_not_while_it_stays() {
+        let told = |times_s: &[u64], dwell_s| {
+            let layer = crossed_at(times_s, dwell_s);
+            assert_eq!(layer.cells().len(), 2, "each cell once");
+            assert_eq!(layer.sweeping(Cell { x: 1, y: 70 }), None);
+            let sweeping = layer.sweeping(Cell { x: -1, y: 70 }).unwrap();
+            assert_eq!(layer.sweeping(Cell { x: 0, y: 70 }), Some(sweeping));
+            (sweeping.passes, sweeping.last_s)
+        };
+        assert_eq!(told(&[500], 0), (1, 0));
+        assert_eq!(told(&[500], 300), (1, 300), "it stood there");
+        assert_eq!(told(&[500, 506], 0), (1, 4), "it turned round");
+        assert_eq!(told(&[500, 540, 600], 5), (3, 104));
+        let often: Vec<u64> = (0..20).map(|pass| 100 * pass).collect();
+        assert_eq!(told(&often, 0), (7, 1900), "as many as are counted");
+        assert_eq!(told(&[0, 9_000_000], 0), (2, 32_764), "as late as is told");
     }
 
     #[test]

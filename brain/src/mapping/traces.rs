@@ -62,6 +62,12 @@ impl Path {
         }
     }
 
+    /// Its length, metres; what is shorter than a step is not in it.
+    pub(super) fn length_m(&self) -> f64 {
+        let steps = self.points.len().saturating_sub(1) as f64;
+        0.001 * steps * PATH_STEP_MM as f64
+    }
+
     pub(super) fn extend(&mut self, points: &[PathPoint]) {
         let room = PATH_POINTS_MAX.saturating_sub(self.points.len());
         self.points.extend(points.iter().take(room));
@@ -130,5 +136,6 @@ mod tests {
         }
         assert_eq!(path.points().len(), 26, "0.5 m in steps of 2 cm and the start");
         assert_eq!(path.points()[25].x_mm, 500);
+        assert!((path.length_m() - 0.5).abs() < 1e-9);
     }
 }
