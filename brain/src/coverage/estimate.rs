@@ -54,7 +54,7 @@ pub(crate) fn estimate(
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + KEEP_OFF_M;
     let pace = &mut Pace::at_once();
-    let frame = at_once(LaneFrame::of_walls(&knowledge, pace));
+    let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
     let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), pace));
     let mut sum = Sum::at(start);
     let whole = order.parts().is_empty().then_some(None);

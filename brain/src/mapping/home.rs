@@ -10,6 +10,7 @@ use super::draw::Pencil;
 use super::layers::{CellBox, CellKnowledge, Flag, Layers};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
+use super::wall_direction::{DirectionAt, wall_direction_rad};
 use super::walls::{WallSegment, walls};
 use super::{CELL_M, Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
@@ -48,6 +49,8 @@ pub(super) struct HomeMap {
     slip: SlipMeter,
     pub(super) dock: DockPlace,
     revision: u32,
+    /// Direction of the walls at a revision.
+    direction: DirectionAt,
     redrawn: u32,
     /// Cells that are shut until the next job.
     pub(super) pockets: Vec<Cell>,
@@ -73,6 +76,7 @@ impl HomeMap {
             slip: SlipMeter::default(),
             dock: DockPlace::default(),
             revision: 0,
+            direction: DirectionAt::default(),
             redrawn: 0,
             pockets: Vec::new(),
             annotations: Annotations::default(),
@@ -381,6 +385,15 @@ impl Map {
     #[must_use]
     pub fn rooms(&self) -> &Rooms {
         &self.home.rooms
+    }
+
+    /// Direction of the walls, above -pi/4 and up to pi/4; `None` when the home does not show one. Some ten milliseconds for a home
+    /// that has changed since it was asked last.
+    pub(crate) fn wall_direction_rad(&self) -> Option<f64> {
+        let home = &self.home;
+        home.direction.at(home.revision, || {
+            at_once(wall_direction_rad(&home.derived.knowledge, &mut Pace::at_once()))
+        })
     }
 
     /// Looks for rooms and doors in what is known now. Some ten milliseconds for a home.

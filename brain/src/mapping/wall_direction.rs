@@ -4,6 +4,7 @@
 //! cells of all surfaces are counted line by line, along it and across; the direction with the largest sum of squares is that of
 //! the walls (a Hough transform that keeps only its energy).
 
+use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::reach::neighbours;
@@ -28,6 +29,26 @@ const CLEAR: f64 = 1.15;
 /// Work of looking for surfaces in a cell, and of counting a cell in one direction.
 const LOOK_WORK: usize = 1;
 const COUNT_WORK: usize = 2;
+
+/// The direction that was found last, and at which revision of the map.
+#[derive(Debug, Default)]
+pub(super) struct DirectionAt {
+    found: Cell<Option<(u32, Option<f64>)>>,
+}
+
+impl DirectionAt {
+    /// The direction at a revision, looked for if that is another one than last time.
+    pub(super) fn at(&self, revision: u32, look: impl FnOnce() -> Option<f64>) -> Option<f64> {
+        if let Some((found_at, direction_rad)) = self.found.get()
+            && found_at == revision
+        {
+            return direction_rad;
+        }
+        let direction_rad = look();
+        self.found.set(Some((revision, direction_rad)));
+        direction_rad
+    }
+}
 
 /// Direction of the walls in radians, above -pi/4 and up to pi/4; `None` when the home does not show one.
 pub(crate) async fn wall_direction_rad(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Option<f64> {
@@ -144,7 +165,7 @@ impl Lines {
 
 #[cfg(test)]
 mod tests {
-    use super::{folded_rad, wall_direction_rad};
+    use super::{DirectionAt, folded_rad, wall_direction_rad};
     use crate::geometry::{Point2, Pose2};
     use crate::gradual::{Pace, at_once};
     use crate::mapping::rooms::centre;
@@ -217,5 +238,21 @@ mod tests {
                 "{direction_deg}: {found_deg}"
             );
         }
+    }
+
+    #[test]
+    fn a_direction_is_looked_for_once_in_each_revision() {
+        let (direction, looks) = (DirectionAt::default(), core::cell::Cell::new(0));
+        let at = |revision, found_rad| {
+            direction.at(revision, || {
+                looks.set(looks.get() + 1);
+                found_rad
+            })
+        };
+        assert_eq!(at(3, Some(0.1)), Some(0.1));
+        assert_eq!(at(3, Some(0.2)), Some(0.1));
+        assert_eq!(at(4, None), None);
+        assert_eq!(at(4, Some(0.3)), None, "that there is none is known, too");
+        assert_eq!(looks.get(), 2);
     }
 }
