@@ -89,7 +89,7 @@ pub enum ChargeFlow {
 /// Distance to a radio beacon, measured by time of flight or guessed from the strength of its signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconRange {
-    /// Number of the beacon, the same for ever.
+    /// Number of the beacon, the same as long as the daemon runs.
     pub beacon: u16,
     /// Measured distance, metres.
     pub range_m: f64,

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::imu::{Axis, ImuSettings, Roots};
+use crate::radio::{BEACONS_MAX, BeaconName, RadioForm, RadioSettings};
 
 /// A valid configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,8 @@ pub struct Config {
     pub seed: Option<u64>,
     /// Gyro on the Linux board, if there is one.
     pub imu: Option<ImuSettings>,
+    /// Radio on the Linux board that measures distances to beacons, if there is one.
+    pub radio: Option<RadioSettings>,
     /// Log.
     pub log: LogConfig,
     /// Recordings.
@@ -119,6 +122,7 @@ struct File {
     socket: Socket,
     robot: Robot,
     imu: Imu,
+    radio: Radio,
     state: State,
     log: Log,
     recording: Recording,
@@ -153,6 +157,17 @@ struct Robot {
 struct Imu {
     device: Option<Spanned<String>>,
     up: Option<Spanned<String>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Radio {
+    device: Option<PathBuf>,
+    form: Option<Spanned<String>>,
+    baud: Option<Spanned<u32>>,
+    beacons: Option<Spanned<Vec<BeaconName>>>,
+    sigma_m: Option<Spanned<f64>>,
+    height_m: Option<Spanned<f64>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -243,18 +258,18 @@ impl Source<'_> {
         }
     }
 
-    fn in_range(
+    fn in_range<T: PartialOrd + std::fmt::Debug>(
         &self,
-        value: Option<Spanned<u32>>,
-        default: u32,
-        range: std::ops::RangeInclusive<u32>,
-    ) -> Result<u32, ConfigError> {
+        value: Option<Spanned<T>>,
+        default: T,
+        range: std::ops::RangeInclusive<T>,
+    ) -> Result<T, ConfigError> {
         let Some(value) = value else { return Ok(default) };
         if range.contains(value.get_ref()) {
             return Ok(value.into_inner());
         }
         let what = format!(
-            "{} is out of range: write {} to {}",
+            "{:?} is out of range: write {:?} to {:?}",
             value.get_ref(),
             range.start(),
             range.end()
@@ -284,6 +299,7 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
         seed: flags.seed.or(file.robot.seed),
         imu: imu(file.imu, source)?,
+        radio: radio(file.radio, source)?,
         log: LogConfig {
             level: level(file.log.level, source)?,
             size_mib: source.in_range(file.log.size_mib, 4, 1..=1_024)?,
@@ -313,6 +329,33 @@ fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError
         axis,
         roots: Roots::default(),
     }))
+}
+
+fn radio(radio: Radio, source: &Source<'_>) -> Result<Option<RadioSettings>, ConfigError> {
+    let usual = RadioSettings::new(radio.device.clone().unwrap_or_default());
+    let form = match &radio.form {
+        None => usual.form,
+        Some(name) => RadioForm::from_name(name.get_ref()).ok_or_else(|| {
+            let what = format!("{:?} is no form: write lines or dwm1001", name.get_ref());
+            source.invalid(name.span().start, what)
+        })?,
+    };
+    let beacons = match radio.beacons {
+        Some(beacons) if beacons.get_ref().len() > BEACONS_MAX => {
+            let what = format!("these are too many: write at most {BEACONS_MAX}");
+            return Err(source.invalid(beacons.span().start, what));
+        }
+        beacons => beacons.map(Spanned::into_inner).unwrap_or_default(),
+    };
+    let settings = RadioSettings {
+        form,
+        beacons,
+        baud: source.in_range(radio.baud, usual.baud, 1_200..=4_000_000)?,
+        sigma_m: source.in_range(radio.sigma_m, usual.sigma_m, 0.01..=10.0)?,
+        height_m: source.in_range(radio.height_m, usual.height_m, 0.0..=10.0)?,
+        ..usual
+    };
+    Ok(radio.device.map(|_| settings))
 }
 
 fn strategy(name: &Spanned<String>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
@@ -390,6 +433,7 @@ mod tests {
         assert_eq!(defaults.strategy, None, "what suits the robot");
         defaults.strategy = Some(StrategyName::Systematic);
         defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
+        defaults.radio = parse("[radio]\ndevice = \"/dev/ttyACM0\"").expect("valid").radio;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");
         let fields = [
@@ -405,6 +449,10 @@ mod tests {
             "seed",
             "device",
             "up",
+            "form",
+            "beacons",
+            "sigma_m",
+            "height_m",
             "level",
             "size_mib",
             "files",
@@ -435,6 +483,14 @@ mod tests {
                 "vthal.toml:2: imu.up: \"w\" is no axis: write x, y or z, with a minus sign if it points down",
             ),
             (
+                "[radio]\nform = \"ble\"",
+                "vthal.toml:2: radio.form: \"ble\" is no form: write lines or dwm1001",
+            ),
+            (
+                "[radio]\nsigma_m = 0.0",
+                "vthal.toml:2: radio.sigma_m: 0.0 is out of range: write 0.01 to 10.0",
+            ),
+            (
                 "[robot]\nstrategy = \"b\"",
                 "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce, systematic, wall-bounce",
             ),
@@ -451,6 +507,14 @@ mod tests {
                 "vthal.toml:2: socket.expert: invalid type",
             ),
             ("[link", "vthal.toml:1: syntax: "),
+            (
+                "[radio]\nbeacons = [\"hall\", \"the kitchen\"]",
+                "vthal.toml:2: radio.beacons: a beacon's name has 1 to 32 printable letters",
+            ),
+            (
+                "[radio]\nheight_m = nan",
+                "vthal.toml:2: radio.height_m: NaN is out of range",
+            ),
         ] {
             let message = parse(text).expect_err("invalid").to_string();
             assert!(message.starts_with(place), "{message}");

@@ -21,6 +21,7 @@ use crate::clock::Clock;
 use crate::event::{Event, SerialEvent};
 use crate::imu::ImuEvent;
 use crate::outbox::Class;
+use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
 use crate::socket;
@@ -137,6 +138,7 @@ impl Daemon {
             Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
             Event::Serial(SerialEvent::Absent(error)) => tracing::warn!(part = "link", "{error}"),
             Event::Imu(event) => self.take_imu(event),
+            Event::Radio(event) => self.take_radio(event),
             Event::Connected(stream) => self.connect(stream),
             Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
             Event::ClientWritable(client) => {
@@ -169,6 +171,31 @@ impl Daemon {
                     "no heading from the board's gyro: {text}; looking again every 2 s"
                 );
             }
+        }
+    }
+
+    fn take_radio(&mut self, event: RadioEvent) {
+        match event {
+            RadioEvent::Heard(ranges) => {
+                for range in ranges {
+                    self.handle(Input::BeaconRange(range));
+                }
+            }
+            RadioEvent::Speaks => tracing::info!(part = "radio", "the radio tells distances"),
+            RadioEvent::NewBeacon(name, number) => {
+                tracing::info!(part = "radio", "hears the beacon {name} (number {number})");
+            }
+            RadioEvent::Refused(refused) => tracing::warn!(
+                part = "radio",
+                "lines that could not be used: {}; the last, {:?}: {}",
+                refused.count,
+                refused.line,
+                refused.reason
+            ),
+            RadioEvent::Absent(reason) => tracing::warn!(
+                part = "radio",
+                "no distances to beacons: {reason}; looking again every 2 s"
+            ),
         }
     }
 

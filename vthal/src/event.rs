@@ -7,6 +7,7 @@ use vthal_core::{ClientId, LinkLoss};
 use crate::archive_desk::ArchiveAnswer;
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
+use crate::radio::RadioEvent;
 use crate::run_thread::RunAnswer;
 use crate::serial::OpenError;
 
@@ -27,6 +28,8 @@ pub(crate) enum Event {
     ClientClosed(ClientId),
     /// From the gyro of the Linux board.
     Imu(ImuEvent),
+    /// From the radio of the Linux board.
+    Radio(RadioEvent),
     /// What came of an order for the kept maps.
     Maps(MapAnswer),
     /// What came of an order for the floors.

@@ -25,6 +25,7 @@ mod map_folder;
 mod mix_folder;
 mod newest_file;
 mod outbox;
+pub mod radio;
 pub mod recording;
 mod robot_file;
 mod rotation;

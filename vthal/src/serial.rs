@@ -72,13 +72,14 @@ fn drain(to_robot: &mut Receiver<Vec<u8>>) {
 
 /// An open line. The lock is advisory and dies with the process, however that ends; it has a handle of its own because the
 /// port gives its one away to nobody.
-struct Line {
-    port: SerialPort,
+pub(crate) struct Line {
+    /// Reads and writes.
+    pub port: SerialPort,
     _lock: OwnedFd,
 }
 
 /// Locks the device against a second daemon, then sets raw mode at the wanted rate.
-fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
+pub(crate) fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
     let path = settings.path.as_path();
     let refused = |error: io::Error| OpenError::Open {
         path: path.to_owned(),

@@ -27,7 +27,7 @@ use crate::schedule_file;
 use crate::serial::{self, SerialSettings};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{checkpoint_thread, imu, logging, run_thread};
+use crate::{checkpoint_thread, imu, logging, radio, run_thread};
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
@@ -120,6 +120,9 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     };
     if let Some(imu) = &config.imu {
         imu::start(imu.clone(), event_sender.clone())?;
+    }
+    if let Some(radio) = &config.radio {
+        spawn_local(radio::serve(radio.clone(), event_sender.clone()));
     }
     spawn_local(serial::serve(serial, event_sender, robot_queue));
     tracing::info!(

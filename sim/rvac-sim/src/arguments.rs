@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand};
 use rvac_api::CleaningPattern;
 use rvac_sim::baseline::{Origin, title};
 use rvac_sim::run::{RunEnd, RunSettings};
-use rvac_sim::serve::ServeSettings;
+use rvac_sim::serve::{RadioSettings, ServeSettings};
 use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
 
 /// A simulated robot in a simulated home.
@@ -108,6 +108,12 @@ pub(crate) struct ServeArguments {
     /// Where to put the Unix socket.
     #[arg(long)]
     socket: PathBuf,
+    /// Where to put the symbolic link to a second terminal, behind which a DWM1001 module on the Linux board hears --beacons.
+    #[arg(long, value_name = "LINK", requires = "beacons")]
+    radio: Option<PathBuf>,
+    /// Radio beacons at the edges of the home, of which the daemon knows no place.
+    #[arg(long, value_name = "COUNT", requires = "radio", value_parser = clap::value_parser!(u8).range(1..=4))]
+    beacons: Option<u8>,
 }
 
 impl ServeArguments {
@@ -118,6 +124,14 @@ impl ServeArguments {
             baud: self.baud,
             link: self.link.clone(),
             socket: self.socket.clone(),
+            radio: self
+                .radio
+                .clone()
+                .zip(self.beacons)
+                .map(|(link, beacons)| RadioSettings {
+                    link,
+                    beacons: usize::from(beacons),
+                }),
         }
     }
 }

@@ -7,6 +7,7 @@ mod clients;
 mod hand;
 mod pace;
 mod pty;
+mod radio;
 mod request;
 mod socket;
 mod speedometer;
@@ -28,6 +29,7 @@ use clients::{Clients, Number};
 use hand::{End, Hand, Way};
 use pace::Pace;
 use pty::{Peer, Pty, PtyError};
+use radio::Radio;
 use request::{Answer, SimulatorRequest, blocked};
 use socket::{Listener, SocketError};
 use speedometer::Speedometer;
@@ -45,6 +47,17 @@ pub struct ServeSettings {
     pub link: PathBuf,
     /// Where the socket goes.
     pub socket: PathBuf,
+    /// A DWM1001 module on the Linux board, if there is one.
+    pub radio: Option<RadioSettings>,
+}
+
+/// The module, and what it hears.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RadioSettings {
+    /// Where the symbolic link to its terminal goes.
+    pub link: PathBuf,
+    /// Beacons at the edges of the home.
+    pub beacons: usize,
 }
 
 /// Why the server cannot start or go on.
@@ -95,6 +108,7 @@ pub fn serve(scene: &Scene, settings: &ServeSettings) -> Result<(), ServeError> 
 struct Server {
     robot: Robot,
     pty: Pty,
+    radio: Option<Radio>,
     listener: Listener,
     clients: Clients,
     pace: Pace,
@@ -120,8 +134,13 @@ impl Server {
         );
         let map_from_plan = robot.world().truth().pose.inverse();
         let greeting = Update::SimulatedPlan(plan::plan(robot.world().home(), map_from_plan));
+        let radio = settings.radio.as_ref().map(|radio| {
+            let beacons = scene.beacons(settings.seed, radio.beacons);
+            Radio::open(&radio.link, beacons)
+        });
         let started = Instant::now();
         Ok(Self {
+            radio: radio.transpose()?,
             listener: Listener::open(&settings.socket)?,
             pty: Pty::open(&settings.link)?,
             clients: Clients::new(&greeting),
@@ -187,6 +206,9 @@ impl Server {
         }
         self.to_host.clear();
         self.advance(due);
+        if let Some(radio) = &mut self.radio {
+            radio.carry(self.robot.now_ms())?;
+        }
         if peer != Peer::Absent && !self.to_host.is_empty() {
             // What does not fit is lost, as bytes are that a receiver does not take in time.
             self.pty.write(&self.to_host)?;
@@ -204,6 +226,9 @@ impl Server {
             self.release_buttons();
             self.move_hand();
             self.watch_stuck();
+            if let Some(radio) = &mut self.radio {
+                radio.pass_ms(&self.robot);
+            }
             done += 1;
         }
         if let Some(notice) = self.speedometer.pass(Instant::now(), done) {

@@ -1,0 +1,257 @@
+//! From a radio's bytes to ranges for the brain: pure, so that any bytes can be tried.
+
+use std::time::Duration;
+
+use brain::observation::BeaconRange;
+
+use super::lines::Lines;
+use super::reading::{LineError, Reading};
+use super::roster::{Place, Roster};
+use super::{RadioForm, RadioSettings, dwm1001, json};
+
+/// Refused lines are told at the first, and then at most this often.
+const TELL_EVERY: Duration = Duration::from_secs(60);
+/// Letters of a refused line that are told.
+const EXCERPT: usize = 60;
+
+/// What bytes said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Heard {
+    /// Ranges of beacons that count.
+    pub(super) ranges: Vec<BeaconRange>,
+    /// Beacons that were heard for the first time, and their numbers.
+    pub(super) new: Vec<(String, u16)>,
+    /// Lines told a distance, whether or not it counts.
+    pub(super) is_speaking: bool,
+    /// What there is to tell of refused lines.
+    pub(super) refused: Option<Refused>,
+}
+
+/// Lines that could not be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Refused {
+    /// So many since this was told last.
+    pub(crate) count: u64,
+    /// The beginning of the last of them.
+    pub(crate) line: String,
+    /// What is wrong with it.
+    pub(crate) reason: String,
+}
+
+/// Listens to a radio.
+#[derive(Debug)]
+pub(super) struct Ear {
+    form: RadioForm,
+    sigma_m: f64,
+    height_m: f64,
+    lines: Lines,
+    roster: Roster,
+    untold: u64,
+    told_at: Option<Duration>,
+}
+
+impl Ear {
+    pub(super) fn new(settings: &RadioSettings) -> Self {
+        Self {
+            form: settings.form,
+            sigma_m: settings.sigma_m,
+            height_m: settings.height_m,
+            lines: Lines::default(),
+            roster: Roster::new(&settings.beacons),
+            untold: 0,
+            told_at: None,
+        }
+    }
+
+    /// The device was opened anew.
+    pub(super) fn begin(&mut self) {
+        self.lines = Lines::default();
+    }
+
+    /// Takes in bytes that came at `now` of the radio's own clock.
+    pub(super) fn take(&mut self, now: Duration, bytes: &[u8]) -> Heard {
+        let mut heard = Heard::default();
+        let mut lines = std::mem::take(&mut self.lines);
+        lines.split(bytes, |line| {
+            let text = line.and_then(|line| {
+                let text = std::str::from_utf8(line).map_err(|_| LineError::NotText)?;
+                Ok((text, self.read(text)))
+            });
+            match text {
+                Ok((_, Ok(readings))) => {
+                    for reading in readings {
+                        self.hear(&reading, &mut heard);
+                    }
+                }
+                Ok((text, Err(error))) => self.refuse(now, (text, &error), &mut heard),
+                Err(error) => self.refuse(now, ("", &error), &mut heard),
+            }
+        });
+        self.lines = lines;
+        heard
+    }
+
+    fn read(&self, text: &str) -> Result<Vec<Reading>, LineError> {
+        match self.form {
+            RadioForm::Lines => json::read(text),
+            RadioForm::Dwm1001 => dwm1001::read(text),
+        }
+    }
+
+    fn hear(&mut self, reading: &Reading, heard: &mut Heard) {
+        heard.is_speaking = true;
+        let beacon = match self.roster.place(&reading.beacon) {
+            Place::Known(number) => number,
+            Place::New(number) => {
+                heard.new.push((reading.beacon.to_string(), number));
+                number
+            }
+            Place::Stranger => return,
+        };
+        let sigma_m = reading.sigma_m.unwrap_or(self.sigma_m);
+        heard
+            .ranges
+            .push(level(beacon, (reading.range_m, sigma_m), self.height_m));
+    }
+
+    fn refuse(&mut self, now: Duration, (line, error): (&str, &LineError), heard: &mut Heard) {
+        self.untold += 1;
+        let is_due = self.told_at.is_none_or(|told| now >= told + TELL_EVERY);
+        if is_due {
+            self.told_at = Some(now);
+            heard.refused = Some(Refused {
+                count: std::mem::take(&mut self.untold),
+                line: line.chars().take(EXCERPT).collect(),
+                reason: error.to_string(),
+            });
+        }
+    }
+}
+
+/// The distance on the floor to below a beacon that hangs `height_m` above the robot's antenna. Near below it the error of
+/// the slanting way counts for more.
+fn level(beacon: u16, (slant_m, sigma_m): (f64, f64), height_m: f64) -> BeaconRange {
+    let range_m = (slant_m * slant_m - height_m * height_m).max(0.0).sqrt();
+    let steepness = if height_m > 0.0 {
+        slant_m.max(height_m) / range_m.max(sigma_m)
+    } else {
+        1.0
+    };
+    BeaconRange {
+        beacon,
+        range_m,
+        sigma_m: sigma_m * steepness.max(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use brain::observation::BeaconRange;
+    use proptest::prelude::*;
+
+    use super::super::{BeaconName, RadioForm, RadioSettings};
+    use super::{Ear, level};
+
+    const LINES: &str = "\n{\"beacon\":\"hall\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":0.5,\"sigma_m\":0.1}\n";
+    const SHELL: &str = "\r\nDIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51,POS,2.57,1.98,1.68,100\r\n\
+         1151[5.00,8.00,2.25]=6.48 0CA8[0.00,8.00,2.25]=6.51 le_us=2576 est[2.57,1.98,1.68,100]\r\n";
+
+    fn settings(form: RadioForm) -> RadioSettings {
+        RadioSettings {
+            form,
+            ..RadioSettings::new("/dev/null".into())
+        }
+    }
+
+    #[test]
+    fn distances_get_numbers_and_deviations() {
+        let mut ear = Ear::new(&settings(RadioForm::Lines));
+        let heard = ear.take(Duration::ZERO, LINES.as_bytes());
+        let range = |beacon, range_m, sigma_m| BeaconRange {
+            beacon,
+            range_m,
+            sigma_m,
+        };
+        assert_eq!(heard.ranges, [range(0, 3.21, 0.2), range(1, 0.5, 0.1)]);
+        assert_eq!(heard.new, [("hall".to_owned(), 0), ("kitchen".to_owned(), 1)]);
+        assert!(heard.is_speaking);
+        assert_eq!(heard.refused, None);
+        assert_eq!(ear.take(Duration::ZERO, LINES.as_bytes()).new, []);
+    }
+
+    #[test]
+    fn strangers_speak_and_do_not_count() {
+        let hall = BeaconName::new("hall").unwrap();
+        let mut ear = Ear::new(&RadioSettings {
+            beacons: vec![hall],
+            ..settings(RadioForm::Lines)
+        });
+        let heard = ear.take(Duration::ZERO, LINES.as_bytes());
+        assert_eq!((heard.ranges.len(), heard.is_speaking), (1, true));
+    }
+
+    #[test]
+    fn broken_lines_are_counted_and_told_once_a_minute() {
+        let mut ear = Ear::new(&settings(RadioForm::Lines));
+        let mut told = Vec::new();
+        for second in 0..=120 {
+            let heard = ear.take(Duration::from_secs(second), b"\nnonsense\n");
+            assert_eq!((heard.ranges.len(), heard.is_speaking), (0, false));
+            told.extend(heard.refused.map(|refused| (second, refused.count, refused.line)));
+        }
+        let line = || "nonsense".to_owned();
+        assert_eq!(told, [(0, 1, line()), (60, 60, line()), (120, 60, line())]);
+    }
+
+    #[test]
+    fn what_hangs_high_is_nearer_on_the_floor() {
+        let near = |range: BeaconRange, range_m: f64| (range.range_m - range_m).abs() < 1e-9;
+        assert!(near(level(0, (2.5, 0.2), 1.5), 2.0));
+        assert!(near(level(0, (1.4, 0.2), 1.5), 0.0), "shorter than it can be");
+        assert!((level(0, (2.5, 0.2), 1.5).sigma_m - 0.25).abs() < 1e-9);
+        assert!((level(0, (1.5, 0.2), 1.5).sigma_m - 1.5).abs() < 1e-9);
+        assert_eq!(level(0, (0.1, 0.2), 0.0).sigma_m, 0.2);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+        #[test]
+        fn no_bytes_upset_it(
+            dwm1001 in any::<bool>(),
+            edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 0..12),
+            cut in 1..64_usize,
+        ) {
+            let (form, text) = if dwm1001 {
+                (RadioForm::Dwm1001, SHELL)
+            } else {
+                (RadioForm::Lines, LINES)
+            };
+            let mut bytes = text.as_bytes().to_vec();
+            for (place, byte, manner) in edits {
+                let place = place.index(bytes.len());
+                match manner {
+                    0 => bytes[place] = byte,
+                    1 => bytes.insert(place, byte),
+                    2 if bytes.len() > 1 => drop(bytes.remove(place)),
+                    _ => bytes[place] ^= 1 << (byte % 8),
+                }
+            }
+            bytes.extend_from_slice(text.as_bytes());
+            let mut ear = Ear::new(&RadioSettings { height_m: 1.0, ..settings(form) });
+            let mut ranges = Vec::new();
+            for piece in bytes.chunks(cut) {
+                ranges.extend(ear.take(Duration::ZERO, piece).ranges);
+            }
+            for range in &ranges {
+                prop_assert!((0.0..=200.0).contains(&range.range_m));
+                prop_assert!(range.sigma_m > 0.0 && range.sigma_m.is_finite());
+            }
+            // The last lines were whole, whatever came before.
+            let whole = if dwm1001 { 4 } else { 2 };
+            prop_assert!(ranges.len() >= whole, "{ranges:?}");
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Lines that any program can write: `{"beacon":"kitchen","range_m":3.21}`, with `"sigma_m"` where the program knows how far
+//! off that may be.
+
+use serde::Deserialize;
+
+use super::reading::{BeaconName, LineError, Reading};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    beacon: String,
+    range_m: f64,
+    sigma_m: Option<f64>,
+}
+
+/// What the line says; nothing if it is empty.
+pub(super) fn read(line: &str) -> Result<Vec<Reading>, LineError> {
+    if line.trim().is_empty() {
+        return Ok(Vec::new());
+    }
+    let line: Line = serde_json::from_str(line).map_err(|error| LineError::Json(error.to_string()))?;
+    let name = BeaconName::new(&line.beacon).map_err(|_| LineError::Name(line.beacon))?;
+    Ok(vec![Reading::new(name, line.range_m, line.sigma_m)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read;
+
+    #[test]
+    fn a_line_tells_one_distance() {
+        let readings = read(r#" {"beacon":"kitchen","range_m":3.21}"#).unwrap();
+        assert_eq!(readings.len(), 1);
+        assert_eq!(readings[0].beacon.to_string(), "kitchen");
+        assert_eq!((readings[0].range_m, readings[0].sigma_m), (3.21, None));
+        let surer = read(r#"{"sigma_m":0.05,"range_m":0,"beacon":"a"}"#).unwrap();
+        assert_eq!(surer[0].sigma_m, Some(0.05));
+        assert_eq!(read("  "), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (line, reason) in [
+            ("{", "EOF while parsing"),
+            (r#"{"beacon":"a"}"#, "missing field `range_m`"),
+            (r#"{"beacon":"a","range":1}"#, "unknown field `range`"),
+            (r#"{"beacon":"a","range_m":"1"}"#, "invalid type"),
+            (r#"{"beacon":"a","range_m":1e999}"#, "number out of range"),
+            (r#"{"beacon":"a b","range_m":1}"#, "no blanks"),
+            (r#"{"beacon":"","range_m":1}"#, "1 to 32"),
+            (r#"{"beacon":"a","range_m":-0.1}"#, "-0.1 m is no distance"),
+            (r#"{"beacon":"a","range_m":201}"#, "201 m is no distance"),
+            (r#"{"beacon":"a","range_m":1,"sigma_m":0}"#, "0 m is no deviation"),
+        ] {
+            let error = read(line).unwrap_err().to_string();
+            assert!(error.contains(reason), "{line}: {error}");
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Radios on pseudo terminals, FIFOs and sockets before the real binary, and one before the simulator's, which must be built:
+//! `cargo build -p rvac-sim`. Waits are for events, with a deadline.
+
+use std::fs;
+use std::io::Write;
+use std::os::unix::net::UnixListener;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use rustix::fs::{Mode, mkfifoat};
+use rvac_api::Update;
+use vthal_bench::{Client, Daemon, Pty, Scratch, built_beside};
+
+/// Generous: the machine may be busy with other tests.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A daemon with a radio, and the folder in which it lives.
+struct Desk {
+    scratch: Scratch,
+    _daemon: Daemon,
+}
+
+impl Desk {
+    /// With this table of the configuration besides the device; the device is `radio` in the folder, which `prepare` makes.
+    fn new(table: &str, prepare: impl FnOnce(&Path)) -> Self {
+        let scratch = Scratch::new().expect("creates");
+        prepare(&scratch.join("radio"));
+        let daemon = daemon(&scratch, table, &["--seed", "1"]);
+        Self {
+            scratch,
+            _daemon: daemon,
+        }
+    }
+
+    /// Waits until the daemon's log says this so many times.
+    fn wait_for(&self, text: &str, times: usize) {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            let log = self.log();
+            if log.matches(text).count() >= times {
+                return;
+            }
+            assert!(Instant::now() < deadline, "{text:?} is missing in {log}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    fn log(&self) -> String {
+        fs::read_to_string(self.scratch.join("state/log/vthal.log")).unwrap_or_default()
+    }
+}
+
+fn daemon(scratch: &Scratch, table: &str, more: &[&str]) -> Daemon {
+    let config = scratch.join("vthal.toml");
+    let device = scratch.join("radio");
+    let text = format!("[radio]\ndevice = {:?}\n{table}", device.display().to_string());
+    fs::write(&config, text).expect("writable");
+    let mut arguments = vec!["--config", config.to_str().expect("text")];
+    arguments.extend(more);
+    Daemon::start(Path::new(env!("CARGO_BIN_EXE_vthal")), scratch, &arguments).expect("gets ready")
+}
+
+/// Reads until the daemon has sent `wanted` to the module.
+fn expect(module: &mut Pty, wanted: &[u8]) {
+    let deadline = Instant::now() + PATIENCE;
+    let mut all = Vec::new();
+    while !all.windows(wanted.len()).any(|part| part == wanted) {
+        assert!(Instant::now() < deadline, "only {all:?} came");
+        module.wait(deadline).expect("waits");
+        let mut bytes = [0; 64];
+        let count = module.read(&mut bytes).expect("reads");
+        all.extend_from_slice(&bytes[..count]);
+    }
+}
+
+#[test]
+fn a_module_is_made_to_speak_is_lost_and_comes_back() {
+    let desk = Desk::new("form = \"dwm1001\"\n", |_| {});
+    desk.wait_for("no distances to beacons: cannot open", 1);
+    let link = desk.scratch.join("radio");
+    let mut module = Pty::open(&link).expect("opens");
+    expect(&mut module, b"\r\r");
+    expect(&mut module, b"lec\r");
+    module
+        .write_all(
+            b"\r\ndwm> lec\r\nDIST,1,AN0,1151,5.00,8.00,2.25,6.48,POS,2.57,1.98,1.68,100\r\nDIST,1,AN0\r\n",
+        )
+        .expect("writes");
+    desk.wait_for("hears the beacon 1151 (number 0)", 1);
+    desk.wait_for("lines that could not be used: 1; the last, \"DIST,1,AN0\"", 1);
+    drop(module);
+    desk.wait_for("no distances to beacons: it hung up", 1);
+    let mut again = Pty::open(&link).expect("opens");
+    // This one prints already, so nothing is sent to it.
+    for _ in 0..40 {
+        again
+            .write_all(b"DIST,1,AN0,1151,5.00,8.00,2.25,6.48\r\n")
+            .expect("writes");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    desk.wait_for("the radio tells distances", 2);
+    let mut bytes = [0; 64];
+    assert_eq!(again.read(&mut bytes).expect("reads"), 0);
+    assert_eq!(
+        desk.log().matches("hears the beacon").count(),
+        1,
+        "it keeps its number"
+    );
+}
+
+#[test]
+fn any_program_can_tell_distances_through_a_fifo() {
+    let desk = Desk::new("beacons = [\"hall\", \"kitchen\"]\n", |path| {
+        mkfifoat(rustix::fs::CWD, path, Mode::RUSR | Mode::WUSR).expect("makes one");
+    });
+    for round in 1..=2 {
+        let path = desk.scratch.join("radio");
+        let mut program = fs::OpenOptions::new().write(true).open(path).expect("opens");
+        program
+            .write_all(
+                b"\n{\"beacon\":\"kitchen\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":-1}\n",
+            )
+            .expect("writes");
+        desk.wait_for("the radio tells distances", 1);
+        desk.wait_for("could not be used: 1; the last, \"{\\\"beacon\\\"", 1);
+        assert!(
+            !desk.log().contains("no distances"),
+            "round {round}: a FIFO has no end"
+        );
+    }
+}
+
+#[test]
+fn a_program_may_also_listen_on_a_socket() {
+    let mut listener = None;
+    let desk = Desk::new("", |path| listener = UnixListener::bind(path).ok());
+    let (mut program, _) = listener.as_ref().expect("binds").accept().expect("accepts");
+    program
+        .write_all(b"\n{\"beacon\":\"hall\",\"range_m\":3.21,\"sigma_m\":0.3}\n")
+        .expect("writes");
+    desk.wait_for("hears the beacon hall (number 0)", 1);
+    drop(program);
+    desk.wait_for("no distances to beacons: it hung up", 1);
+}
+
+#[test]
+fn a_file_is_no_radio() {
+    let desk = Desk::new("", |path| fs::write(path, "{}\n").expect("writable"));
+    desk.wait_for("is no serial device, FIFO or socket", 1);
+}
+
+/// Simulated seconds to a second on the wall.
+const SPEED: &str = "8";
+/// Simulated minutes, and metres that the daemon may be off in the last of them. By its wheels alone this robot is off by up
+/// to 4.7 m within twelve, with its beacons by up to 0.74 m (`rvac-sim run --robot relax --home homes/two-room-flat.toml --seed 4
+/// --minutes 12`, and `--beacons 4`).
+const MINUTES: f64 = 6.0;
+const OFF_MAX_M: f64 = 1.0;
+
+#[test]
+fn a_relax_without_gyro_knows_its_place_by_a_radio_on_its_linux_board() {
+    let scratch = Scratch::new().expect("creates");
+    let _simulator = simulator(&scratch);
+    let more = ["--seed", "4", "--speed", SPEED];
+    let _daemon = daemon(&scratch, "form = \"dwm1001\"\n", &more);
+    let mut client = Client::watching(&scratch.join("vthal.sock"), r#"["status","pose"]"#).expect("connects");
+    wait_for_state(&mut client, "docked");
+    assert_eq!(
+        refused_systematic(&mut client),
+        "no-heading",
+        "no way was driven yet"
+    );
+    client
+        .send(r#"{"c":"start","strategy":"bounce"}"#)
+        .expect("sends");
+    let mut worst_m: f64 = 0.0;
+    let deadline = Instant::now() + Duration::from_secs(240);
+    loop {
+        let (sim_s, off_m) = off(&scratch, deadline);
+        if sim_s > 60.0 * (MINUTES - 1.0) {
+            worst_m = worst_m.max(off_m);
+        }
+        if sim_s > 60.0 * MINUTES {
+            break;
+        }
+    }
+    let log = fs::read_to_string(scratch.join("state/log/vthal.log")).expect("there");
+    assert_eq!(log.matches("hears the beacon").count(), 4, "{log}");
+    assert!(worst_m < OFF_MAX_M, "{worst_m} m off in the last minute");
+}
+
+fn wait_for_state(client: &mut Client, state: &str) {
+    let reached = |update: &Update| matches!(update, Update::Status(status) if status.state == state);
+    let found = client.wait_for(Instant::now() + PATIENCE, reached);
+    assert!(found.expect("reads").is_some(), "it never is {state}");
+}
+
+/// Why the robot does not clean in lanes.
+fn refused_systematic(client: &mut Client) -> String {
+    client
+        .send(r#"{"c":"start","strategy":"systematic"}"#)
+        .expect("sends");
+    let mut reason = None;
+    client
+        .wait_for(Instant::now() + PATIENCE, |update| {
+            if let Update::Failed(failure) = update {
+                reason = Some(failure.reason.clone());
+            }
+            reason.is_some()
+        })
+        .expect("reads");
+    reason.expect("answers")
+}
+
+fn simulator(scratch: &Scratch) -> Daemon {
+    let program = built_beside("rvac-sim").expect("has a folder");
+    let program: PathBuf = program.expect("built: cargo build -p rvac-sim");
+    let mut command = std::process::Command::new(program);
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../homes/two-room-flat.toml");
+    command
+        .args([
+            "serve",
+            "--robot",
+            "relax",
+            "--seed",
+            "2",
+            "--speed",
+            SPEED,
+            "--beacons",
+            "4",
+        ])
+        .arg("--home")
+        .arg(home);
+    for (flag, name) in [("--link", "tty"), ("--socket", "sim.sock"), ("--radio", "radio")] {
+        command.arg(flag).arg(scratch.join(name));
+    }
+    Daemon::start_command(command).expect("gets ready")
+}
+
+/// Simulated time, and how far from the true place the daemon's is. Who connects gets the newest of both.
+fn off(scratch: &Scratch, deadline: Instant) -> (f64, f64) {
+    let mut simulator = Client::connect(&scratch.join("sim.sock")).expect("connects");
+    let mut there = None;
+    simulator
+        .wait_for(deadline, |update| {
+            if let Update::SimulatedTruth(truth) = update {
+                there = Some((truth.sim_s, truth.pose.x, truth.pose.y));
+            }
+            there.is_some()
+        })
+        .expect("reads");
+    let mut daemon = Client::watching(&scratch.join("vthal.sock"), r#"["pose"]"#).expect("connects");
+    let mut believed = None;
+    daemon
+        .wait_for(deadline, |update| {
+            if let Update::Pose(pose) = update {
+                believed = Some((pose.x, pose.y));
+            }
+            believed.is_some()
+        })
+        .expect("reads");
+    let ((sim_s, x, y), believed) = (
+        there.expect("the simulator tells"),
+        believed.expect("the daemon tells"),
+    );
+    (sim_s, (believed.0 - x).hypot(believed.1 - y))
+}
