@@ -16,14 +16,16 @@ const NOTHING_STEP: i8 = -1;
 const NOTHING_SHARE: f64 = 0.6;
 /// What a touching thing says for an obstacle; half of it at [`HIT_HALF_M`] beyond the rim.
 const HIT_STEP: f64 = 30.0;
-/// As [`HIT_STEP`]: the distance error grows with the distance.
-const HIT_HALF_M: f64 = 0.05;
+/// As [`HIT_STEP`]. The error of a distance grows with it, because nobody knows how bright a wall is, and what a sighting says
+/// falls with the square of its error: otherwise what was seen from afar stands as a crooked front before the wall.
+const HIT_HALF_M: f64 = 0.07;
 /// Most and least occupancy.
 const OCCUPANCY_MAX: i8 = 100;
 /// Levels below this are noise.
 const LEVEL_MIN: f64 = 0.045;
-/// Cells before a hit that may already be the obstacle.
-const MARGIN_M: f64 = 1.5 * CELL_M;
+/// So far before a hit the beam may already meet the obstacle, metres: rounding to cells. A rim that nothing shows as free keeps
+/// the robot off its walls.
+const MARGIN_M: f64 = CELL_M;
 /// Evidence of a contact whose place on the bumper is known from infrared.
 const CONTACT_SURE: u8 = 4;
 /// Evidence of a contact that may be anywhere on a short piece of the bumper, up to [`SHORT_ARC_M`].
@@ -104,7 +106,8 @@ impl Pencil {
         });
         let Some(hit_m) = hit_m else { return };
         let beyond_m = (hit_m - response.skin_m).max(0.0);
-        let strength = (HIT_STEP / (1.0 + beyond_m / HIT_HALF_M)) as i8;
+        let beyond = beyond_m / HIT_HALF_M;
+        let strength = (HIT_STEP / (1.0 + beyond * beyond)) as i8;
         // The surface lies before the cell that stands for it.
         let behind_m = hit_m + 0.5 * CELL_M;
         let reach_m = behind_m * libm::tan(response.half_angle_rad);
