@@ -194,14 +194,14 @@ impl Brain {
     }
 
     /// Strategy that suits the robot as it was at the last step: [`StrategyName::Systematic`] needs sensors whose places are
-    /// known, and something besides the wheels that tells the heading.
+    /// known, and something besides the wheels that tells the heading. What nothing tells its heading cleans by statistics.
     #[must_use]
     pub fn usual_strategy(&self) -> StrategyName {
         let sees = !self.config.sensors.proximity.sensors().is_empty();
-        if sees && self.behavior.knows_heading() {
-            StrategyName::Systematic
-        } else {
-            StrategyName::Bounce
+        match (self.behavior.knows_heading(), sees) {
+            (true, true) => StrategyName::Systematic,
+            (true, false) => StrategyName::Bounce,
+            (false, _) => StrategyName::Statistical,
         }
     }
 

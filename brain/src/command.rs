@@ -125,6 +125,9 @@ pub enum StrategyName {
     /// `bounce`: drive until a bump, back off, turn by a random angle. What the software of 2016 did.
     #[default]
     Bounce,
+    /// `statistical`: bouncing towards floor that was not swept lately, along the walls to the next place. For robots that nothing
+    /// but their wheels tells their heading.
+    Statistical,
     /// `systematic`: lanes over a home whose map is known, with few turns.
     Systematic,
     /// `wall-bounce`: bouncing with stretches along the walls and spirals on open floor.
@@ -133,13 +136,19 @@ pub enum StrategyName {
 
 impl StrategyName {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Bounce, Self::Systematic, Self::WallBounce];
+    pub const ALL: [Self; 4] = [
+        Self::Bounce,
+        Self::Statistical,
+        Self::Systematic,
+        Self::WallBounce,
+    ];
 
     /// The name people type.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Bounce => "bounce",
+            Self::Statistical => "statistical",
             Self::Systematic => "systematic",
             Self::WallBounce => "wall-bounce",
         }

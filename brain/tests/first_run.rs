@@ -264,3 +264,32 @@ fn wall_bounce_goes_along_walls_and_round_in_spirals() {
     assert!(run.world.covered() > 0.9, "{}", run.world.covered());
     assert_eq!(run.world.violations, Vec::<String>::new());
 }
+
+#[test]
+fn a_robot_without_heading_cleans_by_statistics_and_says_how_sure_it_is() {
+    let mut run = Run::new(two_rooms(), at(1.5, 1.0), None);
+    run.world.observation.gyro_heading_rad = None;
+    run.brain.step(&run.world.observation, &[]);
+    assert_eq!(run.brain.usual_strategy(), StrategyName::Statistical);
+    run.start(StrategyName::Statistical);
+    run.until("nothing", 1_150.0);
+    assert_eq!(run.brain.swept_share(), None, "nothing is known yet");
+    for _ in 0..4 {
+        run.until("nothing", 100.0);
+        let told = run.brain.swept_share().expect("after some way");
+        let covered = run.world.covered();
+        assert!(told.share_low < covered, "{told:?}, really {covered}");
+        assert!((told.share - covered).abs() < 0.3, "{told:?}, really {covered}");
+    }
+    assert_eq!(run.until("state-idle", 6_000.0), Some("by-statistics"));
+    assert!(run.world.covered() > 0.9, "{}", run.world.covered());
+    for (what, reason) in [
+        ("clean-by-statistics", "no-heading"),
+        ("follow-wall", "swept-lately"),
+        ("leave-wall", "new-floor"),
+        ("covered", "by-statistics"),
+    ] {
+        assert!(run.has_decided(what, reason), "{what} ({reason})");
+    }
+    assert_eq!(run.world.violations, Vec::<String>::new());
+}

@@ -492,7 +492,7 @@ mod tests {
             ),
             (
                 "[robot]\nstrategy = \"b\"",
-                "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce, systematic, wall-bounce",
+                "vthal.toml:2: robot.strategy: no strategy has the name \"b\": write one of bounce, statistical, systematic, wall-bounce",
             ),
         ] {
             assert_eq!(parse(text).expect_err("invalid").to_string(), message);

@@ -91,6 +91,12 @@ reasons! {
     WallEnded => "wall-ended",
     /// Way enough in this manner; another one follows.
     Alternation => "alternation",
+    /// Hardly anything here was not swept lately.
+    SweptLately => "swept-lately",
+    /// The floor here was not swept lately.
+    NewFloor => "new-floor",
+    /// By its statistics nearly all is swept.
+    ByStatistics => "by-statistics",
     /// Nothing was met for long: open floor.
     OpenFloor => "open-floor",
     /// Back where the way along the walls began.

@@ -93,7 +93,10 @@ impl Behavior {
     /// The running job is at its end. One that has cleaned goes home if the map tells where that is.
     pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
-            && matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+            && matches!(
+                reason,
+                Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics
+            );
         let is_whole_home = self.order().is_some_and(|order| order.parts().is_empty());
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));

@@ -6,6 +6,8 @@ mod estimate;
 pub(crate) mod lane_frame;
 mod perimeter;
 pub mod plan;
+mod spiral;
+mod statistical;
 pub(crate) mod systematic;
 mod wall_bounce;
 mod wanted;
@@ -14,6 +16,7 @@ pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
 pub(crate) use estimate::estimate;
 pub(crate) use perimeter::{LapStep, Perimeter};
+use statistical::Statistical;
 pub use systematic::SweptShare;
 use systematic::Systematic;
 use wall_bounce::WallBounce;
@@ -26,6 +29,7 @@ use crate::task::Task;
 pub(crate) fn strategy(name: StrategyName, order: &CleaningOrder) -> Box<dyn Task> {
     match name {
         StrategyName::Bounce => Box::new(Bounce::default()),
+        StrategyName::Statistical => Box::new(Statistical::default()),
         StrategyName::Systematic => Box::new(Systematic::with(order.clone())),
         StrategyName::WallBounce => Box::new(WallBounce::default()),
     }

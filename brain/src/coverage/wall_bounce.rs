@@ -1,9 +1,8 @@
 //! `wall-bounce`: what cheap robots without a map do. A spiral while the floor is open, bouncing, and now and then a stretch
 //! along the walls, where bouncing alone sweeps last.
 
-use core::f64::consts::TAU;
-
 use super::Bounce;
+use super::spiral::Spiral;
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
@@ -19,12 +18,6 @@ const AWAY_RAD: (f64, f64) = (0.5, 2.4);
 const OPEN_RUN_M: f64 = 1.8;
 /// Way between two spirals, metres.
 const SPIRAL_EVERY_M: f64 = 30.0;
-/// Radius of curvature at the start of a spiral and at its end, metres.
-const SPIRAL_M: (f64, f64) = (0.08, 1.0);
-/// Share of the swath by which the turns of a spiral lie apart.
-const SPACING: f64 = 0.9;
-/// Share of the highest turn rate that a spiral uses.
-const TURN_SHARE: f64 = 0.8;
 
 /// The strategy.
 #[derive(Clone, Debug)]
@@ -39,7 +32,7 @@ pub(crate) struct WallBounce {
 #[derive(Clone, Copy, Debug)]
 enum Manner {
     /// In widening turns to the left.
-    Spiral { turned_rad: f64 },
+    Spiral(Spiral),
     /// Bouncing for some way.
     Bounce { left_m: f64 },
     /// Along what stands on the right for some way.
@@ -51,7 +44,7 @@ enum Manner {
 impl Default for WallBounce {
     fn default() -> Self {
         Self {
-            manner: Manner::Spiral { turned_rad: 0.0 },
+            manner: Manner::Spiral(Spiral::default()),
             bounce: Bounce::default(),
             wall: WallFollower::default(),
             since_spiral_m: 0.0,
@@ -64,10 +57,9 @@ impl Task for WallBounce {
         let way_m = situation.advance.distance_m.max(0.0);
         self.since_spiral_m += way_m;
         match &mut self.manner {
-            Manner::Spiral { turned_rad } => {
-                *turned_rad += situation.advance.turn_rad.max(0.0);
-                let turned_rad = *turned_rad;
-                self.spiral(turned_rad, situation, mind)
+            Manner::Spiral(spiral) => {
+                let spiral = *spiral;
+                self.spiral(spiral, situation, mind)
             }
             Manner::Bounce { left_m } => {
                 *left_m -= way_m;
@@ -94,7 +86,7 @@ impl Task for WallBounce {
     fn interrupted(&mut self) {
         self.bounce.interrupted();
         self.wall.interrupted();
-        if let Manner::Spiral { .. } | Manner::Away(_) = self.manner {
+        if let Manner::Spiral(_) | Manner::Away(_) = self.manner {
             self.manner = Manner::Bounce { left_m: BOUNCE_M.0 };
         }
     }
@@ -107,22 +99,18 @@ impl WallBounce {
         self.manner = Manner::Bounce { left_m };
     }
 
-    fn spiral(&mut self, turned_rad: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn spiral(&mut self, mut spiral: Spiral, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         self.since_spiral_m = 0.0;
-        let config = situation.config;
-        let radius_m = SPIRAL_M.0 + SPACING * config.body.swath_m * turned_rad / TAU;
-        if !situation.is_free() || radius_m > SPIRAL_M.1 {
-            self.begin_bounce(mind);
-            return self.bounce.step(situation, mind);
+        match spiral.step(situation) {
+            Some(motion) => {
+                self.manner = Manner::Spiral(spiral);
+                Plan::Go(motion)
+            }
+            None => {
+                self.begin_bounce(mind);
+                self.bounce.step(situation, mind)
+            }
         }
-        let speeds = config.speeds;
-        let speed_m_per_s = speeds
-            .cruise_m_per_s
-            .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
-        Plan::Go(Motion::Drive {
-            speed_m_per_s,
-            turn_rad_per_s: speed_m_per_s / radius_m,
-        })
     }
 
     fn bounce(&mut self, left_m: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
@@ -136,8 +124,8 @@ impl WallBounce {
             }
             if self.bounce.run_m() > OPEN_RUN_M && self.since_spiral_m > SPIRAL_EVERY_M {
                 mind.decide("spiral", Reason::OpenFloor, self.bounce.run_m());
-                self.manner = Manner::Spiral { turned_rad: 0.0 };
-                return self.spiral(0.0, situation, mind);
+                self.manner = Manner::Spiral(Spiral::default());
+                return self.spiral(Spiral::default(), situation, mind);
             }
         }
         self.bounce.step(situation, mind)

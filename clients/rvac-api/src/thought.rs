@@ -17,11 +17,11 @@ pub struct Estimate {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<f64>,
     /// Share of the floor that it can reach, as far as it knows, that the running or waiting job has swept, 0..1. Only of
-    /// strategies that know what there is to sweep; of a job for parts of the home that of the part which is being cleaned, and of one
+    /// strategies that know what there is to sweep, or reckon it by statistics; of a job for parts of the home that of the part which is being cleaned, and of one
     /// with several passes that of the present pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
-    /// The same if the robot knows its place half as well as it believes.
+    /// The same if the robot knows its place half as well as it believes; by statistics, if there is more floor than it reckons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered_low: Option<f64>,
 }

@@ -47,6 +47,9 @@ pub enum PoseSource {
     Truth,
 }
 
+/// What the host says of the floor that it has swept is compared with the truth so often.
+const TOLD_MS: u64 = 60_000;
+
 impl Household {
     /// Puts a robot and a host together.
     #[must_use]
@@ -218,6 +221,10 @@ impl Household {
             };
             let truth_in_map = self.map_from_plan.then(truth.pose);
             self.figures.sample(truth, truth_in_map, &belief);
+            if truth.time_ms.is_multiple_of(TOLD_MS) && belief.state == Some(brain::BehaviorState::Cleaning) {
+                let told = host.brain().and_then(brain::Brain::swept_share);
+                self.figures.note_told(told, truth.swept_share);
+            }
             if let Some(trace) = &mut self.trace {
                 trace.sample(truth, belief.pose.distance_m(truth_in_map), &belief);
             }

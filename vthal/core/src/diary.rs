@@ -58,6 +58,9 @@ fn deed(what: &str, value: f64) -> String {
     match what {
         "back-off" => "Backed off and turned away".to_owned(),
         "plan" => format!("Planned a way of {:.0} min", (value / 60.0).max(1.0)),
+        "clean-by-statistics" => {
+            "Began to clean without a map, and reckons by statistics how much is swept".to_owned()
+        }
         "leave-way" => "Left the planned way".to_owned(),
         "lap" => "Began a lap along the walls".to_owned(),
         "turn" => "Turned away".to_owned(),

@@ -6,6 +6,7 @@
 
 mod pocket;
 
+use super::statistical::Lately;
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::TurnSide;
@@ -31,6 +32,8 @@ pub(crate) struct Bounce {
     evasion: Option<Evasion>,
     run_m: f64,
     pocket: Pocket,
+    /// What it turns by where it is free to choose; `None` = by chance alone.
+    lately: Option<Lately>,
 }
 
 impl Task for Bounce {
@@ -57,6 +60,14 @@ impl Task for Bounce {
 }
 
 impl Bounce {
+    /// Bounces towards floor that was not swept lately.
+    pub(super) fn towards_new_floor() -> Self {
+        Self {
+            lately: Some(Lately::default()),
+            ..Self::default()
+        }
+    }
+
     /// Whether it is just getting away from something.
     pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()
@@ -81,7 +92,29 @@ impl Bounce {
         Plan::Go(Motion::Halt)
     }
 
+    /// Turn away from a contact, radians.
+    fn turn_rad(
+        &self,
+        reason: Reason,
+        side: TurnSide,
+        (situation, mind): (&Situation<'_>, &mut Mind),
+    ) -> f64 {
+        let range_rad = self.pocket.turn_range_rad(reason);
+        match &self.lately {
+            Some(lately) if self.pocket.is_open() => {
+                let side = (reason != Reason::BumpFront).then_some(side);
+                lately.turn_rad(range_rad, side, (situation, mind))
+            }
+            _ => self.pocket.side().unwrap_or(side).sign() * mind.random.between(range_rad.0, range_rad.1),
+        }
+    }
+
     fn encounter(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<(Reason, Evasion)> {
+        if !situation.is_free()
+            && let Some(lately) = &mut self.lately
+        {
+            lately.note(situation);
+        }
         if situation.at_cliff {
             let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
             let side = self.side(reason, mind);
@@ -93,8 +126,7 @@ impl Bounce {
             let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
             let side = self.side(reason, mind);
             self.pocket.enter(self.run_m, side);
-            let (low_rad, high_rad) = self.pocket.turn_range_rad(reason);
-            let turn_rad = self.pocket.side().unwrap_or(side).sign() * mind.random.between(low_rad, high_rad);
+            let turn_rad = self.turn_rad(reason, side, (situation, mind));
             return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
         }
         (self.run_m > RUN_MAX_M).then(|| {

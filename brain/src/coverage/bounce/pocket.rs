@@ -74,6 +74,11 @@ impl Pocket {
         }
     }
 
+    /// Whether it is none.
+    pub(super) fn is_open(&self) -> bool {
+        self.place() == Place::Open
+    }
+
     /// Whether nothing helped.
     pub(super) fn is_closed(&self) -> bool {
         self.short_runs >= CLOSED_AFTER

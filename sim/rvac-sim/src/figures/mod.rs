@@ -10,7 +10,7 @@ mod lost;
 mod pose_error;
 mod time_spent;
 
-use brain::BehaviorState;
+use brain::{BehaviorState, SweptShare};
 use home::{Pose, Truth};
 use serde::Serialize;
 
@@ -43,6 +43,12 @@ pub struct Figures {
     pub share_at_t0: Option<f64>,
     /// Share that was swept after 1.8 T0.
     pub share_at_1_8_t0: Option<f64>,
+    /// Share that the host said it had swept, in the last minute of its job; `null` = it said none.
+    pub share_told: Option<f64>,
+    /// Low bound that it gave to that.
+    pub share_told_low: Option<f64>,
+    /// Most by which that low bound was above the true share in any minute; below 0 where it never was.
+    pub told_low_over_true: Option<f64>,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
     /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
@@ -130,8 +136,16 @@ pub(crate) struct Collector {
     honesty: HonestyWatch,
     alignment: Alignment,
     time: TimeWatch,
+    told: Told,
     last: Option<BehaviorState>,
     docked: bool,
+}
+
+/// What the host says of the floor that it has swept.
+#[derive(Clone, Copy, Debug, Default)]
+struct Told {
+    last: Option<SweptShare>,
+    low_over_true: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -178,6 +192,7 @@ impl Collector {
             honesty: HonestyWatch::default(),
             alignment: Alignment::default(),
             time: TimeWatch::new(&floor),
+            told: Told::default(),
             last: None,
             docked: false,
         }
@@ -213,6 +228,14 @@ impl Collector {
             .sample(now_ms, (belief.pose, belief.lost), truth_in_map);
         self.lost.sample(now_ms, error_m);
         self.honesty.sample(now_ms, error_m, belief.lost);
+    }
+
+    /// The host has just said how much it has swept; `swept_share` is the truth.
+    pub(crate) fn note_told(&mut self, told: Option<SweptShare>, swept_share: f64) {
+        let Some(share) = told else { return };
+        let over = share.share_low - swept_share;
+        self.told.last = told;
+        self.told.low_over_true = Some(self.told.low_over_true.map_or(over, |before| before.max(over)));
     }
 
     /// Seconds since the job began.
@@ -254,6 +277,9 @@ impl Collector {
             t95_over_t0: t95,
             share_at_t0: self.share_at(0, now),
             share_at_1_8_t0: self.share_at(1, now),
+            share_told: self.told.last.map(|told| told.share),
+            share_told_low: self.told.last.map(|told| told.share_low),
+            told_low_over_true: self.told.low_over_true,
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
             away_s: self.away_s,
             time_spent: self.time.spent(),

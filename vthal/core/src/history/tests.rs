@@ -34,6 +34,7 @@ fn results_follow_from_the_last_words() {
             Finished,
             "rest-out-of-reach",
         ),
+        (words("docked", Some("by-statistics")), Finished, "by-statistics"),
         (
             words("dock-not-found", Some("finished")),
             Finished,

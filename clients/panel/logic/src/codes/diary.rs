@@ -5,6 +5,7 @@
 pub(super) const DEEDS: &[(&str, &str)] = &[
     ("back-off", "Tagurdas ja pööras ära"),
     ("plan", "Kavandas teekonna, {} min"),
+    ("clean-by-statistics", "Hakkas koristama kaardita ja hindab koristatut arvestuslikult"),
     ("leave-way", "Lahkus kavandatud teelt"),
     ("lap", "Alustas ringi piki seinu"),
     ("turn", "Pööras ära"),

@@ -1,0 +1,39 @@
+//! A widening spiral to the left, for open floor.
+
+use core::f64::consts::TAU;
+
+use crate::action::Motion;
+use crate::task::Situation;
+
+/// Radius of curvature at the start of a spiral and at its end, metres.
+const RADIUS_M: (f64, f64) = (0.08, 1.0);
+/// Share of the swath by which the turns of a spiral lie apart.
+const SPACING: f64 = 0.9;
+/// Share of the highest turn rate that a spiral uses.
+const TURN_SHARE: f64 = 0.8;
+
+/// A spiral that is being driven.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Spiral {
+    turned_rad: f64,
+}
+
+impl Spiral {
+    /// The next motion; `None` when something is met or the spiral is wide enough.
+    pub(super) fn step(&mut self, situation: &Situation<'_>) -> Option<Motion> {
+        self.turned_rad += situation.advance.turn_rad.max(0.0);
+        let config = situation.config;
+        let radius_m = RADIUS_M.0 + SPACING * config.body.swath_m * self.turned_rad / TAU;
+        if !situation.is_free() || radius_m > RADIUS_M.1 {
+            return None;
+        }
+        let speeds = config.speeds;
+        let speed_m_per_s = speeds
+            .cruise_m_per_s
+            .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
+        Some(Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: speed_m_per_s / radius_m,
+        })
+    }
+}

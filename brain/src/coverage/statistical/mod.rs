@@ -1,0 +1,217 @@
+//! `statistical`: what a robot does that nothing but its wheels tells its heading.
+//!
+//! It has no map, but for some minutes its wheels tell well enough where it was. So it bounces towards floor that was not swept lately,
+//! with a spiral where the floor is open, until hardly anything that it comes over is new; then it follows the walls until what lies
+//! beside them is, which is mostly another room. How much is swept in all is told by statistics ([`law`]), and so is when to end.
+
+mod lately;
+mod law;
+mod novelty;
+
+use super::Bounce;
+use super::spiral::Spiral;
+use super::systematic::SweptShare;
+use crate::action::Motion;
+use crate::behavior::Reason;
+use crate::geometry::Point2;
+use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
+use crate::mapping::Map;
+use crate::task::{Mind, Plan, Situation, Task};
+pub(super) use lately::Lately;
+use lately::{LATELY_S, is_new};
+use novelty::Novelty;
+
+/// A place is left when no more than this share of what the robot comes over is new.
+const LEAVE_SHARE: f64 = 0.35;
+/// A spiral is worth it where more than this is.
+const SPIRAL_SHARE: f64 = 0.7;
+/// Shortest and longest way along the walls to another place, metres.
+const WALL_M: (f64, f64) = (3.0, 20.0);
+/// The floor beside the wall is looked at so far to the left of the robot's middle, metres.
+const BESIDE_M: [f64; 4] = [0.45, 0.7, 0.95, 1.2];
+/// So many of these places must be new, over so much way in a row, metres.
+const NEW_MIN: usize = 3;
+const NEW_M: f64 = 1.5;
+/// Turn away from the wall after it, radians.
+const AWAY_RAD: (f64, f64) = (0.7, 2.0);
+/// A run this long without an encounter is on open floor, metres.
+const OPEN_RUN_M: f64 = 1.8;
+/// Way between two spirals, metres.
+const SPIRAL_EVERY_M: f64 = 25.0;
+/// The job is done when at least this share is swept, by the low bound.
+const ENOUGH_SHARE: f64 = 0.9;
+
+/// The strategy.
+#[derive(Clone, Debug)]
+pub(crate) struct Statistical {
+    manner: Manner,
+    bounce: Bounce,
+    wall: WallFollower,
+    novelty: Novelty,
+    since_spiral_m: f64,
+    swath_m: f64,
+    has_begun: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Manner {
+    /// In widening turns.
+    Spiral(Spiral),
+    /// Towards what is new.
+    Bounce,
+    /// Along what stands on the right.
+    Wall(Stretch),
+    /// Away from it.
+    Away(Turn),
+}
+
+/// Way along the walls, metres.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stretch {
+    way_m: f64,
+    /// The last of it, with new floor beside it.
+    new_m: f64,
+}
+
+impl Stretch {
+    fn follow(&mut self, way_m: f64, situation: &Situation<'_>) {
+        self.way_m += way_m;
+        self.new_m = if is_new_beside(situation) {
+            self.new_m + way_m
+        } else {
+            0.0
+        };
+    }
+
+    fn is_over(self) -> bool {
+        (self.way_m > WALL_M.0 && self.new_m > NEW_M) || self.way_m > WALL_M.1
+    }
+}
+
+impl Default for Statistical {
+    fn default() -> Self {
+        Self {
+            manner: Manner::Spiral(Spiral::default()),
+            bounce: Bounce::towards_new_floor(),
+            wall: WallFollower::default(),
+            novelty: Novelty::default(),
+            since_spiral_m: 0.0,
+            swath_m: 0.0,
+            has_begun: false,
+        }
+    }
+}
+
+impl Task for Statistical {
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.begin(situation, mind);
+        self.novelty.follow(situation);
+        let told = self.swept_share(situation.map).unwrap_or_default();
+        if told.share_low >= ENOUGH_SHARE {
+            mind.decide("covered", Reason::ByStatistics, told.share);
+            return Plan::Finished(Reason::ByStatistics);
+        }
+        let way_m = situation.advance.distance_m.max(0.0);
+        self.since_spiral_m += way_m;
+        match &mut self.manner {
+            Manner::Spiral(_) => self.spiral(situation, mind),
+            Manner::Bounce => self.bounce(situation, mind),
+            Manner::Wall(stretch) => {
+                if self.wall.is_following() {
+                    stretch.follow(way_m, situation);
+                }
+                self.follow_wall(situation, mind)
+            }
+            Manner::Away(turn) => match turn.step(situation) {
+                Leg::Going(motion) if situation.is_free() => Plan::Go(motion),
+                _ => self.begin_bounce(situation, mind),
+            },
+        }
+    }
+
+    fn interrupted(&mut self) {
+        self.bounce.interrupted();
+        self.wall.interrupted();
+        if let Manner::Spiral(_) | Manner::Away(_) = self.manner {
+            self.manner = Manner::Bounce;
+        }
+    }
+
+    fn swept_share(&self, _map: &Map) -> Option<SweptShare> {
+        self.novelty.tally().share(self.swath_m)
+    }
+}
+
+impl Statistical {
+    /// Says once how it cleans.
+    fn begin(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        self.swath_m = situation.config.body.swath_m;
+        if !core::mem::replace(&mut self.has_begun, true) && !situation.knows_heading {
+            mind.decide("clean-by-statistics", Reason::NoHeading, 0.0);
+        }
+    }
+
+    fn begin_bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.bounce.interrupted();
+        self.manner = Manner::Bounce;
+        self.bounce.step(situation, mind)
+    }
+
+    fn spiral(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.since_spiral_m = 0.0;
+        if let Manner::Spiral(spiral) = &mut self.manner
+            && let Some(motion) = spiral.step(situation)
+        {
+            return Plan::Go(motion);
+        }
+        self.begin_bounce(situation, mind)
+    }
+
+    fn bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let share = self.novelty.share();
+        if self.bounce.is_evading() {
+            return self.bounce.step(situation, mind);
+        }
+        if share < LEAVE_SHARE && !situation.is_free() {
+            mind.decide("follow-wall", Reason::SweptLately, share);
+            self.wall = WallFollower::default();
+            self.manner = Manner::Wall(Stretch::default());
+            return self.follow_wall(situation, mind);
+        }
+        let is_open = self.bounce.run_m() > OPEN_RUN_M && self.since_spiral_m > SPIRAL_EVERY_M;
+        if is_open && share > SPIRAL_SHARE {
+            mind.decide("spiral", Reason::OpenFloor, self.bounce.run_m());
+            self.manner = Manner::Spiral(Spiral::default());
+            return self.spiral(situation, mind);
+        }
+        self.bounce.step(situation, mind)
+    }
+
+    fn follow_wall(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let is_over = matches!(self.manner, Manner::Wall(stretch) if stretch.is_over());
+        if is_over && situation.is_free() && !self.wall.is_evading() {
+            let turn_rad = mind.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            mind.decide("leave-wall", Reason::NewFloor, turn_rad);
+            self.novelty.begin_anew();
+            self.manner = Manner::Away(Turn::by(turn_rad));
+            return Plan::Go(Motion::Halt);
+        }
+        match self.wall.step(situation, mind) {
+            WallStep::Going(motion) => Plan::Go(motion),
+            WallStep::Trouble(reason) => {
+                self.bounce.interrupted();
+                self.manner = Manner::Bounce;
+                Plan::Trouble(reason)
+            }
+        }
+    }
+}
+
+/// Whether the floor beside a robot that follows a wall was hardly swept lately.
+fn is_new_beside(situation: &Situation<'_>) -> bool {
+    let is_new_at = |y_m: &&f64| {
+        let at = situation.pose.transform(Point2 { x_m: 0.0, y_m: **y_m });
+        is_new(situation.map, at, LATELY_S)
+    };
+    BESIDE_M.iter().filter(is_new_at).count() >= NEW_MIN
+}

@@ -1,0 +1,82 @@
+//! How much of the floor that the robot comes over is new.
+
+use super::lately::{LATELY_S, is_new};
+use super::law::{KNOWN_S, Tally};
+use crate::geometry::Point2;
+use crate::task::Situation;
+
+/// Way over which the share is averaged, metres.
+const WINDOW_M: f64 = 10.0;
+/// It is looked at each time the robot has come so far, metres.
+const STEP_M: f64 = 0.05;
+/// The floor is looked at so far before the brush, which has just been over what is nearer, metres.
+const AHEAD_M: f64 = 0.15;
+/// Places across the swath, in shares of its width.
+const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
+
+/// A running average, and the count of the whole job.
+#[derive(Clone, Debug)]
+pub(super) struct Novelty {
+    share: f64,
+    since_m: f64,
+    tally: Option<Tally>,
+}
+
+impl Default for Novelty {
+    fn default() -> Self {
+        Self {
+            share: 1.0,
+            since_m: 0.0,
+            tally: None,
+        }
+    }
+}
+
+impl Novelty {
+    /// Share of the last metres that was not swept lately, 0..=1; 1 at the beginning of a place.
+    pub(super) fn share(&self) -> f64 {
+        self.share
+    }
+
+    /// What was counted in this job.
+    pub(super) fn tally(&self) -> Tally {
+        self.tally.unwrap_or_default()
+    }
+
+    /// The robot has come to another place.
+    pub(super) fn begin_anew(&mut self) {
+        self.share = 1.0;
+    }
+
+    pub(super) fn follow(&mut self, situation: &Situation<'_>) {
+        let tally = self.tally.get_or_insert_with(|| Tally {
+            before_m: situation.map.way_m(),
+            ..Tally::default()
+        });
+        tally.time_s += situation.advance.time_s;
+        self.since_m += situation.advance.distance_m.max(0.0);
+        if self.since_m < STEP_M {
+            return;
+        }
+        let new = |within_s| {
+            ACROSS
+                .iter()
+                .filter(|across| is_new_at(**across, within_s, situation))
+                .count()
+        };
+        let weight = (self.since_m / WINDOW_M).min(1.0);
+        self.share += weight * (new(LATELY_S) as f64 / ACROSS.len() as f64 - self.share);
+        tally.way_m += core::mem::take(&mut self.since_m);
+        tally.seen += ACROSS.len() as u32;
+        tally.new += new(KNOWN_S) as u32;
+    }
+}
+
+/// Whether the floor ahead of a place across the swath is new.
+fn is_new_at(across: f64, within_s: u32, situation: &Situation<'_>) -> bool {
+    let at = situation.pose.transform(Point2 {
+        x_m: AHEAD_M,
+        y_m: across * situation.config.body.swath_m,
+    });
+    is_new(situation.map, at, within_s)
+}
