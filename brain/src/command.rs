@@ -1,7 +1,7 @@
 //! What people and schedules ask of the brain.
 
 use crate::geometry::Pose2;
-use crate::kept_place::KeptPlace;
+use crate::kept_place::{KeptPlace, PlaceShape};
 use crate::mapping::CutLine;
 use crate::no_go::{NoGo, RoomName};
 use crate::order::CleaningOrder;
@@ -37,6 +37,13 @@ pub enum Command {
         /// Its name.
         name: Option<RoomName>,
     },
+    /// Let a no-go zone or virtual wall forbid other floor, under its number and name.
+    ReshapeNoGo {
+        /// Its number in [`crate::mapping::Annotations`].
+        number: u16,
+        /// Where it is from now on.
+        no_go: NoGo,
+    },
     /// Keep a zone or spot under a name.
     KeepPlace {
         /// Which.
@@ -50,6 +57,13 @@ pub enum Command {
         number: u16,
         /// Its name.
         name: RoomName,
+    },
+    /// Let a kept place be elsewhere, under its number and name.
+    ReshapePlace {
+        /// Its number in [`crate::mapping::Annotations`].
+        number: u16,
+        /// Where it is from now on.
+        shape: PlaceShape,
     },
     /// Keep a place no longer.
     ForgetPlace {

@@ -14,6 +14,17 @@ pub enum PlaceShape {
     Spot(Point2),
 }
 
+impl PlaceShape {
+    /// The part of a job that cleans it.
+    #[must_use]
+    pub fn part(&self) -> HomePart {
+        match self {
+            Self::Zone(zone) => HomePart::Zone(zone.clone()),
+            Self::Spot(place) => HomePart::Spot(*place),
+        }
+    }
+}
+
 /// A zone or spot with a name. Its corners are whole micrometres, as a stored map keeps them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptPlace {
@@ -46,6 +57,14 @@ impl KeptPlace {
         Self { name, ..self }
     }
 
+    /// The same elsewhere.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] for a shape that is far away.
+    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, Reason> {
+        Self::new(self.name, shape)
+    }
+
     /// What people call it.
     #[must_use]
     pub const fn name(&self) -> &RoomName {
@@ -61,9 +80,6 @@ impl KeptPlace {
     /// The part of a job that cleans it.
     #[must_use]
     pub fn part(&self) -> HomePart {
-        match &self.shape {
-            PlaceShape::Zone(zone) => HomePart::Zone(zone.clone()),
-            PlaceShape::Spot(place) => HomePart::Spot(*place),
-        }
+        self.shape.part()
     }
 }

@@ -5,7 +5,7 @@ use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
     Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, NoGo, Observation, Point2, Pose2, PoseEstimate,
-    ProximityLayout, ProximityResponse, Raster, SensorLayout, StoredMap, Zone,
+    ProximityLayout, ProximityResponse, Raster, Reason, RoomName, SensorLayout, StoredMap, Zone,
 };
 
 const BODY: Body = Body {
@@ -276,6 +276,39 @@ fn what_is_stored_and_taken_up_is_known_again() {
     let dock = again.dock().unwrap();
     assert!((dock.x_m - 0.25).abs() < 1e-6 && (dock.heading_rad + 1.0).abs() < 1e-6);
     assert_eq!(again.stored().encode(), bytes, "storing it again gives the same");
+}
+
+#[test]
+fn what_is_reshaped_forbids_its_new_floor_and_no_other_and_keeps_number_and_name() {
+    let mut fed = Fed::new(sensors());
+    drive_along_wall(&mut fed, |pose| pose);
+    let zone = |x_m: f64| {
+        let corners = [(x_m, 0.0), (x_m + 0.05, 0.0), (x_m + 0.05, 0.05), (x_m, 0.05)];
+        let corners = corners.map(|(x_m, y_m)| at(x_m, y_m, 0.0).position());
+        NoGo::zone(&Zone::new(corners.to_vec()).unwrap()).unwrap()
+    };
+    let name = RoomName::new("Cats").ok();
+    fed.map.add_no_go(zone(0.05).with_name(name.clone())).unwrap();
+    fed.map.add_no_go(zone(0.1)).unwrap();
+    fed.map.reshape_no_go(1, zone(0.2)).unwrap();
+    let kinds = |map: &Map| [3, 5, 9].map(|x| map.knowledge().get(Cell { x, y: 0 }).copied());
+    let (free, shut) = (Some(CellKnowledge::Free), Some(CellKnowledge::NoGo));
+    fed.map.refresh();
+    assert_eq!(kinds(&fed.map), [free, shut, shut]);
+    let known: Vec<_> = fed.map.annotations().no_go().collect();
+    assert_eq!(known, [(1, &zone(0.2).with_name(name)), (2, &zone(0.1))]);
+    assert_eq!(
+        fed.map.reshape_no_go(1, zone(40.0)),
+        Err(Reason::NoFloorThere),
+        "far outside there is nothing to forbid"
+    );
+    assert_eq!(fed.map.reshape_no_go(3, zone(0.2)), Err(Reason::NoSuchNoGo));
+    fed.map.refresh();
+    assert_eq!(
+        kinds(&fed.map),
+        [free, shut, shut],
+        "what is refused changes nothing"
+    );
 }
 
 #[test]

@@ -16,8 +16,10 @@ impl Behavior {
             Command::AddNoGo { no_go } => map.admit_no_go(no_go),
             Command::RemoveNoGo { number } => map.admit_no_go_removal(*number),
             Command::NameNoGo { number, name } => map.admit_no_go_name(*number, name.as_ref()),
+            Command::ReshapeNoGo { number, no_go } => map.admit_no_go_shape(*number, no_go),
             Command::KeepPlace { place, number } => map.admit_place(place, *number),
             Command::NamePlace { number, name } => map.admit_place_name(*number, name),
+            Command::ReshapePlace { number, shape } => map.admit_place_shape(*number, shape),
             Command::ForgetPlace { number } => map.admit_place_removal(*number),
             Command::NameRoom { room, name } => map.admit_room_name(*room, name.as_ref()),
             Command::SetRoom { room, .. } => map.admit_room_settings(*room),
@@ -154,8 +156,10 @@ impl Behavior {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameNoGo { .. }
+            | Command::ReshapeNoGo { .. }
             | Command::KeepPlace { .. }
             | Command::NamePlace { .. }
+            | Command::ReshapePlace { .. }
             | Command::ForgetPlace { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }

@@ -103,14 +103,44 @@ impl Map {
     pub fn remove_no_go(&mut self, number: u16) -> Result<(), Reason> {
         let removed = self.home.annotations.no_go.remove(&number);
         let removed = removed.ok_or(Reason::NoSuchNoGo)?;
-        if let Some(window) = self.home.bounds() {
-            for cell in cells_of(removed.area(), window) {
-                self.home.flag(cell, Flag::NoGo, Entry::Allowed);
-                if let Some(redrawing) = &mut self.redrawing {
-                    redrawing.allow(cell);
-                }
+        self.allow(removed.area());
+        self.home.paint_no_go();
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Takes the mark off all cells of an area; those that are forbidden all the same are to be painted again.
+    fn allow(&mut self, area: &Zone) {
+        let Some(window) = self.home.bounds() else { return };
+        for cell in cells_of(area, window) {
+            self.home.flag(cell, Flag::NoGo, Entry::Allowed);
+            if let Some(redrawing) = &mut self.redrawing {
+                redrawing.allow(cell);
             }
         }
+    }
+
+    /// Whether a no-go zone or virtual wall may forbid this floor in place of its own.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchNoGo`], or what speaks against a new one there.
+    pub fn admit_no_go_shape(&self, number: u16, no_go: &NoGo) -> Result<(), Reason> {
+        self.admit_no_go_removal(number)?;
+        self.may_forbid(no_go)
+    }
+
+    /// Lets a no-go zone or virtual wall forbid other floor, under its number and name. There is no step in between in which
+    /// neither of both is forbidden.
+    ///
+    /// # Errors
+    /// As [`Self::admit_no_go_shape`]; then nothing is changed.
+    pub fn reshape_no_go(&mut self, number: u16, no_go: NoGo) -> Result<(), Reason> {
+        self.admit_no_go_shape(number, &no_go)?;
+        let known = self.home.annotations.no_go.get_mut(&number);
+        let known = known.ok_or(Reason::NoSuchNoGo)?;
+        let no_go = no_go.with_name(known.name().cloned());
+        let before = core::mem::replace(known, no_go);
+        self.allow(before.area());
         self.home.paint_no_go();
         self.home.touch();
         Ok(())

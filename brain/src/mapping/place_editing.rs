@@ -3,7 +3,7 @@
 use super::Map;
 use super::annotations::PLACES_MAX;
 use crate::behavior::Reason;
-use crate::kept_place::KeptPlace;
+use crate::kept_place::{KeptPlace, PlaceShape};
 use crate::no_go::RoomName;
 use crate::order::CleaningOrder;
 
@@ -61,6 +61,32 @@ impl Map {
         let known = self.home.annotations.places.kept.get_mut(&number);
         let known = known.ok_or(Reason::NoSuchPlace)?;
         *known = known.clone().with_name(name);
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether a place may be there in place of where it is.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchPlace`], or what speaks against a new one there.
+    pub fn admit_place_shape(&self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+        self.reshaped(number, shape).map(drop)
+    }
+
+    fn reshaped(&self, number: u16, shape: &PlaceShape) -> Result<KeptPlace, Reason> {
+        let known = self.annotations().place(number).ok_or(Reason::NoSuchPlace)?;
+        let place = known.clone().with_shape(shape)?;
+        CleaningOrder::new(vec![place.part()], 1)?.fits(self)?;
+        Ok(place)
+    }
+
+    /// Lets a place be elsewhere, under its number and name.
+    ///
+    /// # Errors
+    /// As [`Self::admit_place_shape`]; then nothing is changed.
+    pub fn reshape_place(&mut self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+        let place = self.reshaped(number, shape)?;
+        self.home.annotations.places.kept.insert(number, place);
         self.home.touch();
         Ok(())
     }

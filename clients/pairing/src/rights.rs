@@ -80,7 +80,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 55] = [
+pub const VERBS: [(&str, Role); 57] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -110,8 +110,10 @@ pub const VERBS: [(&str, Role); 55] = [
     ("add-no-go",       Role::Admin),
     ("remove-no-go",    Role::Admin),
     ("name-no-go",      Role::Admin),
+    ("reshape-no-go",   Role::Admin),
     ("keep-place",      Role::Admin),
     ("name-place",      Role::Admin),
+    ("reshape-place",   Role::Admin),
     ("forget-place",    Role::Admin),
     ("name-room",       Role::Admin),
     ("set-room",        Role::Admin),

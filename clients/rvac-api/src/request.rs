@@ -128,6 +128,13 @@ pub enum RequestBody {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         name: Option<String>,
     },
+    /// Lets it forbid other floor, under its number and name. Answered when the map with it is on the disk.
+    ReshapeNoGo {
+        /// Number, as in [`crate::HomeView::no_go`].
+        number: u16,
+        /// Where it is from now on.
+        shape: NoGoShape,
+    },
     /// Allows it again.
     RemoveNoGo {
         /// Number, as in [`crate::HomeView::no_go`].
@@ -149,6 +156,13 @@ pub enum RequestBody {
         number: u16,
         /// 1 to 40 characters that no other place has.
         name: String,
+    },
+    /// Lets a kept place be elsewhere, under its number and name.
+    ReshapePlace {
+        /// Number, as in [`crate::HomeView::places`].
+        number: u16,
+        /// Where it is from now on.
+        shape: PlaceShape,
     },
     /// Keeps a place no longer.
     ForgetPlace {

@@ -836,6 +836,20 @@ fn names_of_places() {
         r#"{"c":"name-place","number":3,"name":"Dish"}"#,
     );
     request(
+        RequestBody::ReshapePlace {
+            number: 3,
+            shape: PlaceShape::Spot([2.0, -0.5]),
+        },
+        r#"{"c":"reshape-place","number":3,"shape":{"spot":[2.0,-0.5]}}"#,
+    );
+    request(
+        RequestBody::ReshapeNoGo {
+            number: 2,
+            shape: NoGoShape::Wall([[0.0, 0.0], [1.5, 0.0]]),
+        },
+        r#"{"c":"reshape-no-go","number":2,"shape":{"wall":[[0.0,0.0],[1.5,0.0]]}}"#,
+    );
+    request(
         RequestBody::ForgetPlace { number: 3 },
         r#"{"c":"forget-place","number":3}"#,
     );

@@ -164,8 +164,10 @@ impl Mind {
             Command::AddNoGo { .. }
             | Command::RemoveNoGo { .. }
             | Command::NameNoGo { .. }
+            | Command::ReshapeNoGo { .. }
             | Command::KeepPlace { .. }
             | Command::NamePlace { .. }
+            | Command::ReshapePlace { .. }
             | Command::ForgetPlace { .. }
             | Command::NameRoom { .. }
             | Command::SetRoom { .. }

@@ -981,6 +981,42 @@ fn forbidden_floor_has_a_name_that_no_other_has() {
     assert_eq!(names[1].map(brain::RoomName::as_str), Some("Cats"));
 }
 
+#[test]
+fn forbidden_floor_is_reshaped_under_its_number_and_name() {
+    let mut pair = on_the_dock();
+    let at = |x: f64| NoGoShape::Wall([[x, 1.0], [x, 2.0]]);
+    let added = RequestBody::AddNoGo {
+        shape: at(3.0),
+        name: Some("Cats".to_owned()),
+    };
+    assert_eq!(pair.ask(ANNA, added), None);
+    pair.run_ms(200);
+    let reshaped = |number, shape| RequestBody::ReshapeNoGo { number, shape };
+    let refused = [
+        (reshaped(7, at(3.5)), "no-such-no-go"),
+        (reshaped(1, at(90.0)), "no-floor-there"),
+        (reshaped(1, NoGoShape::Wall([[3.0, 1.0], [3.0, 1.0]])), "bad-zone"),
+    ];
+    for (body, reason) in refused {
+        assert_eq!(pair.ask(ANNA, body.clone()).as_deref(), Some(reason), "{body:?}");
+    }
+    assert_eq!(pair.edits.len(), 1, "what is refused changes nothing");
+    assert_eq!(pair.ask(ANNA, reshaped(1, at(3.5))), None);
+    pair.run_ms(200);
+    let words = pair.edits.last().expect("kept").home.home.annotations();
+    let known: Vec<_> = words.no_go().collect();
+    let &[(1, no_go)] = known.as_slice() else {
+        panic!("{known:?}");
+    };
+    assert_eq!(no_go.name().map(brain::RoomName::as_str), Some("Cats"));
+    assert_eq!(*no_go, wall_at(3.5).with_name(no_go.name().cloned()));
+}
+
+fn wall_at(x_m: f64) -> brain::NoGo {
+    let end = |y_m| brain::Point2 { x_m, y_m };
+    brain::NoGo::wall(end(1.0), end(2.0)).expect("two places")
+}
+
 fn keep(name: &str, middle: [f64; 2]) -> RequestBody {
     RequestBody::KeepPlace {
         name: name.to_owned(),
@@ -1025,9 +1061,19 @@ fn a_kept_place_is_cleaned_by_its_number_and_comes_back_under_it() {
     };
     assert_eq!(pair.ask(ANNA, renamed), None);
     pair.run_ms(200);
+    let moved = |number, y| RequestBody::ReshapePlace {
+        number,
+        shape: PlaceShape::Spot([3.0, y]),
+    };
+    assert_eq!(pair.ask(ANNA, moved(2, 1.2)).as_deref(), Some("no-such-place"));
+    assert_eq!(pair.ask(ANNA, moved(1, 90.0)).as_deref(), Some("no-floor-there"));
+    assert_eq!(pair.ask(ANNA, moved(1, 1.2)), None);
+    pair.run_ms(200);
     let words = pair.edits.last().expect("kept").home.home.annotations();
-    let name = words.place(1).map(|place| place.name().as_str());
-    assert_eq!((name, words.places().count()), (Some("Dish"), 1));
+    let place = words.place(1).expect("is kept");
+    assert_eq!((place.name().as_str(), words.places().count()), ("Dish", 1));
+    let spot = brain::Point2 { x_m: 3.0, y_m: 1.2 };
+    assert_eq!(*place.shape(), brain::PlaceShape::Spot(spot));
     let estimate = pair.ask(ANNA, RequestBody::Estimate(cleaning(1)));
     assert_eq!(estimate, None);
     assert_eq!(pair.ask(ANNA, RequestBody::Clean(cleaning(1))), None);

@@ -215,6 +215,20 @@ pub(crate) enum ZoneVerb {
         /// Its name or number.
         zone: String,
     },
+    /// Let a zone or wall forbid other floor, under its number and name.
+    Reshape {
+        /// Its name or number.
+        zone: String,
+        /// A corner of the zone or one end of the wall, metres in the map.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        from: Place,
+        /// The opposite corner, of a polygon the next one, or the other end of the wall.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        to: Place,
+        /// The third corner of a polygon; again for each further one. A wall has none.
+        #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+        corner: Vec<Place>,
+    },
     /// Allow again what a zone or wall forbids.
     Remove {
         /// Its name or number.
@@ -253,6 +267,21 @@ pub(crate) enum PlacesVerb {
         place: String,
         /// One line of 1 to 40 characters.
         name: String,
+    },
+    /// Let a place be elsewhere, under its number and name.
+    #[command(group = ArgGroup::new("where").required(true))]
+    Reshape {
+        /// Its name or number.
+        place: String,
+        /// A rectangle between two opposite corners, metres in the map; of a polygon its first two corners.
+        #[arg(long, group = "where", value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
+        zone: Vec<Place>,
+        /// The third corner of a polygon; again for each further one.
+        #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "zone")]
+        corner: Vec<Place>,
+        /// The middle of a spot, metres in the map.
+        #[arg(long, group = "where", value_name = "X,Y", allow_hyphen_values = true)]
+        spot: Option<Place>,
     },
     /// Keep a place no longer.
     Forget {

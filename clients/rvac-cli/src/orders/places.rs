@@ -7,7 +7,7 @@ use anyhow::bail;
 use rvac_api::{HomeView, PlaceShape, PlaceView, RequestBody};
 
 use super::zones::outline;
-use crate::arguments::{PlacesJob, PlacesVerb};
+use crate::arguments::{Place, PlacesJob, PlacesVerb};
 use crate::control;
 use crate::home::known;
 use crate::socket::Connection;
@@ -27,16 +27,17 @@ pub(crate) fn places(job: &PlacesJob) -> anyhow::Result<ExitCode> {
             spot,
         }) => RequestBody::KeepPlace {
             name: name.clone(),
-            shape: match spot {
-                Some(middle) => PlaceShape::Spot([middle.x_m, middle.y_m]),
-                None => PlaceShape::Zone(outline(
-                    zone.iter()
-                        .chain(corner)
-                        .map(|corner| [corner.x_m, corner.y_m])
-                        .collect(),
-                )),
-            },
+            shape: shape(spot.as_ref(), zone.iter().chain(corner)),
             number: None,
+        },
+        Some(PlacesVerb::Reshape {
+            place,
+            zone,
+            corner,
+            spot,
+        }) => RequestBody::ReshapePlace {
+            number: number(place)?,
+            shape: shape(spot.as_ref(), zone.iter().chain(corner)),
         },
         Some(PlacesVerb::Name { place, name }) => RequestBody::NamePlace {
             number: number(place)?,
@@ -47,6 +48,15 @@ pub(crate) fn places(job: &PlacesJob) -> anyhow::Result<ExitCode> {
         },
     };
     control::ask(&mut connection, body)
+}
+
+/// A spot if there is one, else a zone with these corners.
+fn shape<'place>(spot: Option<&Place>, corners: impl Iterator<Item = &'place Place>) -> PlaceShape {
+    let pair = |place: &Place| [place.x_m, place.y_m];
+    match spot {
+        Some(middle) => PlaceShape::Spot(pair(middle)),
+        None => PlaceShape::Zone(outline(corners.map(pair).collect())),
+    }
 }
 
 fn table(home: &HomeView) -> String {

@@ -43,6 +43,15 @@ pub(crate) fn zones(job: &ZoneJob) -> anyhow::Result<ExitCode> {
             number: find(&known::ask(&mut connection)?.home, zone)?,
             name: None,
         },
+        Some(ZoneVerb::Reshape {
+            zone,
+            from,
+            to,
+            corner,
+        }) => {
+            let corners = [from, to].into_iter().chain(corner).map(pair).collect();
+            reshaped(&known::ask(&mut connection)?.home, (zone, corners))?
+        }
         Some(ZoneVerb::Remove { zone }) => RequestBody::RemoveNoGo {
             number: match zone.trim().parse() {
                 Ok(number) => number,
@@ -65,6 +74,19 @@ fn find(home: &HomeView, wanted: &str) -> anyhow::Result<u16> {
         Some(number) => Ok(number),
         None => bail!("no no-go zone or virtual wall is called {wanted:?}: `rvac zone` lists them"),
     }
+}
+
+/// What makes the wall or zone of this name lie between these corners.
+fn reshaped(home: &HomeView, (wanted, corners): (&str, Vec<[f64; 2]>)) -> anyhow::Result<RequestBody> {
+    let number = find(home, wanted)?;
+    let known = home.no_go.iter().find(|no_go| no_go.number == number);
+    let is_wall = known.is_some_and(|known| matches!(known.shape, NoGoShape::Wall(_)));
+    let shape = match (is_wall, corners.as_slice()) {
+        (true, &[from, to]) => NoGoShape::Wall([from, to]),
+        (true, _) => bail!("{wanted:?} is a virtual wall, which has two ends and no --corner"),
+        (false, _) => NoGoShape::Zone(outline(corners)),
+    };
+    Ok(RequestBody::ReshapeNoGo { number, shape })
 }
 
 fn pair(place: &Place) -> [f64; 2] {
@@ -99,8 +121,35 @@ fn table(home: &HomeView) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{find, outline, table};
-    use rvac_api::{HomeView, NoGoShape, NoGoView};
+    use super::{find, outline, reshaped, table};
+    use rvac_api::{HomeView, NoGoShape, NoGoView, RequestBody};
+
+    #[test]
+    fn a_wall_stays_a_wall_and_a_zone_a_zone() {
+        let view = |number, shape| NoGoView {
+            number,
+            shape,
+            name: None,
+        };
+        let home = HomeView {
+            no_go: vec![
+                view(3, NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]])),
+                view(4, NoGoShape::Zone(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])),
+            ],
+            ..HomeView::default()
+        };
+        let ends = [[0.0, 1.0], [2.0, 3.0]];
+        for (wanted, number, shape) in [
+            ("3", 3, NoGoShape::Wall(ends)),
+            ("4", 4, NoGoShape::Zone(outline(ends.to_vec()))),
+        ] {
+            let body = reshaped(&home, (wanted, ends.to_vec())).expect("is there");
+            assert_eq!(body, RequestBody::ReshapeNoGo { number, shape });
+        }
+        let three = vec![[0.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
+        assert!(reshaped(&home, ("3", three.clone())).is_err());
+        assert!(reshaped(&home, ("4", three)).is_ok());
+    }
 
     #[test]
     fn two_corners_make_a_rectangle_and_more_are_what_they_are() {

@@ -91,6 +91,10 @@ impl Core {
             RequestBody::NameNoGo { number, name } => {
                 self.name_no_go(now_us, (asker, number, name.as_deref()), outputs)
             }
+            RequestBody::ReshapeNoGo { number, shape } => {
+                let no_go = to_no_go(&shape)?;
+                self.reshape_no_go(now_us, (asker, number, no_go), outputs)
+            }
             RequestBody::RemoveNoGo { number } => self.remove_no_go(now_us, (asker, number), outputs),
             RequestBody::NameRoom(naming) => self.name_room(now_us, (asker, &naming), outputs),
             RequestBody::SetRoom { room, settings } => {
@@ -119,13 +123,26 @@ impl Core {
     ) -> Result<(), Refusal> {
         let brain = self.known_home()?.brain();
         let command = Command::AddNoGo { no_go };
-        brain.admit(&command).map_err(|reason| match reason {
-            Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
-            Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
-            Reason::NameTaken => another_no_go(),
-            _ => Refusal::from(reason),
-        })?;
+        brain
+            .admit(&command)
+            .map_err(|reason| of_forbidden(reason, brain))?;
         self.edit(now_us, (asker, command, "forbids floor of the map"), outputs);
+        Ok(())
+    }
+
+    fn reshape_no_go(
+        &mut self,
+        now_us: u64,
+        (asker, number, no_go): (Asker, u16, NoGo),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let brain = self.known_home()?.brain();
+        let command = Command::ReshapeNoGo { number, no_go };
+        brain.admit(&command).map_err(|reason| match reason {
+            Reason::NoSuchNoGo => Refusal::because(reason, no_such_no_go(number, brain)),
+            _ => of_forbidden(reason, brain),
+        })?;
+        self.edit(now_us, (asker, command, "reshapes forbidden floor"), outputs);
         Ok(())
     }
 
@@ -328,6 +345,16 @@ pub(super) fn to_name(text: &str) -> Result<RoomName, Refusal> {
         );
         Refusal::because(reason, text)
     })
+}
+
+/// Why floor is not forbidden.
+fn of_forbidden(reason: Reason, brain: &brain::Brain) -> Refusal {
+    match reason {
+        Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
+        Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
+        Reason::NameTaken => another_no_go(),
+        _ => Refusal::from(reason),
+    }
 }
 
 fn dock_inside(brain: &brain::Brain) -> String {

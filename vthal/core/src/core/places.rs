@@ -25,6 +25,10 @@ impl Core {
                 let name = to_name(&name)?;
                 (Command::NamePlace { number, name }, "names a place")
             }
+            RequestBody::ReshapePlace { number, shape } => {
+                let shape = to_shape(&shape)?;
+                (Command::ReshapePlace { number, shape }, "moves a place")
+            }
             RequestBody::ForgetPlace { number } => {
                 (Command::ForgetPlace { number }, "keeps a place no longer")
             }
@@ -58,9 +62,12 @@ fn of_place(reason: Reason, command: &Command, brain: &Brain) -> Refusal {
                 number.unwrap_or_default()
             ),
         ),
-        (Reason::NoSuchPlace, Command::NamePlace { number, .. } | Command::ForgetPlace { number }) => {
-            no_such_place(*number, brain)
-        }
+        (
+            Reason::NoSuchPlace,
+            Command::NamePlace { number, .. }
+            | Command::ReshapePlace { number, .. }
+            | Command::ForgetPlace { number },
+        ) => no_such_place(*number, brain),
         _ => Refusal::from(reason),
     }
 }

@@ -45,8 +45,10 @@ impl Core {
                 | RequestBody::AddNoGo { .. }
                 | RequestBody::RemoveNoGo { .. }
                 | RequestBody::NameNoGo { .. }
+                | RequestBody::ReshapeNoGo { .. }
                 | RequestBody::KeepPlace { .. }
                 | RequestBody::NamePlace { .. }
+                | RequestBody::ReshapePlace { .. }
                 | RequestBody::ForgetPlace { .. }
                 | RequestBody::NameRoom(_)
                 | RequestBody::SetRoom { .. }
@@ -106,6 +108,7 @@ impl Core {
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }
             | RequestBody::NameNoGo { .. }
+            | RequestBody::ReshapeNoGo { .. }
             | RequestBody::NameRoom(_)
             | RequestBody::SetRoom { .. }
             | RequestBody::SplitRoom(_)
@@ -114,6 +117,7 @@ impl Core {
             | RequestBody::MoveDock { .. }) => self.change_home(now_us, ((client, id), body), outputs),
             body @ (RequestBody::KeepPlace { .. }
             | RequestBody::NamePlace { .. }
+            | RequestBody::ReshapePlace { .. }
             | RequestBody::ForgetPlace { .. }) => self.change_places(now_us, ((client, id), body), outputs),
             RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
             RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),

@@ -27,6 +27,13 @@ pub enum GivenCommand {
         /// Its name; absent = none any more.
         name: Option<String>,
     },
+    /// [`Command::ReshapeNoGo`]
+    ReshapeNoGo {
+        /// Its number.
+        number: u16,
+        /// Where it is from now on.
+        no_go: GivenNoGo,
+    },
     /// [`Command::KeepPlace`]
     KeepPlace {
         /// Its name.
@@ -43,6 +50,13 @@ pub enum GivenCommand {
         number: u16,
         /// Its name.
         name: String,
+    },
+    /// [`Command::ReshapePlace`]
+    ReshapePlace {
+        /// Its number.
+        number: u16,
+        /// Where it is from now on.
+        place: GivenPart,
     },
     /// [`Command::ForgetPlace`] by its number.
     ForgetPlace(u16),
@@ -117,6 +131,10 @@ impl From<&Command> for GivenCommand {
                 number: *number,
                 name: from_name(name.as_ref()),
             },
+            Command::ReshapeNoGo { number, no_go } => Self::ReshapeNoGo {
+                number: *number,
+                no_go: no_go.into(),
+            },
             Command::KeepPlace { place, number } => Self::KeepPlace {
                 name: place.name().as_str().to_owned(),
                 place: GivenPart::from(&place.part()),
@@ -125,6 +143,10 @@ impl From<&Command> for GivenCommand {
             Command::NamePlace { number, name } => Self::NamePlace {
                 number: *number,
                 name: name.as_str().to_owned(),
+            },
+            Command::ReshapePlace { number, shape } => Self::ReshapePlace {
+                number: *number,
+                place: GivenPart::from(&shape.part()),
             },
             Command::ForgetPlace { number } => Self::ForgetPlace(*number),
             Command::NameRoom { room, name } => Self::NameRoom {
@@ -192,8 +214,10 @@ impl GivenCommand {
             | Self::AddNamedNoGo(..)
             | Self::RemoveNoGo(..)
             | Self::NameNoGo { .. }
+            | Self::ReshapeNoGo { .. }
             | Self::KeepPlace { .. }
             | Self::NamePlace { .. }
+            | Self::ReshapePlace { .. }
             | Self::ForgetPlace(..)
             | Self::NameRoom { .. }
             | Self::SetRoom { .. }
@@ -236,6 +260,10 @@ impl GivenCommand {
                 number: *number,
                 name: to_name(name.as_deref())?,
             },
+            Self::ReshapeNoGo { number, no_go } => Command::ReshapeNoGo {
+                number: *number,
+                no_go: no_go.to_brain()?,
+            },
             Self::KeepPlace { name, place, number } => Command::KeepPlace {
                 place: KeptPlace::new(RoomName::new(name).ok()?, &place.to_shape()?).ok()?,
                 number: *number,
@@ -243,6 +271,10 @@ impl GivenCommand {
             Self::NamePlace { number, name } => Command::NamePlace {
                 number: *number,
                 name: RoomName::new(name).ok()?,
+            },
+            Self::ReshapePlace { number, place } => Command::ReshapePlace {
+                number: *number,
+                shape: place.to_shape()?,
             },
             Self::ForgetPlace(number) => Command::ForgetPlace { number: *number },
             Self::NameRoom { room, name } => Command::NameRoom {

@@ -337,6 +337,18 @@ mod tests {
                 number: 3,
                 name: RoomName::new("Bowl").expect("a good name"),
             },
+            Command::ReshapePlace {
+                number: 3,
+                shape: PlaceShape::Zone(zone.clone()),
+            },
+            Command::ReshapePlace {
+                number: 3,
+                shape: PlaceShape::Spot(corners[1]),
+            },
+            Command::ReshapeNoGo {
+                number: 7,
+                no_go: NoGo::zone(&zone).expect("is near"),
+            },
             Command::ForgetPlace { number: 3 },
             Command::RemoveNoGo { number: 7 },
             Command::NameNoGo {
