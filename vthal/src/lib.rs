@@ -29,6 +29,7 @@ pub mod radio;
 pub mod recording;
 mod robot_file;
 mod rotation;
+mod run_desk;
 mod run_folder;
 mod run_thread;
 mod schedule_file;

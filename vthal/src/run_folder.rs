@@ -8,11 +8,10 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, RunRecording, RunTrack, Update};
+use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, RunRecording, Update};
 use serde::Deserialize;
-use vthal_core::RunTask;
 
-use crate::recording;
+use crate::recording::Part;
 
 /// Records kept.
 const RUNS_MAX: usize = 200;
@@ -121,30 +120,19 @@ impl RunFolder {
         Ok(())
     }
 
-    /// What a client asked for.
+    /// All that is kept of a run.
     ///
     /// # Errors
     /// See [`RunError`].
-    pub(crate) fn answer(&self, task: RunTask) -> Result<Update, RunError> {
-        match task {
-            RunTask::List { before, count } => Ok(self.list(before, usize::from(count))),
-            RunTask::Show(number) => {
-                let mut record: RunRecord = self.load(number)?;
-                self.look_for_recordings(&mut record.run);
-                Ok(Update::Run(Box::new(record)))
-            }
-            RunTask::Track { number, recording } => self.track(number, recording),
-            RunTask::File {
-                number,
-                recording,
-                from,
-            } => self.piece(number, recording as usize, from),
-        }
+    pub(crate) fn show(&self, number: u64) -> Result<RunRecord, RunError> {
+        let mut record: RunRecord = self.load(number)?;
+        self.look_for_recordings(&mut record.run);
+        Ok(record)
     }
 
     /// Runs with lower numbers than `before`, newest first. One that cannot be read is left out; who asks for it by its number
     /// hears why.
-    fn list(&self, before: Option<u64>, count: usize) -> Update {
+    pub(crate) fn list(&self, before: Option<u64>, count: usize) -> Update {
         let numbers = self.numbers();
         let older = numbers
             .iter()
@@ -180,34 +168,62 @@ impl RunFolder {
         is_plain.then(|| self.recordings.join(name))
     }
 
+    /// How many recordings a run has, also those that were removed.
+    ///
+    /// # Errors
+    /// See [`RunError`].
+    pub(crate) fn recording_count(&self, number: u64) -> Result<usize, RunError> {
+        let Head { run } = self.load(number)?;
+        Ok(run.recordings.len())
+    }
+
     /// Opens a recording of a run.
-    fn open(&self, number: u64, index: usize) -> Result<(File, RunRecording), RunError> {
+    ///
+    /// # Errors
+    /// See [`RunError`].
+    pub(crate) fn open(&self, number: u64, index: usize) -> Result<Part<File>, RunError> {
         let Head { run } = self.load(number)?;
         let count = run.recordings.len();
         let recording = run.recordings.into_iter().nth(index);
-        let recording = recording.ok_or(RunError::NoRecording { number, count })?;
-        match self.recording(&recording.name).map(File::open) {
-            Some(Ok(file)) => Ok((file, recording)),
+        self.part(number, recording.ok_or(RunError::NoRecording { number, count })?)
+    }
+
+    /// Opens those recordings of a run that were not removed, of which there is one at least.
+    ///
+    /// # Errors
+    /// See [`RunError`].
+    pub(crate) fn open_all(&self, number: u64) -> Result<Vec<Part<File>>, RunError> {
+        let Head { run } = self.load(number)?;
+        let mut parts = Vec::new();
+        let mut missing = RunError::NoRecording { number, count: 0 };
+        for recording in run.recordings {
+            match self.part(number, recording) {
+                Ok(part) => parts.push(part),
+                Err(removed @ RunError::Removed { .. }) => missing = removed,
+                Err(error) => return Err(error),
+            }
+        }
+        if parts.is_empty() {
+            return Err(missing);
+        }
+        Ok(parts)
+    }
+
+    fn part(&self, number: u64, recording: RunRecording) -> Result<Part<File>, RunError> {
+        let RunRecording { name, zero_s, .. } = recording;
+        match self.recording(&name).map(File::open) {
+            Some(Ok(file)) => Ok(Part { name, zero_s, file }),
             Some(Err(error)) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
-            _ => Err(RunError::Removed {
-                number,
-                name: recording.name,
-            }),
+            _ => Err(RunError::Removed { number, name }),
         }
     }
 
-    fn track(&self, number: u64, recording: u32) -> Result<Update, RunError> {
-        let (mut file, known) = self.open(number, recording as usize)?;
-        let track = recording::track(&mut file, known.zero_s)?;
-        Ok(Update::RunTrack(Box::new(RunTrack {
-            number,
-            recording,
-            ..track
-        })))
-    }
-
-    fn piece(&self, number: u64, index: usize, from: u64) -> Result<Update, RunError> {
-        let (mut file, RunRecording { name, .. }) = self.open(number, index)?;
+    /// A piece of a recording.
+    ///
+    /// # Errors
+    /// See [`RunError`].
+    pub(crate) fn piece(&self, number: u64, index: usize, from: u64) -> Result<Update, RunError> {
+        let Part { name, mut file, .. } = self.open(number, index)?;
         let size = file.metadata()?.len();
         file.seek(SeekFrom::Start(from.min(size)))?;
         let mut bytes = Vec::new();
@@ -216,7 +232,7 @@ impl RunFolder {
             number,
             name,
             from: from.min(size),
-            size,
+            size: Some(size),
             data: STANDARD.encode(bytes),
         })
     }
@@ -270,6 +286,7 @@ mod tests {
     use vthal_core::RunTask;
 
     use super::{RUNS_MAX, RunError, RunFolder};
+    use crate::run_desk::RunDesk;
 
     struct Scratch(PathBuf);
 
@@ -301,6 +318,10 @@ mod tests {
         record
     }
 
+    fn answer(folder: &RunFolder, task: RunTask) -> Result<Update, RunError> {
+        RunDesk::new(folder.clone()).answer(task)
+    }
+
     fn numbers(update: Result<Update, RunError>) -> (Vec<u64>, bool) {
         match update {
             Ok(Update::Runs { runs, more }) => (runs.iter().map(|run| run.number).collect(), more),
@@ -309,7 +330,7 @@ mod tests {
     }
 
     fn list(folder: &RunFolder, before: Option<u64>, count: u8) -> (Vec<u64>, bool) {
-        numbers(folder.answer(RunTask::List { before, count }))
+        numbers(answer(folder, RunTask::List { before, count }))
     }
 
     #[test]
@@ -325,10 +346,10 @@ mod tests {
         assert_eq!(list(&folder, None, 2), (vec![last, last - 1], true));
         assert_eq!(list(&folder, Some(6), 2), (vec![5, 4], false));
         assert!(matches!(
-            folder.answer(RunTask::Show(3)),
+            answer(&folder, RunTask::Show(3)),
             Err(RunError::Absent(3))
         ));
-        assert!(matches!(folder.answer(RunTask::Show(4)), Ok(Update::Run(_))));
+        assert!(matches!(answer(&folder, RunTask::Show(4)), Ok(Update::Run(_))));
     }
 
     #[test]
@@ -341,7 +362,7 @@ mod tests {
         fs::write(folder.path().join("000002.json"), "{\"run\":{").expect("writes");
         fs::write(folder.path().join("notes.json"), "mine").expect("writes");
         assert_eq!(list(&folder, None, 9), (vec![3, 1], false));
-        let error = folder.answer(RunTask::Show(2)).expect_err("is damaged");
+        let error = answer(&folder, RunTask::Show(2)).expect_err("is damaged");
         assert_eq!(error.name(), "run-unreadable");
     }
 
@@ -352,26 +373,26 @@ mod tests {
         folder.keep(&record(1)).expect("keeps");
         let file = |recording, from| RunTask::File {
             number: 1,
-            recording,
+            recording: Some(recording),
             from,
         };
         assert_eq!(
-            folder.answer(file(0, 0)).expect_err("is absent").name(),
+            answer(&folder, file(0, 0)).expect_err("is absent").name(),
             "recording-removed"
         );
         assert_eq!(
-            folder.answer(file(1, 0)).expect_err("is absent").name(),
+            answer(&folder, file(1, 0)).expect_err("is absent").name(),
             "no-such-recording"
         );
         let whole: Vec<u8> = (0..2 * RUN_PIECE_BYTES + 7).map(|byte| byte as u8).collect();
         fs::write(scratch.0.join("runs/run-a.mcap"), &whole).expect("writes");
         let mut got = Vec::new();
         loop {
-            let Ok(Update::RunFile { size, data, from, .. }) = folder.answer(file(0, got.len() as u64))
+            let Ok(Update::RunFile { size, data, from, .. }) = answer(&folder, file(0, got.len() as u64))
             else {
                 panic!("no piece")
             };
-            assert_eq!((size, from), (whole.len() as u64, got.len() as u64));
+            assert_eq!((size, from), (Some(whole.len() as u64), got.len() as u64));
             let piece = STANDARD.decode(data).expect("base 64");
             if piece.is_empty() {
                 break;
@@ -379,7 +400,7 @@ mod tests {
             got.extend(piece);
         }
         assert_eq!(got, whole);
-        let Ok(Update::Run(shown)) = folder.answer(RunTask::Show(1)) else {
+        let Ok(Update::Run(shown)) = answer(&folder, RunTask::Show(1)) else {
             panic!("no record")
         };
         assert_eq!(shown.run.recordings[0].bytes, Some(whole.len() as u64));
@@ -396,11 +417,11 @@ mod tests {
             folder.keep(&wrong).expect("keeps");
             let task = RunTask::File {
                 number: 1,
-                recording: 0,
+                recording: Some(0),
                 from: 0,
             };
             assert_eq!(
-                folder.answer(task).expect_err("is none").name(),
+                answer(&folder, task).expect_err("is none").name(),
                 "recording-removed",
                 "{name}"
             );

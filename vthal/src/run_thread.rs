@@ -8,6 +8,7 @@ use tokio::sync::mpsc::Sender;
 use vthal_core::{ClientId, RunQuery};
 
 use crate::event::Event;
+use crate::run_desk::RunDesk;
 use crate::run_folder::{RunError, RunFolder};
 
 /// Questions that may wait.
@@ -37,8 +38,9 @@ pub(crate) fn start(folder: RunFolder, events: Sender<Event>) -> io::Result<RunH
     std::thread::Builder::new()
         .name("history".to_owned())
         .spawn(move || {
+            let mut desk = RunDesk::new(folder);
             for RunQuery { client, id, task } in queue {
-                let outcome = folder.answer(task).map(Box::new);
+                let outcome = desk.answer(task).map(Box::new);
                 let answer = RunAnswer { client, id, outcome };
                 if events.blocking_send(Event::Runs(answer)).is_err() {
                     return;

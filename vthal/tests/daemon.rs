@@ -8,6 +8,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
 use rvac_protocol::message::{self, BinaryKinds};
@@ -231,13 +233,6 @@ fn recordings_replay_identically_and_a_changed_one_does_not() {
         .expect("one run")
         .expect("reads")
         .path();
-    let replay = |path: &Path| {
-        Command::new(vthal())
-            .arg("replay")
-            .arg(path)
-            .output()
-            .expect("runs")
-    };
     let output = replay(&file);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
@@ -722,7 +717,11 @@ fn asked_of_runs(client: &mut Client, request: &str) -> Update {
     let is_answer = |update: &Update| {
         matches!(
             update,
-            Update::Runs { .. } | Update::Run(_) | Update::RunFile { .. } | Update::Failed(_)
+            Update::Runs { .. }
+                | Update::Run(_)
+                | Update::RunFile { .. }
+                | Update::RunTrack(_)
+                | Update::Failed(_)
         )
     };
     let answer = client.wait_for(soon(), is_answer).expect("reads");
@@ -829,4 +828,102 @@ fn age_checkpoint(path: &Path) {
     whole.extend(body);
     fs::write(path, whole).expect("writes");
     fs::remove_file(path.with_extension("old")).ok();
+}
+
+#[test]
+fn a_run_during_which_the_daemon_was_killed_is_one_file_and_one_time_line() {
+    let Desk {
+        mut robot,
+        daemon,
+        mut client,
+        scratch,
+    } = Desk::started();
+    wait_for_state(&mut robot, &mut client, "cleaning");
+    let checkpoint = scratch.join("state/checkpoint");
+    let written = |path: &Path| fs::read_to_string(path).is_ok_and(|text| text.contains(r#""running":true"#));
+    assert!(robot.live_until(soon(), |_| written(&checkpoint)).expect("lives"));
+    let lives_for = |robot: &mut SyntheticRobot| {
+        let until = Instant::now() + Duration::from_millis(1500);
+        robot.live_until(until, |_| false).expect("lives");
+    };
+    lives_for(&mut robot);
+    daemon.kill().expect("kills");
+    assert!(
+        robot.live_until(soon(), |robot| !robot.moves()).expect("lives"),
+        "the lease ends"
+    );
+    let _daemon = start(&scratch);
+    let mut person = Client::watching(&scratch.join("vthal.sock"), r#"["runs"]"#).expect("connects");
+    assert!(robot.live_until(soon(), SyntheticRobot::moves).expect("lives"));
+    lives_for(&mut robot);
+    person.send(r#"{"c":"stop"}"#).expect("sends");
+    wait_until(&mut robot, &mut person, |update| {
+        matches!(update, Update::RunKept(_))
+    });
+
+    let Update::RunTrack(track) = asked_of_runs(&mut person, r#"{"c":"run-track","number":1}"#) else {
+        panic!("no track")
+    };
+    let [first_s, second_s] = track.begins_s[..] else {
+        panic!("two parts: {:?}", track.begins_s)
+    };
+    assert!(first_s < second_s, "{:?}", track.begins_s);
+    assert!(track.poses.is_sorted_by(|one, next| one.0 < next.0), "{track:?}");
+    assert!(track.poses.iter().any(|pose| pose.0 >= second_s), "{track:?}");
+
+    let bytes = whole_file(&mut person);
+    let file = scratch.join("whole.mcap");
+    fs::write(&file, &bytes).expect("writes");
+    let Update::Run(record) = asked_of_runs(&mut person, r#"{"c":"run","number":1}"#) else {
+        panic!("no run")
+    };
+    let recordings = record.run.recordings.iter();
+    let paths: Vec<_> = recordings
+        .map(|known| scratch.join("state/runs").join(&known.name))
+        .collect();
+    assert_eq!(paths.len(), 2);
+    let alone = paths.iter().map(|path| steps_that_replay(path));
+    assert_eq!(steps_that_replay(&file), alone.sum::<u64>());
+}
+
+/// All recordings of the first run as one file, of which a piece in the middle comes also alone.
+fn whole_file(person: &mut Client) -> Vec<u8> {
+    let mut piece = |from: usize| {
+        let request = format!(r#"{{"c":"run-file","number":1,"from":{from}}}"#);
+        match asked_of_runs(person, &request) {
+            Update::RunFile { data, size, .. } => {
+                assert_eq!(size, None);
+                STANDARD.decode(data).expect("base 64")
+            }
+            other => panic!("no piece: {other:?}"),
+        }
+    };
+    let mut bytes = Vec::new();
+    loop {
+        let next = piece(bytes.len());
+        if next.is_empty() {
+            break;
+        }
+        bytes.extend(next);
+    }
+    let middle = bytes.len() / 2;
+    let again = piece(middle);
+    assert!(!again.is_empty() && bytes[middle..].starts_with(&again));
+    bytes
+}
+
+fn replay(path: &Path) -> std::process::Output {
+    let mut command = Command::new(vthal());
+    command.arg("replay").arg(path).output().expect("runs")
+}
+
+/// How many steps of a recording the brain decides in the same way again.
+fn steps_that_replay(path: &Path) -> u64 {
+    let text = String::from_utf8_lossy(&replay(path).stdout).into_owned();
+    let steps = text
+        .strip_prefix("identical: ")
+        .and_then(|rest| rest.split(' ').next());
+    steps
+        .and_then(|steps| steps.parse().ok())
+        .unwrap_or_else(|| panic!("{text}"))
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::io::Read as _;
 use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
@@ -13,7 +14,7 @@ use rvac_api::{
     Status, TrackPose,
 };
 use serde_json::{Value, json};
-use vthal::recording::{RunFile, track};
+use vthal::recording::{Part, RunFile, Whole, track};
 use vthal_core::{Direction, Record, RunCause, RunStart};
 
 /// Host time of the run's begin.
@@ -374,7 +375,7 @@ fn one_file_says_which_robot_it_was_and_what_came_of_the_run() {
 #[test]
 fn a_track_has_places_and_readings_in_the_times_of_the_run_also_of_a_file_that_was_cut() {
     let bytes = recording("track");
-    let whole = track(&mut &bytes[..], 8.0).expect("reads");
+    let whole = track([part(8.0, &bytes)]).expect("reads");
     assert!(!whole.truncated);
     let [TrackPose(t, x, y, heading)] = whole.poses[..] else {
         panic!("one pose: {:?}", whole.poses)
@@ -386,7 +387,107 @@ fn a_track_has_places_and_readings_in_the_times_of_the_run_also_of_a_file_that_w
         (0.008, Some(0.5), Some(-1.0))
     );
     assert_eq!(reading.motors_a, Some([0.1, 0.2, 0.5]));
-    let cut = track(&mut &bytes[..bytes.len() - 100], 8.0).expect("reads");
+    let cut = track([part(8.0, &bytes[..bytes.len() - 100])]).expect("reads");
     assert!(cut.truncated);
     assert_eq!(cut.poses, whole.poses);
+}
+
+fn part(zero_s: f64, file: &[u8]) -> Part<&[u8]> {
+    let name = format!("run-{zero_s}.mcap");
+    Part { name, zero_s, file }
+}
+
+/// The run began eight seconds after the first daemon. The second one went on from 260 s later; the first one lived on for a bit.
+const ZERO_S: [f64; 2] = [8.0, -252.0];
+
+#[test]
+fn one_track_tells_of_two_recordings_what_the_run_knows() {
+    let (first, second) = (recording("track-1"), recording("track-2"));
+    let both = track([part(ZERO_S[0], &first), part(ZERO_S[1], &second)]).expect("reads");
+    assert_eq!(both.begins_s, [0.008, 260.008]);
+    let times: Vec<f32> = both.poses.iter().map(|pose| pose.0).collect();
+    assert_eq!(times, [251.975, 511.975]);
+    let times: Vec<f32> = both.readings.iter().map(|reading| reading.t).collect();
+    assert_eq!(times, [0.008, 260.008]);
+    // A daemon that went on from before that pose knows nothing of it.
+    let late = track([part(8.0, &first), part(-200.0, &second)]).expect("reads");
+    assert_eq!(late.begins_s, [0.008, 208.008]);
+    assert_eq!(late.poses.len(), 1, "{:?}", late.poses);
+    assert_eq!(late.poses[0].0, 459.975);
+}
+
+/// Both recordings as one file.
+fn whole(first: &[u8], second: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let parts = vec![part(ZERO_S[0], first), part(ZERO_S[1], second)];
+    let mut whole = Whole::new(parts).expect("begins");
+    whole.read_to_end(&mut bytes).expect("reads");
+    bytes
+}
+
+#[test]
+fn two_recordings_become_one_file_with_one_time_line() {
+    let (first, second) = (recording("whole-1"), recording("whole-2"));
+    let bytes = whole(&first, &second);
+    assert_eq!(bytes, whole(&first, &second), "the same bytes again");
+    let (found, parts) = (messages(&bytes), messages(&first));
+    for (topic, alone) in &parts {
+        let (one, other) = found[topic].split_at(alone.len());
+        assert_eq!(one, alone, "{topic} of the first part is as it was");
+        let moved_ns = 260_000_000_000;
+        let times: Vec<u64> = alone.iter().map(|(time_ns, _)| time_ns + moved_ns).collect();
+        let told: Vec<u64> = other.iter().map(|(time_ns, _)| *time_ns).collect();
+        assert_eq!(told, times, "{topic} of the second part comes later");
+    }
+    let (_, pose) = &found["/pose"][1];
+    assert_eq!(
+        pose["timestamp"],
+        json!({"sec": 519, "nsec": 975_123_000}),
+        "what Foxglove draws comes later, too"
+    );
+    assert_eq!(pose["pose"], found["/pose"][0].1["pose"]);
+    let (_, scene) = &found["/robot"][1];
+    assert_eq!(
+        scene["entities"][0]["timestamp"],
+        json!({"sec": 268, "nsec": 8_291_000})
+    );
+    assert_eq!(
+        found["/observations"][0].1, found["/observations"][2].1,
+        "what the brain saw stays as it was"
+    );
+}
+
+#[test]
+fn the_index_of_one_file_knows_both_parts() {
+    let bytes = whole(&recording("index-1"), &recording("index-2"));
+    let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
+    let count = summary.stats.as_ref().expect("has statistics").message_count;
+    let all: usize = messages(&bytes).values().map(Vec::len).sum();
+    assert_eq!(count as usize, all);
+    let told = ["robot.json", "run.json"].map(|name| {
+        let indexes = summary.attachment_indexes.iter();
+        indexes.filter(|index| index.name == name).count()
+    });
+    assert_eq!(told, [2, 2]);
+    let mut indexes = summary.metadata_indexes.iter();
+    let index = indexes.rfind(|index| index.name == "part").expect("is told");
+    let part = mcap::read::metadata(&bytes, index).expect("is whole").metadata;
+    assert_eq!(part["file"], "run--252.mcap");
+    assert_eq!(part["moved_ns"], "260000000000");
+}
+
+#[test]
+fn a_part_that_was_cut_keeps_what_it_has_and_the_next_one_comes_after_it() {
+    let (first, second) = (recording("cut-1"), recording("cut-2"));
+    let cut = &first[..first.len() - 100];
+    let mut bytes = Vec::new();
+    // The second daemon went on from the begin.
+    let parts = vec![part(8.0, cut), part(8.0, &second), part(0.0, b"damaged")];
+    let mut joined = Whole::new(parts).expect("begins");
+    joined.read_to_end(&mut bytes).expect("reads");
+    let found = messages(&bytes);
+    let count: usize = messages(&second).values().map(Vec::len).sum();
+    assert_eq!(found.values().map(Vec::len).sum::<usize>(), 2 * count);
+    let newest = found.values().map(|all| all[all.len() / 2 - 1].0).max();
+    assert_eq!(found["/run"][1].0, newest.expect("has messages") + 1_000_000);
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use axum::body::{Body, Bytes};
-use axum::http::{Response, StatusCode, header};
+use axum::http::{HeaderValue, Response, StatusCode, header};
 use axum::response::IntoResponse;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -30,8 +30,8 @@ pub(crate) enum Wanted {
     Recording {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0.
-        recording: u32,
+        /// Which of its recordings, from 0; all of them as one without that.
+        recording: Option<u32>,
     },
     /// All floors.
     Floors,
@@ -67,7 +67,8 @@ struct Piece {
 /// What pieces of one file have in common.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Whole {
-    size: u64,
+    /// Unknown of a file that is made while it is read.
+    size: Option<u64>,
     /// Of a file that is made anew for each piece; recordings only grow.
     check: Option<u32>,
 }
@@ -86,10 +87,13 @@ pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
             return (StatusCode::BAD_GATEWAY, text).into_response();
         }
     };
-    let size = whole.size;
+    // Without a size the last piece is an empty one.
+    let size = whole.size.unwrap_or(u64::MAX);
+    let length = whole
+        .size
+        .map(|size| (header::CONTENT_LENGTH, HeaderValue::from(size)));
     let headers = [
         (header::CONTENT_TYPE, "application/octet-stream".to_owned()),
-        (header::CONTENT_LENGTH, size.to_string()),
         (header::CACHE_CONTROL, "no-store".to_owned()),
         (
             header::CONTENT_DISPOSITION,
@@ -111,12 +115,17 @@ pub(crate) async fn answer(vthal: PathBuf, wanted: Wanted) -> Response<Body> {
         // A recording that grows meanwhile is as long as was promised.
         bytes.truncate(usize::try_from(size - sent).unwrap_or(usize::MAX));
         if bytes.is_empty() {
-            return Err(io::ErrorKind::UnexpectedEof.into());
+            return match whole.size {
+                Some(_) => Err(io::ErrorKind::UnexpectedEof.into()),
+                None => Ok(None),
+            };
         }
         let sent = sent + bytes.len() as u64;
         Ok(Some((Bytes::from(bytes), (upstream, sent, None))))
     });
-    (headers, Body::from_stream(rest)).into_response()
+    let mut response = (headers, Body::from_stream(rest)).into_response();
+    response.headers_mut().extend(length);
+    response
 }
 
 async fn piece(upstream: &mut Upstream, wanted: Wanted, from: u64) -> Result<Piece, NoPiece> {
@@ -168,8 +177,11 @@ fn parts(update: Update, from: u64) -> Option<(String, Whole, String)> {
             check,
             data,
         } if begins == from => {
-            let check = Some(check);
-            Some((FLOORS_NAME.to_owned(), Whole { size, check }, data))
+            let whole = Whole {
+                size: Some(size),
+                check: Some(check),
+            };
+            Some((FLOORS_NAME.to_owned(), whole, data))
         }
         _ => None,
     }

@@ -168,6 +168,7 @@ impl Server {
     pub async fn run(self) {
         let router = api::routes()
             .route("/api/ws", get(open_socket))
+            .route("/api/runs/{number}/recording", get(download_run))
             .route(
                 "/api/runs/{number}/recording/{recording}",
                 get(download_recording),
@@ -323,12 +324,17 @@ async fn serve_asset(State(site): State<Arc<Site>>, request: Request) -> Respons
     site.assets.answer(request.uri().path(), request.headers())
 }
 
+async fn download_run(State(site): State<Arc<Site>>, Path(number): Path<u64>) -> Response<Body> {
+    let recording = None;
+    download::answer(site.vthal.clone(), Wanted::Recording { number, recording }).await
+}
+
 async fn download_recording(
     State(site): State<Arc<Site>>,
     Path((number, recording)): Path<(u64, u32)>,
 ) -> Response<Body> {
-    let wanted = Wanted::Recording { number, recording };
-    download::answer(site.vthal.clone(), wanted).await
+    let recording = Some(recording);
+    download::answer(site.vthal.clone(), Wanted::Recording { number, recording }).await
 }
 
 async fn download_floors(State(site): State<Arc<Site>>) -> Response<Body> {

@@ -199,19 +199,24 @@ pub struct RunPicture {
     pub home: Option<HomeView>,
 }
 
-/// What a recording tells of a run in few numbers, for a replay: thinned, so that it stays below a megabyte. Times are seconds
+/// What recordings tell of a run in few numbers, for a replay: thinned, so that it stays below a megabyte. Times are seconds
 /// since the run began.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunTrack {
     /// Number of the run.
     pub number: u64,
-    /// Which of its recordings, from 0.
-    pub recording: u32,
+    /// Which of its recordings, from 0; absent = all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recording: Option<u32>,
+    /// When each recording begins of which it tells, in order: what lies on both sides was told by two lives of the daemon, or in
+    /// two maps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub begins_s: Vec<f32>,
     /// Poses, at most two a second.
     pub poses: Vec<TrackPose>,
     /// Readings, at most one a second.
     pub readings: Vec<TrackReading>,
-    /// The recording ends in the middle, as after a crash.
+    /// A recording ends in the middle, as after a crash.
     pub truncated: bool,
 }
 

@@ -388,21 +388,21 @@ pub enum RequestBody {
         /// Its number.
         number: u64,
     },
-    /// Asks for what a recording of a run tells, in few numbers; answered by [`crate::Update::RunTrack`].
+    /// Asks for what the recordings of a run tell, in few numbers; answered by [`crate::Update::RunTrack`].
     RunTrack {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0.
-        #[serde(default)]
-        recording: u32,
+        /// Which of its recordings, from 0; absent = all of them as one file.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        recording: Option<u32>,
     },
-    /// Asks for a piece of a recording of a run; answered by [`crate::Update::RunFile`].
+    /// Asks for a piece of the recording of a run; answered by [`crate::Update::RunFile`].
     RunFile {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0.
-        #[serde(default)]
-        recording: u32,
+        /// Which of its recordings, from 0; absent = all of them, one after the other.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        recording: Option<u32>,
         /// First byte of the piece.
         from: u64,
     },

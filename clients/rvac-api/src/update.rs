@@ -111,9 +111,9 @@ pub enum Update {
     Run(Box<RunRecord>),
     /// A run is over, and what is kept of it is on the disk.
     RunKept(Box<Run>),
-    /// What a recording tells of a run.
+    /// What recordings tell of a run.
     RunTrack(Box<RunTrack>),
-    /// A piece of a recording.
+    /// A piece of the recording of a run.
     RunFile {
         /// Number of the run.
         number: u64,
@@ -121,8 +121,9 @@ pub enum Update {
         name: String,
         /// Its first byte.
         from: u64,
-        /// Bytes of the whole file.
-        size: u64,
+        /// Bytes of the whole file; absent where several recordings become one file while it is read.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        size: Option<u64>,
         /// The bytes, at most [`crate::RUN_PIECE_BYTES`] of them, in base 64; none at the end of the file.
         data: String,
     },

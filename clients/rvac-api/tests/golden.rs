@@ -1057,19 +1057,34 @@ fn runs() {
     request(
         RequestBody::RunTrack {
             number: 7,
-            recording: 0,
+            recording: Some(0),
         },
         r#"{"c":"run-track","number":7,"recording":0}"#,
     );
     request(
+    request(
+        RequestBody::RunTrack {
+            number: 7,
+            recording: None,
+        },
+        r#"{"c":"run-track","number":7}"#,
+    );
         RequestBody::RunFile {
             number: 7,
-            recording: 1,
+            recording: Some(1),
             from: 49_152,
         },
         r#"{"c":"run-file","number":7,"recording":1,"from":49152}"#,
     );
     check(
+    request(
+        RequestBody::RunFile {
+            number: 7,
+            recording: None,
+            from: 0,
+        },
+        r#"{"c":"run-file","number":7,"from":0}"#,
+    );
         &Update::Runs {
             runs: vec![run()],
             more: true,
@@ -1086,7 +1101,8 @@ fn runs() {
 fn the_track_of_a_run() {
     let track = RunTrack {
         number: 7,
-        recording: 0,
+        recording: None,
+        begins_s: vec![0.0, 0.75],
         poses: vec![TrackPose(0.5, 1.0, -2.0, 0.25)],
         readings: vec![TrackReading {
             t: 1.0,
@@ -1099,7 +1115,7 @@ fn the_track_of_a_run() {
     };
     check(
         &Update::RunTrack(Box::new(track)),
-        r#"{"e":"run-track","number":7,"recording":0,"poses":[[0.5,1.0,-2.0,0.25]],"readings":[{"t":1.0,"charge":0.5,"motors_a":[0.5,0.25,1.0],"bad_share":0.0}],"truncated":true}"#,
+        r#"{"e":"run-track","number":7,"begins_s":[0.0,0.75],"poses":[[0.5,1.0,-2.0,0.25]],"readings":[{"t":1.0,"charge":0.5,"motors_a":[0.5,0.25,1.0],"bad_share":0.0}],"truncated":true}"#,
     );
 }
 
@@ -1144,12 +1160,22 @@ fn a_run_in_full() {
             number: 7,
             name: "run-a.mcap".to_owned(),
             from: 0,
-            size: 3,
+            size: Some(3),
             data: "AAEC".to_owned(),
         },
         r#"{"e":"run-file","number":7,"name":"run-a.mcap","from":0,"size":3,"data":"AAEC"}"#,
     );
     check(&RunJob::Spot, r#""spot""#);
+    check(
+        &Update::RunFile {
+            number: 7,
+            name: "run-a-whole.mcap".to_owned(),
+            from: 3,
+            size: None,
+            data: String::new(),
+        },
+        r#"{"e":"run-file","number":7,"name":"run-a-whole.mcap","from":3,"data":""}"#,
+    );
     check(&RunAsker::Button, r#""button""#);
     check(&RunAsker::Client("Anna".to_owned()), r#"{"client":"Anna"}"#);
     for (result, name) in [

@@ -527,34 +527,38 @@ fn floors_are_written_into_a_file_and_read_from_one() {
     std::fs::remove_file(&file).expect("cleans up");
 }
 
-/// A daemon that keeps one run, whose recording has 70,000 bytes.
+/// A daemon that keeps one run with two recordings, of which the second has 50,000 bytes, and both together 70,000.
 fn with_history(request: &Request) -> Vec<Update> {
     let id = request.id.unwrap_or_default();
-    match request.body {
-        RequestBody::RunFile {
-            number: 7,
-            recording: 0,
-            from,
-        } => {
-            let rest = 70_000 - from.min(70_000);
-            let data = STANDARD.encode(vec![7; rest.min(RUN_PIECE_BYTES) as usize]);
-            let name = "run-a.mcap".to_owned();
-            let piece = Update::RunFile {
-                number: 7,
-                name,
-                from,
-                size: 70_000,
-                data,
-            };
-            vec![piece, Update::Done { id }]
-        }
-        RequestBody::RunFile { .. } => vec![Update::Failed(Failure {
+    let RequestBody::RunFile {
+        number,
+        recording,
+        from,
+    } = request.body
+    else {
+        return Vec::new();
+    };
+    let (all, size) = match recording {
+        None => (70_000, None),
+        Some(_) => (50_000, Some(50_000)),
+    };
+    if number != 7 || recording.is_some_and(|index| index != 1) {
+        return vec![Update::Failed(Failure {
             id: request.id,
             reason: "no-such-run".to_owned(),
             text: "No run 8 is kept.".to_owned(),
-        })],
-        _ => Vec::new(),
+        })];
     }
+    let rest = all - from.min(all);
+    let data = STANDARD.encode(vec![7; rest.min(RUN_PIECE_BYTES) as usize]);
+    let piece = Update::RunFile {
+        number,
+        name: "run-a.mcap".to_owned(),
+        from,
+        size,
+        data,
+    };
+    vec![piece, Update::Done { id }]
 }
 
 #[test]
@@ -562,16 +566,26 @@ fn a_recording_is_saved_whole_and_over_nothing() {
     let file = std::env::temp_dir().join(format!("rvac-test-{}-saved.mcap", std::process::id()));
     std::fs::remove_file(&file).ok();
     let path = file.to_str().expect("plain");
-    let save = |name: &str, number: &str| {
-        let (output, _) = Daemon::start(name, with_history).rvac(&["history", "save", number, path], "");
+    let save = |name: &str, said: &[&str]| {
+        let words = [&["history", "save"], said, &[path]].concat();
+        let (output, _) = Daemon::start(name, with_history).rvac(&words, "");
         output
     };
-    let missing = save("history-0", "8");
-    assert!(!missing.status.success() && !file.exists(), "{missing:?}");
-    let saved = save("history-1", "7");
+    for (name, said) in [
+        ("history-0", &["8"][..]),
+        ("history-3", &["7", "--recording", "1"]),
+    ] {
+        let missing = save(name, said);
+        assert!(!missing.status.success() && !file.exists(), "{missing:?}");
+    }
+    let part = save("history-4", &["7", "--recording", "2"]);
+    assert!(part.status.success(), "{part:?}");
+    assert_eq!(std::fs::read(&file).expect("is there"), vec![7; 50_000]);
+    std::fs::remove_file(&file).expect("cleans up");
+    let saved = save("history-1", &["7"]);
     assert!(saved.status.success(), "{saved:?}");
     assert_eq!(std::fs::read(&file).expect("is there"), vec![7; 70_000]);
-    let again = save("history-2", "7");
+    let again = save("history-2", &["7"]);
     let told = String::from_utf8_lossy(&again.stderr).into_owned();
     assert!(
         !again.status.success() && told.contains("is it there already"),

@@ -89,19 +89,19 @@ pub enum RunTask {
     },
     /// Tell all that is kept of one: [`Update::Run`].
     Show(u64),
-    /// Tell what a recording of one tells: [`Update::RunTrack`].
+    /// Tell what recordings of one tell: [`Update::RunTrack`].
     Track {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0.
-        recording: u32,
+        /// Which of its recordings, from 0; `None` for all of them as one.
+        recording: Option<u32>,
     },
-    /// Give a piece of a recording: [`Update::RunFile`].
+    /// Give a piece of its recording: [`Update::RunFile`].
     File {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0.
-        recording: u32,
+        /// Which of its recordings, from 0; `None` for all of them.
+        recording: Option<u32>,
         /// First byte.
         from: u64,
     },

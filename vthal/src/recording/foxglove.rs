@@ -98,6 +98,31 @@ pub(super) fn log(entry: &LogEntry) -> Value {
     })
 }
 
+/// A message of one of these forms, stamped so much later; `None` for what is none.
+pub(super) fn moved(topic: &str, data: &[u8], by_ns: i64) -> Option<Vec<u8>> {
+    if ![super::POSE, super::TRANSFORM, super::ROBOT, super::LOG].contains(&topic) {
+        return None;
+    }
+    let mut message: Value = serde_json::from_slice(data).ok()?;
+    let of_entities = message.get_mut("entities").and_then(Value::as_array_mut);
+    for stamped in of_entities.into_iter().flatten() {
+        move_stamp(stamped, by_ns);
+    }
+    move_stamp(&mut message, by_ns);
+    serde_json::to_vec(&message).ok()
+}
+
+fn move_stamp(stamped: &mut Value, by_ns: i64) {
+    let Some(stamp) = stamped.get_mut("timestamp") else {
+        return;
+    };
+    let part = |name: &str| stamp[name].as_u64().unwrap_or_default();
+    let then_ns = part("sec")
+        .saturating_mul(1_000_000_000)
+        .saturating_add(part("nsec"));
+    *stamp = timestamp(then_ns.saturating_add_signed(by_ns) / 1000);
+}
+
 fn timestamp(time_us: u64) -> Value {
     json!({"sec": time_us / 1_000_000, "nsec": time_us % 1_000_000 * 1000})
 }

@@ -1,18 +1,22 @@
-//! Recordings of runs: one MCAP file each, which Foxglove opens and [`replay`] runs again.
+//! Recordings of runs: one MCAP file each, which Foxglove opens and [`replay`] runs again. A run during which the daemon began
+//! anew has several, which become one for whoever wants to read it.
 
 pub mod format;
 mod foxglove;
 mod library;
+mod records;
 pub mod replay;
 mod run_file;
 mod schemas;
 mod thread;
 mod track;
+mod whole;
 
 pub use library::{Library, LibraryLimits};
 pub use run_file::{RecordError, RunFile};
 pub use thread::{RecorderHandle, start};
 pub use track::track;
+pub use whole::{Part, Whole};
 
 /// Channel of the run's beginning.
 pub(crate) const RUN: &str = "/run";

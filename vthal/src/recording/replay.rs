@@ -1,4 +1,4 @@
-//! Runs a recording through the brain again and compares every answer.
+//! Runs a recording through the brain again and compares every answer; also one that was made of several.
 
 use std::fs;
 use std::io;
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use brain::{Brain, Command};
 use mcap::MessageStream;
 use mcap::read::Options;
+use vthal_core::RunCause;
 
 use super::format::{Answered, FORMAT, Given, RunHeader, Seen};
 use super::{COMMANDS, DECISIONS, OBSERVATIONS, RUN};
@@ -84,12 +85,11 @@ pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
         match (&mut player, topic) {
             (None, RUN) => player = Some(Player::new(&message.data).map_err(not_a_run)?),
             (None, _) => {}
-            (Some(player), _) => {
-                player.take(topic, &message.data).map_err(not_a_run)?;
-                if player.difference.is_some() {
-                    break;
-                }
-            }
+            (Some(player), RUN) => player.begin_anew(&message.data).map_err(not_a_run)?,
+            (Some(player), _) => player.take(topic, &message.data).map_err(not_a_run)?,
+        }
+        if player.as_ref().is_some_and(|player| player.difference.is_some()) {
+            break;
         }
     }
     let mut player = player.ok_or_else(|| not_a_run("it has no run in it".to_owned()))?;
@@ -104,6 +104,9 @@ pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
     })
 }
 
+/// Cause of a run that goes on with that of a daemon that was killed.
+const AFTER_A_KILL: &str = RunCause::ResumedAfterRestart.name();
+
 struct Player {
     brain: Brain,
     commands: Vec<Command>,
@@ -117,7 +120,25 @@ struct Player {
 
 impl Player {
     fn new(data: &[u8]) -> Result<Self, String> {
+        Self::of(&read(data)?)
+    }
+
+    /// The file is one of several recordings, and the next one begins, with a brain of its own.
+    fn begin_anew(&mut self, data: &[u8]) -> Result<(), String> {
         let header: RunHeader = read(data)?;
+        // The answer to the last observation may be what the kill cut off.
+        if header.cause != AFTER_A_KILL {
+            self.settle();
+        }
+        *self = Self {
+            steps: self.steps,
+            difference: self.difference.take(),
+            ..Self::of(&header)?
+        };
+        Ok(())
+    }
+
+    fn of(header: &RunHeader) -> Result<Self, String> {
         if header.format != FORMAT {
             return Err(format!(
                 "it has format {} and this vthal replays format {FORMAT}: use vthal {}",

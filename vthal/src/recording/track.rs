@@ -1,15 +1,14 @@
-//! What a recording tells of a run in few numbers. The file is read piece by piece: it may be larger than the memory.
+//! What recordings tell of a run in few numbers.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read};
 
-use mcap::parse_record;
 use mcap::records::Record;
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use rvac_api::{DeviceTable, RunTrack, TrackPose, TrackReading};
 use serde::Deserialize;
 
-use super::{DEVICE, POSE};
+use super::records::Records;
+use super::{DEVICE, POSE, Part};
 
 /// Poses and readings that are told at most. Of a longer run every second one is left out, again and again.
 const POSES_MAX: usize = 10_000;
@@ -17,36 +16,22 @@ const READINGS_MAX: usize = 2_000;
 /// Times between two of them in a run that is short, seconds.
 const POSE_S: f64 = 0.45;
 const READING_S: f64 = 0.9;
-/// No record of ours is longer.
-const RECORD_BYTES_MAX: usize = 64 << 20;
-
-/// Reads a recording of a run that began at `zero_s` of its clock.
+/// Reads the recordings of a run, each with the time of its clock at which the run began. What one tells of the time of the next
+/// one is left out: the daemon went on from before that.
 ///
 /// # Errors
 /// What the file system says. A file that ends in the middle, or is no recording, gives what was read of it.
-pub fn track(file: &mut impl Read, zero_s: f64) -> io::Result<RunTrack> {
-    let options = LinearReaderOptions::default().with_record_length_limit(RECORD_BYTES_MAX);
-    let mut reader = LinearReader::new_with_options(options);
-    let mut collector = Collector::new(zero_s);
+pub fn track<R: Read>(parts: impl IntoIterator<Item = Part<R>>) -> io::Result<RunTrack> {
+    let mut collector = Collector::default();
     let mut is_whole = true;
-    while let Some(event) = reader.next_event() {
-        match event {
-            Ok(LinearReadEvent::ReadRequest(wanted)) => {
-                let read = file.read(reader.insert(wanted))?;
-                reader.notify_read(read);
-            }
-            Ok(LinearReadEvent::Record { data, opcode }) => {
-                if let Ok(record) = parse_record(opcode, data) {
-                    collector.take(&record);
-                }
-            }
-            Err(_) => {
-                is_whole = false;
-                break;
-            }
-        }
+    for part in parts {
+        let mut records = Records::new(part.file);
+        collector.begin(part.zero_s);
+        while records.next(|record| collector.take(record))?.is_some() {}
+        is_whole &= records.is_whole();
     }
     Ok(RunTrack {
+        begins_s: collector.begins_s,
         poses: collector.poses.kept,
         readings: collector.readings.kept,
         truncated: !is_whole,
@@ -62,19 +47,40 @@ enum Topic {
 
 struct Collector {
     zero_s: f64,
+    /// No message of this recording has come yet.
+    is_new: bool,
+    begins_s: Vec<f32>,
     channels: BTreeMap<u16, Topic>,
     poses: Thinned<TrackPose>,
     readings: Thinned<TrackReading>,
 }
 
-impl Collector {
-    fn new(zero_s: f64) -> Self {
+impl Default for Collector {
+    fn default() -> Self {
         Self {
-            zero_s,
+            zero_s: 0.0,
+            is_new: true,
+            begins_s: Vec::new(),
             channels: BTreeMap::new(),
             poses: Thinned::new(POSE_S, POSES_MAX),
             readings: Thinned::new(READING_S, READINGS_MAX),
         }
+    }
+}
+
+impl Collector {
+    /// What comes is of another recording.
+    fn begin(&mut self, zero_s: f64) {
+        self.channels.clear();
+        (self.zero_s, self.is_new) = (zero_s, true);
+    }
+
+    fn begin_at(&mut self, t_s: f64) {
+        self.is_new = false;
+        let begin_s = rounded(t_s);
+        self.begins_s.push(begin_s);
+        self.poses.cut(t_s, |pose| pose.0 < begin_s);
+        self.readings.cut(t_s, |reading| reading.t < begin_s);
     }
 
     fn take(&mut self, record: &Record<'_>) {
@@ -89,6 +95,9 @@ impl Collector {
             }
             Record::Message { header, data } => {
                 let t_s = header.log_time as f64 / 1e9 - self.zero_s;
+                if self.is_new {
+                    self.begin_at(t_s);
+                }
                 match self.channels.get(&header.channel_id) {
                     Some(Topic::Pose) => self.poses.take(t_s, || pose(t_s, data)),
                     Some(Topic::Device) => self.readings.take(t_s, || reading(t_s, data)),
@@ -116,6 +125,12 @@ impl<T> Thinned<T> {
             next_s: f64::NEG_INFINITY,
             max,
         }
+    }
+
+    /// Leaves out what is not before `t_s`; the next entry is that of then.
+    fn cut(&mut self, t_s: f64, is_before: impl Fn(&T) -> bool) {
+        self.kept.retain(is_before);
+        self.next_s = t_s;
     }
 
     fn take(&mut self, t_s: f64, read: impl FnOnce() -> Option<T>) {
@@ -160,6 +175,11 @@ struct Orientation {
     w: f64,
 }
 
+/// Milliseconds and millimetres are enough for an eye.
+fn rounded(value: f64) -> f32 {
+    ((1e3 * value).round() / 1e3) as f32
+}
+
 fn pose(t_s: f64, data: &[u8]) -> Option<TrackPose> {
     let Posed {
         pose: Place {
@@ -168,7 +188,6 @@ fn pose(t_s: f64, data: &[u8]) -> Option<TrackPose> {
         },
     } = serde_json::from_slice(data).ok()?;
     let heading_rad = 2.0 * orientation.z.atan2(orientation.w);
-    let rounded = |value: f64| ((1e3 * value).round() / 1e3) as f32;
     Some(TrackPose(
         rounded(t_s),
         rounded(position.x),
@@ -180,7 +199,7 @@ fn pose(t_s: f64, data: &[u8]) -> Option<TrackPose> {
 fn reading(t_s: f64, data: &[u8]) -> Option<TrackReading> {
     let table: DeviceTable = serde_json::from_slice(data).ok()?;
     Some(TrackReading {
-        t: ((1e3 * t_s).round() / 1e3) as f32,
+        t: rounded(t_s),
         charge: table.battery.as_ref().map(|battery| battery.charge as f32),
         battery_a: table.battery.as_ref().map(|battery| battery.current_a as f32),
         motors_a: table.currents_a,
@@ -190,12 +209,17 @@ fn reading(t_s: f64, data: &[u8]) -> Option<TrackReading> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Thinned, track};
+    use super::{Part, Thinned, track};
 
     #[test]
     fn what_is_no_recording_gives_nothing() {
         for bytes in [&b""[..], b"hello", &[0; 5_000], mcap::MAGIC] {
-            let track = track(&mut &bytes[..], 0.0).expect("reads");
+            let part = Part {
+                name: String::new(),
+                zero_s: 0.0,
+                file: bytes,
+            };
+            let track = track([part]).expect("reads");
             assert!(track.truncated && track.poses.is_empty(), "{bytes:?}");
         }
     }

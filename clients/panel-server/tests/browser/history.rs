@@ -72,7 +72,7 @@ async fn see_again(browser: &Browser) {
 
 /// Fetches what the link gives: a recording.
 async fn save(browser: &Browser) {
-    let fetch = "const link = document.getElementById('save-0'); window.saved = ''; \
+    let fetch = "const link = document.getElementById('save-recording'); window.saved = ''; \
                  fetch(link.href).then(async answer => { \
                      const bytes = new Uint8Array(await answer.arrayBuffer()); \
                      window.saved = answer.headers.get('content-disposition') + ' ' + Array.from(bytes.slice(0, 8)).join(' '); \

@@ -44,6 +44,32 @@ async fn a_recording_comes_whole_with_its_name() {
 }
 
 #[tokio::test]
+async fn what_is_made_while_it_is_read_ends_with_an_empty_piece() {
+    for texts in [&["twelve", " bytes", ""][..], &["twelve"]] {
+        let rig = Rig::start().await;
+        let serve = async {
+            let mut vthal = rig.accept().await;
+            let mut from = 0;
+            for text in texts {
+                let heard = vthal.hear().await.expect("asks");
+                let wanted = format!(r#"{{"id":1,"c":"run-file","number":7,"from":{from}}}"#);
+                assert_eq!(heard, wanted);
+                let data = STANDARD.encode(text);
+                let piece =
+                    format!(r#"{{"e":"run-file","number":7,"name":"a.mcap","from":{from},"data":"{data}"}}"#);
+                vthal.say(&piece).await;
+                from += text.len();
+            }
+        };
+        let ask = ASK.replace("recording/0", "recording");
+        let (answer, ()) = tokio::join!(rig.raw(&ask), serve);
+        let is_ended = answer.ends_with("6\r\ntwelve\r\n6\r\n bytes\r\n0\r\n\r\n");
+        assert_eq!(is_ended, texts.len() == 3, "{answer}");
+        assert!(is_ended == answer.ends_with("0\r\n\r\n"), "{answer}");
+    }
+}
+
+#[tokio::test]
 async fn a_recording_that_is_not_there_is_told_in_words() {
     let rig = Rig::start().await;
     let serve = async {

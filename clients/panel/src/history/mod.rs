@@ -108,7 +108,13 @@ impl Store {
         let is_recorded =
             |run: &Run| run.number == number && run.recordings.iter().any(|found| found.bytes.is_some());
         if desk.runs.with_untracked(|runs| runs.iter().any(is_recorded)) {
-            self.ask_as(RUN_ID, RequestBody::RunTrack { number, recording: 0 });
+            self.ask_as(
+                RUN_ID,
+                RequestBody::RunTrack {
+                    number,
+                    recording: None,
+                },
+            );
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use panel_logic::{StopRow, run_figures, run_text, stop_rows};
-use rvac_api::RunRecord;
+use rvac_api::{Run, RunRecord};
 
 use super::date_text;
 use super::player::Player;
@@ -30,7 +30,7 @@ fn run(store: Store, record: RunRecord) -> impl IntoView {
     let figures = run_figures(words(), kept);
     let stops = stop_rows(words(), &record);
     let left_out = (kept.stop_count as usize).saturating_sub(stops.len());
-    let downloads = downloads(&record);
+    let download = download(kept);
     let time = RwSignal::new(0.0_f64);
     let (has_stops, has_more) = (!stops.is_empty(), left_out > 0);
     let record = StoredValue::new(record);
@@ -52,7 +52,7 @@ fn run(store: Store, record: RunRecord) -> impl IntoView {
             {figures.into_iter().map(|(what, value)| view! { <dt>{what}</dt><dd>{value}</dd> }).collect_view()}
         </dl>
         <h3>{words().history.report}</h3>
-        <div class="draw-tools">{downloads}</div>
+        <div class="draw-tools">{download}</div>
     }
 }
 
@@ -84,22 +84,26 @@ fn stop_line(
     }
 }
 
-fn downloads(record: &RunRecord) -> AnyView {
-    let run = &record.run;
-    if run.recordings.is_empty() {
-        return view! { <p class="hint">{words().history.not_recorded}</p> }.into_any();
-    }
-    let links = run.recordings.iter().enumerate().map(|(index, recording)| {
-        let Some(bytes) = recording.bytes else {
-            let text = words().history.recording_gone;
-            return view! { <p class="hint">{text}</p> }.into_any();
-        };
-        let address = format!("/api/runs/{}/recording/{index}", run.number);
-        let size = words().history.save_recording.fill([&words().number(bytes as f64 / 1e6, 1)]);
-        view! {
-            <a class="small link" id=format!("save-{index}") href=address download=recording.name.clone()>{size}</a>
-        }
-        .into_any()
+/// A link that saves all recordings that are there as one file.
+fn download(run: &Run) -> AnyView {
+    let there = run
+        .recordings
+        .iter()
+        .filter(|recording| recording.bytes.is_some());
+    let bytes = there.clone().filter_map(|recording| recording.bytes).sum::<u64>();
+    let hint = match (run.recordings.len(), there.count()) {
+        (0, _) => Some(words().history.not_recorded),
+        (_, 0) => Some(words().history.recording_gone),
+        (all, left) => (left < all).then_some(words().history.recording_part_gone),
+    };
+    let address = format!("/api/runs/{}/recording", run.number);
+    let text = words()
+        .history
+        .save_recording
+        .fill([&words().number(bytes as f64 / 1e6, 1)]);
+    let link = (bytes > 0).then(|| {
+        view! { <a class="small link" id="save-recording" href=address download="">{text}</a> }
     });
-    links.collect_view().into_any()
+    let hint = hint.map(|hint| view! { <p class="hint">{hint}</p> });
+    view! { {link}{hint} }.into_any()
 }

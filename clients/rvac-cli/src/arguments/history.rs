@@ -30,14 +30,14 @@ pub(crate) enum HistoryVerb {
         /// Its number.
         number: u64,
     },
-    /// Save its recording as one file, for a bug report.
+    /// Save its recordings as one file, for a bug report.
     Save {
         /// Its number.
         number: u64,
         /// The file, which must not be there yet.
         file: PathBuf,
-        /// Which recording, if the daemon began anew during the run.
-        #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
-        recording: u32,
+        /// Only one of them, if the daemon began anew during the run; 1 is the first.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+        recording: Option<u32>,
     },
 }

@@ -1,4 +1,4 @@
-//! `rvac history`: the runs that are over, one of them in full, and its recording as a file.
+//! `rvac history`: the runs that are over, one of them in full, and its recordings as a file.
 
 mod words;
 
@@ -25,7 +25,7 @@ pub(crate) fn run(job: &HistoryJob) -> anyhow::Result<ExitCode> {
             number,
             file,
             recording,
-        }) => save((*number, recording - 1), file, &mut connection),
+        }) => save((*number, recording.map(|place| place - 1)), file, &mut connection),
     }
 }
 
@@ -60,9 +60,9 @@ fn show(job: &HistoryJob, number: u64, connection: &mut Connection) -> anyhow::R
     Ok(ExitCode::SUCCESS)
 }
 
-/// Saves a recording piece by piece, never over something that is there.
+/// Saves a recording, or all of them as one file, piece by piece, never over something that is there.
 fn save(
-    (number, recording): (u64, u32),
+    (number, recording): (u64, Option<u32>),
     path: &Path,
     connection: &mut Connection,
 ) -> anyhow::Result<ExitCode> {
@@ -93,7 +93,7 @@ fn save(
             .with_context(|| format!("cannot write {}", path.display()))?;
         written += bytes.len() as u64;
         let (next, size, _) = piece(written)?;
-        if written > size {
+        if size.is_some_and(|size| written > size) {
             bail!("the recording became shorter while it was read: try again");
         }
         data = next;

@@ -13,16 +13,27 @@ const GAP_S: f32 = 30.0;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replay {
     poses: Vec<TrackPose>,
+    /// When its recordings begin. Nothing is drawn from one to the next: the robot may have been carried, or the next one tells of
+    /// another map.
+    begins: Vec<f32>,
 }
 
 impl Replay {
-    /// The one that a recording tells.
+    /// The one that the recordings tell.
     #[must_use]
     pub fn new(track: &RunTrack) -> Self {
         let mut poses = track.poses.clone();
         poses.retain(|TrackPose(t, x, y, heading)| [t, x, y, heading].iter().all(|value| value.is_finite()));
         poses.sort_by(|one, other| one.0.total_cmp(&other.0));
-        Self { poses }
+        let mut begins = track.begins_s.clone();
+        begins.retain(|begin| begin.is_finite());
+        begins.sort_by(f32::total_cmp);
+        Self { poses, begins }
+    }
+
+    /// How many recordings have begun at that time.
+    fn part_at(&self, t: f32) -> usize {
+        self.begins.partition_point(|begin| *begin <= t)
     }
 
     /// When it ends, seconds since the run began.
@@ -41,6 +52,7 @@ impl Replay {
         if let Some(TrackPose(to_s, next_x, next_y, _)) = self.poses.get(after)
             && to_s - from_s > 0.0
             && to_s - from_s < GAP_S
+            && self.part_at(from_s) == self.part_at(*to_s)
         {
             let share = ((t - from_s) / (to_s - from_s)).clamp(0.0, 1.0);
             x += share * (next_x - x);
@@ -56,8 +68,11 @@ impl Replay {
         let t = t_s as f32;
         let driven = self.poses.partition_point(|pose| pose.0 <= t);
         let mut path = String::new();
-        for TrackPose(_, x, y, _) in self.poses.iter().take(driven) {
-            let letter = if path.is_empty() { 'M' } else { 'L' };
+        let mut part_before = None;
+        for TrackPose(at, x, y, _) in self.poses.iter().take(driven) {
+            let part = Some(self.part_at(*at));
+            let letter = if part == part_before { 'L' } else { 'M' };
+            part_before = part;
             // Writing to a string does not fail.
             write!(path, "{letter}{} {}", cm(f64::from(*x)), cm(-f64::from(*y))).ok();
         }
@@ -100,6 +115,23 @@ mod tests {
         assert_eq!(replay.robot_at(500.0).map(|at| at.0), Some(300.0));
         assert_eq!(replay.way_until(2.0), "M0 0L100 -50");
         assert_eq!(replay.way_until(0.5), "");
+    }
+
+    #[test]
+    fn nothing_is_drawn_from_one_recording_to_the_next() {
+        let replay = Replay::new(&RunTrack {
+            begins_s: vec![0.0, 2.0],
+            poses: vec![
+                TrackPose(1.0, 0.0, 0.0, 0.0),
+                TrackPose(1.5, 0.5, 0.0, 0.0),
+                TrackPose(2.0, 2.0, 1.0, 0.0),
+                TrackPose(3.0, 3.0, 1.0, 0.0),
+            ],
+            ..RunTrack::default()
+        });
+        assert_eq!(replay.robot_at(1.9), Some((50.0, 0.0, 0.0)));
+        assert_eq!(replay.robot_at(2.5), Some((250.0, -100.0, 0.0)));
+        assert_eq!(replay.way_until(9.0), "M0 0L50 0M200 -100L300 -100");
     }
 
     #[test]

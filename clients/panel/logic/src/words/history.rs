@@ -21,6 +21,8 @@ screen! {
         not_recorded: "This run was not recorded.", "Seda tööd ei salvestatud.";
         recording_gone: "The recording was removed because newer ones took its place.",
             "Salvestis eemaldati, sest uuemad vajasid ruumi.";
+        recording_part_gone: "A part of the recording was removed because newer ones took its place.",
+            "Osa salvestisest eemaldati, sest uuemad vajasid ruumi.";
         save_recording[1]: "Save the recording ({0} MB)", "Salvesta salvestis ({0} MB)";
         no_replay: "Without a recording the run cannot be seen again.", "Salvestiseta ei saa tööd uuesti vaadata.";
         play: "Play", "Esita";
