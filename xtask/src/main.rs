@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod bench;
+mod book_pictures;
 mod codegen;
 mod demo;
 mod firmware;
@@ -42,6 +43,8 @@ enum Command {
     Codegen(codegen::Arguments),
     /// Builds the panel for the browser and packs it.
     Panel,
+    /// Makes the pictures of the book's measurements with today's code.
+    BookPictures,
 }
 
 fn main() -> ExitCode {
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Tidy => tidy::run(),
         Command::Codegen(arguments) => codegen::run(&arguments),
+        Command::BookPictures => book_pictures::run(),
         Command::Panel => {
             panel::build().map(|folder| process::say(&format!("the panel is in {}", folder.display())))
         }

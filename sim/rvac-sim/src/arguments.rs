@@ -277,6 +277,9 @@ pub(crate) struct ReportArguments {
     /// Run bounce first for each home, noise class and seed of which the folder holds no such run, and keep that there, too.
     #[arg(long)]
     pub(crate) with_bounce: bool,
+    /// Write the pictures of the first home into files in the folder, too.
+    #[arg(long)]
+    pub(crate) pictures: bool,
 }
 
 #[derive(Debug, Args)]

@@ -141,6 +141,12 @@ fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
         added?;
         runs = KeptRun::all(folder)?;
     }
+    if arguments.pictures {
+        for picture in page::pictures(&runs) {
+            let path = folder.join(picture.name);
+            fs::write(&path, picture.svg).with_context(|| format!("cannot write {}", path.display()))?;
+        }
+    }
     let page = page::write(&runs);
     let path = folder.join("index.html");
     fs::write(&path, page).with_context(|| format!("cannot write {}", path.display()))?;

@@ -8,42 +8,52 @@ use crate::trace::{DROP, Drawing, FLOOR, KeptRun, NOTHING, OUT_OF_REACH, RUG, SO
 /// Colours of the way from its beginning to its end.
 const WAY: [&str; 5] = ["#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#084594"];
 
-/// Both pictures of a run.
+/// Both pictures of a run, with what they show.
 pub(super) fn pictures(run: &KeptRun) -> String {
-    let (width_m, height_m) = extent(&run.plan);
-    let frame = |content: &str| {
-        format!(
-            "<svg viewBox=\"0 0 {width_m:.2} {height_m:.2}\" role=\"img\"><g transform=\"translate(0 {height_m:.2}) scale(1 -1)\">{content}</g></svg>"
+    let mut both = format!(
+        "<figure><figcaption>The home, the way (light to dark), {} bumps, the dock</figcaption>{}</figure>",
+        run.trace.bumps.len(),
+        truth(run)
+    );
+    if let Some(drawn) = drawn(run) {
+        let agreement = |key: &str| run.report[key].as_f64();
+        let iou = agreement("map_iou").map_or_else(String::new, |iou| format!(", IoU {iou:.3}"));
+        let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
+            format!(", walls {:.1} cm off", 100.0 * wall_m)
+        });
+        write!(
+            both,
+            "<figure><figcaption>The robot's map at the end{iou}{wall}</figcaption>{drawn}</figure>"
         )
-    };
-    let truth = format!(
+        // Writing into a string cannot fail.
+        .ok();
+    }
+    both
+}
+
+/// The home with the way, bumps and the dock.
+pub(super) fn truth(run: &KeptRun) -> String {
+    let content = format!(
         "{}{}{}{}",
         cells(&run.plan),
         way(&run.trace.samples),
         bumps(&run.trace.bumps),
         dock(run.dock)
     );
-    let mut both = format!(
-        "<figure><figcaption>The home, the way (light to dark), {} bumps, the dock</figcaption>{}</figure>",
-        run.trace.bumps.len(),
-        frame(&truth)
-    );
-    if let Some(map) = &run.map {
-        let agreement = |key: &str| run.report[key].as_f64();
-        let iou = agreement("map_iou").map_or_else(String::new, |iou| format!(", IoU {iou:.3}"));
-        let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
-            format!(", walls {:.1} cm off", 100.0 * wall_m)
-        });
-        let drawn = format!("{}{}", cells(map), dock(run.dock));
-        write!(
-            both,
-            "<figure><figcaption>The robot's map at the end{iou}{wall}</figcaption>{}</figure>",
-            frame(&drawn)
-        )
-        // Writing into a string cannot fail.
-        .ok();
-    }
-    both
+    frame(run, &content)
+}
+
+/// The robot's map, if it has one.
+pub(super) fn drawn(run: &KeptRun) -> Option<String> {
+    let map = run.map.as_ref()?;
+    Some(frame(run, &format!("{}{}", cells(map), dock(run.dock))))
+}
+
+fn frame(run: &KeptRun, content: &str) -> String {
+    let (width_m, height_m) = extent(&run.plan);
+    format!(
+        "<svg viewBox=\"0 0 {width_m:.2} {height_m:.2}\" role=\"img\"><g transform=\"translate(0 {height_m:.2}) scale(1 -1)\">{content}</g></svg>"
+    )
 }
 
 fn extent(drawing: &Drawing) -> (f64, f64) {

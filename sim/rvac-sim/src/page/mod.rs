@@ -3,6 +3,7 @@
 
 mod chart;
 mod map;
+mod pictures;
 
 use std::fmt::Write;
 
@@ -10,6 +11,7 @@ use serde_json::Value;
 
 use crate::trace::KeptRun;
 use chart::{Chart, Curve};
+pub use pictures::{Picture, pictures};
 
 /// Colours of the runs of a home, told apart by most people who see colours differently, too (Okabe and Ito 2008).
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
