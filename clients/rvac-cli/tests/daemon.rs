@@ -12,7 +12,7 @@ use std::thread::JoinHandle;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
-    ARCHIVE_PIECE_BYTES, CleaningPattern, CleaningPower, Decision, DeviceTable, Estimate, Failure,
+    ARCHIVE_PIECE_BYTES, CleaningPattern, CleaningPower, Decision, DeviceTable, Estimate, Failure, FloorView,
     FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel,
     NoGoShape, PlaceShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings,
     RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
@@ -727,6 +727,86 @@ fn a_schedule_is_told_how_its_runs_clean_and_what_they_clean_stays() {
         };
         let body = RequestBody::ChangeSchedule { number: 3, entry };
         assert!(asked.contains(&Request { id: Some(1), body }), "{asked:?}");
+    }
+}
+
+/// A daemon with two floors, whose robot is on the first one.
+fn on_the_ground(request: &Request) -> Vec<Update> {
+    let floor = |number, name: &str| FloorView {
+        number,
+        name: Some(name.to_owned()),
+        area_m2: 4.0,
+        rooms: 1,
+        has_dock: true,
+        removed: false,
+    };
+    let told = Update::Floors(FloorsView {
+        floors: vec![floor(1, "Ground"), floor(2, "Attic")],
+        here: Some(1),
+        ..FloorsView::default()
+    });
+    match &request.body {
+        RequestBody::Watch { topics } if topics.contains(&Topic::Floors) => vec![told],
+        _ => punctual(request),
+    }
+}
+
+#[test]
+fn a_schedule_is_for_the_floor_that_is_named() {
+    let of_room = |room, floor| ScheduleEntry {
+        floor,
+        job: ScheduledJob::Clean(JobOrder {
+            parts: vec![JobPart::Room(room)],
+            passes: 2,
+            ..JobOrder::default()
+        }),
+        ..hall_at("07:30")
+    };
+    let all = |floor| ScheduleEntry {
+        floor,
+        job: ScheduledJob::Start { strategy: None },
+        ..hall_at("07:30")
+    };
+    let cases: [(&[&str], ScheduleEntry); 5] = [
+        (&["--floor", "attic"], of_room(1, Some(2))),
+        (
+            &["--floor", "Ground", "--room", "Hall", "--passes", "2"],
+            of_room(1, Some(1)),
+        ),
+        (
+            &["--floor", "2", "--room", "7", "--passes", "2"],
+            of_room(7, Some(2)),
+        ),
+        (&["--floor", "Attic", "--all"], all(Some(2))),
+        (&["--any-floor", "--all"], all(None)),
+    ];
+    for (place, (options, entry)) in cases.into_iter().enumerate() {
+        let arguments = [&["schedule", "change", "3"], options].concat();
+        let (output, asked) = Daemon::start(&format!("floor-{place}"), on_the_ground).rvac(&arguments, "");
+        assert!(output.status.success(), "{arguments:?}: {output:?}");
+        let body = RequestBody::ChangeSchedule { number: 3, entry };
+        assert!(
+            asked.contains(&Request { id: Some(1), body }),
+            "{arguments:?}: {asked:?}"
+        );
+    }
+    let wrong: [(&[&str], &str); 3] = [
+        (
+            &["--floor", "Cellar"],
+            "no floor is called \"Cellar\": there are 1 (Ground), 2 (Attic)",
+        ),
+        (
+            &["--floor", "Attic", "--room", "Hall"],
+            "the robot tells names only of the floor",
+        ),
+        (&["--any-floor"], "give --all besides"),
+    ];
+    for (place, (options, sentence)) in wrong.into_iter().enumerate() {
+        let arguments = [&["schedule", "change", "3"], options].concat();
+        let (output, asked) = Daemon::start(&format!("no-floor-{place}"), on_the_ground).rvac(&arguments, "");
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(text(&output.stderr).contains(sentence), "{output:?}");
+        assert!(asked.iter().all(|request| request.id.is_none()), "{asked:?}");
     }
 }
 

@@ -102,6 +102,12 @@ pub(crate) struct ScheduleOptions {
     /// Clean all, not what it cleaned before.
     #[arg(long, conflicts_with_all = ["room", "zone", "spot", "place", "avoid"])]
     pub(crate) all: bool,
+    /// Start on this floor only: its number or name; rooms and kept places of a floor where the robot is not are named by their numbers.
+    #[arg(long, value_name = "FLOOR")]
+    pub(crate) floor: Option<String>,
+    /// Start on any floor, where all is cleaned.
+    #[arg(long, conflicts_with_all = ["floor", "room", "zone", "spot", "place", "avoid"])]
+    pub(crate) any_floor: bool,
     /// Start up to so many minutes late when the daemon did not run, or had no robot, at its time.
     #[arg(long, value_name = "MINUTES")]
     pub(crate) late: Option<u16>,

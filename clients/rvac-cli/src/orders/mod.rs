@@ -12,6 +12,7 @@ use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 use std::time::Duration;
 
+use anyhow::Context as _;
 use rvac_api::{
     CleaningPattern, CleaningPower, HomeView, JobEstimate, JobOrder, JobPart, NoGoShape, RequestBody, Update,
 };
@@ -65,15 +66,40 @@ fn in_words(estimate: &JobEstimate) -> String {
 
 /// Rooms first, then zones, then spots, then kept places, each in the order in which they were given.
 pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> anyhow::Result<JobOrder> {
-    let mut parts = Vec::new();
     let names_any = !(options.room.is_empty() && options.place.is_empty());
     let home = if names_any {
         known::ask(connection)?.home
     } else {
         HomeView::default()
     };
+    order_of(options, |kind, wanted| match kind {
+        Named::Room => rooms::find(&home, wanted),
+        Named::Place => places::find(&home, wanted),
+    })
+}
+
+/// The same for a floor where the robot is not: of its map only numbers are known here.
+pub(crate) fn to_order_elsewhere(options: &OrderParts) -> anyhow::Result<JobOrder> {
+    order_of(options, |_, wanted| {
+        wanted.trim().parse().with_context(|| {
+            format!("{wanted:?} is no number, and the robot tells names only of the floor on which it is")
+        })
+    })
+}
+
+/// What of the home has a name, and a number.
+enum Named {
+    Room,
+    Place,
+}
+
+fn order_of(
+    options: &OrderParts,
+    number: impl Fn(Named, &str) -> anyhow::Result<u16>,
+) -> anyhow::Result<JobOrder> {
+    let mut parts = Vec::new();
     for name in &options.room {
-        parts.push(JobPart::Room(rooms::find(&home, name)?));
+        parts.push(JobPart::Room(number(Named::Room, name)?));
     }
     parts.extend(rectangles(&options.zone).map(JobPart::Zone));
     parts.extend(
@@ -83,7 +109,7 @@ pub(crate) fn to_order(options: &OrderParts, connection: &mut Connection) -> any
             .map(|place| JobPart::Spot([place.x_m, place.y_m])),
     );
     for name in &options.place {
-        parts.push(JobPart::Place(places::find(&home, name)?));
+        parts.push(JobPart::Place(number(Named::Place, name)?));
     }
     Ok(JobOrder {
         parts,

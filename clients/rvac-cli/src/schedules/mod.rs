@@ -14,6 +14,7 @@ use rvac_api::{
 
 use crate::arguments::{ScheduleJob, ScheduleOptions, ScheduleVerb};
 use crate::control::{self, ANSWER};
+use crate::floors;
 use crate::orders;
 use crate::socket::Connection;
 
@@ -122,7 +123,11 @@ fn changed(
     entry.when = time(entry.when, options);
     entry.late_min = options.late.unwrap_or(entry.late_min);
     entry.in_quiet = options.in_quiet.map_or(entry.in_quiet, InQuiet::from);
-    let order = orders::to_order(&options.parts, connection)?;
+    let chosen = chosen_floor(options, connection)?;
+    let order = match &chosen {
+        Some(ChosenFloor::Other(_)) => orders::to_order_elsewhere(&options.parts)?,
+        Some(ChosenFloor::Here(_)) | None => orders::to_order(&options.parts, connection)?,
+    };
     let known = entry.job.clone();
     entry.job = if options.strategy.is_some() || options.all && order == JobOrder::default() {
         ScheduledJob::Start {
@@ -133,9 +138,39 @@ fn changed(
     } else {
         with_order(entry.job, order)
     };
-    // Other places lie on the floor where the robot is, which the daemon knows.
-    entry.floor = entry.floor.filter(|_| known.places() == entry.job.places());
+    entry.floor = match chosen {
+        Some(ChosenFloor::Here(number) | ChosenFloor::Other(number)) => Some(number),
+        None if options.any_floor => None,
+        // Other places lie on the floor where the robot is, which the daemon knows.
+        None => entry.floor.filter(|_| known.places() == entry.job.places()),
+    };
+    if options.any_floor && entry.job.names_places() {
+        bail!("its rooms, zones and spots lie on one floor: give --all besides to clean all of any floor");
+    }
     Ok(entry)
+}
+
+/// The floor for which an entry shall be.
+enum ChosenFloor {
+    /// The robot is there, so that its rooms have names.
+    Here(u16),
+    Other(u16),
+}
+
+fn chosen_floor(
+    options: &ScheduleOptions,
+    connection: &mut Connection,
+) -> anyhow::Result<Option<ChosenFloor>> {
+    let Some(wanted) = &options.floor else {
+        return Ok(None);
+    };
+    let (floors, _) = floors::ask(connection)?;
+    let number = floors::find(&floors, wanted)?;
+    Ok(Some(if floors.here == Some(number) {
+        ChosenFloor::Here(number)
+    } else {
+        ChosenFloor::Other(number)
+    }))
 }
 
 /// The job with what was ordered: as long as no place is named, what is cleaned stays as it is.
