@@ -27,6 +27,12 @@ const READY_WITHIN: Duration = Duration::from_secs(20);
 struct Shell {
     stack: Stack,
     page: PathBuf,
+    /// Address of the server for paired devices.
+    robot: String,
+    /// Certificate that the robot's owner has written down.
+    certificate: PathBuf,
+    /// What the owner has given to a program in the role `drive`.
+    token: String,
 }
 
 impl Shell {
@@ -35,8 +41,25 @@ impl Shell {
         let page = std::env::temp_dir().join(format!("rvac-book-{name}-{}", std::process::id()));
         fs::create_dir_all(&page).unwrap();
         fs::write(page.join("index.html"), "<!doctype html><title>Panel</title>").unwrap();
+        let mut stack = Stack::start_with_page(&page);
+        let address = stack.serve_guarded_besides(&page);
+        let token = stack.console(&["clients", "add", "Home automation", "--role", "drive"]);
+        let saved = stack.console(&["trust", "--save", page.to_str().unwrap()]);
+        let certificate = saved.lines().find_map(|line| line.strip_prefix("wrote "));
+        let name = saved
+            .lines()
+            .find_map(|line| line.strip_prefix("Robot:"))
+            .unwrap()
+            .trim();
+        let port = address.trim_end_matches('/').rsplit(':').next().unwrap();
+        // Nobody in a test announces the robot's name.
+        let found = format!("resolve = \"{name}:{port}:127.0.0.1\"\n");
+        fs::write(page.join(".curlrc"), found).unwrap();
         Self {
-            stack: Stack::start_with_page(&page),
+            robot: format!("https://{name}:{port}"),
+            certificate: certificate.filter(|path| path.ends_with(".pem")).unwrap().into(),
+            token: token.trim().to_owned(),
+            stack,
             page,
         }
     }
@@ -48,6 +71,10 @@ impl Shell {
             .env("RVAC_SOCKET", self.stack.daemon_socket())
             .env("RVAC_SIMULATOR", self.stack.simulator_socket())
             .env("PANEL", self.stack.address.trim_end_matches('/'))
+            .env("ROBOT", &self.robot)
+            .env("CURL_HOME", &self.page)
+            .env("CERTIFICATE", &self.certificate)
+            .env("TOKEN", &self.token)
             .output()
             .unwrap();
         assert!(output.status.code() != Some(124), "{script}\ndoes not end");

@@ -154,6 +154,14 @@ impl Stack {
         stack
     }
 
+    /// Starts one more server in front of the same daemon, which only paired devices may use, and gives its address.
+    pub(crate) fn serve_guarded_besides(&mut self, panel: &Path) -> String {
+        let open = std::mem::take(&mut self.address);
+        let state = self.folder.join("panel");
+        self.start_server(panel, &["--state".as_ref(), state.as_os_str()]);
+        std::mem::replace(&mut self.address, open)
+    }
+
     /// Starts the daemon anew, with clients that may send packets of their own.
     fn allow_packets(&mut self) {
         let path = self.folder.join("vthal.toml");
