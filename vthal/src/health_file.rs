@@ -5,11 +5,11 @@ use std::path::Path;
 
 use vthal_core::health::{Health, StoredHealth};
 
-use crate::newest_file::{Newest, newest};
+use crate::newest_file::{Newest, newest_json, replace_json};
 
 /// The loads as they were kept, and what is wrong with what was kept, for the log.
 pub(crate) fn load(path: &Path) -> (Health, Vec<String>) {
-    let Newest { value, complaints } = newest(path, "the loads of the motors", parse);
+    let Newest { value, complaints } = newest_json::<StoredHealth, _>(path, "the loads of the motors");
     (value.unwrap_or_default(), complaints)
 }
 
@@ -18,13 +18,7 @@ pub(crate) fn load(path: &Path) -> (Health, Vec<String>) {
 /// # Errors
 /// What the file system says.
 pub(crate) fn save(path: &Path, health: &StoredHealth) -> io::Result<()> {
-    let text = serde_json::to_string(health).map_err(io::Error::other)?;
-    kept_file::replace(path, text.as_bytes())
-}
-
-fn parse(text: &str) -> Result<Health, String> {
-    let stored: StoredHealth = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    Health::try_from(stored).map_err(|error| error.to_string())
+    replace_json(path, health)
 }
 
 #[cfg(test)]

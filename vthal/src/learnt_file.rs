@@ -5,11 +5,12 @@ use std::path::Path;
 
 use vthal_core::learnt::{Learnings, StoredLearnings};
 
-use crate::newest_file::{Newest, newest};
+use crate::newest_file::{Newest, newest_json, replace_json};
 
 /// What was kept, and what is wrong with it, for the log.
 pub(crate) fn load(path: &Path) -> (Learnings, Vec<String>) {
-    let Newest { value, complaints } = newest(path, "what the robot has learnt of itself", parse);
+    let Newest { value, complaints } =
+        newest_json::<StoredLearnings, _>(path, "what the robot has learnt of itself");
     (value.unwrap_or_default(), complaints)
 }
 
@@ -18,13 +19,7 @@ pub(crate) fn load(path: &Path) -> (Learnings, Vec<String>) {
 /// # Errors
 /// What the file system says.
 pub(crate) fn save(path: &Path, learnt: &StoredLearnings) -> io::Result<()> {
-    let text = serde_json::to_string(learnt).map_err(io::Error::other)?;
-    kept_file::replace(path, text.as_bytes())
-}
-
-fn parse(text: &str) -> Result<Learnings, String> {
-    let stored: StoredLearnings = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    Learnings::try_from(stored).map_err(|error| error.to_string())
+    replace_json(path, learnt)
 }
 
 #[cfg(test)]

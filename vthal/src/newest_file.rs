@@ -1,7 +1,12 @@
 //! The newest whole version of a kept file. What cannot be read is put aside, never overwritten.
 
+use std::fmt::Display;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// What was found.
 #[derive(Debug)]
@@ -40,6 +45,27 @@ pub(crate) fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<
         value: None,
         complaints,
     }
+}
+
+/// The same for JSON, which is read as `Stored` and then believed or not.
+pub(crate) fn newest_json<Stored, T>(path: &Path, what: &str) -> Newest<T>
+where
+    Stored: DeserializeOwned,
+    T: TryFrom<Stored, Error: Display>,
+{
+    newest(path, what, |text| {
+        let stored: Stored = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        T::try_from(stored).map_err(|error| error.to_string())
+    })
+}
+
+/// Keeps JSON in place of what was kept before.
+///
+/// # Errors
+/// What the file system says.
+pub(crate) fn replace_json(path: &Path, stored: &impl Serialize) -> io::Result<()> {
+    let text = serde_json::to_string(stored).map_err(io::Error::other)?;
+    kept_file::replace(path, text.as_bytes())
 }
 
 /// Renames a damaged file to a name that nothing has; says how that went.

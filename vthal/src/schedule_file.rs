@@ -5,7 +5,7 @@ use std::path::Path;
 
 use vthal_core::schedule::{Book, StoredBook};
 
-use crate::newest_file::{Newest, newest};
+use crate::newest_file::{Newest, newest_json};
 
 /// What a daemon finds at its start.
 #[derive(Debug, Default)]
@@ -23,7 +23,7 @@ pub(crate) fn load(path: &Path) -> FoundSchedules {
     let Newest {
         value,
         mut complaints,
-    } = newest(path, "the schedules", parse);
+    } = newest_json::<StoredBook, _>(path, "the schedules");
     let distrusted = !complaints.is_empty();
     if distrusted && value.is_none() {
         let empty = "there are no schedules now: nothing starts by itself until somebody makes new ones";
@@ -43,11 +43,6 @@ pub(crate) fn load(path: &Path) -> FoundSchedules {
 pub(crate) fn save(path: &Path, book: &StoredBook) -> io::Result<()> {
     let text = serde_json::to_string_pretty(book).map_err(io::Error::other)?;
     kept_file::replace(path, text.as_bytes())
-}
-
-fn parse(text: &str) -> Result<Book, String> {
-    let stored: StoredBook = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    Book::try_from(stored).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
