@@ -339,6 +339,11 @@ impl Brain {
         self.localization.learnt_gyro()
     }
 
+    /// Nothing was learnt of the gyro.
+    pub(crate) fn forget_gyro(&mut self) {
+        self.localization.forget_gyro();
+    }
+
     /// A new brain begins with what the robot has learnt of itself before.
     pub fn begin_with(&mut self, learnt: Learnt) {
         if let Some(gyro) = learnt.gyro {

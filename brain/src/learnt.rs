@@ -41,7 +41,24 @@ pub struct Learnt {
     pub energy: EnergyModel,
 }
 
+/// A part of what it has learnt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LearntPart {
+    /// What is wrong with the gyro.
+    Gyro,
+    /// What driving and cleaning take from the pack.
+    Energy,
+}
+
 impl Brain {
+    /// Forgets a part: the gyro was changed, or the pack.
+    pub fn forget(&mut self, part: LearntPart) {
+        match part {
+            LearntPart::Gyro => self.forget_gyro(),
+            LearntPart::Energy => self.begin_with(Learnt::default()),
+        }
+    }
+
     /// What the robot has learnt of itself up to now.
     #[must_use]
     pub fn learnt(&self) -> Learnt {
@@ -67,8 +84,10 @@ impl Checkpoint {
 
 #[cfg(test)]
 mod tests {
-    use super::{GyroLearnt, Learnt};
+    use super::{GyroLearnt, Learnt, LearntPart};
+    use crate::brain::Brain;
     use crate::checkpoint::Checkpoint;
+    use crate::config::{Body, BrainConfig, Speeds};
     use crate::energy::EnergyModel;
 
     const GYRO: GyroLearnt = GyroLearnt {
@@ -101,6 +120,34 @@ mod tests {
         ] {
             assert_eq!(wrong.checked(), None, "{wrong:?}");
         }
+    }
+
+    #[test]
+    fn each_part_is_forgotten_alone() {
+        let body = Body {
+            radius_m: 0.17,
+            swath_m: 0.25,
+            track_m: 0.23,
+        };
+        let speeds = Speeds {
+            cruise_m_per_s: 0.25,
+            max_m_per_s: 0.35,
+            turn_max_rad_per_s: 1.5,
+        };
+        let energy = EnergyModel {
+            seen_s: 600.0,
+            ..EnergyModel::default()
+        };
+        let mut brain = Brain::new(BrainConfig::new(body, speeds), 1);
+        brain.begin_with(Learnt {
+            gyro: Some(GYRO),
+            energy,
+        });
+        assert!(brain.learnt().gyro.is_some(), "{:?}", brain.learnt());
+        brain.forget(LearntPart::Gyro);
+        assert_eq!(brain.learnt(), Learnt { gyro: None, energy });
+        brain.forget(LearntPart::Energy);
+        assert_eq!(brain.learnt(), Learnt::default());
     }
 
     #[test]

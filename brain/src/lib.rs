@@ -39,7 +39,7 @@ pub use coverage::{JobEstimate, SweptShare};
 pub use energy::EnergyModel;
 pub use geometry::{Point2, Pose2};
 pub use kept_place::{KeptPlace, PlaceShape};
-pub use learnt::{GyroLearnt, Learnt};
+pub use learnt::{GyroLearnt, Learnt, LearntPart};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,

@@ -12,10 +12,9 @@ use std::time::Instant;
 use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
-use vthal_core::learnt::StoredLearnings;
 use vthal_core::{
     ArchiveOrder, ArchiveTask, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    KeptFloor, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder,
+    KeptFloor, LearntOrder, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder,
 };
 
 use crate::archive_desk::ArchiveDesk;
@@ -89,7 +88,7 @@ enum Kept {
     MixOrder(MixOrder),
     Schedules(Box<ScheduleOrder>),
     Health(Box<HealthOrder>),
-    Learnt(Box<StoredLearnings>),
+    Learnt(Box<LearntOrder>),
     Run(Box<RunRecord>),
 }
 
@@ -236,9 +235,10 @@ impl CheckpointHandle {
         self.try_send(Kept::Health(Box::new(order)))
     }
 
-    /// Hands over what robots have learnt. If the disk is so slow that it is left out, the next run says it again.
-    pub(crate) fn send_learnt(&self, learnt: StoredLearnings) {
-        self.try_send(Kept::Learnt(Box::new(learnt)));
+    /// Hands over what robots have learnt; `false` when the disk is too slow to take it now.
+    #[must_use]
+    pub(crate) fn keep_learnt(&self, order: LearntOrder) -> bool {
+        self.try_send(Kept::Learnt(Box::new(order)))
     }
 
     /// Hands the record of a run over; `false` when the disk is too slow to take it now.
@@ -273,6 +273,11 @@ impl CheckpointHandle {
     }
 }
 
+/// Tells the daemon's loop. Nobody is left to hear it when the daemon ends.
+fn answer(event: Event, events: &Sender<Event>) {
+    events.blocking_send(event).ok();
+}
+
 fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
     let mut healthy = true;
     let mut desk = ArchiveDesk::default();
@@ -301,18 +306,10 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
                 Kept::Order(order) => orders.push(order),
                 Kept::Run(record) => runs.push(record),
                 // Small, and never in a queue behind a map that waits to be written.
-                Kept::MixOrder(order) => {
-                    events
-                        .blocking_send(Event::Mixes(obey_mix(order, &paths.mixes)))
-                        .ok();
-                }
-                Kept::Schedules(order) => {
-                    events.blocking_send(keep_schedules(&order, paths)).ok();
-                }
-                Kept::Health(order) => {
-                    events.blocking_send(keep_health(&order, paths)).ok();
-                }
-                Kept::Learnt(learnt) => keep_learnt(&learnt, paths),
+                Kept::MixOrder(order) => answer(Event::Mixes(obey_mix(order, &paths.mixes)), events),
+                Kept::Schedules(order) => answer(keep_schedules(&order, paths), events),
+                Kept::Health(order) => answer(keep_health(&order, paths), events),
+                Kept::Learnt(order) => answer(keep_learnt(&order, paths), events),
             }
         }
         if let Some(checkpoint) = checkpoint {
@@ -321,28 +318,24 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
         let kept = keep(&homes, &paths.floors);
         for record in runs {
             let (number, result) = (record.run.number, keep_run(*record, paths));
-            events.blocking_send(Event::RunKept(number, result)).ok();
+            answer(Event::RunKept(number, result), events);
         }
         for (client, id) in waiting {
             let outcome = match &kept {
                 Ok(()) => MapOutcome::Kept,
                 Err(error) => MapOutcome::Refused("map-unwritable", unkept(error)),
             };
-            events
-                .blocking_send(Event::Maps(MapAnswer { client, id, outcome }))
-                .ok();
+            answer(Event::Maps(MapAnswer { client, id, outcome }), events);
         }
         for order in orders {
-            // Nobody is left to hear it when the daemon ends.
-            events.blocking_send(Event::Maps(obey(order, &paths.floors))).ok();
+            answer(Event::Maps(obey(order, &paths.floors)), events);
         }
         for order in floor_orders {
-            let answer = obey_floor(order, &paths.floors);
-            events.blocking_send(Event::Floors(Box::new(answer))).ok();
+            answer(Event::Floors(Box::new(obey_floor(order, &paths.floors))), events);
         }
         for order in archive_orders {
-            let answer = desk.obey(order, (&paths.floors, Instant::now()));
-            events.blocking_send(Event::Archive(Box::new(answer))).ok();
+            let archive = desk.obey(order, (&paths.floors, Instant::now()));
+            answer(Event::Archive(Box::new(archive)), events);
         }
         drop(places);
     }
@@ -425,13 +418,15 @@ fn keep_health(order: &HealthOrder, paths: &KeptPaths) -> Event {
     Event::Health(order.number, result.map_err(|error| unkept_health(&error)))
 }
 
-fn keep_learnt(learnt: &StoredLearnings, paths: &KeptPaths) {
-    if let Err(error) = learnt_file::save(&paths.learnt, learnt) {
-        tracing::error!(
-            "cannot write what the robot has learnt in {}: {error}; it will have to learn it again",
-            paths.learnt.display()
-        );
-    }
+fn keep_learnt(order: &LearntOrder, paths: &KeptPaths) -> Event {
+    let result = learnt_file::save(&paths.learnt, &order.learnt);
+    Event::Learnt(order.number, result.map_err(|error| unkept_learnt(&error)))
+}
+
+fn unkept_learnt(error: &io::Error) -> String {
+    format!(
+        "What the robot has learnt cannot be written: {error}. Check the disk and the state folder; it is as it was before."
+    )
 }
 
 fn unkept_health(error: &io::Error) -> String {

@@ -156,6 +156,7 @@ impl Daemon {
             Event::RunKept(number, result) => self.handle(Input::RunKept { number, result }),
             Event::RecordingOpened(run, name) => self.handle(Input::RecordingOpened { run, name }),
             Event::Health(number, result) => self.handle(Input::HealthKept { number, result }),
+            Event::Learnt(number, result) => self.handle(Input::LearntKept { number, result }),
             Event::Schedules(number, result) => self.handle(Input::SchedulesKept { number, result }),
             Event::Terminate(signal) => self.terminate(signal),
         }
@@ -293,9 +294,6 @@ impl Daemon {
         if let Some(home) = self.outputs.home.take() {
             self.wiring.checkpoints.send_home(home);
         }
-        if let Some(learnt) = self.outputs.learnt.take() {
-            self.wiring.checkpoints.send_learnt(learnt);
-        }
         for edit in std::mem::take(&mut self.outputs.map_edits) {
             self.keep_edit(edit);
         }
@@ -318,6 +316,7 @@ impl Daemon {
         }
         let schedules = self.outputs.schedules.take();
         let health = self.outputs.health.take();
+        let learnt = self.outputs.learnt.take();
         let run = self.outputs.run.take();
         self.outputs.clear();
         if let Some(record) = run {
@@ -328,6 +327,9 @@ impl Daemon {
         }
         if let Some(order) = health {
             self.keep_health(order);
+        }
+        if let Some(order) = learnt {
+            self.keep_learnt(order);
         }
     }
 

@@ -46,6 +46,8 @@ pub(crate) enum Event {
     RecordingOpened(u32, String),
     /// Loads of motors are on the disk, or a sentence says why they are not.
     Health(u64, Result<(), String>),
+    /// What robots have learnt is on the disk, or a sentence says why it is not.
+    Learnt(u64, Result<(), String>),
     /// Schedules are on the disk, or a sentence says why they are not.
     Schedules(u64, Result<(), String>),
     /// The core asked to be called now.

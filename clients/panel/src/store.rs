@@ -361,6 +361,7 @@ impl Store {
             Message::Packet { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
+            | Message::Learnt { .. }
             | Message::Button { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));

@@ -12,6 +12,7 @@ mod floor;
 mod health;
 mod history;
 mod home;
+mod learnt;
 mod order;
 mod reasons;
 mod request;
@@ -29,6 +30,7 @@ pub use history::{
     RunTrack, TrackPose, TrackReading,
 };
 pub use home::{DoorView, HomeView, KeptMap, RoomView, WallView};
+pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
 pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    JobOrder, NoGoShape, PlaceShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting, ScheduleEntry,
+    JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting,
+    ScheduleEntry,
 };
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
@@ -212,6 +213,16 @@ pub enum RequestBody {
         /// Name, as in [`crate::ComponentHealth::component`].
         component: String,
     },
+    /// Asks what is kept of what robots have learnt of themselves; answered by [`crate::Update::Learnt`].
+    Learnt,
+    /// Has something of that forgotten, because the gyro or the pack was changed. Answered when that is on the disk.
+    ForgetLearnt {
+        /// Name of the robot, as in [`crate::LearntView::device`].
+        device: String,
+        /// What; absent = all.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        part: Option<LearntPart>,
+    },
     /// Cleans a small disc around the present place.
     Spot,
     /// Stands still, keeps the job.
@@ -392,7 +403,7 @@ pub enum RequestBody {
     RunTrack {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0; absent = all of them as one file.
+        /// Which of its recordings, from 0; absent = all of them, one after the other.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         recording: Option<u32>,
     },
@@ -400,7 +411,7 @@ pub enum RequestBody {
     RunFile {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0; absent = all of them, one after the other.
+        /// Which of its recordings, from 0; absent = all of them as one file.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         recording: Option<u32>,
         /// First byte of the piece.

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, PlannedWay,
-    Run, RunRecord, RunTrack, Schedules, Standstill,
+    ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, LearntView,
+    PlannedWay, Run, RunRecord, RunTrack, Schedules, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -71,6 +71,14 @@ pub enum Update {
         id: Option<u32>,
         /// All parts whose loads are measured.
         components: Vec<ComponentHealth>,
+    },
+    /// What robots have learnt of themselves.
+    Learnt {
+        /// Number of the request.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        id: Option<u32>,
+        /// The robots of which something is kept, the one that learnt last at the end.
+        devices: Vec<LearntView>,
     },
     /// The versions of the map of a floor that are kept.
     Maps {

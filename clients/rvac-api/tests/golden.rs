@@ -7,13 +7,14 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CleaningPattern, CleaningPower, ComponentHealth, Decision, DeviceTable,
-    DoorView, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture, HomeView,
-    InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request,
-    RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
-    RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
-    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
-    SimulatedTruth, Standstill, Status, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture,
+    GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart, LearntView,
+    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlaceShape, PlaceView,
+    PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView,
+    RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture,
+    RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime,
+    ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic,
+    TrackPose, TrackReading, Update, Versions, WallView, Weekday,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -1062,13 +1063,13 @@ fn runs() {
         r#"{"c":"run-track","number":7,"recording":0}"#,
     );
     request(
-    request(
         RequestBody::RunTrack {
             number: 7,
             recording: None,
         },
         r#"{"c":"run-track","number":7}"#,
     );
+    request(
         RequestBody::RunFile {
             number: 7,
             recording: Some(1),
@@ -1076,7 +1077,6 @@ fn runs() {
         },
         r#"{"c":"run-file","number":7,"recording":1,"from":49152}"#,
     );
-    check(
     request(
         RequestBody::RunFile {
             number: 7,
@@ -1085,6 +1085,7 @@ fn runs() {
         },
         r#"{"c":"run-file","number":7,"from":0}"#,
     );
+    check(
         &Update::Runs {
             runs: vec![run()],
             more: true,
@@ -1165,7 +1166,6 @@ fn a_run_in_full() {
         },
         r#"{"e":"run-file","number":7,"name":"run-a.mcap","from":0,"size":3,"data":"AAEC"}"#,
     );
-    check(&RunJob::Spot, r#""spot""#);
     check(
         &Update::RunFile {
             number: 7,
@@ -1176,6 +1176,7 @@ fn a_run_in_full() {
         },
         r#"{"e":"run-file","number":7,"name":"run-a-whole.mcap","from":3,"data":""}"#,
     );
+    check(&RunJob::Spot, r#""spot""#);
     check(&RunAsker::Button, r#""button""#);
     check(&RunAsker::Client("Anna".to_owned()), r#"{"client":"Anna"}"#);
     for (result, name) in [
@@ -1278,4 +1279,40 @@ fn standstill() {
         &Update::Standstill(Box::new(told)),
         r#"{"e":"standstill","number":2,"t":61.5,"state":"stuck","reason":"boxed-in","text":"Gave up.","remedy":"Move it.","place":{"x":1.0,"y":2.0,"heading":0.5,"t":61.5}}"#,
     );
+}
+
+#[test]
+fn what_robots_have_learnt() {
+    let learnt = LearntView {
+        device: "sr8730".to_owned(),
+        here: true,
+        gyro: Some(GyroLearnt {
+            scale: 0.0125,
+            scale_sigma: 0.001,
+            bias_rad_per_s: -0.002,
+        }),
+        energy: Some(EnergyLearnt {
+            cleaning_per_h: 0.875,
+            driving_per_h: 0.25,
+            seen_s: 1200.0,
+        }),
+    };
+    check(
+        &Update::Learnt {
+            id: Some(5),
+            devices: vec![learnt],
+        },
+        r#"{"e":"learnt","id":5,"devices":[{"device":"sr8730","here":true,"gyro":{"scale":0.0125,"scale_sigma":0.001,"bias_rad_per_s":-0.002},"energy":{"cleaning_per_h":0.875,"driving_per_h":0.25,"seen_s":1200.0}}]}"#,
+    );
+    request(RequestBody::Learnt, r#"{"c":"learnt"}"#);
+    for (part, text) in [
+        (None, r#"{"c":"forget-learnt","device":"sr8730"}"#),
+        (
+            Some(LearntPart::Gyro),
+            r#"{"c":"forget-learnt","device":"sr8730","part":"gyro"}"#,
+        ),
+    ] {
+        let device = "sr8730".to_owned();
+        request(RequestBody::ForgetLearnt { device, part }, text);
+    }
 }

@@ -4,6 +4,7 @@ mod devices;
 mod floors;
 mod health;
 mod history;
+mod learnt;
 mod orders;
 mod schedules;
 
@@ -17,6 +18,7 @@ pub(crate) use devices::{ClientsJob, ClientsVerb, Console, PairOptions, TrustOpt
 pub(crate) use floors::{FloorJob, FloorVerb};
 pub(crate) use health::{HealthJob, HealthVerb};
 pub(crate) use history::{HistoryJob, HistoryVerb};
+pub(crate) use learnt::{LearntJob, LearntVerb};
 pub(crate) use orders::{
     EstimateOptions, OrderOptions, OrderParts, Place, PlacesJob, PlacesVerb, RoomsJob, RoomsVerb, ZoneJob,
     ZoneVerb,
@@ -62,6 +64,8 @@ pub(crate) enum Subcommand {
     History(HistoryJob),
     /// How worn or dirty the parts are that turn, by what their motors draw.
     Health(HealthJob),
+    /// What robots have learnt of themselves; without a verb: list it.
+    Learnt(LearntJob),
     /// What the robot decided lately, and why.
     Why(WhyOptions),
     /// Run a recording through the brain again.

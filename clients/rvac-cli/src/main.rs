@@ -11,6 +11,7 @@ mod floors;
 mod health;
 mod history;
 mod home;
+mod learnt;
 mod lines;
 mod listen;
 mod mixes;
@@ -52,6 +53,7 @@ fn main() -> ExitCode {
         Subcommand::Schedule(job) => schedules::run(&job),
         Subcommand::History(job) => history::run(&job),
         Subcommand::Health(job) => health::run(&job),
+        Subcommand::Learnt(job) => learnt::run(&job),
         Subcommand::Why(options) => why::run(&options),
         Subcommand::Replay(options) => replay::run(&options),
         Subcommand::Calibrate(options) => calibrate::run(&options),

@@ -13,10 +13,10 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rvac_api::{
     ARCHIVE_PIECE_BYTES, CleaningPattern, CleaningPower, Decision, DeviceTable, Estimate, Failure, FloorView,
-    FloorsView, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LinkReading, LogEntry, LogLevel,
-    NoGoShape, PlaceShape, Pose, QuietHours, RUN_PIECE_BYTES, Request, RequestBody, RoomNaming, RoomSettings,
-    RoomSplitting, RoomView, SEPARATOR, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
-    Status, Topic, Update, Weekday,
+    FloorsView, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
+    LearntView, LinkReading, LogEntry, LogLevel, NoGoShape, PlaceShape, Pose, QuietHours, RUN_PIECE_BYTES,
+    Request, RequestBody, RoomNaming, RoomSettings, RoomSplitting, RoomView, SEPARATOR, ScheduleEntry,
+    ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update, Weekday,
 };
 
 /// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
@@ -807,6 +807,49 @@ fn a_schedule_is_for_the_floor_that_is_named() {
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
         assert!(text(&output.stderr).contains(sentence), "{output:?}");
         assert!(asked.iter().all(|request| request.id.is_none()), "{asked:?}");
+    }
+}
+
+/// A daemon that has kept something of one robot.
+fn learned(request: &Request) -> Vec<Update> {
+    let view = LearntView {
+        device: "sr8730".to_owned(),
+        here: true,
+        gyro: Some(GyroLearnt {
+            scale: 0.01,
+            scale_sigma: 0.001,
+            bias_rad_per_s: 0.0,
+        }),
+        energy: None,
+    };
+    match &request.body {
+        RequestBody::Learnt => vec![Update::Learnt {
+            id: request.id,
+            devices: vec![view],
+        }],
+        _ => obedient(request),
+    }
+}
+
+#[test]
+fn what_was_learnt_is_told_and_forgotten_in_parts() {
+    let (output, _) = Daemon::start("learnt", learned).rvac(&["learnt"], "");
+    let words = text(&output.stdout);
+    assert!(
+        words.starts_with("sr8730, attached\n  gyro    counts +1.00 %"),
+        "{words}"
+    );
+    for (name, options, part) in [
+        ("forget-0", &[][..], None),
+        ("forget-1", &["--part", "gyro"], Some(LearntPart::Gyro)),
+        ("forget-2", &["--part", "energy"], Some(LearntPart::Energy)),
+    ] {
+        let arguments = [&["learnt", "forget", "sr8730"], options].concat();
+        let (output, asked) = Daemon::start(name, learned).rvac(&arguments, "");
+        assert!(output.status.success(), "{output:?}");
+        let device = "sr8730".to_owned();
+        let body = RequestBody::ForgetLearnt { device, part };
+        assert!(asked.contains(&Request { id: Some(1), body }), "{asked:?}");
     }
 }
 

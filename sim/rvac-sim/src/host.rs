@@ -11,7 +11,7 @@ use rvac_api::{
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
 use vthal_core::schedule::{Book, StoredBook};
-use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, Outputs, Record};
+use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, LearntOrder, Outputs, Record};
 
 use crate::HostCost;
 use crate::host_floors::HostFloors;
@@ -197,9 +197,7 @@ impl Host {
         let schedules = self.outputs.schedules.take();
         let health = self.outputs.health.take();
         let run = self.outputs.run.take();
-        if let Some(learnt) = self.outputs.learnt.take() {
-            self.learnt = Some(learnt);
-        }
+        let learnt = self.outputs.learnt.take();
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
         if let Some(kept) = self.outputs.home.take() {
             self.floors.keep(kept);
@@ -210,6 +208,9 @@ impl Host {
         }
         if let Some(order) = health {
             self.keep_health(now_us, order);
+        }
+        if let Some(order) = learnt {
+            self.keep_learnt(now_us, order);
         }
         for order in floor_orders {
             let input = self.floors.obey(order.task);
@@ -229,6 +230,14 @@ impl Host {
         if !self.disk_is_mute {
             let (number, result) = (order.number, Ok(()));
             self.handle(now_us, Input::HealthKept { number, result });
+        }
+    }
+
+    fn keep_learnt(&mut self, now_us: u64, order: LearntOrder) {
+        self.learnt = Some(order.learnt);
+        if !self.disk_is_mute {
+            let (number, result) = (order.number, Ok(()));
+            self.handle(now_us, Input::LearntKept { number, result });
         }
     }
 

@@ -1,5 +1,6 @@
 //! The one entry point: inputs come in, the parts are asked in turn.
 
+mod awaited;
 mod buttons;
 mod checkpoints;
 mod feed;
@@ -41,6 +42,7 @@ use checkpoints::CheckpointClock;
 use feed::Feed;
 use health::HealthDesk;
 use history::UnkeptRuns;
+use learnt::LearntDesk;
 use link_facts::LinkFacts;
 use refusal_log::RefusalLog;
 use rvac_api::LogLevel;
@@ -88,6 +90,7 @@ pub struct Core {
     schedules_told: Option<Schedules>,
     schedules_told_us: u64,
     health: HealthDesk,
+    learnt: LearntDesk,
     runs: RunFollower,
     unkept: UnkeptRuns,
 }
@@ -107,6 +110,7 @@ impl Core {
             schedules_told: None,
             schedules_told_us: 0,
             health: HealthDesk::new(core::mem::take(&mut config.health)),
+            learnt: LearntDesk::default(),
             runs: RunFollower::new(config.next_run),
             unkept: UnkeptRuns::default(),
             config,
@@ -169,6 +173,7 @@ impl Core {
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
             Input::HealthKept { number, result } => self.health_kept(now_us, (number, result), outputs),
+            Input::LearntKept { number, result } => self.learnt_kept(now_us, (number, result), outputs),
             Input::RunKept { number, result } => self.run_kept(now_us, (number, result), outputs),
             Input::RecordingOpened { run, name } => self.runs.recorded_as(run, name),
             Input::Wake => {}

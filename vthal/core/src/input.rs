@@ -90,6 +90,13 @@ pub enum Input<'a> {
         /// Or a sentence that says why they are not.
         result: Result<(), String>,
     },
+    /// What robots have learnt, of [`crate::Outputs::learnt`], is on the disk, or is not.
+    LearntKept {
+        /// Number of the order.
+        number: u64,
+        /// Or a sentence that says why it is not.
+        result: Result<(), String>,
+    },
     /// A client will ask for nothing more, but may listen; a driver's seat it held is empty and the wheels stop.
     ClientSilent(ClientId),
     /// What [`crate::Outputs::run`] tells of a run is on the disk, or is not.

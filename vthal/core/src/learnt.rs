@@ -1,7 +1,9 @@
 //! What each robot has learnt of itself, as it outlives the daemon: JSON of the file `learnt.json`.
 
-use brain::{EnergyModel, GyroLearnt, Learnt};
+use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 use serde::{Deserialize, Serialize};
+
+use crate::stored_version::OtherVersion;
 
 const VERSION: u32 = 1;
 /// Robots of which something is kept: a board is moved from one to another now and then.
@@ -19,6 +21,27 @@ impl Learnings {
     pub fn of(&self, device: &str) -> Learnt {
         let known = self.devices.iter().find(|(name, _)| name == device);
         known.map(|(_, learnt)| *learnt).unwrap_or_default()
+    }
+
+    /// The robots of which something is kept, the newest last.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Learnt)> {
+        self.devices
+            .iter()
+            .map(|(device, learnt)| (device.as_str(), learnt))
+    }
+
+    /// This robot knows nothing of these parts any more. Gives what was kept of it; `None` = nothing was.
+    pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<Learnt> {
+        let (_, known) = self.devices.iter_mut().find(|(name, _)| name == device)?;
+        let before = *known;
+        for part in parts {
+            match part {
+                LearntPart::Gyro => known.gyro = None,
+                LearntPart::Energy => known.energy = EnergyModel::default(),
+            }
+        }
+        self.devices.retain(|(_, learnt)| *learnt != Learnt::default());
+        Some(before)
     }
 
     /// This robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
@@ -94,8 +117,8 @@ struct StoredEnergy {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LearntError {
     /// Of another daemon.
-    #[error("it has version {0}, and this daemon reads version {VERSION}")]
-    Version(u32),
+    #[error(transparent)]
+    Version(#[from] OtherVersion),
     /// More than this daemon keeps.
     #[error("it names {0} robots, and at most {DEVICES_MAX} are kept")]
     Devices(usize),
@@ -135,9 +158,7 @@ impl TryFrom<StoredLearnings> for Learnings {
     type Error = LearntError;
 
     fn try_from(stored: StoredLearnings) -> Result<Self, LearntError> {
-        if stored.version != VERSION {
-            return Err(LearntError::Version(stored.version));
-        }
+        OtherVersion::expect(stored.version, VERSION)?;
         if stored.devices.len() > DEVICES_MAX {
             return Err(LearntError::Devices(stored.devices.len()));
         }
@@ -186,8 +207,8 @@ impl StoredDevice {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICES_MAX, Learnings, LearntError, StoredLearnings, told};
-    use brain::{EnergyModel, GyroLearnt, Learnt};
+    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, StoredLearnings, told};
+    use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 
     fn learnt(scale: f64) -> Learnt {
         Learnt {
@@ -222,6 +243,22 @@ mod tests {
     }
 
     #[test]
+    fn a_part_is_forgotten_and_a_robot_of_which_nothing_is_left() {
+        let mut learnings = Learnings::default();
+        learnings.take("a", learnt(0.01));
+        assert_eq!(learnings.forget("b", &[LearntPart::Gyro]), None);
+        assert_eq!(learnings.forget("a", &[LearntPart::Gyro]), Some(learnt(0.01)));
+        let of_pack = Learnt {
+            gyro: None,
+            ..learnt(0.01)
+        };
+        assert_eq!(learnings.iter().collect::<Vec<_>>(), [("a", &of_pack)]);
+        assert_eq!(learnings.forget("a", &[LearntPart::Energy]), Some(of_pack));
+        assert_eq!(learnings, Learnings::default());
+        assert!(learnings.take("a", learnt(0.02)), "it can be learnt anew");
+    }
+
+    #[test]
     fn the_robots_that_were_seen_longest_ago_are_forgotten() {
         let mut learnings = Learnings::default();
         for number in 0..=DEVICES_MAX {
@@ -239,7 +276,8 @@ mod tests {
         let stored = StoredLearnings::from(&learnings);
         let mut wrong = stored.clone();
         wrong.version = 2;
-        assert_eq!(Learnings::try_from(wrong), Err(LearntError::Version(2)));
+        let other = OtherVersion::expect(2, 1).expect_err("is another");
+        assert_eq!(Learnings::try_from(wrong), Err(LearntError::Version(other)));
         let mut wrong = stored.clone();
         wrong.devices[0].gyro.as_mut().expect("is kept").scale = 0.5;
         assert_eq!(Learnings::try_from(wrong), Err(LearntError::Gyro("a".to_owned())));

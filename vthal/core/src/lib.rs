@@ -35,6 +35,7 @@ mod outputs;
 mod quest;
 pub mod schedule;
 mod scheduler;
+mod stored_version;
 mod swept_sigma;
 mod tap;
 mod to_api;
@@ -46,7 +47,8 @@ pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    ArchiveOrder, ArchiveTask, Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder, MapEdit,
-    MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask,
-    ScheduleOrder,
+    ArchiveOrder, ArchiveTask, Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder,
+    LearntOrder, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
+    RunQuery, RunStart, RunTask, ScheduleOrder,
 };
+pub use stored_version::OtherVersion;

@@ -8,7 +8,10 @@ mod next_run;
 
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
-use brain::{Actions, BehaviorState, Body, Brain, Checkpoint, Command, MapCursor, ReadyHome, Reason, Speeds};
+use brain::{
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, LearntPart, MapCursor, ReadyHome, Reason,
+    Speeds,
+};
 use floors::Carried;
 pub(crate) use floors::FloorNews;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
@@ -125,6 +128,13 @@ impl Mind {
     /// Whether commands wait for a run whose home is being made ready.
     pub(crate) fn holds_commands(&self) -> bool {
         self.next.is_some()
+    }
+
+    /// The robot knows nothing of these any more. It rests and is not recorded.
+    pub(crate) fn forget(&mut self, parts: &[LearntPart]) {
+        for part in parts {
+            self.brain.forget(*part);
+        }
     }
 
     pub(crate) fn place_at(&mut self, pose: brain::Pose2) {

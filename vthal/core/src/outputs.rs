@@ -39,7 +39,7 @@ pub struct Outputs {
     /// Loads of motors for the disk.
     pub health: Option<HealthOrder>,
     /// What robots have learnt of themselves, for the disk; replaces what was kept before.
-    pub learnt: Option<StoredLearnings>,
+    pub learnt: Option<LearntOrder>,
     /// A run that is over, for the disk. The shell says with [`crate::Input::RunKept`] what came of it; until then no further
     /// one comes.
     pub run: Option<Box<RunRecord>>,
@@ -64,6 +64,15 @@ pub struct HealthOrder {
     pub number: u64,
     /// What is kept.
     pub health: StoredHealth,
+}
+
+/// What robots have learnt, which the shell keeps in place of what was before, and says so with [`crate::Input::LearntKept`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct LearntOrder {
+    /// Number of the order.
+    pub number: u64,
+    /// What is kept.
+    pub learnt: StoredLearnings,
 }
 
 /// Something that a client asks of the kept runs; the shell answers the client itself.
@@ -93,14 +102,14 @@ pub enum RunTask {
     Track {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0; `None` for all of them as one.
+        /// Which of its recordings, from 0; `None` for all of them.
         recording: Option<u32>,
     },
     /// Give a piece of its recording: [`Update::RunFile`].
     File {
         /// Number of the run.
         number: u64,
-        /// Which of its recordings, from 0; `None` for all of them.
+        /// Which of its recordings, from 0; `None` for all of them as one.
         recording: Option<u32>,
         /// First byte.
         from: u64,

@@ -2,7 +2,8 @@
 
 use rvac_api::{Failure, RunRecord, Update};
 use vthal_core::{
-    ArchiveOrder, ClientId, FloorOrder, HealthOrder, Input, MapEdit, MapOrder, MixOrder, ScheduleOrder,
+    ArchiveOrder, ClientId, FloorOrder, HealthOrder, Input, LearntOrder, MapEdit, MapOrder, MixOrder,
+    ScheduleOrder,
 };
 
 use super::{Daemon, refusal};
@@ -156,6 +157,18 @@ impl Daemon {
             self.handle(Input::HealthKept {
                 number,
                 result: Err(text),
+            });
+        }
+    }
+
+    pub(super) fn keep_learnt(&mut self, order: LearntOrder) {
+        let number = order.number;
+        if !self.wiring.checkpoints.keep_learnt(order) {
+            let text =
+                "The disk is too slow to take what the robot has learnt now; the next run says it again.";
+            self.handle(Input::LearntKept {
+                number,
+                result: Err(text.to_owned()),
             });
         }
     }

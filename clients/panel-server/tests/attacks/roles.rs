@@ -152,6 +152,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "import-floors" => r#","from":0,"size":3,"data":"AAEC""#,
         "save-mix" => r#","profile":"{}""#,
         "reset-health" => r#","component":"brush-main""#,
+        "forget-learnt" => r#","device":"sr8730""#,
         "remove-mix" => r#","name":"x""#,
         "enable-schedule" => r#","number":1,"enabled":true"#,
         "skip-next" => r#","number":1,"skip":true"#,

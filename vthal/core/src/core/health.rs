@@ -2,9 +2,10 @@
 //! cleaned a part.
 
 use brain::BehaviorState;
-use rvac_api::{ComponentHealth, Failure, LogLevel, Update};
+use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::Core;
+use super::awaited::{Awaited, answer};
 use super::feed::currents_a;
 use super::refusal::Refusal;
 use crate::Outputs;
@@ -22,17 +23,7 @@ const STRAIGHT_DIFFERENCE: f64 = 0.15;
 #[derive(Debug, Default)]
 pub(super) struct HealthDesk {
     health: Health,
-    orders: u64,
-    resets: Vec<Reset>,
-}
-
-/// A reset that is not on the disk yet.
-#[derive(Debug)]
-struct Reset {
-    order: u64,
-    asker: Asker,
-    component: Component,
-    before: Gauge,
+    resets: Awaited<(Component, Gauge)>,
 }
 
 impl HealthDesk {
@@ -44,9 +35,8 @@ impl HealthDesk {
     }
 
     fn keep(&mut self, outputs: &mut Outputs) {
-        self.orders += 1;
         outputs.health = Some(HealthOrder {
-            number: self.orders,
+            number: self.resets.next_order(),
             health: StoredHealth::from(&self.health),
         });
     }
@@ -123,12 +113,7 @@ impl Core {
         let component = Component::from_name(name).ok_or("unknown-component")?;
         let before = self.health.health.reset(component);
         self.health.keep(outputs);
-        self.health.resets.push(Reset {
-            order: self.health.orders,
-            asker,
-            component,
-            before,
-        });
+        self.health.resets.wait(asker, (component, before));
         Ok(())
     }
 
@@ -142,28 +127,15 @@ impl Core {
         if let Err(text) = &result {
             self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
         }
-        let (done, waiting) = core::mem::take(&mut self.health.resets)
-            .into_iter()
-            .partition::<Vec<_>, _>(|reset| reset.order <= number);
-        self.health.resets = waiting;
-        for reset in done.into_iter().rev() {
-            let (client, id) = reset.asker;
-            let update = match (&result, id) {
-                (Ok(()), Some(id)) => Update::Done { id },
-                (Ok(()), None) => continue,
-                (Err(text), id) => {
-                    self.health.health.put_back(reset.component, reset.before);
-                    Update::Failed(Failure {
-                        id,
-                        reason: "health-unwritable".to_owned(),
-                        text: text.clone(),
-                    })
-                }
-            };
-            outputs.deliveries.push(Delivery {
-                to: Recipients::One(client),
-                update,
-            });
+        for (asker, (component, before)) in self.health.resets.settle(number) {
+            let refused = result
+                .as_ref()
+                .err()
+                .map(|text| ("health-unwritable", text.clone()));
+            if refused.is_some() {
+                self.health.health.put_back(component, before);
+            }
+            answer(asker, refused, outputs);
         }
     }
 }

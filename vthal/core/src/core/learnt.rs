@@ -1,11 +1,31 @@
-//! What the robot has learnt of itself goes to the disk after each run, and a robot that was seen before begins with it.
+//! What the robot has learnt of itself: it goes to the disk after each run, a robot that was seen before begins with it, and
+//! people may look at it and have it forgotten.
 
-use rvac_api::LogLevel;
+use brain::{Learnt, LearntPart};
+use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
-use super::Core;
+use super::awaited::{Awaited, answer};
+use super::refusal::Refusal;
+use super::{Core, recorder};
 use crate::Outputs;
+use crate::RunEnd;
 use crate::journal::Part;
 use crate::learnt::{StoredLearnings, told};
+use crate::outputs::{Delivery, LearntOrder, Recipients};
+use crate::scheduler::Asker;
+
+/// Seconds of an hour.
+const HOUR_S: f64 = 3600.0;
+
+/// What of a robot was forgotten, as it was before.
+#[derive(Debug)]
+pub(super) struct Forgotten {
+    device: String,
+    before: Learnt,
+}
+
+/// Those who wait until the disk has forgotten.
+pub(super) type LearntDesk = Awaited<Forgotten>;
 
 impl Core {
     /// Tells what a robot of this name begins with.
@@ -21,7 +41,116 @@ impl Core {
             return;
         };
         if self.config.learnt.take(mind.device(), mind.brain().learnt()) {
-            outputs.learnt = Some(StoredLearnings::from(&self.config.learnt));
+            self.write_learnt(outputs);
         }
+    }
+
+    fn write_learnt(&mut self, outputs: &mut Outputs) {
+        outputs.learnt = Some(LearntOrder {
+            number: self.learnt.next_order(),
+            learnt: StoredLearnings::from(&self.config.learnt),
+        });
+    }
+
+    /// A client asks what is kept.
+    pub(super) fn show_learnt(&self, (client, id): Asker, outputs: &mut Outputs) -> Result<(), Refusal> {
+        let here = self.mind.as_ref().map(|mind| mind.device());
+        let devices = self.config.learnt.iter();
+        let devices = devices.map(|(device, learnt)| view(device, learnt, here));
+        outputs.deliveries.push(Delivery {
+            to: Recipients::One(client),
+            update: Update::Learnt {
+                id,
+                devices: devices.collect(),
+            },
+        });
+        Ok(())
+    }
+
+    /// A client has something forgotten. Answered when the disk has it.
+    pub(super) fn forget_learnt(
+        &mut self,
+        (now_us, asker): (u64, Asker),
+        (device, part): (&str, Option<rvac_api::LearntPart>),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let parts = parts(part);
+        let is_here = self.mind.as_ref().is_some_and(|mind| mind.device() == device);
+        let is_free = |mind: &crate::mind::Mind| mind.rests() && !mind.holds_commands();
+        if is_here && !self.mind.as_ref().is_some_and(is_free) {
+            return Err("job-runs".into());
+        }
+        let known = self.config.learnt.forget(device, parts);
+        let before = match known {
+            Some(before) => before,
+            None if is_here => Learnt::default(),
+            None => return Err("nothing-learnt".into()),
+        };
+        if is_here {
+            self.forget_in_mind(now_us, parts, outputs);
+        }
+        self.write_learnt(outputs);
+        let device = device.to_owned();
+        self.learnt.wait(asker, Forgotten { device, before });
+        Ok(())
+    }
+
+    /// A recording that is about to end ends before, because a replay would know nothing of this.
+    fn forget_in_mind(&mut self, now_us: u64, parts: &[LearntPart], outputs: &mut Outputs) {
+        let recording = self.config.recording;
+        let Some(mind) = &mut self.mind else { return };
+        if mind.is_recorded() {
+            outputs.home = mind.home_to_keep();
+            mind.end_run(now_us, RunEnd::Finished, &mut recorder(recording, outputs));
+        }
+        mind.forget(parts);
+    }
+
+    /// The disk has what it was given under this number, or says why it has not.
+    pub(super) fn learnt_kept(
+        &mut self,
+        now_us: u64,
+        (number, result): (u64, Result<(), String>),
+        outputs: &mut Outputs,
+    ) {
+        if let Err(text) = &result {
+            self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
+        }
+        for (asker, Forgotten { device, before }) in self.learnt.settle(number) {
+            let refused = result
+                .as_ref()
+                .err()
+                .map(|text| ("learnt-unwritable", text.clone()));
+            if refused.is_some() {
+                // The robot that is here learns anew all the same, and with its next run the disk hears of that.
+                self.config.learnt.take(&device, before);
+            }
+            answer(asker, refused, outputs);
+        }
+    }
+}
+
+fn parts(part: Option<rvac_api::LearntPart>) -> &'static [LearntPart] {
+    match part {
+        Some(rvac_api::LearntPart::Gyro) => &[LearntPart::Gyro],
+        Some(rvac_api::LearntPart::Energy) => &[LearntPart::Energy],
+        None => &[LearntPart::Gyro, LearntPart::Energy],
+    }
+}
+
+fn view(device: &str, learnt: &Learnt, here: Option<&str>) -> LearntView {
+    LearntView {
+        device: device.to_owned(),
+        here: here == Some(device),
+        gyro: learnt.gyro.map(|gyro| GyroLearnt {
+            scale: gyro.scale,
+            scale_sigma: gyro.scale_sigma,
+            bias_rad_per_s: gyro.bias_rad_per_s,
+        }),
+        energy: (learnt.energy.seen_s > 0.0).then_some(EnergyLearnt {
+            cleaning_per_h: HOUR_S * learnt.energy.cleaning_per_s,
+            driving_per_h: HOUR_S * learnt.energy.driving_per_s,
+            seen_s: learnt.energy.seen_s,
+        }),
     }
 }

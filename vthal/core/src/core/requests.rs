@@ -60,6 +60,8 @@ impl Core {
                 | RequestBody::Evidence
                 | RequestBody::Health
                 | RequestBody::ResetHealth { .. }
+                | RequestBody::Learnt
+                | RequestBody::ForgetLearnt { .. }
                 | RequestBody::AddSchedule(_)
                 | RequestBody::ChangeSchedule { .. }
                 | RequestBody::RemoveSchedule { .. }
@@ -104,6 +106,10 @@ impl Core {
             RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
             RequestBody::Health => self.tell_health((client, id), outputs),
             RequestBody::ResetHealth { component } => self.reset_health((client, id), &component, outputs),
+            RequestBody::Learnt => self.show_learnt((client, id), outputs),
+            RequestBody::ForgetLearnt { device, part } => {
+                self.forget_learnt((now_us, (client, id)), (&device, part), outputs)
+            }
             RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }

@@ -1,8 +1,9 @@
 //! Schedules: what people want of them, what the clock wants, and what the robot says to that.
 
 use brain::Command;
-use rvac_api::{Failure, LogLevel, RequestBody, RunAsker, ScheduledJob, Schedules, Topic, Update};
+use rvac_api::{LogLevel, RequestBody, RunAsker, ScheduledJob, Schedules, Topic, Update};
 
+use super::awaited::answer;
 use super::checkpoints::works;
 use super::places::with_any_places;
 use super::refusal::Refusal;
@@ -290,20 +291,4 @@ impl Core {
             });
         }
     }
-}
-
-fn answer((client, id): Asker, failure: Option<(&'static str, String)>, outputs: &mut Outputs) {
-    let update = match (failure, id) {
-        (Some((reason, text)), id) => Update::Failed(Failure {
-            id,
-            reason: reason.to_owned(),
-            text,
-        }),
-        (None, Some(id)) => Update::Done { id },
-        (None, None) => return,
-    };
-    outputs.deliveries.push(Delivery {
-        to: Recipients::One(client),
-        update,
-    });
 }

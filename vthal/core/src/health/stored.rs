@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gauge::{Gauge, MARKS};
 use super::{Component, Health};
+use crate::stored_version::OtherVersion;
 
 const VERSION: u32 = 1;
 
@@ -27,8 +28,8 @@ struct StoredGauge {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HealthError {
     /// Of another daemon.
-    #[error("it has version {0}, and this daemon reads version {VERSION}")]
-    Version(u32),
+    #[error(transparent)]
+    Version(#[from] OtherVersion),
     /// No load can be that.
     #[error("the loads of {0} cannot be: at most {MARKS} of 0 A and above are kept of each kind")]
     Loads(&'static str),
@@ -57,9 +58,7 @@ impl TryFrom<StoredHealth> for Health {
 
     /// A component that is not in it, or of which this daemon knows nothing, begins anew.
     fn try_from(stored: StoredHealth) -> Result<Self, HealthError> {
-        if stored.version != VERSION {
-            return Err(HealthError::Version(stored.version));
-        }
+        OtherVersion::expect(stored.version, VERSION)?;
         let mut health = Self::default();
         for component in Component::ALL {
             let Some(gauge) = stored.gauges.get(component.name()) else {
