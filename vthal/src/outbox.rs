@@ -37,6 +37,8 @@ pub(crate) enum StateKind {
     Estimate,
     /// [`Update::Way`]
     Way,
+    /// [`Update::Inputs`]
+    Inputs,
 }
 
 impl Class {
@@ -50,6 +52,7 @@ impl Class {
             Update::Home(_) => Self::Newest(StateKind::Home),
             Update::Estimate(_) => Self::Newest(StateKind::Estimate),
             Update::Way(_) => Self::Newest(StateKind::Way),
+            Update::Inputs { .. } => Self::Newest(StateKind::Inputs),
             _ => Self::Lossless,
         }
     }

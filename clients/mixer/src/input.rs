@@ -17,7 +17,7 @@ pub(crate) const BUTTONS: u8 = 32;
 const KEY_LENGTH_MAX: usize = 24;
 
 /// Something that holds inputs and can be lost as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Device {
     /// A gamepad, by its number.
     Pad(u8),
@@ -27,6 +27,8 @@ pub enum Device {
     Touch,
     /// The device that is held in the hand and tilted.
     Tilt,
+    /// An input that another client tells the robot: each ends by itself.
+    Client(Name),
 }
 
 /// A key by its place on the keyboard, as browsers name it in `KeyboardEvent.code`: `KeyW`, `ArrowUp`.
@@ -49,7 +51,7 @@ impl KeyCode {
 }
 
 /// One input. Spelled `always`, `pad-0-axis-1`, `pad-0-button-9`, `key-KeyW`, `touch-right`, `touch-up`, `tilt-forward`,
-/// `tilt-left`, `switch-NAME`. Axes and buttons have the numbers of the "standard" mapping of the W3C.
+/// `tilt-left`, `client-NAME`, `switch-NAME`. Axes and buttons have the numbers of the "standard" mapping of the W3C.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Source {
@@ -79,6 +81,8 @@ pub enum Source {
     TiltForward,
     /// Left edge of the device tilted down; a quarter turn is 1.
     TiltLeft,
+    /// What another client tells the robot under this name, -1..=1.
+    Client(Name),
     /// A switch of the profile, 0 or 1.
     Switch(Name),
 }
@@ -89,7 +93,7 @@ pub enum SourceError {
     /// It has no form that is known.
     #[error(
         "`{0}` is no input: write always, pad-0-axis-1, pad-0-button-9, key-KeyW, touch-right, touch-up, tilt-forward, \
-         tilt-left or switch-NAME"
+         tilt-left, client-NAME or switch-NAME"
     )]
     Unknown(String),
     /// A number is beyond what there is.
@@ -102,7 +106,7 @@ pub enum SourceError {
         /// The first number that is too large.
         below: u8,
     },
-    /// The name of a switch is none.
+    /// The name of a switch or of a client's input is none.
     #[error(transparent)]
     Name(#[from] NameError),
 }
@@ -114,6 +118,7 @@ impl fmt::Display for Device {
             Self::Keyboard => formatter.write_str("keyboard"),
             Self::Touch => formatter.write_str("touch"),
             Self::Tilt => formatter.write_str("tilt"),
+            Self::Client(name) => write!(formatter, "client-{name}"),
         }
     }
 }
@@ -121,13 +126,14 @@ impl fmt::Display for Device {
 impl Source {
     /// The device that it belongs to; none for what cannot be lost.
     #[must_use]
-    pub const fn device(&self) -> Option<Device> {
+    pub fn device(&self) -> Option<Device> {
         match self {
             Self::Always | Self::Switch(_) => None,
             Self::PadAxis { pad, .. } | Self::PadButton { pad, .. } => Some(Device::Pad(*pad)),
             Self::Key(_) => Some(Device::Keyboard),
             Self::TouchRight | Self::TouchUp => Some(Device::Touch),
             Self::TiltForward | Self::TiltLeft => Some(Device::Tilt),
+            Self::Client(name) => Some(Device::Client(name.clone())),
         }
     }
 }
@@ -143,6 +149,7 @@ impl fmt::Display for Source {
             Self::TouchUp => formatter.write_str("touch-up"),
             Self::TiltForward => formatter.write_str("tilt-forward"),
             Self::TiltLeft => formatter.write_str("tilt-left"),
+            Self::Client(name) => write!(formatter, "client-{name}"),
             Self::Switch(name) => write!(formatter, "switch-{name}"),
         }
     }
@@ -163,6 +170,9 @@ impl FromStr for Source {
         let unknown = || SourceError::Unknown(text.to_owned());
         if let Some(name) = text.strip_prefix("switch-") {
             return Ok(Self::Switch(Name::new(name)?));
+        }
+        if let Some(name) = text.strip_prefix("client-") {
+            return Ok(Self::Client(Name::new(name)?));
         }
         if let Some(code) = text.strip_prefix("key-") {
             return KeyCode::new(code).map(Self::Key).ok_or_else(unknown);
@@ -224,6 +234,7 @@ mod tests {
             "touch-up",
             "tilt-forward",
             "tilt-left",
+            "client-front left",
             "switch-slow drive",
         ] {
             assert_eq!(
@@ -245,6 +256,8 @@ mod tests {
             "key-",
             "key-é",
             "switch-",
+            "client-",
+            "client-a/b",
         ] {
             let error = text.parse::<Source>().expect_err(text);
             assert!(!matches!(error, SourceError::Number { .. }), "{text}: {error}");

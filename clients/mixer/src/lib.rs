@@ -12,6 +12,7 @@
 #![deny(missing_docs)]
 
 mod check;
+mod client_inputs;
 mod command;
 mod defaults;
 mod helm;
@@ -28,6 +29,7 @@ mod shape;
 mod switch;
 
 pub use check::{LINES_MAX, POINTS_MAX, PROFILE_BYTES_MAX, ProfileError, SWITCHES_MAX};
+pub use client_inputs::ClientInputs;
 pub use command::{Axes, Cleaning, Press, Wish};
 pub use defaults::standard_profile;
 pub use helm::{Helm, Order};

@@ -106,13 +106,7 @@ impl Mixer {
     }
 
     fn of(profile: Profile) -> Self {
-        let lines = profile
-            .outputs
-            .iter()
-            .flat_map(|output| &output.lines)
-            .map(|line| &line.input);
-        let conditions = profile.switches.iter().filter_map(|switch| switch.on.input());
-        let mut devices: Vec<Device> = lines.chain(conditions).filter_map(Source::device).collect();
+        let mut devices: Vec<Device> = profile.sources().filter_map(Source::device).collect();
         devices.sort_unstable();
         devices.dedup();
         let mut mixer = Self {
@@ -141,8 +135,8 @@ impl Mixer {
         let present: Vec<Device> = self
             .devices
             .iter()
-            .copied()
-            .filter(|device| readings.has(*device))
+            .filter(|device| readings.has(device))
+            .cloned()
             .collect();
         let changed = present != self.present || span_us > GAP_MAX_US;
         if changed {

@@ -1,11 +1,9 @@
-//! Names that people give to profiles, lines and switches.
+//! Names that people give to profiles, lines, switches and inputs of clients.
 
 use core::fmt;
 
+use rvac_api::is_mix_name;
 use serde::{Deserialize, Serialize};
-
-/// Longest name in characters.
-const LENGTH_MAX: usize = 32;
 
 /// A name: 1 to 32 letters, digits, blanks, `-` and `_`, with something other than a blank at both ends. It can be a file
 /// name on every system.
@@ -24,10 +22,7 @@ impl Name {
     /// # Errors
     /// [`NameError`] when it is none.
     pub fn new(text: &str) -> Result<Self, NameError> {
-        let fits = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
-        let length = text.chars().count();
-        let is_name = (1..=LENGTH_MAX).contains(&length) && text.trim() == text && text.chars().all(fits);
-        if is_name {
+        if is_mix_name(text) {
             Ok(Self(text.to_owned()))
         } else {
             Err(NameError(text.to_owned()))

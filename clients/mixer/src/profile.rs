@@ -102,6 +102,13 @@ impl Profile {
         serde_json::to_string_pretty(self).expect("plain types without maps can be written")
     }
 
+    /// The inputs of all lines and switches, in their order.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        let lines = self.outputs.iter().flat_map(|output| &output.lines);
+        let conditions = self.switches.iter().filter_map(|switch| switch.on.input());
+        lines.map(|line| &line.input).chain(conditions)
+    }
+
     /// How an input is read.
     #[must_use]
     pub fn calibration(&self, source: &Source) -> Option<&Calibration> {

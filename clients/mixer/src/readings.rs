@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::input::{AXES, BUTTONS};
-use crate::{Device, KeyCode, Source};
+use crate::{Device, KeyCode, Name, Source};
 
 /// An input that left its place by so much is the one that a person means. Sticks at rest wander by less.
 const MOVED: f64 = 0.5;
@@ -29,17 +29,20 @@ pub struct Readings {
     pub touch: Option<[f64; 2]>,
     /// Tilt of the device: forward and left, a quarter turn is 1.
     pub tilt: Option<[f64; 2]>,
+    /// What other clients tell, each of them a device of its own: see [`crate::ClientInputs`].
+    pub clients: BTreeMap<Name, f64>,
 }
 
 impl Readings {
     /// Whether the device is there.
     #[must_use]
-    pub fn has(&self, device: Device) -> bool {
+    pub fn has(&self, device: &Device) -> bool {
         match device {
-            Device::Pad(pad) => self.pads.contains_key(&pad),
+            Device::Pad(pad) => self.pads.contains_key(pad),
             Device::Keyboard => self.keys.is_some(),
             Device::Touch => self.touch.is_some(),
             Device::Tilt => self.tilt.is_some(),
+            Device::Client(name) => self.clients.contains_key(name),
         }
     }
 
@@ -60,6 +63,7 @@ impl Readings {
             Source::TouchUp => self.touch.map(|[_, up]| up),
             Source::TiltForward => self.tilt.map(|[forward, _]| forward),
             Source::TiltLeft => self.tilt.map(|[_, left]| left),
+            Source::Client(name) => self.clients.get(name).copied(),
             Source::Switch(_) => None,
         };
         value.filter(|value| value.is_finite())
@@ -86,19 +90,25 @@ impl Readings {
             Source::TouchUp => self.touch.get_or_insert_default()[1] = value,
             Source::TiltForward => self.tilt.get_or_insert_default()[0] = value,
             Source::TiltLeft => self.tilt.get_or_insert_default()[1] = value,
+            Source::Client(name) => {
+                self.clients.insert(name.clone(), value);
+            }
         }
         true
     }
 
     /// Notes that a device is gone.
-    pub fn remove(&mut self, device: Device) {
+    pub fn remove(&mut self, device: &Device) {
         match device {
             Device::Pad(pad) => {
-                self.pads.remove(&pad);
+                self.pads.remove(pad);
             }
             Device::Keyboard => self.keys = None,
             Device::Touch => self.touch = None,
             Device::Tilt => self.tilt = None,
+            Device::Client(name) => {
+                self.clients.remove(name);
+            }
         }
     }
 
@@ -129,6 +139,7 @@ impl Readings {
                 .iter()
                 .flat_map(|_| [Source::TiltForward, Source::TiltLeft]),
         );
+        all.extend(self.clients.keys().cloned().map(Source::Client));
         all
     }
 }
@@ -150,7 +161,7 @@ pub fn first_moved(before: &Readings, now: &Readings) -> Option<Source> {
     };
     now.sources()
         .into_iter()
-        .filter(|source| source.device().is_some_and(|device| before.has(device)))
+        .filter(|source| source.device().is_some_and(|device| before.has(&device)))
         .map(|source| (way(&source), source))
         .filter(|(way, _)| *way >= MOVED)
         .max_by(|(one, _), (other, _)| one.total_cmp(other))
@@ -202,6 +213,17 @@ mod tests {
     }
 
     #[test]
+    fn an_input_of_a_client_is_learnt_like_a_stick() {
+        let steer: Source = "client-steer".parse().expect("an input");
+        let mut rest = pad(&[0.0]);
+        let mut moved = rest.clone();
+        moved.set(&steer, -0.6);
+        assert_eq!(first_moved(&rest, &moved), None, "it has just appeared");
+        rest.set(&steer, 0.0);
+        assert_eq!(first_moved(&rest, &moved), Some(steer));
+    }
+
+    #[test]
     fn what_is_set_is_read_until_its_device_is_gone() {
         for text in [
             "pad-1-axis-3",
@@ -211,6 +233,7 @@ mod tests {
             "touch-right",
             "tilt-left",
             "tilt-forward",
+            "client-steer",
         ] {
             let source: Source = text.parse().expect("an input");
             let mut readings = Readings::default();
@@ -218,7 +241,7 @@ mod tests {
             assert_eq!(readings.value(&source), Some(1.0), "{text}");
             assert!(readings.set(&source, 0.0));
             assert_eq!(readings.value(&source), Some(0.0), "{text}");
-            readings.remove(source.device().expect("a device"));
+            readings.remove(&source.device().expect("a device"));
             assert_eq!(readings, Readings::default(), "{text}");
         }
         assert!(!Readings::default().set(&Source::Always, 1.0));

@@ -25,6 +25,7 @@ impl Hands {
             keys: Some([].into()),
             touch: Some([0.0, 0.0]),
             tilt: None,
+            clients: [].into(),
         };
         let mixer = Mixer::new(profile).expect("a profile");
         let mut hands = Self {

@@ -4,10 +4,11 @@ mod draw;
 
 use draw::{profile, readings};
 use mixer::{
-    GAP_MAX_US, Line, Mix, MixState, Mixed, Mixer, Name, Output, OutputKind, OutputName, PadReading, Profile,
-    Readings, Source, VERSION, standard_profile,
+    ClientInputs, GAP_MAX_US, Line, Mix, MixState, Mixed, Mixer, Name, Output, OutputKind, OutputName,
+    PadReading, Profile, Readings, Source, VERSION, standard_profile,
 };
 use proptest::prelude::*;
+use rvac_api::{ClientInput, INPUT_LEASE_MS_MAX};
 
 const STEP_US: u64 = 20_000;
 
@@ -41,6 +42,14 @@ fn sticks(axes: &[f64]) -> Readings {
     Readings {
         pads: [(0, reading)].into(),
         ..Readings::default()
+    }
+}
+
+fn told(value: f64, left_ms: u16) -> ClientInput {
+    ClientInput {
+        name: "steer".to_owned(),
+        value,
+        left_ms,
     }
 }
 
@@ -116,6 +125,45 @@ proptest! {
             }
         }
         prop_assert_eq!(mixed.wish().axes, mixer::Axes::default());
+    }
+
+    /// Whatever a client tells and whenever it falls silent: nothing moves when the longest lease is over.
+    #[test]
+    fn a_client_that_falls_silent_drives_no_longer_than_a_lease(
+        words in prop::collection::vec((-1.0_f64..=1.0, 1_u16..=500, 1_u64..300_000), 1..20),
+    ) {
+        let steer = Source::Client(name("steer"));
+        let mut mixer = Mixer::new(single(vec![Line::new(name("line"), steer)])).expect("a profile");
+        let mut inputs = ClientInputs::default();
+        let mut now_us = 0;
+        let mut step = |now_us: u64, inputs: &ClientInputs| {
+            let readings = Readings { clients: inputs.at(now_us), ..Readings::default() };
+            mixer.step(now_us, &readings)
+        };
+        for value in [0.0, 0.0, 1.0] {
+            now_us += STEP_US;
+            inputs.hear(now_us, &[told(value, 400)]);
+            let mixed = step(now_us, &inputs);
+            prop_assert_eq!(mixed.outputs[0].value, value, "at rest first, then it drives");
+        }
+        for (value, left_ms, pause_us) in words {
+            now_us += pause_us;
+            inputs.hear(now_us, &[told(value, left_ms)]);
+            step(now_us, &inputs);
+        }
+        let over_us = now_us + u64::from(INPUT_LEASE_MS_MAX) * 1000;
+        while now_us < over_us {
+            now_us += STEP_US;
+            step(now_us, &inputs);
+        }
+        let mixed = step(now_us, &inputs);
+        prop_assert_eq!(mixed.outputs[0].value, 0.0);
+        prop_assert!(!mixed.wish().drives);
+        inputs.hear(now_us, &[told(1.0, 400)]);
+        for _ in 0..3 {
+            now_us += STEP_US;
+            prop_assert_eq!(step(now_us, &inputs).outputs[0].value, 0.0, "it comes back held");
+        }
     }
 
     #[test]

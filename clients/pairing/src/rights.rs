@@ -80,7 +80,7 @@ pub fn need_of(path: &str) -> Need {
 
 /// Every request on the WebSocket, by its word in `c`.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 57] = [
+pub const VERBS: [(&str, Role); 60] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -103,6 +103,7 @@ pub const VERBS: [(&str, Role); 57] = [
     ("dock",            Role::Drive),
     ("drive",           Role::Drive),
     ("release",         Role::Drive),
+    ("set-inputs",      Role::Drive),
     ("locate",          Role::Drive),
     ("clear",           Role::Drive),
     ("run-schedule",    Role::Drive),

@@ -23,6 +23,7 @@ enum Reading {
     Home,
     Estimate,
     Way,
+    Inputs,
 }
 
 impl Reading {
@@ -39,6 +40,7 @@ impl Reading {
             "home" => Some(Self::Home),
             "estimate" => Some(Self::Estimate),
             "way" => Some(Self::Way),
+            "inputs" => Some(Self::Inputs),
             _ => None,
         }
     }

@@ -278,6 +278,7 @@ impl Store {
             Topic::Floors,
             Topic::Standstills,
             Topic::Runs,
+            Topic::Inputs,
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
@@ -287,6 +288,7 @@ impl Store {
     pub(crate) fn on_close(self) {
         // Nothing can be said any more: the lease ends by itself.
         self.seat.lose();
+        self.seat.driver.update_value(Driver::forget_inputs);
         self.floor_desk.on_close();
         let status = Status {
             state: "disconnected".to_owned(),
@@ -358,6 +360,7 @@ impl Store {
             Message::Run(record) => self.history.on_record(*record),
             Message::RunKept(run) => self.history.on_kept(*run),
             Message::RunTrack(track) => self.history.on_track(*track),
+            Message::Inputs { inputs } => self.seat.on_inputs(&inputs),
             Message::Packet { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }

@@ -8,6 +8,7 @@
 
 extern crate alloc;
 
+mod client_input;
 mod floor;
 mod health;
 mod history;
@@ -21,6 +22,7 @@ mod stop;
 mod thought;
 mod update;
 
+pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
 };

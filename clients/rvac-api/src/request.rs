@@ -1,5 +1,6 @@
 //! What a client asks.
 
+use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -54,6 +55,8 @@ pub enum Topic {
     Standstills,
     /// [`crate::Update::Button`] for each press and each hold.
     Buttons,
+    /// [`crate::Update::Inputs`] at once, then with each word of a client that tells some, and when one is gone.
+    Inputs,
 }
 
 /// How hard brushes and suction run while a person drives or in a room, each 0..=1. What a robot lacks is ignored.
@@ -251,6 +254,14 @@ pub enum RequestBody {
     },
     /// Leaves the driver's seat; the wheels stop at once.
     Release,
+    /// Tells what inputs of control mixes read, under a lease, for another client to drive by; in place of all that this client
+    /// told before. They end with the lease and with the client's connection. The first who tells a name has it meanwhile.
+    SetInputs {
+        /// Names as in the input `client-NAME` of a mix, with what each reads, -1..=1; none ends them.
+        values: BTreeMap<String, f64>,
+        /// Lease in ms, 1..=400.
+        ttl: u16,
+    },
     /// Beeps so that a person finds the robot.
     Locate,
     /// Presses of buttons on the robot start nothing for so long, because somebody counts them for another purpose; what runs they

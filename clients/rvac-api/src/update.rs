@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap, LearntView,
-    PlannedWay, Run, RunRecord, RunTrack, Schedules, Standstill,
+    ClientInput, ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap,
+    LearntView, PlannedWay, Run, RunRecord, RunTrack, Schedules, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -156,6 +156,11 @@ pub enum Update {
         button: u8,
         /// Host time, seconds since the daemon's start.
         t: f64,
+    },
+    /// The inputs of control mixes that clients tell now.
+    Inputs {
+        /// By their names.
+        inputs: Vec<ClientInput>,
     },
     /// A device was paired with the robot. Said by the server of the panel to paired devices.
     NewDevice {

@@ -6,15 +6,15 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPattern, CleaningPower, ComponentHealth, Decision, DeviceTable,
-    DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView, FloorsView, Gesture,
-    GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart, LearntView,
-    LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlaceShape, PlaceView,
-    PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription, RoomChangeView,
-    RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture,
-    RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime,
-    ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status, Topic,
-    TrackPose, TrackReading, Update, Versions, WallView, Weekday,
+    BatteryReading, BumpMark, CleaningPattern, CleaningPower, ClientInput, ComponentHealth, Decision,
+    DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView,
+    FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
+    LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlaceShape,
+    PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
+    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
+    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
+    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
+    Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -37,6 +37,39 @@ fn requests_about_buttons() {
         RequestBody::ClaimButtons { ms: 120_000 },
         r#"{"c":"claim-buttons","ms":120000}"#,
     );
+}
+
+#[test]
+fn inputs_of_clients() {
+    request(
+        RequestBody::SetInputs {
+            values: [("steer".to_owned(), 0.5), ("go".to_owned(), -1.0)].into(),
+            ttl: 300,
+        },
+        r#"{"c":"set-inputs","values":{"go":-1.0,"steer":0.5},"ttl":300}"#,
+    );
+    check(
+        &Update::Inputs {
+            inputs: vec![ClientInput {
+                name: "steer".to_owned(),
+                value: 0.5,
+                left_ms: 300,
+            }],
+        },
+        r#"{"e":"inputs","inputs":[{"name":"steer","value":0.5,"left_ms":300}]}"#,
+    );
+}
+
+#[test]
+fn names_in_mixes_are_safe_as_file_names() {
+    let longest = "x".repeat(32);
+    for good in ["a", "Köök 2", "left-hand_1", longest.as_str()] {
+        assert!(is_mix_name(good), "{good}");
+    }
+    let long = "x".repeat(33);
+    for bad in ["", " a", "a ", "a/b", "..", "a.json", "a\n", "\"", long.as_str()] {
+        assert!(!is_mix_name(bad), "{bad}");
+    }
 }
 
 #[test]
@@ -63,10 +96,11 @@ fn requests() {
         Topic::Floors,
         Topic::Standstills,
         Topic::Buttons,
+        Topic::Inputs,
     ];
     request(
         RequestBody::Watch { topics },
-        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills","buttons"]}"#,
+        r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills","buttons","inputs"]}"#,
     );
     request(RequestBody::Start { strategy: None }, r#"{"c":"start"}"#);
     request(

@@ -3,6 +3,8 @@
 
 #[path = "../../panel-server/tests/browser/robot.rs"]
 mod robot;
+#[path = "../../panel-server/tests/browser/teller.rs"]
+mod teller;
 
 use std::io::{BufRead, BufReader, Lines, Write};
 use std::os::unix::net::UnixStream;
@@ -11,8 +13,9 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Output, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use mixer::{Name, Source, standard_profile};
+use mixer::{Line, Name, OutputName, Profile, Source, standard_profile};
 use robot::Witness;
+use teller::Teller;
 
 /// Whatever is awaited comes within this time or the test fails; the machine may be busy.
 const PATIENCE: Duration = Duration::from_secs(40);
@@ -47,8 +50,8 @@ impl Drop for World {
 }
 
 impl World {
-    fn start() -> Self {
-        let folder = std::env::temp_dir().join(format!("rvac-drive-{}", std::process::id()));
+    fn start(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("rvac-drive-{name}-{}", std::process::id()));
         std::fs::create_dir_all(folder.join("state")).unwrap();
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let mut simulator = Command::new(binary("rvac-sim"));
@@ -209,7 +212,7 @@ fn stands_soon(witness: &Witness, since: Instant, what: &str) {
 
 #[test]
 fn a_pad_drives_and_whatever_is_lost_stops_the_wheels() {
-    let world = World::start();
+    let world = World::start("pad");
     let witness = world.witness();
     let mut drive = Drive::start(&world, &[]);
     drive.read("pad-0-axis-0 0");
@@ -260,6 +263,61 @@ fn a_pad_drives_and_whatever_is_lost_stops_the_wheels() {
     assert!(world.rvac(&["mix", "remove", "Touch only"]).status.success());
     let absent = world.rvac(&["drive", "--readings", "--mix", "Touch only"]);
     assert!(text(&absent.stderr).contains("the robot keeps no mix `Touch only`"));
+}
+
+/// A mix in which nothing drives but what another client tells.
+fn steered_from_afar() -> Profile {
+    let mut profile = standard_profile();
+    profile.name = Name::new("From afar").unwrap();
+    let steer = Source::Client(Name::new("steer").unwrap());
+    for output in &mut profile.outputs {
+        output.lines.clear();
+        if output.output == OutputName::Turn {
+            output.lines.push(Line::new(profile.name.clone(), steer.clone()));
+        }
+    }
+    profile
+}
+
+/// Tells that the input is pushed until the robot moves, from its rest on each time.
+fn push_from_afar(teller: &Teller, witness: &Witness) {
+    for _ in 0..8 {
+        teller.tell(0.0);
+        std::thread::sleep(Duration::from_millis(300));
+        teller.tell(-1.0);
+        if witness.moves_within(Duration::from_secs(3)) {
+            return;
+        }
+    }
+    panic!("the robot does not move");
+}
+
+#[test]
+fn another_client_drives_by_a_mix_and_its_loss_stops_the_wheels() {
+    let world = World::start("client");
+    let witness = world.witness();
+    let file = world.folder.join("mix.json");
+    std::fs::write(&file, steered_from_afar().to_pretty_json()).unwrap();
+    let drive = Drive::start(&world, &["--mix-file", file.to_str().unwrap()]);
+    let socket = world.folder.join("vthal.sock");
+    let gone = "client-steer is gone: the wheels stand";
+
+    let teller = Teller::of("steer", &socket);
+    push_from_afar(&teller, &witness);
+    let silent = Instant::now();
+    teller.fall_silent();
+    stands_soon(&witness, silent, "a client that falls silent");
+    drive.wait_for(gone);
+    teller.tell(-1.0);
+    assert!(
+        !witness.moves_within(Duration::from_secs(1)),
+        "a client that comes back pushed drives"
+    );
+    push_from_afar(&teller, &witness);
+    let died = Instant::now();
+    drop(teller);
+    stands_soon(&witness, died, "a client that died");
+    drive.wait_for(gone);
 }
 
 #[test]

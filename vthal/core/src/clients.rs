@@ -23,6 +23,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Floors => 4096,
         Topic::Standstills => 8192,
         Topic::Buttons => 16_384,
+        Topic::Inputs => 32_768,
     }
 }
 

@@ -3,6 +3,7 @@
 mod awaited;
 mod buttons;
 mod checkpoints;
+mod client_inputs;
 mod feed;
 mod firmware;
 mod floors;
@@ -26,6 +27,7 @@ use rvac_api::{Pose, RoomHere, Schedules, Status, Topic, Update};
 
 use crate::arbiter::Arbiter;
 use crate::buttons::Buttons;
+use crate::client_inputs::ClientInputs;
 use crate::clients::Clients;
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
 use crate::diary::Diary;
@@ -60,6 +62,7 @@ pub struct Core {
     clients: Clients,
     arbiter: Arbiter,
     buttons: Buttons,
+    client_inputs: ClientInputs,
     /// START went down while nothing ran that it had to stop.
     start_means_more: bool,
     /// How hard the robot cleans while a person drives it.
@@ -117,6 +120,7 @@ impl Core {
             clients: Clients::default(),
             arbiter: Arbiter::default(),
             buttons: Buttons::default(),
+            client_inputs: ClientInputs::default(),
             start_means_more: false,
             driver_power: CleanerPower::FULL,
             journal,
@@ -193,8 +197,10 @@ impl Core {
         let feed = self.feed.next_wake_us(&self.clients);
         let is_preparing = self.mind.as_ref().is_some_and(Mind::is_preparing);
         let prepare = is_preparing.then_some(self.prepared_us + PREPARE_US);
-        [device, step, prepare, feed, self.arbiter.lease_end_us()]
+        let leases = [self.arbiter.lease_end_us(), self.client_inputs.lease_end_us()];
+        [device, step, prepare, feed]
             .into_iter()
+            .chain(leases)
             .flatten()
             .min()
     }
@@ -340,6 +346,7 @@ impl Core {
         if let Some(client) = self.arbiter.expire(now_us) {
             self.lease_ended(now_us, client, outputs);
         }
+        self.expire_inputs(now_us, outputs);
         let recording = self.config.recording;
         if let Some(mind) = &mut self.mind
             && mind.is_preparing()

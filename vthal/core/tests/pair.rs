@@ -645,6 +645,68 @@ fn presses_that_a_client_counts_start_nothing_and_still_stop() {
     assert_eq!(pair.core.status().state, "starting", "nobody counts any more");
 }
 
+fn tell(pair: &mut Pair, client: ClientId, value: f64) -> Option<String> {
+    let values = [("steer".to_owned(), value)].into();
+    pair.ask(client, RequestBody::SetInputs { values, ttl: 300 })
+}
+
+/// What followers of inputs were told since the last question: names, values and what is left of the leases.
+fn heard_inputs(pair: &mut Pair) -> Vec<Vec<(String, f64, u16)>> {
+    let inputs = |update: Update| match update {
+        Update::Inputs { inputs } => Some(inputs),
+        _ => None,
+    };
+    let told = std::mem::take(&mut pair.updates).into_iter().filter_map(inputs);
+    let of_one = |input: rvac_api::ClientInput| (input.name, input.value, input.left_ms);
+    told.map(|inputs| inputs.into_iter().map(of_one).collect())
+        .collect()
+}
+
+#[test]
+fn what_a_client_tells_of_inputs_is_heard_and_ends_with_its_lease() {
+    let mut pair = Pair::new();
+    let steer = |value, left_ms| vec![("steer".to_owned(), value, left_ms)];
+    assert_eq!(tell(&mut pair, ANNA, 0.5), None);
+    let topics = vec![Topic::Inputs];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    assert_eq!(
+        heard_inputs(&mut pair),
+        [steer(0.5, 300)],
+        "a new follower hears it at once"
+    );
+    pair.run_ms(200);
+    assert_eq!(tell(&mut pair, ANNA, -1.0), None);
+    assert_eq!(tell(&mut pair, BERT, 1.0).as_deref(), Some("input-taken"));
+    assert_eq!(heard_inputs(&mut pair), [steer(-1.0, 300)]);
+    pair.now_ms += 300;
+    let wake_us = pair.core.next_wake_us().expect("a lease runs");
+    assert!(
+        wake_us <= pair.now_ms * 1000,
+        "the core asks to be woken at the end of the lease"
+    );
+    pair.handle(Input::Wake);
+    assert_eq!(heard_inputs(&mut pair), [vec![]]);
+    assert_eq!(tell(&mut pair, BERT, 1.0), None, "the name is free again");
+    assert_eq!(
+        pair.core.status().driver,
+        None,
+        "whoever tells inputs has no seat"
+    );
+}
+
+#[test]
+fn inputs_of_a_client_that_is_gone_or_silent_are_gone_at_once() {
+    for end in [Input::ClientGone(ANNA), Input::ClientSilent(ANNA)] {
+        let mut pair = Pair::new();
+        let topics = vec![Topic::Inputs];
+        pair.ask(BERT, RequestBody::Watch { topics });
+        tell(&mut pair, ANNA, 1.0);
+        assert_eq!(heard_inputs(&mut pair).len(), 2);
+        pair.handle(end);
+        assert_eq!(heard_inputs(&mut pair), [vec![]]);
+    }
+}
+
 #[test]
 fn devices_are_forgotten_only_soon_after_the_robot_was_switched_on() {
     let mut pair = Pair::new();

@@ -163,6 +163,7 @@ fn arguments_of(verb: &str) -> &'static str {
             r#","number":1,"name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
         }
         "claim-buttons" => r#","ms":0"#,
+        "set-inputs" => r#","values":{},"ttl":300"#,
         "raw" => r#","packet":"{}""#,
         _ => "",
     }

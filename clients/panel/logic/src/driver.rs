@@ -4,10 +4,10 @@
 //! the lease ends. A page that can still speak lets go at once.
 
 use mixer::{
-    Cleaning, Device, KeyCode, Mixer, PadReading, Pilot, Profile, ProfileError, Readings, Source, Steered,
-    TopSpeeds,
+    Cleaning, ClientInputs, Device, KeyCode, Mixer, PadReading, Pilot, Profile, ProfileError, Readings,
+    Source, Steered, TopSpeeds,
 };
-use rvac_api::{CleaningPower, RequestBody, RobotDescription};
+use rvac_api::{CleaningPower, ClientInput, RequestBody, RobotDescription};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the robot can do; before it said so, what every robot can.
@@ -40,10 +40,8 @@ pub fn knob_place(right: f64, down: f64) -> [f64; 2] {
 /// Keys that the profile names, so that all others are left to the page.
 #[must_use]
 pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
-    let lines = profile.outputs.iter().flat_map(|output| &output.lines);
-    let switches = profile.switches.iter().filter_map(|switch| switch.on.input());
-    let sources = lines.map(|line| &line.input).chain(switches);
-    sources
+    profile
+        .sources()
         .filter_map(|source| match source {
             Source::Key(code) => Some(code.clone()),
             _ => None,
@@ -57,6 +55,8 @@ pub struct Driver {
     pilot: Pilot,
     keys: BTreeSet<KeyCode>,
     readings: Readings,
+    /// What other clients tell.
+    told: ClientInputs,
     cleaners: bool,
 }
 
@@ -68,6 +68,7 @@ impl Default for Driver {
             keys: keys_of(pilot.profile()),
             pilot,
             readings: at_rest(),
+            told: ClientInputs::default(),
             cleaners: false,
         }
     }
@@ -135,7 +136,17 @@ impl Driver {
 
     /// The tilt is not followed any more.
     pub fn forget_tilt(&mut self) {
-        self.readings.remove(Device::Tilt);
+        self.readings.remove(&Device::Tilt);
+    }
+
+    /// The robot passes on what other clients tell.
+    pub fn hear_inputs(&mut self, now_us: u64, inputs: &[ClientInput]) {
+        self.told.hear(now_us, inputs);
+    }
+
+    /// The connection to the robot is gone.
+    pub fn forget_inputs(&mut self) {
+        self.told.forget();
     }
 
     /// Hands are off keys and pad; whatever else is held is so still.
@@ -166,6 +177,7 @@ impl Driver {
 
     /// Looks at the inputs.
     pub fn step(&mut self, now_us: u64, top: TopSpeeds) -> Steered {
+        self.readings.clients = self.told.at(now_us);
         let steered = self.pilot.step(now_us, &self.readings, top);
         Steered {
             seat: steered.seat.map(|body| self.with_cleaners(body)),
@@ -181,6 +193,7 @@ impl Driver {
 
     /// Nothing drives at this moment, whatever hands do.
     pub fn stand_by(&mut self, now_us: u64) -> Steered {
+        self.readings.clients = self.told.at(now_us);
         let nothing = Readings::default();
         // Nothing is driven, so no speed is asked for.
         self.pilot.step(now_us, &nothing, top_speeds(None))
@@ -219,7 +232,7 @@ fn at_rest() -> Readings {
 mod tests {
     use super::{Driver, FULL, knob_place, top_speeds};
     use mixer::{MixState, PadReading, Profile, STEP_EVERY_US, Steered, standard_profile};
-    use rvac_api::RequestBody;
+    use rvac_api::{ClientInput, RequestBody};
 
     struct Page {
         driver: Driver,
@@ -321,6 +334,58 @@ mod tests {
         page.speeds();
         page.driver.set_pads([].into());
         assert_eq!(page.step().seat, Some(RequestBody::Release));
+    }
+
+    #[test]
+    fn another_client_drives_by_the_mix_until_its_lease_ends() {
+        let mut page = Page::new();
+        let text = r#"{"version":1,"name":"far","outputs":[{"output":"turn","low":-1,"high":1,
+            "lines":[{"name":"far","input":"client-steer"}]}]}"#;
+        page.driver
+            .take_mix(Profile::parse(text).expect("a mix"))
+            .expect("a mix");
+        let told = |value, left_ms| ClientInput {
+            name: "steer".to_owned(),
+            value,
+            left_ms,
+        };
+        page.driver.hear_inputs(page.now_us, &[told(0.0, 400)]);
+        page.step();
+        page.step();
+        page.driver.hear_inputs(page.now_us, &[told(0.5, 100)]);
+        assert!((page.speeds().1 - 0.4).abs() < 1e-9);
+        page.step();
+        page.step();
+        assert_eq!(page.step().seat, Some(RequestBody::Release), "100 ms are over");
+        page.driver.hear_inputs(page.now_us, &[told(1.0, 400)]);
+        page.step();
+        assert_eq!(page.step().seat, None, "what comes back held does not drive");
+        page.driver.hear_inputs(page.now_us, &[told(0.0, 400)]);
+        page.step();
+        page.driver.hear_inputs(page.now_us, &[told(1.0, 400)]);
+        page.speeds();
+        page.driver.forget_inputs();
+        assert_eq!(
+            page.step().seat,
+            Some(RequestBody::Release),
+            "the connection is gone"
+        );
+    }
+
+    #[test]
+    fn a_mix_that_is_edited_sees_what_clients_tell_and_drives_nothing() {
+        let mut page = Page::new();
+        let steer = "client-steer".parse().expect("an input");
+        let input = ClientInput {
+            name: "steer".to_owned(),
+            value: 1.0,
+            left_ms: 300,
+        };
+        page.driver.hear_inputs(page.now_us, &[input]);
+        assert_eq!(page.driver.stand_by(page.now_us).seat, None);
+        assert_eq!(page.driver.readings().value(&steer), Some(1.0));
+        page.driver.stand_by(page.now_us + 300_000);
+        assert_eq!(page.driver.readings().value(&steer), None);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use mixer::{MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
 use panel_logic::{Driver, LatencyMeter, top_speeds};
-use rvac_api::{Pose, Status};
+use rvac_api::{ClientInput, Pose, Status};
 
 use super::{choice, gamepads};
 
@@ -146,6 +146,13 @@ impl Seat {
         if self.latency.with_untracked(|shown| *shown != text) {
             self.latency.set(text);
         }
+    }
+
+    /// What other clients tell of inputs.
+    pub(crate) fn on_inputs(self, inputs: &[ClientInput]) {
+        let now_us = micros(now_ms());
+        self.driver
+            .update_value(|driver| driver.hear_inputs(now_us, inputs));
     }
 
     /// What the robot does; a hand that holds a gamepad feels the bumper.

@@ -149,5 +149,9 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("not-sent", "The robot did not take the command.", "Try again."),
     entry("ending", "The robot's software is about to end.", "Try again when it has started."),
     entry("lease-range", "A lease must be 1 to 400 ms.", ""),
+    entry("input-name", "An input has a name of 1 to 32 letters, digits, blanks, - and _.", "Name it so, with no blank at the ends."),
+    entry("input-range", "An input reads from -1 to 1.", "Tell its share of the way to its end."),
+    entry("input-taken", "Another client tells an input of this name.", "Take another name, or wait until its lease ends."),
+    entry("too-many-inputs", "A client tells at most 16 inputs, and all clients together 32.", "Tell fewer."),
     entry("raw-syntax", "This is not a packet of the wire.", "Send one JSON object with a known command and its keys."),
 ];

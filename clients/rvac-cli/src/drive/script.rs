@@ -54,7 +54,8 @@ fn parse(line: &str) -> Result<Option<Event>, LineError> {
         return Ok(Some(Event::Gone(device(first)?)));
     }
     let source: Source = first.parse()?;
-    if source.device().is_none() {
+    // What other clients tell comes from the robot, with its lease.
+    if source.device().is_none() || matches!(source, Source::Client(_)) {
         return Err(LineError::Unmovable(source));
     }
     let value = second.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -91,6 +92,7 @@ mod tests {
             ("pad-0-axis-1", "`pad-0-axis-1`: write an input and what it reads"),
             ("pad-0-axis-1 NaN", "`NaN` is no reading"),
             ("always 1", "`always` cannot be moved"),
+            ("client-steer 1", "`client-steer` cannot be moved"),
             ("pad-9 gone", "`pad-9` is no device"),
             ("stick 1", "`stick` is no input"),
         ] {

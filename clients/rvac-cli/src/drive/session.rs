@@ -6,8 +6,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
-use mixer::{MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, TopSpeeds};
-use rvac_api::{Request, RequestBody, RobotDescription, Update};
+use mixer::{
+    ClientInputs, MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, Source, TopSpeeds,
+};
+use rvac_api::{Request, RequestBody, RobotDescription, Topic, Update};
 
 use super::Event;
 use crate::socket::Connection;
@@ -25,6 +27,8 @@ pub(super) struct Session {
     top: TopSpeeds,
     pilot: Pilot,
     readings: Readings,
+    /// What other clients tell.
+    told_inputs: ClientInputs,
     start: Instant,
     /// What was told to the person last.
     told: Option<MixState>,
@@ -55,15 +59,17 @@ pub(super) fn hear(mut connection: Connection, events: Sender<Event>) {
 
 impl Session {
     pub(super) fn new(
-        connection: Connection,
+        mut connection: Connection,
         profile: Profile,
         robot: &RobotDescription,
     ) -> anyhow::Result<Self> {
+        connection.watch(vec![Topic::Inputs])?;
         Ok(Self {
             connection,
             top: top(robot),
             pilot: Pilot::new(Mixer::new(profile)?),
             readings: Readings::default(),
+            told_inputs: ClientInputs::default(),
             start: Instant::now(),
             told: None,
         })
@@ -101,7 +107,7 @@ impl Session {
                 self.readings.set(&source, value);
             }
             Event::Gone(device) => {
-                self.readings.remove(device);
+                self.readings.remove(&device);
                 remark(&format!("{device} is gone: the wheels stand"))?;
             }
             Event::Remark(text) if text.is_empty() => {}
@@ -125,19 +131,40 @@ impl Session {
             Update::Hello {
                 robot: Some(robot), ..
             } => self.top = top(&robot),
+            Update::Inputs { inputs } => self.told_inputs.hear(self.now_us(), &inputs),
             _ => {}
         }
         Ok(())
     }
 
     fn step(&mut self) -> anyhow::Result<()> {
-        let now_us = u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX);
+        let now_us = self.now_us();
+        self.look_at_clients(now_us)?;
         let steered = self.pilot.step(now_us, &self.readings, self.top);
         self.tell(&steered.mixed)?;
         for body in steered.presses {
             self.send(PRESS_ID, body)?;
         }
         steered.seat.map_or(Ok(()), |body| self.send(DRIVE_ID, body))
+    }
+
+    fn now_us(&self) -> u64 {
+        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
+    }
+
+    /// Takes what other clients tell at this moment.
+    fn look_at_clients(&mut self, now_us: u64) -> anyhow::Result<()> {
+        let now = self.told_inputs.at(now_us);
+        let before = std::mem::replace(&mut self.readings.clients, now);
+        let gone = before
+            .into_keys()
+            .filter(|name| !self.readings.clients.contains_key(name));
+        for source in gone.map(Source::Client) {
+            if self.pilot.profile().sources().any(|named| *named == source) {
+                remark(&format!("{source} is gone: the wheels stand"))?;
+            }
+        }
+        Ok(())
     }
 
     fn send(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {

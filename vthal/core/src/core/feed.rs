@@ -131,6 +131,7 @@ impl Core {
         if self.clients.any(Topic::Floors) {
             self.feed_floors(outputs);
         }
+        self.feed_inputs(now_us, outputs);
         self.follow_checkpoint(now_us, outputs);
     }
 
@@ -329,6 +330,7 @@ impl Core {
                     .deliveries
                     .extend(all.map(|told| one(Update::Standstill(Box::new(told)))));
             }
+            Topic::Inputs => outputs.deliveries.push(one(self.inputs_view(now_us))),
             Topic::Packets | Topic::Runs | Topic::Buttons => {}
         }
     }

@@ -133,6 +133,9 @@ impl Core {
                 self.obey_always(now_us, (client, &body), outputs);
                 Ok(())
             }
+            RequestBody::SetInputs { values, ttl } => {
+                Ok(self.set_inputs(now_us, (client, values, ttl), outputs)?)
+            }
             body @ RequestBody::Drive { .. } => self.drive_by_hand(now_us, (client, &body), outputs),
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
@@ -314,6 +317,7 @@ impl Core {
             self.driver_left(now_us, client, outputs);
         }
         self.buttons.forget_client(client);
+        self.forget_inputs(now_us, client, outputs);
     }
 
     pub(super) fn client_gone(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {

@@ -162,6 +162,10 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("not-sent", "Robot ei võtnud käsku vastu.", "Proovi uuesti."),
     entry("ending", "Roboti tarkvara on lõpetamas.", "Proovi uuesti, kui see on käivitunud."),
     entry("lease-range", "Juhtimisluba peab kestma 1 kuni 400 ms.", ""),
+    entry("input-name", "Sisendi nimes on 1 kuni 32 tähte, numbrit, tühikut, märki - või _.", "Anna talle selline nimi, ilma tühikuta otstes."),
+    entry("input-range", "Sisendi väärtus on -1 kuni 1.", "Teata, kui suure osa teest ta on liikunud."),
+    entry("input-taken", "Selle nimega sisendit teatab juba teine klient.", "Võta teine nimi või oota, kuni tema luba lõpeb."),
+    entry("too-many-inputs", "Üks klient teatab kõige rohkem 16 sisendit, kõik kokku 32.", "Teata vähem."),
     entry("raw-syntax", "See ei ole pakett.", "Saada üks JSON-objekt tuntud käsu ja selle võtmetega."),
 ];
 

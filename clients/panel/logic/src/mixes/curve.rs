@@ -94,7 +94,8 @@ const fn lowest(input: &Source) -> Option<f64> {
         | Source::TouchRight
         | Source::TouchUp
         | Source::TiltForward
-        | Source::TiltLeft => Some(-1.0),
+        | Source::TiltLeft
+        | Source::Client(_) => Some(-1.0),
         Source::PadButton { .. } => Some(0.0),
         Source::Always | Source::Key(_) | Source::Switch(_) => None,
     }

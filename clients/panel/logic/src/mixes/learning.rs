@@ -28,14 +28,21 @@ impl Learning {
         }
     }
 
-    /// The input that was moved since. A pad that appears meanwhile is looked at from then on.
+    /// The input that was moved since. A pad that appears meanwhile is looked at from then on, and so is what a client begins
+    /// to tell.
     pub fn look(&mut self, now: &Readings) -> Option<Source> {
-        let known = |pads: &Readings| pads.pads.keys().copied().collect::<Vec<u8>>();
-        if known(now) != known(&self.before) || now.tilt.is_some() != self.before.tilt.is_some() {
+        if !has_the_same(&self.before, now) {
             self.before = now.clone();
         }
         first_moved(&self.before, now)
     }
+}
+
+/// Whether the same devices are there.
+fn has_the_same(one: &Readings, other: &Readings) -> bool {
+    one.pads.keys().eq(other.pads.keys())
+        && one.clients.keys().eq(other.clients.keys())
+        && one.tilt.is_some() == other.tilt.is_some()
 }
 
 /// An axis is moved to both of its ends.

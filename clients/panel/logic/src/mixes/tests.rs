@@ -214,6 +214,21 @@ fn the_next_input_that_moves_is_learnt() {
 }
 
 #[test]
+fn what_a_client_moves_is_learnt() {
+    let field = Field::Line(0, 0, LinePart::Input);
+    let steer: Source = "client-steer".parse().expect("an input");
+    let told = |value| {
+        let mut readings = readings(0.0);
+        readings.set(&steer, value);
+        readings
+    };
+    let mut learning = Learning::begin(field, &readings(0.0));
+    assert_eq!(learning.look(&told(1.0)), None, "it has just appeared");
+    assert_eq!(learning.look(&told(1.0)), None);
+    assert_eq!(learning.look(&told(-0.2)), Some(steer.clone()));
+}
+
+#[test]
 fn an_axis_is_calibrated_by_its_ends() {
     let mut draft = draft();
     let axis = draft.profile().inputs[0].input.clone();

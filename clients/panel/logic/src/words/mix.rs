@@ -106,8 +106,8 @@ screen! {
             "„{0}“: nimeta kaks lülitit, esimesena sisselülitaja, vahel koma";
         no_name[1]: "`{0}` is no name: take 1 to 32 letters, digits, blanks, - and _, and no blank at the ends",
             "„{0}“ ei ole nimi: võta 1 kuni 32 tähte, numbrit, tühikut, märki - või _, otstes tühikuta";
-        no_input[1]: "`{0}` is no input: write always, pad-0-axis-1, pad-0-button-9, key-KeyW, touch-right, touch-up, tilt-forward, tilt-left or switch-NAME",
-            "„{0}“ ei ole sisend: kirjuta always, pad-0-axis-1, pad-0-button-9, key-KeyW, touch-right, touch-up, tilt-forward, tilt-left või switch-NIMI";
+        no_input[1]: "`{0}` is no input: write always, pad-0-axis-1, pad-0-button-9, key-KeyW, touch-right, touch-up, tilt-forward, tilt-left, client-NAME or switch-NAME",
+            "„{0}“ ei ole sisend: kirjuta always, pad-0-axis-1, pad-0-button-9, key-KeyW, touch-right, touch-up, tilt-forward, tilt-left, client-NIMI või switch-NIMI";
         number_high[3]: "`{0}` has the number {1}: take one below {2}", "„{0}“ sisaldab arvu {1}: võta väiksem kui {2}";
         too_large[2]: "the profile has {0} bytes, {1} at most: remove lines, or make names shorter",
             "skeemis on {0} baiti, lubatud on kuni {1}: eemalda ridu või lühenda nimesid";
