@@ -509,3 +509,33 @@ fn the_body_reaches_what_it_fits_into() {
         "in the table"
     );
 }
+
+#[test]
+fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touched() {
+    let mut seen = Fed::new(sensors());
+    assert_eq!(seen.map.sureness(), None, "nothing is known");
+    drive_along_wall(&mut seen, |pose| pose);
+    seen.map.refresh();
+    let seen = seen.map.sureness().expect("there is floor");
+    assert!((seen.sigma_m - 0.01).abs() < 0.002, "{seen:?}");
+    assert!(seen.touched < 0.1 && seen.driven < 1.0, "{seen:?}");
+    let mut blind = Fed::new(SensorLayout::default());
+    for lane in 0..8 {
+        let y_m = 0.1 * f64::from(lane);
+        (0..200).for_each(|step| blind.see(at(0.005 * f64::from(step), y_m, 0.0), &Observation::default()));
+        for _ in 0..10 {
+            let touching = Observation {
+                contacts: Contacts {
+                    left: true,
+                    right: true,
+                },
+                ..Observation::default()
+            };
+            blind.see(at(1.0, y_m, 0.0), &touching);
+            blind.see(at(0.95, y_m, 0.0), &Observation::default());
+        }
+    }
+    blind.map.refresh();
+    let blind = blind.map.sureness().expect("there is floor");
+    assert!(blind.touched > 0.9 && blind.driven > 0.9, "{blind:?}");
+}

@@ -101,6 +101,11 @@ impl Evidence {
     }
 }
 
+/// Whether nothing but a touch tells that something stands there.
+pub(super) fn is_touched_only(evidence: Evidence) -> bool {
+    evidence.contact >= CONTACT_FROM && evidence.occupancy < OCCUPIED_FROM
+}
+
 /// Cells from `low` to `high`, both included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CellBox {

@@ -46,6 +46,23 @@ pub struct HomeView {
     /// How people have changed the rooms, in the order in which they did.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub room_changes: Vec<RoomChangeView>,
+    /// How sure all of it is, then how sure each room is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sureness: Vec<SurenessView>,
+}
+
+/// How sure what is known of the home or of a room is. Shares are from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SurenessView {
+    /// Identity of the room; absent for the whole home.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<u16>,
+    /// Standard deviation of the robot's place when it saw the floor best, metres; root of the mean square over the floor.
+    pub sigma_m: f64,
+    /// Share of the floor on which the robot's body has been; the rest it saw from afar.
+    pub driven: f64,
+    /// Share of what borders the floor that the robot has only touched: it knows points of that, not lines.
+    pub touched: f64,
 }
 
 fn is_false(value: &bool) -> bool {

@@ -14,7 +14,7 @@ use rvac_api::{
     RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
     RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
     ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
-    Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday, is_mix_name,
+    SurenessView, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -516,6 +516,7 @@ fn the_home() {
         no_go: vec![],
         places: vec![],
         room_changes: vec![],
+        sureness: vec![],
     };
     check(
         &Update::Home(home.clone()),
@@ -550,11 +551,23 @@ fn what_people_say_of_it(home: HomeView) {
             shape: PlaceShape::Spot([2.5, -0.5]),
         }],
         room_changes: changes_of_two_rooms(),
+        sureness: vec![
+            SurenessView {
+                room: None,
+                sigma_m: 0.25,
+                driven: 0.5,
+                touched: 0.75,
+            },
+            SurenessView {
+                room: Some(1),
+                ..SurenessView::default()
+            },
+        ],
         ..home
     };
     check(
         &Update::Home(told),
-        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]},"name":"Cats"}],"places":[{"number":3,"name":"Bowl","shape":{"spot":[2.5,-0.5]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}]}"#,
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]},"name":"Cats"}],"places":[{"number":3,"name":"Bowl","shape":{"spot":[2.5,-0.5]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}],"sureness":[{"sigma_m":0.25,"driven":0.5,"touched":0.75},{"room":1,"sigma_m":0.0,"driven":0.0,"touched":0.0}]}"#,
     );
 }
 

@@ -1,8 +1,10 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
-use brain::mapping::{Annotations, Door, Room, RoomChange, WallSegment};
+use brain::mapping::{Annotations, Door, Room, RoomChange, Sureness, WallSegment};
 use brain::{CELL_M, CellKnowledge, KeptPlace, Map, NoGo, Raster};
-use rvac_api::{DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, WallView};
+use rvac_api::{
+    DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, SurenessView, WallView,
+};
 
 use crate::to_api;
 
@@ -33,8 +35,24 @@ pub(crate) fn home_view(map: &Map) -> HomeView {
         no_go: map.annotations().no_go().map(no_go).collect(),
         places: map.annotations().places().map(place).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
+        sureness: sureness(map),
         ..view
     }
+}
+
+/// How sure the home is, then each room.
+fn sureness(map: &Map) -> Vec<SurenessView> {
+    let known = |room, sureness: Sureness| SurenessView {
+        room,
+        sigma_m: sureness.sigma_m,
+        driven: sureness.driven,
+        touched: sureness.touched,
+    };
+    let home = map.sureness().map(|sureness| known(None, sureness));
+    let rooms = map.room_sureness().into_iter().take(ITEMS_MAX);
+    home.into_iter()
+        .chain(rooms.map(|(room, sureness)| known(Some(room), sureness)))
+        .collect()
 }
 
 /// The cells alone, as fine as they may be told.

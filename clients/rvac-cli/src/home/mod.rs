@@ -112,16 +112,31 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
         text += &estimate.map_or_else(String::new, |estimate| format!(", {}", sureness(&estimate)));
         text += "\n";
     }
+    if let Some(sure) = sure_of(home, None) {
+        text += &format!("map       {sure}\n");
+    }
     for room in &home.rooms {
         text += &format!(
-            "room {:<4} {:.1} m2{}{}\n",
+            "room {:<4} {:.1} m2{}{}{}\n",
             room.id,
             room.area_m2,
             named(room),
-            doors_of(home, room.id)
+            doors_of(home, room.id),
+            sure_of(home, Some(room.id)).map_or_else(String::new, |sure| format!("; {sure}"))
         );
     }
     text + &picture(home, pose)
+}
+
+/// How sure the map of a room is, or of the whole home, in words.
+fn sure_of(home: &HomeView, room: Option<u16>) -> Option<String> {
+    let sure = home.sureness.iter().find(|sure| sure.room == room)?;
+    Some(format!(
+        "sure to {:.2} m, driven over {:.0} % of its floor, only touched {:.0} % of what borders it",
+        sure.sigma_m,
+        100.0 * sure.driven,
+        100.0 * sure.touched
+    ))
 }
 
 fn named(room: &RoomView) -> String {
@@ -226,8 +241,8 @@ fn age(seconds: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{age, doors_of};
-    use rvac_api::{DoorView, HomeView};
+    use super::{age, doors_of, sure_of};
+    use rvac_api::{DoorView, HomeView, SurenessView};
 
     #[test]
     fn ages_are_told_roughly() {
@@ -256,5 +271,27 @@ mod tests {
         assert_eq!(doors_of(&home, 1), ", doors to rooms 2, 3");
         assert_eq!(doors_of(&home, 3), ", door to room 1");
         assert_eq!(doors_of(&home, 9), "");
+    }
+
+    #[test]
+    fn a_map_says_how_sure_it_is_where_that_is_told() {
+        let home = HomeView {
+            sureness: vec![
+                SurenessView::default(),
+                SurenessView {
+                    room: Some(3),
+                    sigma_m: 0.041,
+                    driven: 0.92,
+                    touched: 0.25,
+                },
+            ],
+            ..HomeView::default()
+        };
+        assert_eq!(
+            sure_of(&home, Some(3)).as_deref(),
+            Some("sure to 0.04 m, driven over 92 % of its floor, only touched 25 % of what borders it")
+        );
+        assert!(sure_of(&home, None).is_some_and(|text| text.starts_with("sure to 0.00 m")));
+        assert_eq!(sure_of(&home, Some(4)), None);
     }
 }
