@@ -16,9 +16,6 @@ const SQUARE_FROM: f64 = 0.6;
 const SQUARE_TO: f64 = 0.45;
 /// Walls this near to one of the four directions have it, radians: 7 degrees.
 const NEAR_RAD: f64 = 0.12;
-/// Length of strokes along each of the two axes without which nothing speaks for right angles, metres: two visits along a wall.
-/// Walls that are parallel stand at right angles to nothing.
-const AXIS_M: f64 = 1.0;
 
 /// Looks at the strokes as they lie now, and lets the walls share directions or not.
 pub(super) fn square(graph: &mut Graph) {
@@ -55,8 +52,25 @@ fn found(graph: &Graph) -> Option<f64> {
     if graph.marks.len() < MARKS_MIN {
         return None;
     }
-    let strokes = seen(graph);
-    let (bins, sum) = binned(&strokes);
+    // Directions of all strokes, folded into a quarter turn, and their lengths.
+    let directions: Vec<(f64, f64)> = graph
+        .marks
+        .iter()
+        .filter_map(|mark| {
+            let node = graph.nodes.get(mark.node)?;
+            let rad = node.pose.heading_rad + mark.stroke.normal_rad;
+            Some((rad.rem_euclid(FRAC_PI_2), mark.stroke.half_m))
+        })
+        .collect();
+    let mut bins = [0.0; BINS];
+    let mut sum = 0.0;
+    for (rad, weight) in &directions {
+        let bin = (rad / FRAC_PI_2 * BINS as f64) as usize;
+        if let Some(entry) = bins.get_mut(bin.min(BINS - 1)) {
+            *entry += weight;
+        }
+        sum += weight;
+    }
     let around = |bin: usize| -> f64 {
         (0..=2 * PEAK_BINS)
             .filter_map(|offset| bins.get((bin + BINS + offset - PEAK_BINS) % BINS))
@@ -70,76 +84,21 @@ fn found(graph: &Graph) -> Option<f64> {
     if around(peak) < least * sum {
         return None;
     }
-    let mean_rad = mean_near((peak as f64 + 0.5) / BINS as f64 * FRAC_PI_2, &strokes);
-    if !has_both_axes(mean_rad, &strokes) {
-        return None;
+    let middle_rad = (peak as f64 + 0.5) / BINS as f64 * FRAC_PI_2;
+    // The mean of what lies near, on a circle of a quarter turn.
+    let (mut weighed, mut weights) = (0.0, 0.0);
+    for (rad, weight) in &directions {
+        let off_rad = normalize_rad((rad - middle_rad) * TAU / FRAC_PI_2) * FRAC_PI_2 / TAU;
+        if off_rad.abs() <= NEAR_RAD {
+            weighed += weight * off_rad;
+            weights += weight;
+        }
     }
+    let mean_rad = middle_rad + weighed / f64::max(weights, 1e-9);
     // The quarter turn next to the direction so far, so that quarters keep their numbers.
     let before_rad = graph.square_rad.unwrap_or(0.0);
     let turns = libm::round((before_rad - mean_rad) / FRAC_PI_2);
     Some(graph.square_rad.unwrap_or(mean_rad + turns * FRAC_PI_2))
-}
-
-/// A stroke as it lies now.
-#[derive(Clone, Copy, Debug)]
-struct Seen {
-    /// Direction of its normal, radians.
-    normal_rad: f64,
-    /// Half of its length, metres.
-    half_m: f64,
-}
-
-fn seen(graph: &Graph) -> Vec<Seen> {
-    let strokes = graph.marks.iter().filter_map(|mark| {
-        let node = graph.nodes.get(mark.node)?;
-        Some(Seen {
-            normal_rad: node.pose.heading_rad + mark.stroke.normal_rad,
-            half_m: mark.stroke.half_m,
-        })
-    });
-    strokes.collect()
-}
-
-/// Lengths of the strokes whose directions, folded into a quarter turn, lie in each bin, and their sum.
-fn binned(strokes: &[Seen]) -> ([f64; BINS], f64) {
-    let mut bins = [0.0; BINS];
-    let mut sum = 0.0;
-    for stroke in strokes {
-        let folded_rad = stroke.normal_rad.rem_euclid(FRAC_PI_2);
-        let bin = (folded_rad / FRAC_PI_2 * BINS as f64) as usize;
-        if let Some(entry) = bins.get_mut(bin.min(BINS - 1)) {
-            *entry += stroke.half_m;
-        }
-        sum += stroke.half_m;
-    }
-    (bins, sum)
-}
-
-/// The mean direction of what lies near, on a circle of a quarter turn.
-fn mean_near(middle_rad: f64, strokes: &[Seen]) -> f64 {
-    let (mut weighed, mut weights) = (0.0, 0.0);
-    for stroke in strokes {
-        let folded_rad = stroke.normal_rad.rem_euclid(FRAC_PI_2);
-        let off_rad = normalize_rad((folded_rad - middle_rad) * TAU / FRAC_PI_2) * FRAC_PI_2 / TAU;
-        if off_rad.abs() <= NEAR_RAD {
-            weighed += stroke.half_m * off_rad;
-            weights += stroke.half_m;
-        }
-    }
-    middle_rad + weighed / f64::max(weights, 1e-9)
-}
-
-/// Whether enough was seen of walls along this direction and of walls across it.
-fn has_both_axes(square_rad: f64, strokes: &[Seen]) -> bool {
-    let mut lengths_m = [0.0; 2];
-    for stroke in strokes {
-        let quarter = quarter(square_rad, stroke.normal_rad, 0.0);
-        let axis = quarter.and_then(|quarter| lengths_m.get_mut(usize::from(quarter % 2)));
-        if let Some(length_m) = axis {
-            *length_m += 2.0 * stroke.half_m;
-        }
-    }
-    lengths_m.iter().all(|length_m| *length_m >= AXIS_M)
 }
 
 #[cfg(test)]
@@ -248,20 +207,6 @@ mod tests {
                 let shared_rad = square_rad + f64::from(found) * FRAC_PI_2;
                 assert!(normalize_rad(wall.normal_rad - shared_rad).abs() < 1e-9);
             }
-        }
-    }
-
-    #[test]
-    fn parallel_walls_alone_never_count_as_square_and_one_across_is_not_enough() {
-        for seed in 1..40 {
-            let turned_rad = 0.1 * seed as f64;
-            let mut graph = Graph::default();
-            let corridor = [turned_rad, turned_rad + PI];
-            let is_square = laps(&corridor, &mut graph, (20, seed));
-            assert!(!is_square.contains(&true), "seed {seed}");
-            let across = [turned_rad + FRAC_PI_2];
-            let is_square = laps(&across, &mut graph, (2, seed));
-            assert_eq!(is_square, [false, true], "seed {seed}");
         }
     }
 
