@@ -113,8 +113,13 @@ impl Brain {
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation, advance);
         }
+        self.localization.look(observation, advance, &self.config);
         self.localization
             .learn(&self.map, &self.config, observation.time_us);
+        if let Some(withdrawal) = self.localization.take_withdrawal() {
+            self.map.withdraw(withdrawal.since_us, &withdrawal.keyframes);
+            self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
+        }
         self.note_encounters(observation, &estimate);
         for command in commands {
             self.edit_map(command, observation.docked);

@@ -25,6 +25,7 @@ mod survey;
 mod terrain;
 mod tracker;
 mod trail;
+mod witness;
 
 use beacons::Beacons;
 pub use estimate::PoseEstimate;
@@ -37,6 +38,8 @@ use retreat::Retreat;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
 use tracker::{Moved, Tracker};
+pub(crate) use witness::Withdrawal;
+use witness::Witness;
 
 use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;
@@ -91,6 +94,8 @@ pub struct Localization {
     drift: Drift,
     tracked: Option<Box<Tracked>>,
     survey: Option<Box<Survey>>,
+    witness: Witness,
+    withdrawal: Option<Withdrawal>,
     beacons: Beacons,
     /// When the first observation came.
     began_us: Option<u64>,
@@ -114,6 +119,8 @@ impl Localization {
             drift: Drift::default(),
             tracked: None,
             survey: None,
+            witness: Witness::default(),
+            withdrawal: None,
             beacons: Beacons::new(),
             began_us: None,
             gyro_us: None,
@@ -163,6 +170,7 @@ impl Localization {
     pub fn survey(&mut self, config: &BrainConfig) {
         let layout = config.sensors.proximity;
         self.tracked = None;
+        self.witness = Witness::default();
         self.survey = (!layout.sensors().is_empty())
             .then(|| Box::new(Survey::new(layout, self.pose(), self.odometry.odom_from_base())));
     }
@@ -173,6 +181,9 @@ impl Localization {
         if self.survey.is_some() && self.hanging_s < 0.0 {
             self.hanging_s = 0.0;
             return self.recover(map, config, time_us);
+        }
+        if self.survey.is_some() {
+            return self.hear_witness(map, config, time_us);
         }
         let Some(tracked) = &mut self.tracked else {
             return;

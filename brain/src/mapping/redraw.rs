@@ -93,6 +93,15 @@ impl Map {
         }));
     }
 
+    /// Takes back what was seen, met and swept from `since_us` on, and begins to draw the map again without it.
+    pub(crate) fn withdraw(&mut self, since_us: u64, keyframes: &[Keyframe]) {
+        let sightings = &mut self.home.sightings;
+        sightings.truncate(sightings.partition_point(|sighting| sighting.time_us < since_us));
+        self.job_base.sightings = self.job_base.sightings.min(sightings.len());
+        self.marks.withdraw(since_us);
+        self.redraw(keyframes);
+    }
+
     /// Draws what is left of a map that is being drawn again.
     pub fn finish_redraw(&mut self) {
         while self.redrawing.is_some() {

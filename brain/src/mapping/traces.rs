@@ -114,6 +114,13 @@ impl Marks {
         }
     }
 
+    /// Drops what was met from `since_us` on.
+    pub(super) fn withdraw(&mut self, since_us: u64) {
+        let marks = self.marks.iter().zip(&self.seen);
+        let kept = marks.filter(|(_, seen)| seen.is_none_or(|seen| seen.time_us < since_us));
+        (self.marks, self.seen) = kept.map(|(mark, seen)| (*mark, *seen)).unzip();
+    }
+
     /// The marks up to now stay where they are.
     pub(super) fn settle(&mut self) {
         self.seen.fill(None);

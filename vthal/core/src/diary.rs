@@ -67,6 +67,7 @@ fn deed(what: &str, value: f64) -> String {
         "arc" => "Drove an arc round the corner".to_owned(),
         "follow-wall" => "Began to follow a wall".to_owned(),
         "leave-wall" => "Left the wall".to_owned(),
+        "withdraw" => "Took back the last part of its map".to_owned(),
         "spiral" => "Began a spiral".to_owned(),
         "covered" => format!(
             "Had swept {:.0} % of the floor it can reach",

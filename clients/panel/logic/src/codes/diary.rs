@@ -12,6 +12,7 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("arc", "Sõitis kaarega ümber nurga"),
     ("follow-wall", "Hakkas sõitma piki seina"),
     ("leave-wall", "Lahkus seina äärest"),
+    ("withdraw", "Võttis oma kaardi viimase osa tagasi"),
     ("spiral", "Alustas spiraali"),
     ("covered", "Oli koristanud {} % ligipääsetavast põrandast"),
     ("bounce", "Põrkas, et siit välja saada"),
