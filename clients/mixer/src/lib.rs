@@ -11,6 +11,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod bump_watch;
 mod check;
 mod client_inputs;
 mod command;
@@ -28,6 +29,7 @@ mod readings;
 mod shape;
 mod switch;
 
+pub use bump_watch::BumpWatch;
 pub use check::{LINES_MAX, POINTS_MAX, PROFILE_BYTES_MAX, ProfileError, SWITCHES_MAX};
 pub use client_inputs::ClientInputs;
 pub use command::{Axes, Cleaning, Press, Wish};

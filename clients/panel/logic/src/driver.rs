@@ -49,6 +49,10 @@ pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
         .collect()
 }
 
+/// A device in a hand is never so still that its browser tells nothing for so long (Chromium tells every change of a tenth of a
+/// degree): nobody holds it, or its sensor is gone.
+const TILT_SILENT_US: u64 = 1_000_000;
+
 /// What is held, the mix that it goes through, and the seat.
 #[derive(Debug)]
 pub struct Driver {
@@ -57,6 +61,8 @@ pub struct Driver {
     readings: Readings,
     /// What other clients tell.
     told: ClientInputs,
+    /// When the tilt was told last.
+    tilted_us: u64,
     cleaners: bool,
 }
 
@@ -69,6 +75,7 @@ impl Default for Driver {
             pilot,
             readings: at_rest(),
             told: ClientInputs::default(),
+            tilted_us: 0,
             cleaners: false,
         }
     }
@@ -130,7 +137,8 @@ impl Driver {
     }
 
     /// The device in the hand is tilted so, forward and left.
-    pub fn set_tilt(&mut self, tilt: [f64; 2]) {
+    pub fn set_tilt(&mut self, now_us: u64, tilt: [f64; 2]) {
+        self.tilted_us = now_us;
         self.readings.tilt = Some(tilt);
     }
 
@@ -177,7 +185,7 @@ impl Driver {
 
     /// Looks at the inputs.
     pub fn step(&mut self, now_us: u64, top: TopSpeeds) -> Steered {
-        self.readings.clients = self.told.at(now_us);
+        self.forget_the_silent(now_us);
         let steered = self.pilot.step(now_us, &self.readings, top);
         Steered {
             seat: steered.seat.map(|body| self.with_cleaners(body)),
@@ -193,10 +201,18 @@ impl Driver {
 
     /// Nothing drives at this moment, whatever hands do.
     pub fn stand_by(&mut self, now_us: u64) -> Steered {
-        self.readings.clients = self.told.at(now_us);
+        self.forget_the_silent(now_us);
         let nothing = Readings::default();
         // Nothing is driven, so no speed is asked for.
         self.pilot.step(now_us, &nothing, top_speeds(None))
+    }
+
+    /// Inputs that are told, and not asked, end when nothing is told of them any more.
+    fn forget_the_silent(&mut self, now_us: u64) {
+        self.readings.clients = self.told.at(now_us);
+        if now_us.saturating_sub(self.tilted_us) >= TILT_SILENT_US {
+            self.forget_tilt();
+        }
     }
 
     fn with_cleaners(&self, body: RequestBody) -> RequestBody {
@@ -370,6 +386,29 @@ mod tests {
             Some(RequestBody::Release),
             "the connection is gone"
         );
+    }
+
+    #[test]
+    fn a_tilt_of_which_nothing_more_is_told_stops_the_wheels() {
+        let mut page = Page::new();
+        let text = r#"{"version":1,"name":"tilt","outputs":[{"output":"turn","low":-1,"high":1,
+            "lines":[{"name":"tilt","input":"tilt-left"}]}]}"#;
+        page.driver
+            .take_mix(Profile::parse(text).expect("a mix"))
+            .expect("a mix");
+        page.driver.set_tilt(page.now_us, [0.0, 0.0]);
+        page.step();
+        page.step();
+        let told_us = page.now_us;
+        page.driver.set_tilt(told_us, [0.0, 0.5]);
+        assert!((page.speeds().1 - 0.4).abs() < 1e-9);
+        while page.now_us + STEP_EVERY_US < told_us + super::TILT_SILENT_US {
+            assert_ne!(page.step().seat, Some(RequestBody::Release));
+        }
+        assert_eq!(page.step().seat, Some(RequestBody::Release));
+        page.driver.set_tilt(page.now_us, [0.0, 0.5]);
+        page.step();
+        assert_eq!(page.step().seat, None, "it must be held level first");
     }
 
     #[test]

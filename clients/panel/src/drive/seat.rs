@@ -1,7 +1,7 @@
 //! Who drives: what hands do now, the mix that they go through, and the mixes that there are.
 
 use leptos::prelude::*;
-use mixer::{MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
+use mixer::{BumpWatch, MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
 use panel_logic::{Driver, LatencyMeter, top_speeds};
 use rvac_api::{ClientInput, Pose, Status};
 
@@ -11,8 +11,6 @@ use crate::language::words;
 
 /// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
 const FRESH_MS: f64 = 100.0;
-/// Name of the inhibit of a pressed bumper.
-const BUMPER: &str = "bumper";
 
 /// All of it, as handles.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +32,7 @@ pub(crate) struct Seat {
     meter: StoredValue<LatencyMeter>,
     /// When the newest input came.
     input_ms: StoredValue<f64>,
-    /// The bumper is pressed.
-    bumped: StoredValue<bool>,
+    bumps: StoredValue<BumpWatch>,
 }
 
 impl Seat {
@@ -50,7 +47,7 @@ impl Seat {
             latency: RwSignal::new(None),
             meter: StoredValue::new(LatencyMeter::default()),
             input_ms: StoredValue::new(0.0),
-            bumped: StoredValue::new(false),
+            bumps: StoredValue::new(BumpWatch::default()),
         }
     }
 
@@ -148,6 +145,13 @@ impl Seat {
         }
     }
 
+    /// The device in the hand is tilted so, forward and left.
+    pub(crate) fn tilt(self, reading: [f64; 2]) {
+        let now_us = micros(now_ms());
+        self.driver
+            .update_value(|driver| driver.set_tilt(now_us, reading));
+    }
+
     /// What other clients tell of inputs.
     pub(crate) fn on_inputs(self, inputs: &[ClientInput]) {
         let now_us = micros(now_ms());
@@ -157,11 +161,8 @@ impl Seat {
 
     /// What the robot does; a hand that holds a gamepad feels the bumper.
     pub(crate) fn on_status(self, status: &Status) {
-        let bumped = status.inhibits.iter().any(|inhibit| inhibit == BUMPER);
-        let before = self
-            .bumped
-            .try_update_value(|shown| std::mem::replace(shown, bumped));
-        if bumped && before == Some(false) {
+        let is_felt = self.bumps.try_update_value(|bumps| bumps.look(status));
+        if is_felt == Some(true) {
             gamepads::rumble();
         }
     }

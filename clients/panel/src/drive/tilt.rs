@@ -80,7 +80,7 @@ fn follow(seat: Seat, tilt: StoredValue<Tilt>, event: &DeviceOrientationEvent) {
     let reading = tilt.try_update_value(|tilt| tilt.reading([beta, gamma], screen_deg()));
     if let Some(reading) = reading.flatten() {
         seat.note_input(event.time_stamp());
-        seat.driver.update_value(|driver| driver.set_tilt(reading));
+        seat.tilt(reading);
     }
 }
 

@@ -8,6 +8,7 @@ mod pad;
 mod profile;
 mod script;
 mod session;
+mod shaker;
 
 use std::io::IsTerminal as _;
 use std::process::ExitCode;
@@ -20,6 +21,7 @@ use rvac_api::Update;
 use crate::arguments::DriveOptions;
 use crate::socket::Connection;
 use session::Session;
+use shaker::Shaker;
 
 pub(crate) use profile::{kept as kept_profiles, named as named_profile, read as read_profile};
 
@@ -30,6 +32,8 @@ enum Event {
     Moved(Source, f64),
     /// A device is gone with all of its inputs.
     Gone(Device),
+    /// This pad can shake.
+    CanShake(u8, Shaker),
     /// A line to be shown.
     Remark(String),
     /// Nothing more will come: drive no longer.

@@ -11,6 +11,7 @@ use evdev::{AbsoluteAxisCode, EventSummary, KeyCode};
 use mixer::{Device, Source};
 
 use super::Event;
+use super::shaker::Shaker;
 
 /// New pads are looked for so often.
 const LOOK: Duration = Duration::from_secs(1);
@@ -78,6 +79,9 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<Event>) {
         })
         .unwrap_or_default();
     events.send(Event::Remark(format!("pad-{pad} is {name}"))).ok();
+    if let Some(shaker) = Shaker::of(&mut device) {
+        events.send(Event::CanShake(pad, shaker)).ok();
+    }
     // It is there from now on, with the sticks where they are.
     for button in 0..17 {
         events

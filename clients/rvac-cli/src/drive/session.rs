@@ -1,5 +1,6 @@
 //! One drive: readings come in, requests go out under a lease.
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -7,11 +8,13 @@ use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use mixer::{
-    ClientInputs, MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, Source, TopSpeeds,
+    BumpWatch, ClientInputs, Device, MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, Source,
+    TopSpeeds,
 };
-use rvac_api::{Request, RequestBody, RobotDescription, Topic, Update};
+use rvac_api::{Request, RequestBody, RobotDescription, Status, Topic, Update};
 
 use super::Event;
+use super::shaker::Shaker;
 use crate::socket::Connection;
 
 /// The mixer looks at the inputs so often.
@@ -29,6 +32,9 @@ pub(super) struct Session {
     readings: Readings,
     /// What other clients tell.
     told_inputs: ClientInputs,
+    /// Pads that can shake, by their numbers.
+    shakers: BTreeMap<u8, Shaker>,
+    bumps: BumpWatch,
     start: Instant,
     /// What was told to the person last.
     told: Option<MixState>,
@@ -63,13 +69,15 @@ impl Session {
         profile: Profile,
         robot: &RobotDescription,
     ) -> anyhow::Result<Self> {
-        connection.watch(vec![Topic::Inputs])?;
+        connection.watch(vec![Topic::Inputs, Topic::Status])?;
         Ok(Self {
             connection,
             top: top(robot),
             pilot: Pilot::new(Mixer::new(profile)?),
             readings: Readings::default(),
             told_inputs: ClientInputs::default(),
+            shakers: BTreeMap::new(),
+            bumps: BumpWatch::default(),
             start: Instant::now(),
             told: None,
         })
@@ -108,7 +116,13 @@ impl Session {
             }
             Event::Gone(device) => {
                 self.readings.remove(&device);
+                if let Device::Pad(pad) = device {
+                    self.shakers.remove(&pad);
+                }
                 remark(&format!("{device} is gone: the wheels stand"))?;
+            }
+            Event::CanShake(pad, shaker) => {
+                self.shakers.insert(pad, shaker);
             }
             Event::Remark(text) if text.is_empty() => {}
             Event::Remark(text) => remark(&text)?,
@@ -131,6 +145,7 @@ impl Session {
             Update::Hello {
                 robot: Some(robot), ..
             } => self.top = top(&robot),
+            Update::Status(status) => self.feel(&status),
             Update::Inputs { inputs } => self.told_inputs.hear(self.now_us(), &inputs),
             _ => {}
         }
@@ -146,6 +161,16 @@ impl Session {
             self.send(PRESS_ID, body)?;
         }
         steered.seat.map_or(Ok(()), |body| self.send(DRIVE_ID, body))
+    }
+
+    /// Every hand that holds a pad feels a bump.
+    fn feel(&mut self, status: &Status) {
+        if !self.bumps.look(status) {
+            return;
+        }
+        for shaker in self.shakers.values_mut() {
+            shaker.shake().ok(); // A pad that is gone is told of by its reader.
+        }
     }
 
     fn now_us(&self) -> u64 {
