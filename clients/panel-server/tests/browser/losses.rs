@@ -12,25 +12,25 @@ use crate::{Visit, hold_until_it_turns, leave_the_dock};
 const STANDS_WITHIN: Duration = Duration::from_millis(1000);
 
 /// How often each loss is tried.
-fn times() -> usize {
+pub(crate) fn times() -> usize {
     let wanted = std::env::var("RVAC_LOSSES").ok();
     wanted.map_or(1, |text| text.parse().expect("RVAC_LOSSES is a number"))
 }
 
 /// How long the wheels went on in each trial.
 #[derive(Debug, Default)]
-struct Losses(Vec<Duration>);
+pub(crate) struct Losses(Vec<Duration>);
 
 impl Losses {
     /// Waits for rest after a loss of this moment.
-    fn watch(&mut self, witness: &Witness, lost: Instant) {
+    pub(crate) fn watch(&mut self, witness: &Witness, lost: Instant) {
         let stood = witness
             .stands_within(Duration::from_secs(3))
             .expect("the robot drives on although nobody drives it");
         self.0.push(stood.saturating_duration_since(lost));
     }
 
-    fn tell(mut self, what: &str) {
+    pub(crate) fn tell(mut self, what: &str) {
         self.0.sort_unstable();
         let count = self.0.len();
         let (median, worst) = (self.0[count / 2], self.0[count - 1]);
@@ -44,22 +44,22 @@ impl Losses {
 }
 
 /// A robot off its dock, and who sees where it is.
-async fn ready_to_drive() -> Option<(Visit, Witness)> {
-    let visit = Visit::begin(Screen::Desktop).await?;
+pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Witness)> {
+    let visit = Visit::begin(screen).await?;
     leave_the_dock(&visit.browser).await;
     let witness = Witness::watch(&visit.stack.simulator_socket());
     Some((visit, witness))
 }
 
 /// What was held when the driver was lost drives no more when the driver is back.
-fn stays(witness: &Witness, what: &str) {
+pub(crate) fn stays(witness: &Witness, what: &str) {
     let moves = witness.moves_within(Duration::from_secs(1));
     assert!(!moves, "{what} that was held meanwhile drives");
 }
 
 #[tokio::test]
 async fn a_hidden_tab_stops_the_wheels() {
-    let Some((visit, witness)) = ready_to_drive().await else {
+    let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -81,7 +81,7 @@ async fn a_hidden_tab_stops_the_wheels() {
 
 #[tokio::test]
 async fn a_lost_gamepad_stops_the_wheels() {
-    let Some((visit, witness)) = ready_to_drive().await else {
+    let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -102,7 +102,7 @@ async fn a_lost_gamepad_stops_the_wheels() {
 /// The computer in front of which the person sits stops in the middle of a word: nothing says good-bye.
 #[tokio::test]
 async fn a_browser_that_freezes_stops_the_wheels() {
-    let Some((visit, witness)) = ready_to_drive().await else {
+    let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -151,7 +151,7 @@ async fn second_is_refused(visit: &Visit, witness: &Witness) -> Rival {
 /// Of two who want to drive one does; the other has the seat when the first is lost, and loses it in the same way.
 #[tokio::test]
 async fn a_second_driver_waits_until_the_first_is_lost() {
-    let Some((visit, witness)) = ready_to_drive().await else {
+    let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;

@@ -13,6 +13,7 @@ mod edits;
 mod floors;
 mod foreign;
 mod frozen;
+mod hands;
 mod history;
 mod language;
 mod large_home;
@@ -29,6 +30,7 @@ mod schedules;
 #[path = "../stack/mod.rs"]
 mod stack;
 mod stranger;
+mod teller;
 mod wire_tap;
 
 use std::time::{Duration, Instant};

@@ -294,3 +294,46 @@ const NAMELESS: &str = "
     const named = (element) => element.ariaLabel || element.labels?.length > 0;
     return [...document.querySelectorAll('#mixes :is(input, select, [role=meter])')]
         .filter((element) => !named(element)).map((element) => element.id || element.className).join(', ')";
+
+/// The page hears of a robot without side brushes: what it is told is cut on its way into the page.
+const WITHOUT_SIDE_BRUSHES: &str = "
+    const told = Object.getOwnPropertyDescriptor(MessageEvent.prototype, 'data');
+    Object.defineProperty(MessageEvent.prototype, 'data', { get() {
+        const data = told.get.call(this);
+        return typeof data === 'string' ? data.replace(/\"brush-sides\",|,\"brush-sides\"/, '') : data;
+    } });";
+
+#[tokio::test]
+async fn an_output_of_a_part_that_the_robot_lacks_says_so() {
+    for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
+        let Some(visit) = Visit::begin(screen).await else {
+            return;
+        };
+        let browser = &visit.browser;
+        let cut = serde_json::json!({ "source": WITHOUT_SIDE_BRUSHES });
+        browser.devtools("Page.addScriptToEvaluateOnNewDocument", &cut);
+        browser.reload().await;
+        browser.until_state(&["idle", "docked"]).await;
+        if matches!(screen, Screen::Phone) {
+            browser.click("#tab-drive").await;
+        }
+        browser.click("#edit-mixes").await;
+        browser
+            .until("return document.querySelector('[data-output=side-brushes] .absent')?.textContent.includes('lacks the part') === true")
+            .await;
+        let told = browser
+            .text("return String(document.querySelectorAll('.outputs .absent').length)")
+            .await;
+        assert_eq!(told, "1", "the other parts are there");
+        for look in ["light", "dark"] {
+            if look == "dark" {
+                browser.darken().await;
+            }
+            browser
+                .text("document.querySelector('[data-output=side-brushes]').scrollIntoView({block: 'center'}); return ''")
+                .await;
+            browser.shot(&format!("{name}-mix-part-absent-{look}")).await;
+            crate::accessibility::expect_none(browser, "a mix with a part that the robot lacks").await;
+        }
+    }
+}
