@@ -113,10 +113,10 @@ impl Behavior {
             Reason::WheelDrop
         } else if ready && disarmed.button_stop {
             Reason::ButtonStop
-        } else if ready && disarmed.stopped {
-            Reason::Stopped
         } else if matches!(self.mode, Mode::Manual(drive) if drive.valid_until_us <= self.facts.now_us) {
             Reason::LeaseEnded
+        } else if ready && disarmed.stopped {
+            Reason::Stopped
         } else {
             return;
         };

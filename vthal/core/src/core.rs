@@ -148,6 +148,7 @@ impl Core {
     pub fn handle(&mut self, now_us: u64, input: Input<'_>, outputs: &mut Outputs) {
         let link_before = outputs.link.len();
         let delivered_before = outputs.deliveries.len();
+        self.end_leases(now_us, outputs);
         match input {
             Input::LinkOpened => self.link_opened(now_us, outputs),
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
@@ -329,6 +330,14 @@ impl Core {
         self.keep_learnt(outputs);
     }
 
+    /// Before anything else: the brain, which sees the same end, must not let the wheels roll out in its own way first.
+    fn end_leases(&mut self, now_us: u64, outputs: &mut Outputs) {
+        if let Some(client) = self.arbiter.expire(now_us) {
+            self.lease_ended(now_us, client, outputs);
+        }
+        self.expire_inputs(now_us, outputs);
+    }
+
     fn pass_time(&mut self, now_us: u64, outputs: &mut Outputs) {
         self.facts.pass_time(now_us);
         let mut events = core::mem::take(&mut self.events);
@@ -343,10 +352,6 @@ impl Core {
         }
         self.firmware_events(now_us, &mut events, outputs);
         self.events = events;
-        if let Some(client) = self.arbiter.expire(now_us) {
-            self.lease_ended(now_us, client, outputs);
-        }
-        self.expire_inputs(now_us, outputs);
         let recording = self.config.recording;
         if let Some(mind) = &mut self.mind
             && mind.is_preparing()

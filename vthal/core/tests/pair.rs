@@ -257,14 +257,13 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.last_drive().1, 0.2);
     let silent_from_ms = pair.now_ms - 300;
     pair.run_ms(400);
-    assert_eq!(pair.last_drive().1, 0.0, "the wheels were told to stand");
-    let moves = |command: &Command| matches!(command, Command::Drive(drive) if drive.speed.0 != 0);
-    let last_move = pair
+    let stop = |(_, command): &&(u64, Command)| matches!(command, Command::Stop);
+    let (stopped_ms, _) = *pair
         .commands
         .iter()
-        .rposition(|(_, command)| moves(command))
-        .expect("it drove");
-    let (stopped_ms, _) = pair.commands[last_move + 1];
+        .find(stop)
+        .expect("the wheels were told to brake, not to roll out");
+    assert_eq!(pair.core.status().reason, "lease-ended");
     assert!(
         stopped_ms - silent_from_ms <= 402,
         "after {} ms",
@@ -274,6 +273,30 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.0), None);
     pair.run_ms(50);
     assert_eq!(pair.drive(ANNA, 0.2), None);
+}
+
+#[test]
+fn a_driver_whose_connection_breaks_is_braked_and_one_who_lets_go_is_not() {
+    let stops = |pair: &Pair| {
+        let stop = |(_, command): &&(u64, Command)| matches!(command, Command::Stop);
+        pair.commands.iter().filter(stop).count()
+    };
+    for (end, expected) in [(None, 0), (Some(Input::ClientGone(ANNA)), 1)] {
+        let mut pair = Pair::new();
+        assert_eq!(pair.drive(ANNA, 0.2), None);
+        pair.run_ms(300);
+        match end {
+            Some(end) => pair.handle(end),
+            None => assert_eq!(pair.ask(ANNA, RequestBody::Release), None),
+        }
+        pair.run_ms(50);
+        assert_eq!(stops(&pair), expected);
+        assert_eq!(pair.drive(BERT, 0.0), None, "the seat is free");
+        pair.run_ms(100);
+        assert_eq!(pair.drive(BERT, 0.1), None);
+        pair.run_ms(100);
+        assert_eq!(pair.last_drive().1, 0.1, "and the next one drives");
+    }
 }
 
 /// Telemetry of a robot at rest comes less often than a page speaks.
@@ -287,7 +310,7 @@ fn a_stick_that_leaves_the_centre_before_the_next_telemetry_drives() {
         pair.run_ms(200);
         assert_eq!(pair.last_drive().1, 0.2);
         pair.run_ms(903);
-        assert_eq!(pair.last_drive().1, 0.0, "the lease is over");
+        assert!(is_braked(&pair), "the lease is over");
         assert_eq!(pair.drive(ANNA, 0.2).as_deref(), Some("centre-first"));
     }
     assert_eq!(pair.drive(ANNA, 0.0), None);
@@ -466,8 +489,15 @@ fn nobody_takes_the_seat_over_and_whoever_leaves_stops() {
     assert_eq!(pair.core.status().driver.as_deref(), Some("client-1"));
     pair.handle(Input::ClientGone(ANNA));
     pair.run_ms(5);
-    assert_eq!(pair.last_drive().1, 0.0);
+    assert!(is_braked(&pair));
     assert_eq!(pair.core.status().driver, None);
+}
+
+/// Whether the wheels were told to brake since they were told to drive.
+fn is_braked(pair: &Pair) -> bool {
+    let of_wheels = |(_, command): &&(u64, Command)| matches!(command, Command::Drive(_) | Command::Stop);
+    let last = pair.commands.iter().rev().find(of_wheels);
+    matches!(last, Some((_, Command::Stop)))
 }
 
 #[test]

@@ -1,6 +1,10 @@
 //! Where the simulated robot really is, beside everything that is tested.
+#![allow(
+    dead_code,
+    reason = "each of the tests that share this file needs a part of it"
+)]
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -11,8 +15,13 @@ use rvac_api::{Pose, SEPARATOR, Update};
 /// Poses closer than this are the same: the wheels stand.
 const STILL_M: f64 = 0.0005;
 const STILL_RAD: f64 = 0.002;
+/// The wheels stand when the robot is where it was for so long: two of the poses that the simulator tells by itself.
+const STILL_FOR: Duration = Duration::from_millis(190);
 
-/// Hears the true poses, ten a second.
+/// How often a close look asks where the robot is.
+const CLOSE_LOOK: Duration = Duration::from_millis(10);
+
+/// Hears the true poses, ten a second, or asks for more.
 #[derive(Debug)]
 pub(crate) struct Witness {
     poses: Receiver<(Instant, Pose)>,
@@ -20,7 +29,10 @@ pub(crate) struct Witness {
 
 impl Witness {
     pub(crate) fn watch(socket: &Path) -> Self {
-        let stream = UnixStream::connect(socket).unwrap();
+        Self::hear(UnixStream::connect(socket).unwrap())
+    }
+
+    fn hear(stream: UnixStream) -> Self {
         let (sender, poses) = channel();
         std::thread::spawn(move || {
             for message in BufReader::new(stream).split(SEPARATOR) {
@@ -35,6 +47,18 @@ impl Witness {
         Self { poses }
     }
 
+    /// Looks a hundred times a second, for what must be known to the hundredth of a second.
+    pub(crate) fn watch_closely(socket: &Path) -> Self {
+        let mut stream = UnixStream::connect(socket).unwrap();
+        let witness = Self::hear(stream.try_clone().unwrap());
+        std::thread::spawn(move || {
+            while stream.write_all(b"{\"c\":\"truth\"}\x1f").is_ok() {
+                std::thread::sleep(CLOSE_LOOK);
+            }
+        });
+        witness
+    }
+
     /// Whether two poses differ before the patience ends.
     pub(crate) fn moves_within(&self, patience: Duration) -> bool {
         let deadline = Instant::now() + patience;
@@ -47,18 +71,16 @@ impl Witness {
         false
     }
 
-    /// The time of the first of three equal poses; none when there are none before the patience ends.
+    /// The time of the first of the equal poses of a robot that stands; none when it does not before the patience ends.
     pub(crate) fn stands_within(&self, patience: Duration) -> Option<Instant> {
         let deadline = Instant::now() + patience;
         while self.poses.try_recv().is_ok() {}
-        let mut still: Vec<(Instant, Pose)> = Vec::new();
+        let mut first: Option<(Instant, Pose)> = None;
         while let Some((when, pose)) = self.next(deadline) {
-            if still.last().is_some_and(|(_, last)| !same(*last, pose)) {
-                still.clear();
-            }
-            still.push((when, pose));
-            if still.len() == 3 {
-                return still.first().map(|(when, _)| *when);
+            match first.filter(|(_, stood)| same(*stood, pose)) {
+                Some((since, _)) if when.duration_since(since) >= STILL_FOR => return Some(since),
+                Some(_) => {}
+                None => first = Some((when, pose)),
             }
         }
         None

@@ -277,6 +277,10 @@ impl Core {
         self.admitted(&command(now_us + stick.lease_us))?;
         let was_driver = self.arbiter.driver() == Some(client);
         let valid_until_us = self.arbiter.drive(now_us, client, stick).map_err(denied)?;
+        if self.is_braking() {
+            self.arbiter.release(client);
+            return Err("stopped");
+        }
         if !was_driver {
             let text = format!("{} drives", self.clients.name(client));
             self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
@@ -284,6 +288,17 @@ impl Core {
         self.driver_power = power;
         self.command_brain(now_us, command(valid_until_us), outputs);
         Ok(())
+    }
+
+    /// The robot was told to stop and has not said yet that it heard of it: whoever took the wheel now would be stopped by the
+    /// word about the driver before.
+    fn is_braking(&self) -> bool {
+        let knows = self
+            .facts
+            .state
+            .as_ref()
+            .is_some_and(|state| state.inhibits.contains(Inhibit::Stopped));
+        self.device.as_ref().is_some_and(Device::is_latched) && !knows
     }
 
     fn check_range(&self, stick: &Stick) -> Result<(), Refused> {
@@ -300,12 +315,17 @@ impl Core {
 
     fn release(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         if self.arbiter.release(client) {
-            self.driver_left(now_us, client, outputs);
+            self.driver_left(now_us, (client, DeviceCommand::Rest), outputs);
         }
     }
 
-    fn driver_left(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
-        self.device_command(now_us, DeviceCommand::Rest, outputs);
+    fn driver_left(
+        &mut self,
+        now_us: u64,
+        (client, command): (ClientId, DeviceCommand),
+        outputs: &mut Outputs,
+    ) {
+        self.device_command(now_us, command, outputs);
         self.command_brain(now_us, Command::ManualEnd, outputs);
         let text = format!("driver {} left: wheels stop", self.clients.name(client));
         self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
@@ -314,7 +334,8 @@ impl Core {
     /// Nobody can let go of a stick over a connection that takes no more requests.
     pub(super) fn client_silent(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         if self.arbiter.forget(client) {
-            self.driver_left(now_us, client, outputs);
+            // Whoever is lost has not let go: no ramp.
+            self.driver_left(now_us, (client, DeviceCommand::EmergencyStop), outputs);
         }
         self.buttons.forget_client(client);
         self.forget_inputs(now_us, client, outputs);

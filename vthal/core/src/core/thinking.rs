@@ -166,7 +166,8 @@ impl Core {
     /// The driver's lease ended without a word: stand at once, the brain hears it too.
     pub(super) fn lease_ended(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         let text = format!("lease of driver {} ended: wheels stop", self.clients.name(client));
-        self.device_command(now_us, DeviceCommand::Rest, outputs);
+        // Nobody steers any more: the ramp of a stick that was let go would roll on for half a second.
+        self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
     }
 }

@@ -88,6 +88,12 @@ impl Device {
         self.description.is_some() && self.firmware.is_open()
     }
 
+    /// Whether it was told to stop, and not to move again since.
+    #[must_use]
+    pub const fn is_latched(&self) -> bool {
+        self.stop_sent_us.is_some()
+    }
+
     /// Quality of the link.
     #[must_use]
     pub fn quality(&self) -> LinkQuality {
