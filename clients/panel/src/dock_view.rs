@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::Tool;
 
+use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
 use crate::store::Store;
 
@@ -14,9 +15,11 @@ pub(crate) fn DockPlace(store: Store) -> impl IntoView {
             <h3 id="dock-title">{words().home.dock}</h3>
             <p class="hint" id="dock-place">{move || known.get()}</p>
             <div class="draw-tools">
-                <button type="button" class="small" id="draw-dock" on:click=move |_| store.take_tool(Tool::Dock)>
-                    {words().home.draw_dock}
-                </button>
+                <Needs store verb=EDITS_HOME>
+                    <button type="button" class="small" id="draw-dock" on:click=move |_| store.take_tool(Tool::Dock)>
+                        {words().home.draw_dock}
+                    </button>
+                </Needs>
             </div>
         </Show>
     }

@@ -6,6 +6,7 @@ use rvac_api::{Failure, FloorView};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::File;
 
+use crate::access::Needs;
 use crate::file_button::FileButton;
 use crate::language::words;
 use crate::store::Store;
@@ -109,6 +110,7 @@ pub(crate) fn FloorFiles(store: Store) -> impl IntoView {
             <Show when=move || has_map.get()>
                 <a class="small link" id="export-floors" href=ADDRESS download=FILE_NAME>{words().home.export_floors}</a>
             </Show>
+            <Needs store verb="import-floors">
             <FileButton
                 id="import-floors"
                 file_id="floors-file"
@@ -118,6 +120,7 @@ pub(crate) fn FloorFiles(store: Store) -> impl IntoView {
                 disabled=Signal::derive(move || desk.upload.with(Option::is_some))
                 on_file=move |file| leptos::task::spawn_local(desk.read(store, file))
             />
+            </Needs>
         </div>
         <p class="hint" id="floors-remark" role="status">{told}</p>
     }

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{area_text, floor_title, question_text};
 use rvac_api::{FloorView, RequestBody};
 
+use crate::access::{EDITS_HOME, Needs};
 use crate::floor_files::FloorFiles;
 use crate::home_view::rooms_text;
 use crate::language::words;
@@ -40,9 +41,11 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
             }}
         </ul>
         <div class="draw-tools">
-            <button type="button" class="small" id="new-floor" on:click=begin>
-                {words().home.new_floor}
-            </button>
+            <Needs store verb=EDITS_HOME>
+                <button type="button" class="small" id="new-floor" on:click=begin>
+                    {words().home.new_floor}
+                </button>
+            </Needs>
         </div>
         <FloorFiles store />
     }
@@ -110,7 +113,8 @@ fn row(
             <span class="name">{title}</span>
             <span class="words">{extent}</span>
             {is_here.then(|| view! { <span class="newest">{words().home.is_here}</span> })}
-            {choose} {rename} {remove} {restore}
+            <Needs store verb="choose-floor">{choose}</Needs>
+            <Needs store verb=EDITS_HOME>{rename} {remove} {restore}</Needs>
         </li>
         <Show when=move || renamed.get() == Some(number)>
             {rename_form(store, (number, named.clone()), renamed)}

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use leptos::prelude::*;
-use panel_logic::{area_text, estimate_sentences};
+use panel_logic::{Edit, area_text, estimate_sentences};
 use rvac_api::{KeptMap, RequestBody};
 
-use crate::access::{EDITS_HOME, OnlyLooks};
+use crate::access::{EDITS_HOME, Needs, OnlyLooks};
 use crate::dock_view::DockPlace;
 use crate::floors_view::FloorList;
 use crate::history::date_text;
@@ -22,9 +22,9 @@ const RENEW_EVERY: Duration = Duration::from_secs(5);
 
 #[component]
 pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
-    ask_for_maps(store);
+    store.ask_for_maps();
     // A map is kept some seconds after a run, and nobody tells of it.
-    if let Ok(renewal) = set_interval_with_handle(move || ask_for_maps(store), RENEW_EVERY) {
+    if let Ok(renewal) = set_interval_with_handle(move || store.ask_for_maps(), RENEW_EVERY) {
         on_cleanup(move || renewal.clear());
     }
     let sentences = move || {
@@ -60,9 +60,23 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
     }
 }
 
-fn ask_for_maps(store: Store) {
-    let floor = store.floors.with_untracked(|view| view.here);
-    store.ask_quietly(RequestBody::Maps { floor });
+impl Store {
+    /// Asks which versions of the map of the floor are kept.
+    pub(crate) fn ask_for_maps(self) {
+        let floor = self.floors.with_untracked(|view| view.here);
+        self.ask_quietly(RequestBody::Maps { floor });
+    }
+
+    /// Takes a version of the map up again, so that the newest one can be brought back.
+    fn take_up(self, after: u64) {
+        let newest = self
+            .maps
+            .with_untracked(|maps| maps.first().map(|map| map.number));
+        if let Some(before) = newest {
+            let floor = self.maps_floor.get_untracked();
+            self.edit(Edit::TakeUp { floor, before, after });
+        }
+    }
 }
 
 /// How many rooms.
@@ -82,15 +96,6 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
         area_text(words(), map.area_m2),
         rooms_text(map.rooms)
     );
-    let restore = move |_| {
-        let floor = store.maps_floor.get_untracked();
-        store.ask(RequestBody::RestoreMap {
-            number: map.number,
-            floor,
-        });
-        // Answered after the one before, so with the restored map in it.
-        ask_for_maps(store);
-    };
     view! {
         <li>
             <span class="name">{told.map.fill([&map.number])}</span>
@@ -99,14 +104,17 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
                 view! { <span class="newest">{told.in_use}</span> }.into_any()
             } else {
                 view! {
-                    <button
-                        type="button"
-                        class="small"
-                        aria-label=told.take_up_map.fill([&map.number])
-                        on:click=restore
-                    >
-                        {told.take_up}
-                    </button>
+                    <Needs store verb=EDITS_HOME>
+                        <button
+                            type="button"
+                            class="small"
+                            id=format!("take-up-{}", map.number)
+                            aria-label=told.take_up_map.fill([&map.number])
+                            on:click=move |_| store.take_up(map.number)
+                        >
+                            {told.take_up}
+                        </button>
+                    </Needs>
                 }
                 .into_any()
             }}

@@ -19,6 +19,7 @@ pub(crate) enum Icon {
     Moon,
     Globe,
     Close,
+    Reshape,
     Warning,
     Undo,
     Redo,
@@ -45,6 +46,9 @@ impl Icon {
                 "M12 12m-8.5 0a8.5 8.5 0 1 0 17 0a8.5 8.5 0 1 0-17 0M3.5 12h17M12 3.5c3 2.6 4 5.4 4 8.5s-1 5.9-4 8.5M12 3.5c-3 2.6-4 5.4-4 8.5s1 5.9 4 8.5"
             }
             Self::Close => "M6 6l12 12M18 6L6 18",
+            Self::Reshape => {
+                "M7 5h10M19 7v10M17 19H7M5 17V7M3.5 3.5h3v3h-3zM17.5 3.5h3v3h-3zM17.5 17.5h3v3h-3zM3.5 17.5h3v3h-3z"
+            }
             Self::Undo => "M8.5 5L4.5 9l4 4M5 9h9a5 5 0 0 1 0 10h-4",
             Self::Redo => "M15.5 5l4 4-4 4M19 9h-9a5 5 0 0 0 0 10h4",
             Self::Warning => "M12 4l9 15.5H3zM12 10v4.5M12 17v.5",

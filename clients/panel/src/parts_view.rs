@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{PartRow, part_rows};
 use rvac_api::RequestBody;
 
+use crate::access::{Needs, OnlyLooks};
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
@@ -32,6 +33,7 @@ pub(crate) fn PartsView(store: Store) -> impl IntoView {
         <Show when=move || measures.get()>
             <section aria-labelledby="parts-title">
                 <h3 id="parts-title">{words().health.title}</h3>
+                <OnlyLooks store verb="reset-health" />
                 <ul id="parts" class="rows parts">
                     {move || rows.get().into_iter().map(|part| row(store, part)).collect_view()}
                 </ul>
@@ -51,9 +53,11 @@ fn row(store: Store, part: PartRow) -> impl IntoView {
         <li>
             <span class="name">{part.name}</span>
             <span class="words">{part.state}</span>
-            <button type="button" class="small" id=id aria-label=label on:click=cleaned>
-                {words().health.cleaned}
-            </button>
+            <Needs store verb="reset-health">
+                <button type="button" class="small" id=id aria-label=label on:click=cleaned>
+                    {words().health.cleaned}
+                </button>
+            </Needs>
             {remedy}
         </li>
     }

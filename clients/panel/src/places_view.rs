@@ -1,11 +1,13 @@
 //! Zones and spots that the robot keeps under names: chosen for cleaning as rooms are, and what is drawn can be kept.
 
 use leptos::prelude::*;
-use panel_logic::{Edit, Kept, PlaceRow};
+use panel_logic::{Edit, Kept, PlaceRow, Target};
 use rvac_api::PlaceShape;
 
+use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
 use crate::rename_form::RenameForm;
+use crate::row_tools::{DrawnRow, RowTools};
 use crate::store::Store;
 
 #[component]
@@ -15,7 +17,7 @@ pub(crate) fn PlaceList(store: Store) -> impl IntoView {
     view! {
         <h3 id="places-title">{words().home.places}</h3>
         <ul id="places" class="rows" aria-labelledby="places-title">
-            <For each=move || orders.places.get() key=|row| (row.number, row.name.clone(), row.words.clone()) let:row>
+            <For each=move || orders.places.get() key=|row| (row.number, row.name.clone()) let:row>
                 <Place store row renamed />
             </For>
         </ul>
@@ -28,16 +30,23 @@ pub(crate) fn PlaceList(store: Store) -> impl IntoView {
 
 #[component]
 fn Place(store: Store, row: PlaceRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
-    let PlaceRow {
-        number,
-        name,
-        words: extent,
-    } = row;
+    let PlaceRow { number, name, .. } = row;
+    // It changes while the row stays: whoever reshapes by keys comes back to the same button.
+    let extent = move || {
+        let rows = store.orders.places.read();
+        rows.iter()
+            .find(|row| row.number == number)
+            .map(|row| row.words.clone())
+    };
     let choice = store.orders.choice;
     let place = Memo::new(move |_| choice.with(|choice| choice.place_of_kept(number)));
-    let is_renamed = move || renamed.get() == Some(number);
-    let rename_label = words().home.rename_named.fill([&name]);
-    let remove_label = words().home.remove_named.fill([&name]);
+    let drawn = DrawnRow {
+        target: Target::Place(number),
+        kind: "place",
+        number,
+        name: name.clone(),
+    };
+    let remove = Callback::new(move |number| forget(store, number));
     let (shown, for_form) = (name.clone(), name);
     view! {
         <li>
@@ -52,27 +61,9 @@ fn Place(store: Store, row: PlaceRow, renamed: RwSignal<Option<u16>>) -> impl In
                 {shown}
             </button>
             <span class="words">{extent}</span>
-            <button
-                type="button"
-                class="small"
-                id=format!("rename-place-{number}")
-                aria-label=rename_label
-                aria-expanded=move || if is_renamed() { "true" } else { "false" }
-                on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(number)).then_some(number))
-            >
-                {words().frame.rename}
-            </button>
-            <button
-                type="button"
-                class="small"
-                id=format!("forget-place-{number}")
-                aria-label=remove_label
-                on:click=move |_| forget(store, number)
-            >
-                {words().frame.remove}
-            </button>
+            <RowTools store row=drawn renamed remove />
         </li>
-        <Show when=is_renamed>
+        <Show when=move || renamed.get() == Some(number)>
             <RenameForm
                 label=words().home.place_name.fill([&for_form])
                 field_id="new-place-name"
@@ -150,9 +141,11 @@ fn Drawn(store: Store) -> impl IntoView {
     };
     view! {
         <Show when=move || drawn.with(|drawn| !drawn.is_empty())>
-            <ul class="rows" id="not-kept" aria-labelledby="places-title">
-                {move || drawn.get().into_iter().map(part).collect_view()}
-            </ul>
+            <Needs store verb=EDITS_HOME>
+                <ul class="rows" id="not-kept" aria-labelledby="places-title">
+                    {move || drawn.get().into_iter().map(part).collect_view()}
+                </ul>
+            </Needs>
         </Show>
     }
 }

@@ -1,11 +1,13 @@
 //! The rooms as a list with actions, and what is forbidden: all that can be done on the map, for keyboard and screen reader.
 
 use leptos::prelude::*;
-use panel_logic::{Edit, Forbidden, NoGoRow, RoomChangeRow, RoomRow, Tool};
+use panel_logic::{Edit, Forbidden, NoGoRow, RoomChangeRow, RoomRow, Target, Tool};
 
+use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
 use crate::rename_form::RenameForm;
 use crate::room_settings_view::SettingsForm;
+use crate::row_tools::{DrawnRow, RowTools};
 use crate::store::Store;
 
 #[component]
@@ -39,14 +41,16 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
                 <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().home.draw_avoid}
                 </button>
-                <button type="button" class="small" id="draw-cut" on:click=move |_| store.take_tool(Tool::Cut)>
-                    {words().home.draw_cut}
-                </button>
-                <Show when=move || joinable.get().is_some()>
-                    <button type="button" class="small" id="join-rooms" on:click=move |_| store.join_chosen()>
-                        {words().map.join_these}
+                <Needs store verb=EDITS_HOME>
+                    <button type="button" class="small" id="draw-cut" on:click=move |_| store.take_tool(Tool::Cut)>
+                        {words().home.draw_cut}
                     </button>
-                </Show>
+                    <Show when=move || joinable.get().is_some()>
+                        <button type="button" class="small" id="join-rooms" on:click=move |_| store.join_chosen()>
+                            {words().map.join_these}
+                        </button>
+                    </Show>
+                </Needs>
             </div>
             <p class="hint">{words().home.join_hint}</p>
         </Show>
@@ -94,9 +98,11 @@ fn room_change(store: Store, row: RoomChangeRow) -> impl IntoView {
             {can_be_taken_back
                 .then(|| {
                     view! {
-                        <button type="button" class="small" aria-label=label on:click=take_back>
-                            {words().home.take_back}
-                        </button>
+                        <Needs store verb=EDITS_HOME>
+                            <button type="button" class="small" aria-label=label on:click=take_back>
+                                {words().home.take_back}
+                            </button>
+                        </Needs>
                     }
                 })}
         </li>
@@ -136,25 +142,27 @@ fn Room(
                 {shown}
             </button>
             <span class="words">{extent}</span>
-            <button
-                type="button"
-                class="small"
-                aria-label=rename_label
-                aria-expanded=move || if is_renamed() { "true" } else { "false" }
-                on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
-            >
-                {words().frame.rename}
-            </button>
-            <button
-                type="button"
-                class="small"
-                id=format!("room-{id}-settings")
-                aria-label=set_label
-                aria-expanded=move || if is_set() { "true" } else { "false" }
-                on:click=move |_| set.update(|set| *set = (*set != Some(id)).then_some(id))
-            >
-                {words().home.set_room}
-            </button>
+            <Needs store verb=EDITS_HOME>
+                <button
+                    type="button"
+                    class="small"
+                    aria-label=rename_label
+                    aria-expanded=move || if is_renamed() { "true" } else { "false" }
+                    on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
+                >
+                    {words().frame.rename}
+                </button>
+                <button
+                    type="button"
+                    class="small"
+                    id=format!("room-{id}-settings")
+                    aria-label=set_label
+                    aria-expanded=move || if is_set() { "true" } else { "false" }
+                    on:click=move |_| set.update(|set| *set = (*set != Some(id)).then_some(id))
+                >
+                    {words().home.set_room}
+                </button>
+            </Needs>
         </li>
         <Show when=is_set>
             <SettingsForm store id name=for_form.clone() opened=set />
@@ -202,7 +210,7 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
     view! {
         <h3 id="no-go-title">{words().home.no_go}</h3>
         <ul id="no-go" class="rows" aria-labelledby="no-go-title">
-            <For each=move || store.orders.no_go.get() key=|row| (row.number, row.name.clone(), row.words.clone()) let:row>
+            <For each=move || store.orders.no_go.get() key=|row| (row.number, row.name.clone()) let:row>
                 {no_go(store, row, renamed)}
             </For>
         </ul>
@@ -210,8 +218,10 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
             <p class="hint">{words().home.nothing_forbidden}</p>
         </Show>
         <div class="draw-tools">
-            {tool(Tool::Wall, "draw-wall", words().home.draw_wall)}
-            {tool(Tool::Zone, "draw-zone", words().home.draw_zone)}
+            <Needs store verb=EDITS_HOME>
+                {tool(Tool::Wall, "draw-wall", words().home.draw_wall)}
+                {tool(Tool::Zone, "draw-zone", words().home.draw_zone)}
+            </Needs>
         </div>
     }
 }
@@ -228,49 +238,39 @@ fn rename_no_go(store: Store, number: u16, after: Option<String>) {
     }
 }
 
+/// Allows again what was forbidden, so that it can be undone.
+fn allow(store: Store, number: u16) {
+    let home = store.known_home();
+    if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
+        let (shape, name) = (kept.shape, kept.name);
+        store.edit(Edit::Allow(Forbidden { shape, name }));
+    }
+}
+
 fn no_go(store: Store, row: NoGoRow, renamed: RwSignal<Option<u16>>) -> impl IntoView {
-    let NoGoRow {
-        number,
-        name,
-        words: extent,
-    } = row;
-    let label = words().home.remove_named.fill([&name]);
-    let remove = move |_| {
-        let home = store.known_home();
-        if let Some(kept) = home.no_go.into_iter().find(|kept| kept.number == number) {
-            let (shape, name) = (kept.shape, kept.name);
-            store.edit(Edit::Allow(Forbidden { shape, name }));
-        }
+    let NoGoRow { number, name, .. } = row;
+    // It changes while the row stays: whoever reshapes by keys comes back to the same button.
+    let extent = move || {
+        let rows = store.orders.no_go.read();
+        rows.iter()
+            .find(|row| row.number == number)
+            .map(|row| row.words.clone())
     };
-    let rename_label = words().home.rename_named.fill([&name]);
     let form_label = words().home.no_go_name.fill([&name]);
-    let is_renamed = move || renamed.get() == Some(number);
-    let shown = name.clone();
+    let drawn = DrawnRow {
+        target: Target::NoGo(number),
+        kind: "no-go",
+        number,
+        name: name.clone(),
+    };
+    let remove = Callback::new(move |number| allow(store, number));
     view! {
         <li>
-            <span class="name">{shown}</span>
+            <span class="name">{name.clone()}</span>
             <span class="words">{extent}</span>
-            <button
-                type="button"
-                class="small"
-                id=format!("rename-no-go-{number}")
-                aria-label=rename_label
-                aria-expanded=move || if is_renamed() { "true" } else { "false" }
-                on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(number)).then_some(number))
-            >
-                {words().frame.rename}
-            </button>
-            <button
-                type="button"
-                class="small"
-                id=format!("remove-no-go-{number}")
-                aria-label=label
-                on:click=remove
-            >
-                {words().frame.remove}
-            </button>
+            <RowTools store row=drawn renamed remove />
         </li>
-        <Show when=is_renamed>
+        <Show when=move || renamed.get() == Some(number)>
             <RenameForm
                 label=form_label.clone()
                 field_id="no-go-name"

@@ -2,11 +2,11 @@
 
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
-use wasm_bindgen::JsCast;
 
 use crate::access::{Access, DevicesView};
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
+use crate::focus::focus_on;
 use crate::history::HistorySheet;
 use crate::home_view::HomeSheet;
 use crate::language::words;
@@ -47,7 +47,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
         };
         event.prevent_default();
         open.set(next);
-        focus(&format!("tab-{}", TABS[next]));
+        focus_on(&format!("tab-{}", TABS[next]));
     };
     let tab = move |index: usize| {
         let (id, label) = (TABS[index], titles()[index]);
@@ -96,14 +96,5 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <Show when=move || open.get() == 6><LogView store /></Show>
             </div>
         </section>
-    }
-}
-
-fn focus(id: &str) {
-    let element = document()
-        .get_element_by_id(id)
-        .and_then(|element| element.dyn_into::<web_sys::HtmlElement>().ok());
-    if let Some(element) = element {
-        element.focus().ok(); // An element that cannot take the focus leaves it where it is.
     }
 }

@@ -1,6 +1,7 @@
 //! Light or dark: as the system says until a person chooses.
 
 use leptos::prelude::*;
+use panel_logic::MapPalette;
 
 /// The two looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,14 @@ impl Theme {
             Some("dark") => Self::Dark,
             Some("light") => Self::Light,
             _ => Self::of_system(),
+        }
+    }
+
+    /// The colours of the map.
+    pub(crate) const fn palette(self) -> MapPalette {
+        match self {
+            Self::Light => MapPalette::LIGHT,
+            Self::Dark => MapPalette::DARK,
         }
     }
 

@@ -15,6 +15,20 @@ const RUN: &str = "
         found => found.violations.map(fault => `${fault.id}: ${fault.help}: `
             + fault.nodes.map(node => `${node.target} ${node.any.concat(node.all).map(check => check.message)}`).join(' | ')).join('\\n'))";
 
+/// Controls that are seen and smaller in a direction than a thumb hits, 44 pixels: a name and the size of each. A box or a button of
+/// choice is pressed by its label, too; the page is skipped to by keys alone; a link in a sentence is as high as the line, which
+/// WCAG 2.2 allows (2.5.8).
+pub(crate) const SMALL_TARGETS: &str = "
+    const all = [...document.querySelectorAll('button, select, input, textarea, summary, a[href], [role=tab], [tabindex=\"0\"], label.check')];
+    const isSentence = control => control.matches('p a, li > a:not(.small)');
+    const isTicked = control => control.matches('[type=checkbox], [type=radio]');
+    const pressed = control => (isTicked(control) ? control.labels[0] : null) ?? control;
+    const size = control => pressed(control).getBoundingClientRect();
+    return all.filter(control => control.checkVisibility() && !control.matches('.visually-hidden, .skip') && !isSentence(control))
+        .filter(control => size(control).width < 43.5 || size(control).height < 43.5)
+        .map(control => `${control.id || control.className || control.textContent.trim()} `
+            + `${size(control).width.toFixed(0)}x${size(control).height.toFixed(0)}`).join(', ')";
+
 /// What is wrong with what the browser shows now, a line for each fault.
 pub(crate) async fn faults(browser: &Browser) -> Vec<String> {
     let is_there = browser.text("return typeof axe").await;
@@ -100,6 +114,10 @@ async fn walk(browser: &Browser, dressed: &str) -> String {
             .await;
         for fault in faults(browser).await {
             writeln!(all, "{dressed}, {name}: {fault}").unwrap();
+        }
+        let small = browser.text(SMALL_TARGETS).await;
+        if !small.is_empty() && dressed.starts_with("phone") {
+            writeln!(all, "{dressed}, {name}: controls that a thumb misses: {small}").unwrap();
         }
         browser.shot(&format!("axe-{dressed}-{name}")).await;
     }

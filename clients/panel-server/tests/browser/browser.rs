@@ -360,7 +360,17 @@ impl Browser {
 
     /// Saves what is seen, if screenshots are wanted.
     pub(crate) async fn shot(&self, name: &str) {
-        let Some(folder) = std::env::var_os("RVAC_SCREENSHOTS") else {
+        self.save_in("RVAC_SCREENSHOTS", name).await;
+    }
+
+    /// Saves what is seen as a picture of the README, if those are wanted.
+    pub(crate) async fn picture(&self, name: &str) {
+        self.save_in("RVAC_PICTURES", name).await;
+    }
+
+    /// Saves what is seen in the folder that a variable names.
+    async fn save_in(&self, variable: &str, name: &str) {
+        let Some(folder) = std::env::var_os(variable) else {
             return;
         };
         let folder = std::path::PathBuf::from(folder);

@@ -3,6 +3,7 @@
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
 //! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
+//! `RVAC_PICTURES` names the folder for the pictures of the README, which are taken anew only then.
 //! `RVAC_LOSSES` says how often the driver is lost in each way, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
@@ -15,6 +16,7 @@ mod foreign;
 mod frozen;
 mod hands;
 mod history;
+mod keyboard;
 mod language;
 mod large_home;
 mod losses;
@@ -22,10 +24,13 @@ mod mixes;
 mod offline;
 mod pairing;
 mod parts;
+mod pictures;
 mod processes;
 mod relief;
+mod reshape;
 mod rival;
 mod robot;
+mod roles;
 mod schedules;
 #[path = "../stack/mod.rs"]
 mod stack;
@@ -35,6 +40,7 @@ mod wire_tap;
 
 use std::time::{Duration, Instant};
 
+use accessibility::SMALL_TARGETS;
 use browser::{Browser, Screen};
 use robot::Witness;
 use stack::Stack;
@@ -223,18 +229,9 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
         assert_eq!(wide, "0", "the page is wider than the phone while {tab} is open");
         browser.shot(&format!("phone-{tab}")).await;
     }
-    let small = browser.text(SMALL_TARGETS).await;
-    assert_eq!(small, "", "controls that a thumb misses");
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
 }
-
-/// Names of controls that are seen and smaller than 44 pixels in a direction.
-const SMALL_TARGETS: &str = "
-    const controls = [...document.querySelectorAll('button, select, input[type=search], label.check')];
-    return controls.filter((control) => control.checkVisibility())
-        .filter((control) => { const box = control.getBoundingClientRect(); return box.width < 44 || box.height < 44; })
-        .map((control) => control.id || control.textContent).join(', ')";
 
 #[tokio::test]
 async fn the_dark_look_is_kept() {

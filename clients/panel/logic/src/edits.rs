@@ -1,21 +1,16 @@
-//! Edits of the map that can be taken back and done again.
+//! Edits of the map, each with the one that takes it back and with what asks the robot for it.
 //!
 //! An edit is known by what it changed, not by the number under which the robot keeps it: what is brought back gets a new number,
-//! and another client may have been there in between. Nothing counts before the robot has confirmed it.
+//! and another client may have been there in between.
 
 use rvac_api::{
-    HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, Request, RequestBody, RoomChangeView, RoomNaming,
+    HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomChangeView, RoomNaming,
     RoomSettings, RoomSplitting,
 };
 
 use crate::dock_place::{DockPose, is_same_dock, known_dock};
 use crate::words::Words;
 
-/// Most edits that can be taken back.
-const KEPT_MAX: usize = 100;
-/// Numbers of requests that are edits, so that their answers are known from all others.
-const FIRST_ID: u32 = 500;
-const LAST_ID: u32 = 999;
 /// Places that differ by less are the same: the robot may round them, metres.
 const SAME_M: f64 = 0.005;
 
@@ -55,6 +50,13 @@ pub enum Edit {
         /// What it shall be called.
         after: Option<String>,
     },
+    /// What is forbidden lies elsewhere.
+    ReshapeForbidden {
+        /// What it forbade.
+        before: NoGoShape,
+        /// What it shall forbid.
+        after: NoGoShape,
+    },
     /// A zone or spot was kept under a name.
     Keep(Kept),
     /// It is kept no longer.
@@ -65,6 +67,15 @@ pub enum Edit {
         before: String,
         /// What it shall be called.
         after: String,
+    },
+    /// A kept place lies elsewhere.
+    ReshapePlace {
+        /// What it is called.
+        name: String,
+        /// Where it was.
+        before: PlaceShape,
+        /// Where it shall be.
+        after: PlaceShape,
     },
     /// A room got another name, or none.
     Name {
@@ -99,6 +110,15 @@ pub enum Edit {
         /// Where it stands.
         after: DockPose,
     },
+    /// A version of the map was taken up again.
+    TakeUp {
+        /// The floor of which it is a map.
+        floor: Option<u16>,
+        /// The version that was the newest.
+        before: u64,
+        /// The version that was taken up.
+        after: u64,
+    },
 }
 
 /// Why an edit cannot be asked for.
@@ -124,12 +144,26 @@ impl EditError {
 impl Edit {
     /// The edit that takes this one back.
     #[must_use]
-    fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         match self.clone() {
             Self::Forbid(shape) => Self::Allow(shape),
             Self::Allow(shape) => Self::Forbid(shape),
             Self::NameForbidden { shape, before, after } => Self::NameForbidden {
                 shape,
+                before: after,
+                after: before,
+            },
+            Self::ReshapeForbidden { before, after } => Self::ReshapeForbidden {
+                before: after,
+                after: before,
+            },
+            Self::ReshapePlace { name, before, after } => Self::ReshapePlace {
+                name,
+                before: after,
+                after: before,
+            },
+            Self::TakeUp { floor, before, after } => Self::TakeUp {
+                floor,
                 before: after,
                 after: before,
             },
@@ -174,6 +208,9 @@ impl Edit {
                 NoGoShape::Zone(_) => told.edit_no_zone,
             },
             Self::NameForbidden { .. } => told.edit_no_go_name,
+            Self::ReshapeForbidden { .. } => told.edit_no_go_shape,
+            Self::ReshapePlace { .. } => told.edit_place_shape,
+            Self::TakeUp { .. } => told.edit_take_up,
             Self::Keep(_) => told.edit_keep,
             Self::Forget(_) => told.edit_forget,
             Self::NamePlace { .. } => told.edit_place_name,
@@ -188,7 +225,7 @@ impl Edit {
     }
 
     /// What asks the robot for it.
-    fn request(&self, home: &HomeView) -> Result<RequestBody, EditError> {
+    pub(crate) fn request(&self, home: &HomeView) -> Result<RequestBody, EditError> {
         match self {
             Self::Forbid(Forbidden { shape, name }) => Ok(RequestBody::AddNoGo {
                 shape: shape.clone(),
@@ -204,6 +241,20 @@ impl Edit {
                 let name = after.clone();
                 Ok(RequestBody::NameNoGo { number, name })
             }
+            Self::ReshapeForbidden { before, after } => Ok(RequestBody::ReshapeNoGo {
+                number: kept(home, before)?.number,
+                shape: after.clone(),
+            }),
+            Self::ReshapePlace { name, before, after } => {
+                let found = place_called(home, name)?;
+                if !is_same_place(&found.shape, before) {
+                    return Err(EditError::ChangedMeanwhile);
+                }
+                Ok(RequestBody::ReshapePlace {
+                    number: found.number,
+                    shape: after.clone(),
+                })
+            }
             Self::Keep(Kept { number, name, shape }) => Ok(RequestBody::KeepPlace {
                 name: name.clone(),
                 shape: shape.clone(),
@@ -217,6 +268,24 @@ impl Edit {
                 number: place_called(home, before)?.number,
                 name: after.clone(),
             }),
+            // The robot knows which versions it keeps.
+            Self::TakeUp { floor, after, .. } => Ok(RequestBody::RestoreMap {
+                number: *after,
+                floor: *floor,
+            }),
+            Self::Name { .. }
+            | Self::Settings { .. }
+            | Self::Split(_)
+            | Self::Unsplit(_)
+            | Self::Join(_)
+            | Self::Unjoin(_)
+            | Self::Dock { .. } => self.request_of_rooms(home),
+        }
+    }
+
+    /// The same of an edit of rooms or of the dock.
+    fn request_of_rooms(&self, home: &HomeView) -> Result<RequestBody, EditError> {
+        match self {
             Self::Name { room, before, after } => {
                 let named = home.rooms.iter().find(|known| known.id == *room);
                 if named.is_none_or(|known| known.name != *before) {
@@ -257,6 +326,7 @@ impl Edit {
             Self::Unjoin([one, other]) => take_back(home, |change| {
                 change.line.is_none() && [[*one, *other], [*other, *one]].contains(&change.rooms)
             }),
+            _ => Err(EditError::ChangedMeanwhile),
         }
     }
 }
@@ -288,414 +358,22 @@ fn is_same_line(one: &[[f64; 2]; 2], other: &[[f64; 2]; 2]) -> bool {
     one.iter().zip(other).all(|(a, b)| is_near(a, b))
 }
 
-fn is_same(one: &NoGoShape, other: &NoGoShape) -> bool {
+fn is_same_border(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(a, b)| is_near(a, b))
+}
+
+fn is_same_place(one: &PlaceShape, other: &PlaceShape) -> bool {
     match (one, other) {
-        (NoGoShape::Wall(one), NoGoShape::Wall(other)) => is_same_line(one, other),
-        (NoGoShape::Zone(one), NoGoShape::Zone(other)) => {
-            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| is_near(a, b))
-        }
+        (PlaceShape::Zone(one), PlaceShape::Zone(other)) => is_same_border(one, other),
+        (PlaceShape::Spot(one), PlaceShape::Spot(other)) => is_near(one, other),
         _ => false,
     }
 }
 
-/// Which way an edit goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Course {
-    Anew,
-    Back,
-    Again,
-}
-
-/// What was edited on this page.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct EditLog {
-    done: Vec<Edit>,
-    undone: Vec<Edit>,
-    asked: Vec<(u32, Course, Edit)>,
-    /// Revision of the home when the robot confirmed the last edit.
-    confirmed_at: Option<u32>,
-    count: u32,
-}
-
-impl EditLog {
-    /// What would be taken back.
-    #[must_use]
-    pub fn last(&self) -> Option<&Edit> {
-        self.done.last()
-    }
-
-    /// What would be done again.
-    #[must_use]
-    pub fn next(&self) -> Option<&Edit> {
-        self.undone.last()
-    }
-
-    /// Forgets everything: another floor has another map.
-    pub fn clear(&mut self) {
-        *self = Self {
-            count: self.count,
-            ..Self::default()
-        };
-    }
-
-    /// Asks for a new edit.
-    ///
-    /// # Errors
-    /// When there is nothing that it could change.
-    pub fn begin(&mut self, edit: Edit, home: &HomeView) -> Result<Request, EditError> {
-        let body = edit.request(home)?;
-        Ok(self.ask((Course::Anew, edit), body))
-    }
-
-    /// Asks to take the last edit back; none when there is none.
-    pub fn undo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
-        let edit = self.done.pop()?;
-        let request = edit.inverse().request(home);
-        Some(self.go(Course::Back, edit, (request, home.revision)))
-    }
-
-    /// Asks to do again what was taken back last; none when nothing was.
-    pub fn redo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
-        let edit = self.undone.pop()?;
-        let request = edit.request(home);
-        Some(self.go(Course::Again, edit, (request, home.revision)))
-    }
-
-    fn go(
-        &mut self,
-        course: Course,
-        edit: Edit,
-        (body, revision): (Result<RequestBody, EditError>, u32),
-    ) -> Result<Request, EditError> {
-        match body {
-            Ok(body) => Ok(self.ask((course, edit), body)),
-            Err(EditError::ChangedMeanwhile) if self.confirmed_at == Some(revision) => {
-                self.put_back(course, edit);
-                Err(EditError::NotToldYet)
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    fn ask(&mut self, (course, edit): (Course, Edit), body: RequestBody) -> Request {
-        let id = FIRST_ID + self.count % (LAST_ID - FIRST_ID + 1);
-        self.count = self.count.wrapping_add(1);
-        self.asked.push((id, course, edit));
-        Request { id: Some(id), body }
-    }
-
-    fn take_asked(&mut self, id: u32) -> Option<(Course, Edit)> {
-        let place = self.asked.iter().position(|(asked, ..)| *asked == id)?;
-        let (_, course, edit) = self.asked.remove(place);
-        Some((course, edit))
-    }
-
-    fn put_back(&mut self, course: Course, edit: Edit) {
-        match course {
-            Course::Anew => {}
-            Course::Back => self.done.push(edit),
-            Course::Again => self.undone.push(edit),
-        }
-    }
-
-    /// The robot has done what was asked under this number; `revision` is that of the home as it was told last.
-    pub fn on_done(&mut self, id: u32, revision: u32) {
-        let Some((course, edit)) = self.take_asked(id) else {
-            return;
-        };
-        self.confirmed_at = Some(revision);
-        match course {
-            Course::Anew => {
-                self.undone.clear();
-                self.done.push(edit);
-            }
-            Course::Back => self.undone.push(edit),
-            Course::Again => self.done.push(edit),
-        }
-        if self.done.len() > KEPT_MAX {
-            self.done.remove(0);
-        }
-    }
-
-    /// The robot has refused it: nothing has changed.
-    pub fn on_failed(&mut self, id: u32) {
-        if let Some((course, edit)) = self.take_asked(id) {
-            self.put_back(course, edit);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Edit, EditError, EditLog, Forbidden, Kept};
-    use rvac_api::{
-        HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomChangeView, RoomView,
-    };
-
-    fn wall(x: f64) -> NoGoShape {
-        NoGoShape::Wall([[x, 0.0], [x, 1.0]])
-    }
-
-    fn forbid(x: f64) -> Edit {
-        Edit::Forbid(Forbidden {
-            shape: wall(x),
-            name: None,
-        })
-    }
-
-    fn home(revision: u32, walls: &[(u16, f64)], name: Option<&str>) -> HomeView {
-        HomeView {
-            revision,
-            no_go: walls
-                .iter()
-                .map(|(number, x)| NoGoView {
-                    number: *number,
-                    shape: wall(*x),
-                    name: None,
-                })
-                .collect(),
-            rooms: vec![RoomView {
-                id: 3,
-                area_m2: 9.0,
-                x: 0.0,
-                y: 0.0,
-                name: name.map(str::to_owned),
-                settings: None,
-            }],
-            ..HomeView::default()
-        }
-    }
-
-    fn number(request: &rvac_api::Request) -> u32 {
-        request.id.expect("edits are numbered")
-    }
-
-    #[test]
-    fn a_wall_goes_and_comes_back_under_whatever_number_it_has() {
-        let mut log = EditLog::default();
-        let asked = log.begin(forbid(1.0), &home(1, &[], None)).unwrap();
-        assert_eq!(log.last(), None, "nothing counts before it is confirmed");
-        log.on_done(number(&asked), 1);
-        let kept = home(2, &[(6, 4.0), (7, 1.001)], None);
-        let asked = log.undo(&kept).unwrap().unwrap();
-        assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
-        log.on_done(number(&asked), 2);
-        let asked = log.redo(&home(3, &[(6, 4.0)], None)).unwrap().unwrap();
-        let again = RequestBody::AddNoGo {
-            shape: wall(1.0),
-            name: None,
-        };
-        assert_eq!(asked.body, again);
-        log.on_done(number(&asked), 3);
-        let asked = log.undo(&home(4, &[(6, 4.0), (8, 1.0)], None)).unwrap().unwrap();
-        assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 8 });
-    }
-
-    #[test]
-    fn a_name_of_forbidden_floor_goes_back_and_comes_with_what_is_brought_back() {
-        let mut log = EditLog::default();
-        let named = |revision, name: Option<&str>| {
-            let mut home = home(revision, &[(7, 1.0)], None);
-            home.no_go[0].name = name.map(str::to_owned);
-            home
-        };
-        let edit = Edit::NameForbidden {
-            shape: wall(1.0),
-            before: None,
-            after: Some("Cats".to_owned()),
-        };
-        let asked = log.begin(edit, &named(1, None)).unwrap();
-        let naming = |number, name: Option<&str>| RequestBody::NameNoGo {
-            number,
-            name: name.map(str::to_owned),
-        };
-        assert_eq!(asked.body, naming(7, Some("Cats")));
-        log.on_done(number(&asked), 1);
-        let allow = Edit::Allow(Forbidden {
-            shape: wall(1.0),
-            name: Some("Cats".to_owned()),
-        });
-        let asked = log.begin(allow, &named(2, Some("Cats"))).unwrap();
-        log.on_done(number(&asked), 2);
-        let asked = log.undo(&home(3, &[], None)).unwrap().unwrap();
-        let back = RequestBody::AddNoGo {
-            shape: wall(1.0),
-            name: Some("Cats".to_owned()),
-        };
-        assert_eq!(asked.body, back);
-        log.on_done(number(&asked), 3);
-        let asked = log.undo(&named(4, Some("Cats"))).unwrap().unwrap();
-        assert_eq!(asked.body, naming(7, None));
-    }
-
-    #[test]
-    fn a_place_that_was_forgotten_comes_back_under_its_number() {
-        let mut log = EditLog::default();
-        let bowl = |number| Kept {
-            number,
-            name: "Bowl".to_owned(),
-            shape: PlaceShape::Spot([1.0, 2.0]),
-        };
-        let with = |revision, name: &str| HomeView {
-            places: vec![PlaceView {
-                number: 4,
-                name: name.to_owned(),
-                shape: PlaceShape::Spot([1.0, 2.0]),
-            }],
-            ..home(revision, &[], None)
-        };
-        let naming = Edit::NamePlace {
-            before: "Bowl".to_owned(),
-            after: "Dish".to_owned(),
-        };
-        let asked = log.begin(naming, &with(1, "Bowl")).unwrap();
-        log.on_done(number(&asked), 1);
-        let asked = log.undo(&with(2, "Dish")).unwrap().unwrap();
-        let back = RequestBody::NamePlace {
-            number: 4,
-            name: "Bowl".to_owned(),
-        };
-        assert_eq!(asked.body, back);
-        log.on_done(number(&asked), 2);
-        let asked = log.begin(Edit::Forget(bowl(Some(4))), &with(3, "Bowl")).unwrap();
-        assert_eq!(asked.body, RequestBody::ForgetPlace { number: 4 });
-        log.on_done(number(&asked), 3);
-        let asked = log.undo(&home(4, &[], None)).unwrap().unwrap();
-        let back = RequestBody::KeepPlace {
-            name: "Bowl".to_owned(),
-            shape: PlaceShape::Spot([1.0, 2.0]),
-            number: Some(4),
-        };
-        assert_eq!(asked.body, back);
-        log.on_done(number(&asked), 4);
-        let new = log.begin(Edit::Keep(bowl(None)), &home(5, &[], None)).unwrap();
-        log.on_done(number(&new), 5);
-        assert_eq!(
-            log.undo(&with(6, "Dish")),
-            Some(Err(EditError::ChangedMeanwhile)),
-            "somebody else has named it"
-        );
-    }
-
-    #[test]
-    fn what_is_refused_has_not_happened() {
-        let mut log = EditLog::default();
-        let empty = home(1, &[], None);
-        let asked = log.begin(forbid(1.0), &empty).unwrap();
-        log.on_failed(number(&asked));
-        assert!(log.undo(&empty).is_none());
-        let asked = log.begin(forbid(2.0), &empty).unwrap();
-        log.on_done(number(&asked), 1);
-        let asked = log.undo(&home(2, &[(1, 2.0)], None)).unwrap().unwrap();
-        log.on_failed(number(&asked));
-        assert_eq!(log.last(), Some(&forbid(2.0)));
-        assert_eq!(log.next(), None);
-    }
-
-    #[test]
-    fn a_name_goes_back_unless_somebody_else_has_changed_it() {
-        let mut log = EditLog::default();
-        let edit = Edit::Name {
-            room: 3,
-            before: None,
-            after: Some("Hall".to_owned()),
-        };
-        let asked = log.begin(edit, &home(1, &[], None)).unwrap();
-        log.on_done(number(&asked), 1);
-        assert_eq!(
-            log.undo(&home(1, &[], None)),
-            Some(Err(EditError::NotToldYet)),
-            "the robot has not told of the name"
-        );
-        let asked = log.undo(&home(2, &[], Some("Hall"))).unwrap().unwrap();
-        log.on_done(number(&asked), 2);
-        let changed = home(3, &[], Some("Den"));
-        assert_eq!(log.redo(&changed), Some(Err(EditError::ChangedMeanwhile)));
-        assert_eq!(log.redo(&changed), None, "it is dropped");
-    }
-
-    fn home_with(revision: u32, changes: &[(u16, [u16; 2], Option<f64>)]) -> HomeView {
-        let view = |(number, rooms, x): &(u16, [u16; 2], Option<f64>)| RoomChangeView {
-            number: *number,
-            rooms: *rooms,
-            line: x.map(|x| [[x, 0.0], [x, 3.0]]),
-        };
-        HomeView {
-            room_changes: changes.iter().map(view).collect(),
-            ..home(revision, &[], None)
-        }
-    }
-
-    #[test]
-    fn a_split_and_a_join_go_and_come_back_under_whatever_number_they_have() {
-        let mut log = EditLog::default();
-        let line = [[1.0, 0.0], [1.0, 3.0]];
-        let asked = log.begin(Edit::Split(line), &home_with(1, &[])).unwrap();
-        log.on_done(number(&asked), 1);
-        let cut = (4, [3, 5], Some(1.001));
-        let asked = log.begin(Edit::Join([5, 2]), &home_with(2, &[cut])).unwrap();
-        assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
-        log.on_done(number(&asked), 2);
-        let both = home_with(3, &[(2, [2, 5], Some(7.0)), cut, (6, [2, 5], None)]);
-        let asked = log.undo(&both).unwrap().unwrap();
-        assert_eq!(asked.body, RequestBody::UndoRoomChange { number: 6 });
-        log.on_done(number(&asked), 3);
-        assert_eq!(
-            log.undo(&home_with(4, &[(2, [2, 5], Some(7.0))])),
-            Some(Err(EditError::ChangedMeanwhile)),
-            "somebody else has taken the split back"
-        );
-        let asked = log.redo(&home_with(4, &[cut])).unwrap().unwrap();
-        assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
-    }
-
-    fn home_with_dock(revision: u32, x: f64) -> HomeView {
-        HomeView {
-            dock: Some(rvac_api::Pose {
-                x,
-                ..rvac_api::Pose::default()
-            }),
-            ..home(revision, &[], None)
-        }
-    }
-
-    #[test]
-    fn a_dock_goes_back_to_where_it_stood_unless_the_robot_has_found_it_elsewhere() {
-        let mut log = EditLog::default();
-        let (before, after) = ([1.0, 0.0, 0.0], [3.0, 0.5, 1.5]);
-        let edit = Edit::Dock { before, after };
-        let asked = log.begin(edit, &home_with_dock(1, 1.0)).unwrap();
-        let moved_to = |[x, y, heading]: [f64; 3]| RequestBody::MoveDock { x, y, heading };
-        assert_eq!(asked.body, moved_to(after));
-        log.on_done(number(&asked), 1);
-        let mut told = home_with_dock(2, 3.0);
-        told.dock = told.dock.map(|dock| rvac_api::Pose {
-            y: 0.501,
-            heading: 1.5,
-            ..dock
-        });
-        let asked = log.undo(&told).unwrap().unwrap();
-        assert_eq!(asked.body, moved_to(before));
-        log.on_done(number(&asked), 2);
-        assert_eq!(
-            log.redo(&home_with_dock(3, 1.2)),
-            Some(Err(EditError::ChangedMeanwhile)),
-            "it has docked and found the dock elsewhere"
-        );
-    }
-
-    #[test]
-    fn a_new_edit_ends_what_could_be_done_again() {
-        let mut log = EditLog::default();
-        let none = home(1, &[], None);
-        let asked = log.begin(forbid(1.0), &none).unwrap();
-        log.on_done(number(&asked), 1);
-        let asked = log.undo(&home(2, &[(1, 1.0)], None)).unwrap().unwrap();
-        log.on_done(number(&asked), 2);
-        let asked = log.begin(forbid(5.0), &none).unwrap();
-        log.on_done(number(&asked), 3);
-        assert_eq!(log.next(), None);
-        log.clear();
-        assert_eq!(log.last(), None);
+fn is_same(one: &NoGoShape, other: &NoGoShape) -> bool {
+    match (one, other) {
+        (NoGoShape::Wall(one), NoGoShape::Wall(other)) => is_same_line(one, other),
+        (NoGoShape::Zone(one), NoGoShape::Zone(other)) => is_same_border(one, other),
+        _ => false,
     }
 }

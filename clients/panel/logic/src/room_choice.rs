@@ -6,6 +6,7 @@ use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
 use crate::kept_places::shape_text;
+use crate::reshape::Outline;
 use crate::sketch::{extent, spot_border};
 use crate::words::Words;
 
@@ -90,6 +91,55 @@ impl RoomChoice {
             self.parts.remove(index);
         }
         found.is_some()
+    }
+
+    /// Where a part is that was drawn and is not kept, by its place in the order from 1.
+    #[must_use]
+    pub fn part_outline(&self, place: usize) -> Option<Outline> {
+        match self.parts.get(place.checked_sub(1)?)? {
+            JobPart::Zone(corners) => Some(Outline::Zone(corners.clone())),
+            JobPart::Spot(middle) => Some(Outline::Spot(*middle)),
+            JobPart::Room(_) | JobPart::Place(_) => None,
+        }
+    }
+
+    /// Lets such a part be elsewhere, at its place in the order.
+    pub fn reshape_part(&mut self, place: usize, shape: PlaceShape) {
+        let part = place.checked_sub(1).and_then(|index| self.parts.get_mut(index));
+        if let Some(part @ (JobPart::Zone(_) | JobPart::Spot(_))) = part {
+            *part = match shape {
+                PlaceShape::Zone(corners) => JobPart::Zone(corners),
+                PlaceShape::Spot(middle) => JobPart::Spot(middle),
+            };
+        }
+    }
+
+    /// Where the job keeps out, by its place in that list from 1.
+    #[must_use]
+    pub fn avoided_outline(&self, place: usize) -> Option<Outline> {
+        let shape = self.avoid.get(place.checked_sub(1)?)?;
+        Some(shape.clone().into())
+    }
+
+    /// Lets the job keep out of another place instead.
+    pub fn reshape_avoided(&mut self, place: usize, shape: NoGoShape) {
+        let avoided = place.checked_sub(1).and_then(|index| self.avoid.get_mut(index));
+        if let Some(avoided) = avoided {
+            *avoided = shape;
+        }
+    }
+
+    /// Keeps out of a place no longer.
+    pub fn allow_again(&mut self, place: usize) {
+        if (1..=self.avoid.len()).contains(&place) {
+            self.avoid.remove(place - 1);
+        }
+    }
+
+    /// Chooses what was chosen before, as far as the home still has it.
+    pub fn bring_back(&mut self, earlier: &Self, home: &HomeView) {
+        self.clone_from(earlier);
+        self.retain_known(home);
     }
 
     /// Keeps the robot out of a place, for this job.
@@ -290,7 +340,7 @@ impl RoomChoice {
     }
 }
 
-fn middle_of(corners: &[[f64; 2]]) -> [f64; 2] {
+pub(crate) fn middle_of(corners: &[[f64; 2]]) -> [f64; 2] {
     let share = 1.0 / corners.len().max(1) as f64;
     corners.iter().fold([0.0, 0.0], |[x, y], corner| {
         [x + share * corner[0], y + share * corner[1]]
@@ -416,6 +466,25 @@ mod tests {
         choice.take_out(0);
         let order = choice.order().expect("something is chosen");
         assert_eq!(order.parts, [JobPart::Room(3), JobPart::Spot([1.0, 2.0])]);
+    }
+
+    #[test]
+    fn an_earlier_choice_comes_back_as_far_as_the_home_still_has_it() {
+        let mut choice = RoomChoice::default();
+        choice.toggle(3);
+        choice.add_spot([1.0, 2.0]);
+        choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
+        choice.set_passes(2);
+        let earlier = choice.clone();
+        choice.allow_again(2);
+        assert_eq!(choice.avoid().len(), 1);
+        choice.allow_again(1);
+        choice.clear();
+        assert!(choice.is_empty());
+        choice.bring_back(&earlier, &HomeView::default());
+        let order = choice.order().expect("something is chosen");
+        assert_eq!(order.parts, [JobPart::Spot([1.0, 2.0])], "the room is gone");
+        assert_eq!((order.avoid.len(), order.passes), (1, 2));
     }
 
     #[test]

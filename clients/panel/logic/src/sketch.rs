@@ -6,7 +6,7 @@ use crate::dock_place::{DockPose, dock_pose};
 use crate::words::Words;
 
 /// Corners nearer to each other than this are one place that was tapped twice, metres.
-const APART_MIN_M: f64 = 0.05;
+pub(crate) const APART_MIN_M: f64 = 0.05;
 /// Corners of a spot that is drawn.
 const SPOT_CORNERS: u32 = 48;
 
@@ -199,10 +199,7 @@ pub struct NoGoRow {
 pub fn no_go_rows(words: &Words, home: &HomeView) -> Vec<NoGoRow> {
     let row = |no_go: &rvac_api::NoGoView| {
         let (kind, words) = match &no_go.shape {
-            NoGoShape::Wall([from, to]) => {
-                let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
-                (words.home.wall, metres(words, length_m))
-            }
+            NoGoShape::Wall(ends) => (words.home.wall, metres(words, wall_length_m(ends))),
             NoGoShape::Zone(corners) => (words.home.zone, extent(words, corners)),
         };
         let numbered = kind.fill([&no_go.number]);
@@ -216,6 +213,10 @@ pub fn no_go_rows(words: &Words, home: &HomeView) -> Vec<NoGoRow> {
         }
     };
     home.no_go.iter().map(row).collect()
+}
+
+pub(crate) fn wall_length_m([from, to]: &[[f64; 2]; 2]) -> f64 {
+    (to[0] - from[0]).hypot(to[1] - from[1])
 }
 
 fn metres(words: &Words, length_m: f64) -> String {

@@ -75,7 +75,11 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
         sentences.push(told.agreement.fill([&percent_text(words, agreement)]));
     }
     if let Some(covered) = estimate.covered {
-        sentences.push(told.covered.fill([&percent_text(words, covered)]));
+        let covered = percent_text(words, covered);
+        sentences.push(match estimate.covered_low {
+            Some(low) => told.covered_at_least.fill([&covered, &percent_text(words, low)]),
+            None => told.covered.fill([&covered]),
+        });
     }
     sentences
 }
@@ -184,6 +188,11 @@ mod tests {
         assert!(
             told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %")
         );
+        let low = Estimate {
+            covered_low: Some(0.44),
+            ..lost
+        };
+        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % (at least 44 %) of the floor"));
         assert_eq!(
             place_text(
                 ENGLISH,

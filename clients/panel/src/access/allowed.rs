@@ -37,6 +37,21 @@ impl Store {
     }
 }
 
+/// Controls that need a role: on a device that has a lower one they are there and cannot be used, and tell why.
+#[component]
+pub(crate) fn Needs(store: Store, verb: &'static str, children: Children) -> impl IntoView {
+    let may = Memo::new(move |_| store.may(verb));
+    view! {
+        <fieldset
+            class="needs"
+            disabled=move || !may.get()
+            title=move || (!may.get()).then(|| Wait::NotAllowed.text(words()))
+        >
+            {children()}
+        </fieldset>
+    }
+}
+
 /// Over a sheet that this device may only look at.
 #[component]
 pub(crate) fn OnlyLooks(store: Store, verb: &'static str) -> impl IntoView {

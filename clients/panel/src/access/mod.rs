@@ -10,7 +10,7 @@ use leptos::prelude::*;
 use pairing::wire::Session;
 use pairing::{Role, role_for};
 
-pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, OnlyLooks};
+pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLooks};
 pub(crate) use devices_view::DevicesView;
 pub(crate) use pair_view::PairView;
 

@@ -8,6 +8,7 @@ use panel_logic::{RunRow, refusal_text, run_rows};
 use rvac_api::{Failure, RequestBody, Run, RunRecord, RunTrack};
 use wasm_bindgen::JsValue;
 
+use crate::focus::focus_soon_on;
 use crate::language::words;
 use crate::store::{RUN_ID, Store};
 use run_view::RunView;
@@ -104,6 +105,7 @@ impl Store {
         desk.track.set(None);
         desk.wrong.set(None);
         desk.chosen.set(Some(number));
+        focus_soon_on("all-runs".to_owned());
         self.ask_as(RUN_ID, RequestBody::Run { number });
         let is_recorded =
             |run: &Run| run.number == number && run.recordings.iter().any(|found| found.bytes.is_some());

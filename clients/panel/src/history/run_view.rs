@@ -7,13 +7,20 @@ use rvac_api::{Run, RunRecord};
 use super::date_text;
 use super::player::Player;
 use crate::evidence_view::EvidenceView;
+use crate::focus::focus_soon_on;
 use crate::language::words;
 use crate::store::Store;
 
 #[component]
 pub(crate) fn RunView(store: Store) -> impl IntoView {
     let desk = store.history;
-    let back = move |_| desk.chosen.set(None);
+    let back = move |_| {
+        let shown = desk.chosen.get_untracked();
+        desk.chosen.set(None);
+        if let Some(number) = shown {
+            focus_soon_on(format!("run-{number}-open"));
+        }
+    };
     view! {
         <div class="draw-tools">
             <button type="button" class="small" id="all-runs" on:click=back>{words().history.all}</button>

@@ -241,6 +241,7 @@ fn on_key(store: Store, mode: RwSignal<CameraMode>, event: &KeyboardEvent) {
         }
         "Escape" => {
             store.take_tool(Tool::Choose);
+            store.drop_reshape();
             return;
         }
         _ => {}

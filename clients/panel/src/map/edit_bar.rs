@@ -2,8 +2,8 @@
 
 use leptos::ev;
 use leptos::prelude::*;
-use panel_logic::{Edit, EditError, EditLog, Told};
-use rvac_api::{Failure, HomeView, Request};
+use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Told};
+use rvac_api::{Failure, HomeView, Request, RequestBody};
 use wasm_bindgen::JsCast;
 
 use crate::access::EDITS_HOME;
@@ -41,8 +41,18 @@ impl Edits {
     /// A refused edit has not happened; the refusal is told as any other.
     pub(crate) fn on_failed(self, failure: &Failure) {
         if let Some(id) = failure.id {
-            self.log.update(|log| log.on_failed(id));
+            self.log.update(|log| log.on_failed(id, &failure.reason));
         }
+    }
+
+    /// Something else is chosen for a job.
+    pub(super) fn on_chosen(self, before: RoomChoice, now: RoomChoice) {
+        self.log.update(|log| log.on_chosen(before, now));
+    }
+
+    /// What was chosen has become a job.
+    pub(super) fn on_sent(self) {
+        self.log.update(EditLog::forget_choices);
     }
 }
 
@@ -59,14 +69,28 @@ impl Store {
 
     fn undo(self) {
         let home = self.known_home();
+        let earlier = self.edits.log.try_update(EditLog::undo_choice).flatten();
+        if let Some(earlier) = earlier {
+            return self.bring_back(&earlier, &home);
+        }
         let asked = self.edits.log.try_update(|log| log.undo(&home));
         self.ask_edit(asked.flatten());
     }
 
     fn redo(self) {
         let home = self.known_home();
+        let later = self.edits.log.try_update(EditLog::redo_choice).flatten();
+        if let Some(later) = later {
+            return self.bring_back(&later, &home);
+        }
         let asked = self.edits.log.try_update(|log| log.redo(&home));
         self.ask_edit(asked.flatten());
+    }
+
+    fn bring_back(self, chosen: &RoomChoice, home: &HomeView) {
+        self.orders
+            .choice
+            .update(|choice| choice.bring_back(chosen, home));
     }
 
     fn ask_edit(self, asked: Option<Result<Request, EditError>>) {
@@ -74,7 +98,12 @@ impl Store {
             None => {}
             Some(Ok(Request { id, body })) => {
                 self.refusal.set(None);
+                let is_other_map = matches!(body, RequestBody::RestoreMap { .. });
                 self.ask_as(id.unwrap_or_default(), body);
+                if is_other_map {
+                    // Answered after the one before, so with the restored map in it.
+                    self.ask_for_maps();
+                }
             }
             Some(Err(error)) => self.refusal.set(Some(Failure {
                 id: None,
@@ -95,7 +124,8 @@ impl Store {
 #[component]
 pub(super) fn EditBar(store: Store) -> impl IntoView {
     let log = store.edits.log;
-    let label = |way: Told<1>, edit: Option<&Edit>| edit.map(|edit| way.fill([&edit.what(words())]));
+    let label =
+        |way: Told<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));
     let undo = Memo::new(move |_| log.with(|log| label(words().map.undo, log.last())));
     let redo = Memo::new(move |_| log.with(|log| label(words().map.redo, log.next())));
     let keys = window_event_listener(ev::keydown, move |event| {

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use leptos::prelude::{request_animation_frame, window};
+use leptos::prelude::{RwSignal, Track, Update, request_animation_frame, window};
 use panel_logic::{FrameMeter, RoomChoice};
 use rvac_api::{
     Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, RobotDescription, SimulatedPlan,
@@ -32,6 +32,8 @@ struct Shared {
     canvas: RefCell<Option<HtmlCanvasElement>>,
     labels: RefCell<Labels>,
     meter: RefCell<FrameMeter>,
+    /// Changes when all was drawn anew, as it is when the camera has moved.
+    seen: RwSignal<u32>,
     scheduled: Cell<bool>,
 }
 
@@ -106,6 +108,13 @@ impl MapHandle {
         *self.shared.painter.borrow_mut() = None;
     }
 
+    /// Takes the keys: what is drawn is drawn with them, too.
+    pub(crate) fn focus(&self) {
+        if let Some(canvas) = self.shared.canvas.borrow().as_ref() {
+            canvas.focus().ok(); // An element that cannot have it leaves it where it is.
+        }
+    }
+
     pub(crate) fn set_robot(&self, robot: Option<&RobotDescription>) {
         if let Some(robot) = robot.filter(|robot| robot.radius_m > 0.0) {
             self.change(|scene| scene.radius_m = robot.radius_m);
@@ -175,6 +184,11 @@ impl MapHandle {
             scene.on_delta(delta);
             true
         });
+    }
+
+    /// Whoever asks looks again when the camera may have moved.
+    pub(crate) fn follow_camera(&self) {
+        self.shared.seen.track();
     }
 
     /// Reads the scene.
@@ -259,6 +273,9 @@ impl MapHandle {
             self.shared.labels.borrow().place(&scene);
         }
         drop(scene);
+        if redraw == Redraw::All {
+            self.shared.seen.update(|count| *count = count.wrapping_add(1));
+        }
         if moving {
             self.shared.meter.borrow_mut().frame(now);
             self.schedule();

@@ -1,9 +1,11 @@
 //! Over the map: the chosen rooms, zones and spots with what cleaning them takes, and what to do next while something is drawn.
 
 use leptos::prelude::*;
-use panel_logic::{DrawnPart, Offer, PASSES_MAX, Tool};
+use panel_logic::{DrawnPart, Offer, PASSES_MAX, RoomChoice, Target, Tool};
 use rvac_api::RequestBody;
 
+use super::reshape_view::ReshapeBar;
+use crate::access::{EDITS_HOME, Needs};
 use crate::icons::{Icon, icon};
 use crate::job_settings_view::JobSettingsFields;
 use crate::language::words;
@@ -13,6 +15,7 @@ use crate::store::Store;
 pub(crate) fn OrderBar(store: Store) -> impl IntoView {
     let orders = store.orders;
     let has_choice = Memo::new(move |_| orders.choice.with(|choice| !choice.is_empty()));
+    let is_reshaped = Memo::new(move |_| orders.reshape.with(Option::is_some));
     let state = Memo::new(move |_| {
         store.status.with(|status| {
             status
@@ -24,7 +27,8 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
     // The choice has become a job.
     Effect::new(move |_| {
         if state.get() == "starting" {
-            orders.choice.update(panel_logic::RoomChoice::clear);
+            orders.choice.update(RoomChoice::clear);
+            store.edits.on_sent();
         }
     });
     let chosen = Memo::new(move |_| orders.choice.get());
@@ -43,7 +47,11 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
                     </button>
                 </div>
             </Show>
-            <Show when=move || has_choice.get()>
+            <Show when=move || is_reshaped.get()>
+                <ReshapeBar store />
+            </Show>
+            // On a phone both would leave nothing of the map.
+            <Show when=move || has_choice.get() && !is_reshaped.get()>
                 <ChosenRooms store />
             </Show>
         </div>
@@ -70,7 +78,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     };
     let joinable = Memo::new(move |_| store.joinable_rooms());
     let clean = move |_| {
-        let order = orders.choice.with_untracked(panel_logic::RoomChoice::order);
+        let order = orders.choice.with_untracked(RoomChoice::order);
         if let (Some(order), Offer::Ready) = (order, offer.get_untracked()) {
             store.ask(RequestBody::Clean(order));
         }
@@ -82,13 +90,15 @@ fn ChosenRooms(store: Store) -> impl IntoView {
             <p id="prospect" class="hint" aria-live="polite">{prospect}</p>
             <HowItIsCleaned store />
             <div class="order-tools">
-                <button type="button" class="small" id="choose-none" on:click=move |_| orders.choice.update(panel_logic::RoomChoice::clear)>
+                <button type="button" class="small" id="choose-none" on:click=move |_| store.choose(RoomChoice::clear)>
                     {words().map.choose_none}
                 </button>
                 <Show when=move || joinable.get().is_some()>
-                    <button type="button" class="small" id="join-chosen" on:click=move |_| store.join_chosen()>
-                        {words().map.join_these}
-                    </button>
+                    <Needs store verb=EDITS_HOME>
+                        <button type="button" class="small" id="join-chosen" on:click=move |_| store.join_chosen()>
+                            {words().map.join_these}
+                        </button>
+                    </Needs>
                 </Show>
                 <button type="button" class="small" id="keep-out" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().map.keep_out}
@@ -121,35 +131,34 @@ fn HowItIsCleaned(store: Store) -> impl IntoView {
                 <Passes store />
                 <JobSettingsFields
                     place="job"
-                    settings=Signal::derive(move || choice.with(panel_logic::RoomChoice::settings))
-                    change=Callback::new(move |settings| choice.update(|choice| choice.set_settings(settings)))
+                    settings=Signal::derive(move || choice.with(RoomChoice::settings))
+                    change=Callback::new(move |settings| store.choose(|choice| choice.set_settings(settings)))
                 />
             </div>
         </details>
     }
 }
 
-/// Zones and spots, each to be taken out. Rooms are taken out where they were chosen.
+/// Zones and spots, and places that are kept out of, each to be reshaped and taken out. Rooms are taken out where they were chosen.
 #[component]
 fn DrawnParts(store: Store) -> impl IntoView {
     let choice = store.orders.choice;
     let parts = Memo::new(move |_| choice.with(|choice| choice.drawn(words())));
+    let avoided = Memo::new(move |_| choice.with(|choice| choice.avoid().len()));
     let part = move |DrawnPart { place, name, .. }: DrawnPart| {
-        let label = format!("{place}. {name}");
-        let take_out = words().map.take_out.fill([&label]);
-        view! {
-            <button
-                type="button"
-                class="small part"
-                id=format!("part-{place}")
-                aria-label=take_out.clone()
-                title=take_out
-                on:click=move |_| choice.update(|choice| choice.take_out(place))
-            >
-                {label}
-                {icon(Icon::Close)}
-            </button>
-        }
+        let name = format!("{place}. {name}");
+        let can_be_reshaped = choice.with_untracked(|choice| choice.part_outline(place).is_some());
+        let label = words().map.reshape_named.fill([&name]);
+        let reshape = can_be_reshaped.then(|| reshape_button(store, Target::Part(place), label));
+        let take_out = move || store.choose(|choice| choice.take_out(place));
+        view! { {take_out_button(format!("part-{place}"), name, take_out)} {reshape} }
+    };
+    let place = move |place: usize| {
+        let name = words().map.avoided.fill([&place]);
+        let label = words().map.reshape_named.fill([&name]);
+        let reshape = reshape_button(store, Target::Avoided(place), label);
+        let take_out = move || store.choose(|choice| choice.allow_again(place));
+        view! { {take_out_button(format!("avoided-{place}"), name, take_out)} {reshape} }
     };
     view! {
         <Show when=move || parts.with(|parts| !parts.is_empty())>
@@ -157,6 +166,43 @@ fn DrawnParts(store: Store) -> impl IntoView {
                 {move || parts.get().into_iter().map(part).collect_view()}
             </div>
         </Show>
+        <Show when=move || avoided.get() != 0>
+            <div class="order-tools" id="avoided-places">
+                {move || (1..=avoided.get()).map(place).collect_view()}
+            </div>
+        </Show>
+    }
+}
+
+fn take_out_button(id: String, name: String, take_out: impl Fn() + 'static) -> impl IntoView {
+    let label = words().map.take_out.fill([&name]);
+    view! {
+        <button
+            type="button"
+            class="small part"
+            id=id
+            aria-label=label.clone()
+            title=label
+            on:click=move |_| take_out()
+        >
+            {name}
+            {icon(Icon::Close)}
+        </button>
+    }
+}
+
+fn reshape_button(store: Store, target: Target, label: String) -> impl IntoView {
+    view! {
+        <button
+            type="button"
+            class="small"
+            id=target.button_id()
+            aria-label=label.clone()
+            title=label
+            on:click=move |_| store.begin_reshape(target)
+        >
+            {icon(Icon::Reshape)}
+        </button>
     }
 }
 
@@ -169,7 +215,7 @@ fn Passes(store: Store) -> impl IntoView {
                 type="button"
                 id=format!("passes-{passes}")
                 aria-pressed=move || if choice.with(|choice| choice.passes() == passes) { "true" } else { "false" }
-                on:click=move |_| choice.update(|choice| choice.set_passes(passes))
+                on:click=move |_| store.choose(|choice| choice.set_passes(passes))
             >
                 {words().map.times.fill([&passes])}
             </button>

@@ -2,11 +2,12 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, Forbidden, NoGoRow, PlaceRow, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text,
+    Drawn, Edit, Forbidden, NoGoRow, PlaceRow, Reshape, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text,
     job_estimate_text, joinable, known_dock, no_go_rows, place_rows, refusal_text, room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
+use super::MapHandle;
 use super::scene::Ground;
 use crate::access::EDITS_HOME;
 use crate::language::words;
@@ -24,6 +25,8 @@ pub(crate) struct Orders {
     pub(crate) prospect: RwSignal<Option<String>>,
     /// What is being drawn.
     pub(crate) sketch: RwSignal<Sketch>,
+    /// What is being reshaped.
+    pub(crate) reshape: RwSignal<Option<Reshape>>,
     /// Where the pointer is while something is drawn, in the map.
     pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
     /// What is forbidden.
@@ -43,6 +46,7 @@ impl Orders {
             choice: RwSignal::new(RoomChoice::default()),
             prospect: RwSignal::new(None),
             sketch: RwSignal::new(Sketch::default()),
+            reshape: RwSignal::new(None),
             pointer: RwSignal::new(None),
             no_go: RwSignal::new(Vec::new()),
             places: RwSignal::new(Vec::new()),
@@ -106,13 +110,13 @@ impl Orders {
 impl Store {
     /// Chooses a room or takes it out.
     pub(crate) fn toggle_room(self, room: u16) {
-        self.orders.choice.update(|choice| choice.toggle(room));
+        self.choose(|choice| choice.toggle(room));
         self.show_known_home();
     }
 
     /// Chooses a kept place or takes it out.
     pub(crate) fn toggle_place(self, number: u16) {
-        self.orders.choice.update(|choice| choice.toggle_place(number));
+        self.choose(|choice| choice.toggle_place(number));
         self.show_known_home();
     }
 
@@ -121,17 +125,29 @@ impl Store {
         if tool.changes_home() && !self.admits(EDITS_HOME) {
             return;
         }
-        self.orders.sketch.update(|sketch| sketch.take(tool));
-        self.orders.pointer.set(None);
+        self.lay_tool_down();
         if tool != Tool::Choose {
+            self.orders.reshape.set(None);
+            self.orders.sketch.update(|sketch| sketch.take(tool));
             // What was refused before lies over the hint on a phone.
             self.refusal.set(None);
             self.show_known_home();
+            self.map.with_value(MapHandle::focus);
         }
+    }
+
+    /// Nothing is drawn any more.
+    pub(super) fn lay_tool_down(self) {
+        self.orders.sketch.update(|sketch| sketch.take(Tool::Choose));
+        self.orders.pointer.set(None);
     }
 
     /// A person pointed at a place of the map.
     pub(crate) fn point_at(self, place: (f64, f64)) {
+        // A finger that misses a dot of what is reshaped chooses nothing.
+        if self.orders.reshape.with_untracked(Option::is_some) {
+            return;
+        }
         if self.orders.sketch.with_untracked(|sketch| sketch.tool()) == Tool::Choose {
             if self.take_spot_out_at(place) {
                 return;
@@ -147,7 +163,6 @@ impl Store {
             .sketch
             .try_update(|sketch| sketch.point(place))
             .flatten();
-        let choice = self.orders.choice;
         match drawn {
             None => return,
             Some(Drawn::Forbidden(shape)) => self.edit(Edit::Forbid(Forbidden { shape, name: None })),
@@ -157,21 +172,17 @@ impl Store {
                     self.edit(Edit::Dock { before, after });
                 }
             }
-            Some(Drawn::Clean(corners)) => choice.update(|choice| choice.add_zone(corners)),
-            Some(Drawn::Spot(middle)) => choice.update(|choice| choice.add_spot(middle)),
-            Some(Drawn::Avoid(shape)) => choice.update(|choice| choice.keep_out_of(shape)),
+            Some(Drawn::Clean(corners)) => self.choose(|choice| choice.add_zone(corners)),
+            Some(Drawn::Spot(middle)) => self.choose(|choice| choice.add_spot(middle)),
+            Some(Drawn::Avoid(shape)) => self.choose(|choice| choice.keep_out_of(shape)),
         }
         self.orders.pointer.set(None);
     }
 
     /// Takes a chosen spot out that was pointed at; `false` when there is none.
     fn take_spot_out_at(self, place: (f64, f64)) -> bool {
-        let choice = self.orders.choice;
-        let mut without = choice.get_untracked();
-        let is_one = without.take_spot_out_at(place);
-        if is_one {
-            choice.set(without);
-        }
+        let mut is_one = false;
+        self.choose(|choice| is_one = choice.take_spot_out_at(place));
         is_one
     }
 
@@ -202,7 +213,7 @@ impl Store {
     }
 
     /// Rooms and what is forbidden are seen in what the robot knows, not in the true home of a simulator.
-    fn show_known_home(self) {
+    pub(super) fn show_known_home(self) {
         self.map.with_value(|map| {
             if map.with(|scene| scene.ground()) != Ground::Known {
                 map.change(|scene| scene.show(Ground::Known));

@@ -1,13 +1,12 @@
 //! Draws the scene without WebGL: the flat map only, with what every browser can do. Slower, but a map.
 
 use leptos::prelude::document;
-use panel_logic::plan_pixels;
+use panel_logic::{MapPalette, Rgb, plan_pixels};
 use rvac_api::Pose;
 use wasm_bindgen::{Clamped, JsCast};
 use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ImageData};
 
 use super::canvas_size::fit_canvas;
-use super::palette::{Palette, Rgb};
 use super::scene::{Ground, Places, Redraw, Scene};
 use crate::language::words;
 
@@ -81,7 +80,7 @@ impl PlainRenderer {
             scene.refuse_relief(words().map.no_webgl.to_owned());
         }
         fit_canvas(&self.canvas, &scene.camera);
-        let palette = Palette::of(scene.theme);
+        let palette = scene.theme.palette();
         self.take_pictures(scene, &palette);
         if redraw == Redraw::Nothing {
             return;
@@ -96,7 +95,7 @@ impl PlainRenderer {
         self.draw_marks(scene, places, &palette);
     }
 
-    fn take_pictures(&self, scene: &mut Scene, palette: &Palette) {
+    fn take_pictures(&self, scene: &mut Scene, palette: &MapPalette) {
         if std::mem::take(&mut scene.plan_changed) {
             let drawn = scene
                 .plan()
@@ -154,7 +153,7 @@ impl PlainRenderer {
         }
     }
 
-    fn draw_lines(&self, scene: &mut Scene, palette: &Palette) {
+    fn draw_lines(&self, scene: &mut Scene, palette: &MapPalette) {
         let way: Vec<f32> = scene
             .path
             .chunks_exact(2)
@@ -189,7 +188,7 @@ impl PlainRenderer {
         }
     }
 
-    fn draw_marks(&self, scene: &Scene, places: Places, palette: &Palette) {
+    fn draw_marks(&self, scene: &Scene, places: Places, palette: &MapPalette) {
         let ratio = self.ratio(scene);
         let size = |metres: f64| metres * scene.camera.scale() * ratio;
         for bump in &scene.bumps {

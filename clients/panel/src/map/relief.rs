@@ -1,11 +1,10 @@
 //! What stands on the floor when the map is seen from an orbit: walls cut off so that one sees into the rooms, the dock, the body of the robot.
 
-use panel_logic::{BLOCK_NUMBERS, WallBlocks};
+use panel_logic::{BLOCK_NUMBERS, MapPalette, Rgb, WallBlocks};
 use rvac_api::{Pose, SimulatedPlan};
 use web_sys::{WebGl2RenderingContext as Gl, WebGlVertexArrayObject};
 
 use super::gl::{GlError, GrowingBuffer, Program, layout};
-use super::palette::{Palette, Rgb};
 use super::relief_shaders::{
     BLOCK_CORNERS, BLOCK_FRAGMENT, BLOCK_VERTEX, DRUM_CORNERS, DRUM_FRAGMENT, DRUM_VERTEX,
 };
@@ -84,7 +83,7 @@ impl Relief {
     }
 
     /// Draws walls, furniture and dock. They hide what comes after them where they stand in front of it.
-    pub(super) fn draw_standing(&mut self, scene: &Scene, palette: &Palette, eye: &[f32; 16]) {
+    pub(super) fn draw_standing(&mut self, scene: &Scene, palette: &MapPalette, eye: &[f32; 16]) {
         if std::mem::take(&mut self.is_stale) {
             self.walls.renew(scene.plan());
             self.walls_buffer.restart();
@@ -113,7 +112,7 @@ impl Relief {
         self.gl.disable(Gl::CULL_FACE);
     }
 
-    fn draw_dock(&mut self, dock: Pose, palette: &Palette) {
+    fn draw_dock(&mut self, dock: Pose, palette: &MapPalette) {
         for (sides, height) in DOCK_PARTS {
             self.dock_buffer.restart();
             self.dock_buffer.catch_up(&sides);
@@ -140,7 +139,7 @@ impl Relief {
     pub(super) fn draw_robot(
         &self,
         (marks, count): (&WebGlVertexArrayObject, i32),
-        palette: &Palette,
+        palette: &MapPalette,
         (eye, height): (&[f32; 16], f64),
     ) {
         let gl = &self.gl;

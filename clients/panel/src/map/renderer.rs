@@ -1,14 +1,13 @@
 //! Draws the scene: one pass for the ground, from an orbit one for what stands on it, one each for walls, path and planned way, one
 //! for what lies on the floor, one for the robot, one for bumps.
 
-use panel_logic::{Bounds, Camera};
+use panel_logic::{Bounds, Camera, MapPalette};
 use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, WebGlVertexArrayObject};
 
 use super::canvas_size::fit_canvas;
 use super::gl::{GlError, GrowingBuffer, Look, Program, layout, texture};
 use super::marks::{MARK_NUMBERS, bump_marks, floor_marks, robot_marks};
-use super::palette::Palette;
 use super::relief::{ROBOT_M, Relief};
 use super::scene::{Ground, Places, Redraw, Scene};
 use super::shaders;
@@ -179,7 +178,7 @@ impl Renderer {
         let canvas = self.gl.canvas();
         let canvas = canvas.and_then(|canvas| canvas.dyn_into::<HtmlCanvasElement>().ok());
         let resized = canvas.is_some_and(|canvas| fit_canvas(&canvas, &scene.camera));
-        let palette = Palette::of(scene.theme);
+        let palette = scene.theme.palette();
         self.prepare_relief(scene);
         let eye = Eye::of(&scene.camera, &self.gl);
         self.upload_plan(scene, &palette);
@@ -244,7 +243,7 @@ impl Renderer {
         );
     }
 
-    fn draw_ground(&self, scene: &Scene, (palette, eye): (&Palette, &Eye)) {
+    fn draw_ground(&self, scene: &Scene, (palette, eye): (&MapPalette, &Eye)) {
         let program = &self.ground;
         program.select();
         self.gl.active_texture(Gl::TEXTURE1);
@@ -285,7 +284,7 @@ impl Renderer {
         self.gl.draw_arrays(Gl::TRIANGLE_STRIP, 0, 4);
     }
 
-    fn draw_lines(&mut self, scene: &mut Scene, (palette, eye): (&Palette, &Eye)) {
+    fn draw_lines(&mut self, scene: &mut Scene, (palette, eye): (&MapPalette, &Eye)) {
         if std::mem::take(&mut scene.path_restarted) {
             self.path.buffer.restart();
         }
@@ -318,7 +317,7 @@ impl Renderer {
         }
     }
 
-    fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&Palette, &Eye)) {
+    fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&MapPalette, &Eye)) {
         let bumps = bump_marks(scene, eye.ratio);
         let lying = floor_marks(scene, places, eye.in_relief);
         let robot = robot_marks(scene, places);
@@ -354,7 +353,7 @@ impl Renderer {
         self.robot.draw(&self.gl, instances(&robot));
     }
 
-    fn begin_marks(&self, (palette, eye): (&Palette, &Eye), lift_m: f64) {
+    fn begin_marks(&self, (palette, eye): (&MapPalette, &Eye), lift_m: f64) {
         let mark = &self.mark;
         mark.select();
         mark.set_matrix("eye", &eye.clip);

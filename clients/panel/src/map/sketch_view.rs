@@ -46,6 +46,7 @@ pub(crate) fn SketchView(store: Store) -> impl IntoView {
                 .with_value(|map| map.with(|scene| scene.camera.screen_from_map(x, y)));
             format!("{px:.1} {py:.1}")
         };
+        store.map.with_value(super::MapHandle::follow_camera);
         let places: Vec<String> = corners.into_iter().map(on_screen).collect();
         format!("M{}", places.join("L"))
     };

@@ -1,14 +1,13 @@
 //! Brings floor plan and swept area into their textures.
 
-use panel_logic::plan_pixels;
+use panel_logic::{MapPalette, plan_pixels};
 use web_sys::WebGl2RenderingContext as Gl;
 
-use super::palette::Palette;
 use super::renderer::Renderer;
 use super::scene::Scene;
 
 impl Renderer {
-    pub(super) fn upload_plan(&mut self, scene: &mut Scene, palette: &Palette) {
+    pub(super) fn upload_plan(&mut self, scene: &mut Scene, palette: &MapPalette) {
         if !std::mem::take(&mut scene.plan_changed) {
             return;
         }

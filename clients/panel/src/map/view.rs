@@ -9,6 +9,7 @@ use panel_logic::{Orbit, scale_bar};
 use super::canvas::{MapCanvas, STEP, apply, fit, toggle_relief, zoom};
 use super::edit_bar::EditBar;
 use super::order_bar::OrderBar;
+use super::reshape_view::ReshapeView;
 use super::scene::{CameraMode, Ground, Scene};
 use super::sketch_view::SketchView;
 use super::view_memory::{keep_view, kept_view};
@@ -36,6 +37,7 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
             <MapCanvas store mode failure />
             <RoomNames store />
             <SketchView store />
+            <ReshapeView store />
             <GroundSwitch store shown=ground />
             <Failures failure footer />
             <MapTools store mode orbit />

@@ -10,7 +10,7 @@ use panel_logic::{
 };
 use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
-use crate::access::{EDITS_SCHEDULES, OnlyLooks};
+use crate::access::{EDITS_SCHEDULES, Needs, OnlyLooks};
 use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
 use form::FormView;
@@ -103,16 +103,20 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
                 when=move || desk.form.with(Option::is_some)
                 fallback=move || view! {
                     <div class="draw-tools">
-                        <button type="button" class="small strong" id="add-schedule" on:click=move |_| store.open_schedule(ScheduleForm::default())>
-                            {words().schedule.add}
-                        </button>
+                        <Needs store verb=EDITS_SCHEDULES>
+                            <button type="button" class="small strong" id="add-schedule" on:click=move |_| store.open_schedule(ScheduleForm::default())>
+                                {words().schedule.add}
+                            </button>
+                        </Needs>
                     </div>
                 }
             >
                 <FormView store />
             </Show>
-            <QuietView store />
-            <ZoneView store />
+            <Needs store verb=EDITS_SCHEDULES>
+                <QuietView store />
+                <ZoneView store />
+            </Needs>
             {list(("next-runs", words().schedule.next_runs, words().schedule.no_next), move || desk.with(|known| next_rows(words(), known)))}
             {list(("past-runs", words().schedule.past_runs, words().schedule.no_past), move || desk.with(|known| past_rows(words(), known)))}
         </div>
@@ -142,11 +146,36 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
     let text = move |part: fn(&ScheduleRow) -> &String| {
         move || row.with(|row| row.as_ref().map(|row| part(row).clone()))
     };
-    let is = move |part: fn(&ScheduleRow) -> bool| move || row.with(|row| row.as_ref().is_some_and(part));
-    let (enabled, skips) = (is(|row| row.enabled), is(|row| row.skips));
-    let labelled = move |what: Told<1>| move || what.fill([&text(|row| &row.name)().unwrap_or_default()]);
+    let enabled = move || row.with(|row| row.as_ref().is_some_and(|row| row.enabled));
+    view! {
+        <li id=format!("schedule-{number}")>
+            <Needs store verb=EDITS_SCHEDULES>
+                <label class="check">
+                    <input
+                        type="checkbox"
+                        id=format!("enable-{number}")
+                        prop:checked=enabled
+                        on:change=move |event| store.ask(RequestBody::EnableSchedule { number, enabled: event_target_checked(&event) })
+                    />
+                    <strong>{text(|row| &row.name)}</strong>
+                </label>
+            </Needs>
+            <p class="words">{text(|row| &row.words)}</p>
+            <p class="words next">{text(|row| &row.next)}</p>
+            <p class="words">{text(|row| &row.now)}</p>
+            <EntryTools store number row />
+        </li>
+    }
+}
+
+/// What can be done with a schedule.
+#[component]
+fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl IntoView {
+    let skips = move || row.with(|row| row.as_ref().is_some_and(|row| row.skips));
+    let name = move || row.with(|row| row.as_ref().map(|row| row.name.clone()).unwrap_or_default());
+    let labelled = move |what: Told<1>| move || what.fill([&name()]);
     let skip = move |_| {
-        let skip = !row.with_untracked(|row| row.as_ref().is_some_and(|row| row.skips));
+        let skip = !untrack(skips);
         store.ask(RequestBody::SkipNext { number, skip });
     };
     let edit = move |_| {
@@ -155,20 +184,8 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
         }
     };
     view! {
-        <li id=format!("schedule-{number}")>
-            <label class="check">
-                <input
-                    type="checkbox"
-                    id=format!("enable-{number}")
-                    prop:checked=enabled
-                    on:change=move |event| store.ask(RequestBody::EnableSchedule { number, enabled: event_target_checked(&event) })
-                />
-                <strong>{text(|row| &row.name)}</strong>
-            </label>
-            <p class="words">{text(|row| &row.words)}</p>
-            <p class="words next">{text(|row| &row.next)}</p>
-            <p class="words">{text(|row| &row.now)}</p>
-            <div class="draw-tools">
+        <div class="draw-tools">
+            <Needs store verb="skip-next">
                 <button
                     type="button"
                     class="small choose"
@@ -188,6 +205,8 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
                 >
                     {words().schedule.run}
                 </button>
+            </Needs>
+            <Needs store verb=EDITS_SCHEDULES>
                 <button type="button" class="small" id=format!("edit-{number}") aria-label=labelled(words().schedule.edit_named) on:click=edit>
                     {words().schedule.edit}
                 </button>
@@ -200,8 +219,8 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
                 >
                     {words().frame.remove}
                 </button>
-            </div>
-        </li>
+            </Needs>
+        </div>
     }
 }
 

@@ -21,6 +21,10 @@ screen! {
         edit_forget: "removal of a kept place", "alles hoitud koha eemaldamine";
         edit_place_name: "name of a kept place", "alles hoitud koha nimi";
         edit_no_go_name: "name of a forbidden place", "keelatud koha nimi";
+        edit_no_go_shape: "shape of a forbidden place", "keelatud koha kuju";
+        edit_place_shape: "shape of a kept place", "alles hoitud koha kuju";
+        edit_take_up: "taking up of a kept map", "alles hoitud kaardi kasutuselevõtt";
+        edit_choice: "choice for the job", "koristamise valik";
         edit_name: "name of a room", "toa nimi";
         edit_settings: "settings of a room", "toa seaded";
         edit_split: "split of a room", "toa poolitamine";
@@ -36,6 +40,16 @@ screen! {
         zone_of[1]: "zone of {0}", "ala {0}";
         spot: "spot", "koht";
         spots[1]: "{0} spots", "{0} kohta";
+        zone_alone: "zone", "ala";
+        spot_at[2]: "at x {0} m, y {1} m", "kohas x {0} m, y {1} m";
+        avoided[1]: "Keep out {0}", "Väljajäetav koht {0}";
+        reshape: "Reshape", "Muuda kuju";
+        reshape_named[1]: "Reshape {0}", "Muuda kuju: {0}";
+        reshape_hint: "Drag its dots on the map. By keyboard: Tab chooses a dot, arrow keys move it by 5 cm, with Shift by 1 cm, Enter saves.",
+            "Lohista kaardil selle täppe. Klaviatuuril: tabeldusklahv valib täpi, nooleklahvid nihutavad 5 cm, tõstuklahviga 1 cm, Enter salvestab.";
+        handles[1]: "Dots of {0}", "Täpid: {0}";
+        handle_corner[1]: "Corner {0}", "Nurk {0}";
+        handle_middle: "All of it", "Tervikuna";
         take_out[1]: "Take out: {0}", "Võta välja: {0}";
         spot_place: "Tap the middle of the spot, or move it to the cross and press Enter. A circle of one metre is cleaned.",
             "Puuduta koha keskpunkti või nihuta see ristile ja vajuta Enter. Koristatakse meetrilaiune ring.";

@@ -30,5 +30,7 @@ screen! {
         agreement[1]: "Its map explains {0} of what its sensors see.", "Kaart selgitab {0} sellest, mida andurid näevad.";
         covered[1]: "By its own estimate {0} of the floor it can reach is swept.",
             "Roboti enda hinnangul on ligipääsetavast põrandast koristatud {0}.";
+        covered_at_least[2]: "By its own estimate {0} (at least {1}) of the floor it can reach is swept.",
+            "Roboti enda hinnangul on ligipääsetavast põrandast koristatud {0} (vähemalt {1}).";
     }
 }
