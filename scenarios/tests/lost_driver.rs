@@ -16,7 +16,7 @@ const LOOK_MS: u64 = 1_500;
 /// Rims slower than this stand, as in the test of hosts that die.
 const STANDING_M_PER_S: f64 = 0.001;
 /// The middle of a room, looking along it.
-const IN_THE_OPEN: Pose = Pose::new(-3.4, 0.0, 3.14);
+const IN_THE_OPEN: Pose = Pose::new(-3.4, 0.0, core::f64::consts::PI);
 const LOSSES: usize = 100;
 /// S24: a warning and a pause come before the first motion.
 const START_MS: u64 = 4_000;
