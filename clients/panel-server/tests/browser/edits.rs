@@ -150,7 +150,7 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
 
 /// How many zones and spots are in the bar, and how many numbers stand on the map.
 async fn drawn_parts(browser: &Browser, count: usize) {
-    for labels in ["#drawn-parts button", ".room-names .number"] {
+    for labels in ["#drawn-parts .part", ".room-names .number"] {
         let script = format!("return document.querySelectorAll('{labels}').length === {count}");
         browser.until(&script).await;
     }
