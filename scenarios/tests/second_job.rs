@@ -100,12 +100,12 @@ fn shares(household: &Household) -> Option<(f64, f64, f64)> {
 }
 
 /// How far a share may be from the truth: the edges of furniture and what lies behind legs differ between map and home, and in a
-/// first run the robot does not know yet how much floor there is.
+/// first run the robot does not know yet how much floor there is. It may say that it has swept less than it has, but hardly more.
 const SHARE_OFF: f64 = 0.04;
-const FIRST_SHARE_OFF: f64 = 0.12;
+const FIRST_SHARE_SHORT: f64 = 0.17;
 
 /// Compares what the robot says with the truth twice a minute; gives how often it said something.
-fn compared(household: &mut Household, (minutes, share_off): (u32, f64)) -> u32 {
+fn compared(household: &mut Household, (minutes, share_short): (u32, f64)) -> u32 {
     let mut looks = 0;
     for _ in 0..2 * minutes {
         household.pass_ms(MINUTE_MS / 2);
@@ -115,7 +115,7 @@ fn compared(household: &mut Household, (minutes, share_off): (u32, f64)) -> u32 
         println!("in truth {truth:.3}, told {low:.3} to {share:.3}");
         assert!(low <= share && share <= 1.0);
         assert!(
-            truth >= low - share_off && truth <= share + share_off,
+            truth >= low - SHARE_OFF && truth <= share + share_short,
             "{truth} is not within {low} and {share}"
         );
         looks += 1;
@@ -134,8 +134,10 @@ fn the_share_that_a_robot_says_it_has_swept_is_the_true_one() {
 
 #[test]
 fn in_a_first_run_it_is_so_by_and_large() {
-    let mut household = household(&scene(HOME, "nominal"), &settings(4, 0));
-    assert!(start_cleaning(&mut household, StrategyName::Systematic));
-    let looks = compared(&mut household, (12, FIRST_SHARE_OFF));
-    assert!(looks >= 8, "{looks} looks");
+    for seed in [1, 2, 3] {
+        let mut household = household(&scene(HOME, "nominal"), &settings(seed, 0));
+        assert!(start_cleaning(&mut household, StrategyName::Systematic));
+        let looks = compared(&mut household, (12, FIRST_SHARE_SHORT));
+        assert!(looks >= 8, "{looks} looks with seed {seed}");
+    }
 }

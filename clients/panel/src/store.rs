@@ -4,8 +4,8 @@ use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, KeptMap, Request, RequestBody,
-    RobotDescription, SimulatedTruth, Standstill, Status, Topic,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, Request,
+    RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -327,14 +327,7 @@ impl Store {
             }
             Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
             Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
-            Message::Home(home) => {
-                let rows = room_rows(words(), &home);
-                if self.rooms.with_untracked(|rooms| *rooms != rows) {
-                    self.rooms.set(rows);
-                }
-                self.orders.on_home(&home);
-                self.map.with_value(|map| map.on_home(&home));
-            }
+            Message::Home(home) => self.on_home(&home),
             Message::Estimate(estimate) => {
                 self.map.with_value(|map| map.on_estimate(&estimate));
                 self.estimate.set(Some(estimate));
@@ -370,6 +363,15 @@ impl Store {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
             }
         }
+    }
+
+    fn on_home(self, home: &HomeView) {
+        let rows = room_rows(words(), home);
+        if self.rooms.with_untracked(|rooms| *rooms != rows) {
+            self.rooms.set(rows);
+        }
+        self.orders.on_home(home);
+        self.map.with_value(|map| map.on_home(home));
     }
 
     fn on_status(self, status: Status) {

@@ -18,6 +18,7 @@ mod order;
 mod reasons;
 mod request;
 mod schedule;
+mod simulated;
 mod stop;
 mod thought;
 mod update;
@@ -43,12 +44,12 @@ pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
     ScheduledJob, Schedules, Weekday,
 };
+pub use simulated::{SimulatedPlan, SimulatedTruth};
 pub use stop::{Evidence, Felt, Standstill};
 pub use thought::{Decision, Estimate, PlannedWay};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,
-    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, SimulatedPlan, SimulatedTruth, Status,
-    Update, Versions,
+    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,
 };
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.

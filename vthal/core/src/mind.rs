@@ -15,9 +15,11 @@ use brain::{
 use floors::Carried;
 pub(crate) use floors::FloorNews;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
+use rvac_api::HomeView;
 
 use crate::device::{Description, Shape};
 use crate::floors::Floors;
+use crate::home_view::home_view;
 use crate::observe::Observer;
 use crate::quest::Quest;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, RunStart, to_api};
@@ -37,6 +39,8 @@ pub(crate) struct Mind {
     waiting: Vec<Command>,
     /// Brains before this one: part of the number of the map.
     map_base: u32,
+    /// The same for the revision of the home.
+    home_base: u32,
     runs: u32,
     run: Option<Run>,
     /// A run that begins as soon as its home is ready; commands wait for it.
@@ -85,6 +89,7 @@ impl Mind {
             observer: Observer::new(),
             waiting: Vec::new(),
             map_base: 0,
+            home_base: 0,
             runs: 0,
             run: None,
             next: None,
@@ -109,10 +114,16 @@ impl Mind {
         self.begin_with(Brain::with_map(self.config, self.seed, home));
     }
 
+    /// Another brain thinks from now on. What it knows of the home is another revision than any before.
+    fn replace(&mut self, brain: Brain) {
+        self.home_base = self.home_revision().wrapping_add(1);
+        self.brain = brain;
+    }
+
     /// Another brain, without a run, that knows what the robot has learnt of itself.
     fn begin_with(&mut self, brain: Brain) {
         let learnt = self.brain.learnt();
-        self.brain = brain;
+        self.replace(brain);
         self.brain.begin_with(learnt);
         self.prepare_anew();
     }
@@ -148,6 +159,19 @@ impl Mind {
     /// Number of the present map since the daemon's start, from 1.
     pub(crate) fn map_number(&self) -> u32 {
         self.map_base + self.brain.map().snapshot().generation
+    }
+
+    /// Revision of what is known of the home; no two of this daemon's life are the same.
+    pub(crate) fn home_revision(&self) -> u32 {
+        self.home_base.wrapping_add(self.brain.map().revision())
+    }
+
+    /// What is known of the home, for clients.
+    pub(crate) fn home_view(&self) -> HomeView {
+        HomeView {
+            revision: self.home_revision(),
+            ..home_view(self.brain.map())
+        }
     }
 
     pub(crate) fn map_cursor(&self) -> MapCursor {
@@ -302,7 +326,7 @@ impl Mind {
         self.runs += 1;
         // Any odd multiplier gives each run a seed of its own; this one is the golden ratio's.
         let seed = self.seed ^ u64::from(self.runs).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.brain = Brain::new(self.config, seed);
+        self.replace(Brain::new(self.config, seed));
         match ready {
             Some(home) => self.brain.restore_at(home, &checkpoint),
             None => self.brain.restore(&checkpoint),

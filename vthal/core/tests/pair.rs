@@ -964,6 +964,41 @@ fn a_map_is_restored_at_rest_only_and_taken_up_on_the_dock() {
     assert_eq!(pair.homes, [], "what was drawn before is not kept over it");
 }
 
+#[test]
+fn who_watches_the_home_sees_each_map_that_is_restored_on_the_dock() {
+    let mut pair = Pair::in_home(Some(kept_home()));
+    pair.state.docked = true;
+    // What people see of the home is told every five seconds, unless they have changed it.
+    pair.run_ms(6000);
+    let topics = vec![Topic::Home];
+    pair.ask(ANNA, RequestBody::Watch { topics });
+    let mut revisions = Vec::new();
+    for (number, width) in [(4, 60), (2, 80), (3, 100)] {
+        pair.updates.clear();
+        let floor = Raster::filled(Cell { x: 0, y: 0 }, width, 50, CellKnowledge::Free);
+        let dock = Pose2 {
+            x_m: 0.5,
+            y_m: 0.5,
+            heading_rad: 0.0,
+        };
+        pair.handle(Input::MapRestored {
+            floor: 1,
+            number,
+            home: StoredMap::from_raster(&floor, Some(dock)),
+        });
+        pair.run_ms(500);
+        let told = pair.updates.iter().rev().find_map(|update| match update {
+            Update::Home(view) => Some(view.clone()),
+            _ => None,
+        });
+        let told = told.expect("the map is another one");
+        let free = told.cells.chunks(2).filter(|run| run[0] == 1).map(|run| run[1]);
+        assert_eq!(free.sum::<u32>() as usize, 50 * width, "map {number}");
+        revisions.push(told.revision);
+    }
+    assert!(revisions.is_sorted_by(|one, next| one < next), "{revisions:?}");
+}
+
 /// Two rooms' worth of floor around a dock, and a gyro.
 fn on_the_dock() -> Pair {
     let floor = Raster::filled(Cell { x: 0, y: 0 }, 160, 120, CellKnowledge::Free);

@@ -4,11 +4,15 @@
 //! The commands and their output are those of the DWM1001 Firmware API Guide 2.2: two returns within a second open the
 //! shell, `lec` switches the output of distances on and off, and a further return repeats the last command. A line is
 //!
-//!     DIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51,POS,2.57,1.98,1.68,100
+//! ```text
+//! DIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51,POS,2.57,1.98,1.68,100
+//! ```
 //!
 //! with number, address, place in the module's own frame and distance of each anchor; `les` prints
 //!
-//!     1151[5.00,8.00,2.25]=6.48 0CA8[0.00,8.00,2.25]=6.51 le_us=2576 est[2.57,1.98,1.68,100]
+//! ```text
+//! 1151[5.00,8.00,2.25]=6.48 0CA8[0.00,8.00,2.25]=6.51 le_us=2576 est[2.57,1.98,1.68,100]
+//! ```
 //!
 //! Both are read. Places and position are not used: whoever hangs up the anchors need not measure them. At high rates the
 //! module mixes up a line now and then; such a line is refused whole.

@@ -224,8 +224,10 @@ async fn an_older_map_is_taken_up_and_the_newest_brought_back() {
     in_use(browser, 3, 1).await;
     browser.click("#undo").await;
     in_use(browser, 4, 2).await;
+    browser.until(&walls(1)).await;
     browser.click("#redo").await;
     in_use(browser, 5, 1).await;
+    browser.until(&walls(0)).await;
 }
 
 /// Waits until a version of the map is the newest, and looks that it has the extent of the one from which it was made.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rvac_api::{LogLevel, Topic, Update};
 
 use super::Core;
+use super::refusal::Refusal;
 use crate::client_inputs::InputDenied;
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
@@ -18,7 +19,7 @@ impl Core {
         now_us: u64,
         (client, values, lease_ms): (ClientId, BTreeMap<String, f64>, u16),
         outputs: &mut Outputs,
-    ) -> Result<(), &'static str> {
+    ) -> Result<(), Refusal> {
         let names: Vec<String> = values.keys().cloned().collect();
         let told = self.client_inputs.tell(now_us, client, (values, lease_ms));
         if told.map_err(denied)? {

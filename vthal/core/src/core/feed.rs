@@ -10,7 +10,6 @@ use rvac_protocol::message::State;
 use super::{Core, recorder};
 use crate::clients::Clients;
 use crate::device::{Description, Device, Part};
-use crate::home_view::home_view;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
 use crate::swept_sigma::SweptSigma;
@@ -167,10 +166,10 @@ impl Core {
 
     fn feed_home(&mut self, outputs: &mut Outputs) {
         let Some(mind) = &self.mind else { return };
-        let revision = mind.brain().map().revision();
+        let revision = mind.home_revision();
         if revision != self.feed.home_revision {
             self.feed.home_revision = revision;
-            followers(Topic::Home, Update::Home(home_view(mind.brain().map())), outputs);
+            followers(Topic::Home, Update::Home(mind.home_view()), outputs);
         }
     }
 
@@ -298,9 +297,7 @@ impl Core {
             }
             Topic::Home => {
                 if let Some(mind) = &self.mind {
-                    outputs
-                        .deliveries
-                        .push(one(Update::Home(home_view(mind.brain().map()))));
+                    outputs.deliveries.push(one(Update::Home(mind.home_view())));
                 }
             }
             Topic::Estimate => {

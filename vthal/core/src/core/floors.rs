@@ -281,6 +281,9 @@ impl Core {
     }
 
     pub(super) fn log_floor(&mut self, now_us: u64, news: FloorNews, outputs: &mut Outputs) {
+        if !matches!(news, FloorNews::Asked(_)) {
+            self.feed.tell_home_now();
+        }
         let line = match news {
             FloorNews::Docked(number) => {
                 let text = format!(

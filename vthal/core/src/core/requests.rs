@@ -10,6 +10,7 @@ use crate::arbiter::{Denied, Source, Stick};
 use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
+use crate::scheduler::Asker;
 use crate::{ClientId, ExpertAccess, MixOrder, MixTask, Outputs, tap};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
@@ -104,12 +105,10 @@ impl Core {
             RequestBody::Start { strategy } => self.start(now_us, (client, strategy.as_deref()), outputs),
             RequestBody::Clean(order) => self.clean(now_us, (client, &order), outputs),
             RequestBody::Estimate(order) => self.estimate((client, id), &order, outputs),
-            RequestBody::Health => self.tell_health((client, id), outputs),
-            RequestBody::ResetHealth { component } => self.reset_health((client, id), &component, outputs),
-            RequestBody::Learnt => self.show_learnt((client, id), outputs),
-            RequestBody::ForgetLearnt { device, part } => {
-                self.forget_learnt((now_us, (client, id)), (&device, part), outputs)
-            }
+            body @ (RequestBody::Health
+            | RequestBody::ResetHealth { .. }
+            | RequestBody::Learnt
+            | RequestBody::ForgetLearnt { .. }) => self.ask_of_parts(now_us, ((client, id), body), outputs),
             RequestBody::Evidence => self.tell_evidence(now_us, (client, id), outputs),
             body @ (RequestBody::AddNoGo { .. }
             | RequestBody::RemoveNoGo { .. }
@@ -125,17 +124,14 @@ impl Core {
             | RequestBody::NamePlace { .. }
             | RequestBody::ReshapePlace { .. }
             | RequestBody::ForgetPlace { .. }) => self.change_places(now_us, ((client, id), body), outputs),
-            RequestBody::Spot => Ok(self.job(now_us, (client, Command::Spot), outputs)?),
-            RequestBody::Pause => Ok(self.job(now_us, (client, Command::Pause), outputs)?),
-            RequestBody::Resume => Ok(self.job(now_us, (client, Command::Resume), outputs)?),
-            RequestBody::Dock => Ok(self.job(now_us, (client, Command::Dock), outputs)?),
+            body @ (RequestBody::Spot | RequestBody::Pause | RequestBody::Resume | RequestBody::Dock) => {
+                self.obey_word(now_us, (client, &body), outputs)
+            }
             body @ (RequestBody::Stop | RequestBody::Release | RequestBody::ClaimButtons { .. }) => {
                 self.obey_always(now_us, (client, &body), outputs);
                 Ok(())
             }
-            RequestBody::SetInputs { values, ttl } => {
-                Ok(self.set_inputs(now_us, (client, values, ttl), outputs)?)
-            }
+            RequestBody::SetInputs { values, ttl } => self.set_inputs(now_us, (client, values, ttl), outputs),
             body @ RequestBody::Drive { .. } => self.drive_by_hand(now_us, (client, &body), outputs),
             RequestBody::Locate => Ok(self.locate(now_us, outputs)?),
             RequestBody::Clear { reason } => Ok(self.clear(now_us, &reason, outputs)?),
@@ -165,6 +161,39 @@ impl Core {
             | RequestBody::SetQuiet { .. }
             | RequestBody::SetZone { .. }) => self.change_schedules(now_us, ((client, id), body), outputs),
         }
+    }
+
+    /// How the parts are and what was learnt of them; nothing else comes here.
+    fn ask_of_parts(
+        &mut self,
+        now_us: u64,
+        (asker, body): (Asker, RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        match body {
+            RequestBody::ResetHealth { component } => self.reset_health(asker, &component, outputs),
+            RequestBody::Learnt => self.show_learnt(asker, outputs),
+            RequestBody::ForgetLearnt { device, part } => {
+                self.forget_learnt((now_us, asker), (&device, part), outputs)
+            }
+            _ => self.tell_health(asker, outputs),
+        }
+    }
+
+    /// A job by a word; nothing else comes here.
+    fn obey_word(
+        &mut self,
+        now_us: u64,
+        (client, body): (ClientId, &RequestBody),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let command = match body {
+            RequestBody::Spot => Command::Spot,
+            RequestBody::Pause => Command::Pause,
+            RequestBody::Resume => Command::Resume,
+            _ => Command::Dock,
+        };
+        Ok(self.job(now_us, (client, command), outputs)?)
     }
 
     /// A person drives; nothing else comes here.
