@@ -535,6 +535,9 @@ fn a_client_that_ended_its_side_gets_its_answers_and_leaves_the_seat() {
     // Who is lost is braked for, and until the robot has heard that, nobody drives.
     let deadline = soon();
     let why_not = loop {
+        desk.robot
+            .live_until(Instant::now() + Duration::from_millis(40), |_| false)
+            .expect("lives");
         desk.client
             .send(r#"{"c":"drive","v":0,"w":0,"ttl":400,"id":9}"#)
             .expect("sends");

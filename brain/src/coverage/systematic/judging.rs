@@ -23,6 +23,8 @@ const FRESH_WON_M2: f64 = 0.5;
 /// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
 /// place is known to centimetres only loses a little floor along all walls.
 const WHOLE_SHARE: f64 = 0.85;
+/// Unswept floor that is worth waiting for who stands before it, as a share of the floor that was once in reach.
+const REST_SHARE: f64 = 0.05;
 
 impl Systematic {
     /// Follows a plan if it is worth it; gives what to do instead if it is not.
@@ -107,12 +109,17 @@ impl Systematic {
         ended: &CoveragePlan,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Option<Plan> {
+        self.squeeze.saw(plan.open_m2);
         if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
             mind.decide("squeeze", Reason::BoxedIn, plan.open_m2);
             self.follower = Some(Follower::new(plan.pieces));
             return None;
         }
         self.squeeze.give_up();
+        if matches!(self.outline, Some(Outline::Known)) && plan.open_m2 < REST_SHARE * self.floor_m2 {
+            // What is cut off now was swept before.
+            self.is_cut_off = false;
+        }
         Some(self.end(ended, false, (situation, mind)))
     }
 
@@ -159,6 +166,9 @@ impl Systematic {
         mind.decide("bounce", Reason::BoxedIn, f64::from(self.strays));
         // What was touched in a narrow place blocks the way out of it on the map sooner than in truth.
         self.obstructions.clear();
+        if self.is_cut_off {
+            self.squeeze.allow_one(REST_SHARE * self.floor_m2);
+        }
         self.astray = Some(Astray::from(situation.pose.position()));
         Plan::Go(Motion::Halt)
     }

@@ -21,6 +21,7 @@ mod reachable;
 mod seeking;
 mod share;
 mod shyness;
+mod since;
 mod squeeze;
 mod trail;
 
@@ -32,7 +33,7 @@ use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Point2, Pose2};
 use crate::manoeuvre::{Evasion, FollowStep, Follower};
-use crate::mapping::Map;
+use crate::mapping::{CellKnowledge, Map, Raster};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
@@ -96,6 +97,8 @@ pub(crate) struct Systematic {
     /// It keeps off what it has just touched.
     shyness: Shyness,
     squeeze: Squeeze,
+    /// What was known when it began, in a home that was known then.
+    began: Option<Raster<CellKnowledge>>,
     shares: Shares,
 }
 
@@ -316,6 +319,9 @@ impl Systematic {
             Some(Outline::Growing(hope)) => Some(hope.beyond_m),
             _ => None,
         };
+        if matches!(self.outline, Some(Outline::Known)) && self.began.is_none() {
+            self.began = Some(knowledge.clone());
+        }
         let squeezed_m = self.squeeze.radius_m(situation.config.body);
         let beyond_m = beyond_m.map(|beyond_m| match squeezed_m {
             Some(_) => beyond_m.max(squeeze::BEYOND_M),
@@ -337,6 +343,7 @@ impl Systematic {
             beyond_m,
             radius_m: situation.config.body.radius_m + KEEP_OFF_M,
             squeezed_m,
+            began: squeezed_m.and(self.began.clone()),
             blocked: self.obstructions.points(situation.observation.time_us),
             wanted,
             passed,

@@ -3,6 +3,7 @@
 use core::task::Poll;
 
 use super::frontier::hopeful;
+use super::since::without_what_came;
 use super::{SIGMA_MIN_M, reachable, squeeze};
 use crate::coverage::lane_frame::LaneFrame;
 use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
@@ -28,6 +29,8 @@ pub(super) struct Basis {
     pub(super) radius_m: f64,
     /// Only floor is wanted that comes into reach with this radius instead.
     pub(super) squeezed_m: Option<f64>,
+    /// What was known when the job began: with another radius, too, what came since is looked through.
+    pub(super) began: Option<Raster<CellKnowledge>>,
     pub(super) blocked: Vec<Point2>,
     pub(super) wanted: Wanted,
     pub(super) passed: Raster<bool>,
@@ -144,6 +147,10 @@ async fn planned_in(frame: &LaneFrame, basis: Basis, pace: &mut Pace) -> Coverag
     };
     let floor = floor_in_reach(&ground, &departure, pace).await;
     let known = squeeze::near(&floor, pace).await;
+    let knowledge = match &basis.began {
+        Some(began) => without_what_came(knowledge, began, pace).await,
+        None => knowledge,
+    };
     let ground = reachable(&knowledge, frame, (squeezed_m, &basis.blocked), pace).await;
     let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
     plan_area(&ground, (course, swept), departure, pace).await
@@ -187,6 +194,7 @@ mod tests {
             beyond_m: None,
             radius_m: 0.175,
             squeezed_m: None,
+            began: None,
             blocked: Vec::new(),
             wanted: Assignment::of(CleaningOrder::default()).wanted(&map),
             passed: Raster::filled(knowledge.origin(), 400, 320, false),
@@ -260,6 +268,29 @@ mod tests {
         swept.squeezed_m = Some(0.1625);
         assert_eq!(made(Planning::begin(swept)).0.open_m2, 0.0);
         assert_eq!(lanes(12, Some(0.1625)).lanes, 0, "narrower than the body");
+    }
+
+    #[test]
+    fn a_door_in_which_somebody_has_come_to_stand_is_tried_once_nothing_else_is_left() {
+        let began = behind_a_gap(40).knowledge;
+        let lanes = |squeezed_m, began| {
+            let mut basis = Basis {
+                squeezed_m,
+                began,
+                ..behind_a_gap(40)
+            };
+            for y in 112..128 {
+                *basis.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
+            }
+            made(Planning::begin(basis)).0
+        };
+        assert_eq!(lanes(None, Some(began.clone())).lanes, 0);
+        assert_eq!(lanes(Some(0.1625), None).lanes, 0);
+        let through = lanes(Some(0.1625), Some(began));
+        assert!(
+            through.lanes > 0 && (35.0..40.0).contains(&through.open_m2),
+            "{through:?}"
+        );
     }
 
     #[test]

@@ -28,6 +28,8 @@ pub(super) struct Squeeze {
     /// The plan that left nothing, while a look goes on.
     ended: Option<CoveragePlan>,
     tries: u32,
+    /// Floor that the newest look showed, square metres.
+    seen_m2: Option<f64>,
 }
 
 impl Squeeze {
@@ -49,6 +51,18 @@ impl Squeeze {
     /// Ends a look: the plan that left nothing.
     pub(super) fn end(&mut self) -> Option<CoveragePlan> {
         self.ended.take()
+    }
+
+    /// Notes how much floor a look showed, square metres.
+    pub(super) fn saw(&mut self, floor_m2: f64) {
+        self.seen_m2 = Some(floor_m2);
+    }
+
+    /// One more look, if the newest one showed so much floor: the robot has moved, and who stood in the way may have left meanwhile.
+    pub(super) fn allow_one(&mut self, worth_m2: f64) {
+        if self.seen_m2.is_none_or(|seen_m2| seen_m2 >= worth_m2) {
+            self.tries = self.tries.min(TRIES_MAX - 1);
+        }
     }
 
     /// No more looks until [`Self::start_anew`].
@@ -116,6 +130,12 @@ mod tests {
         squeeze.start_anew();
         assert!(squeeze.begin(&CoveragePlan::default()));
         squeeze.give_up();
+        assert!(!squeeze.begin(&CoveragePlan::default()));
+        squeeze.saw(2.0);
+        squeeze.allow_one(2.5);
+        assert!(!squeeze.begin(&CoveragePlan::default()));
+        squeeze.allow_one(1.5);
+        assert!(squeeze.begin(&CoveragePlan::default()));
         assert!(!squeeze.begin(&CoveragePlan::default()));
     }
 
