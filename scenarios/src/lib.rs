@@ -30,6 +30,15 @@ pub fn generated(number: u32) -> Scene {
     scene_of(PathBuf::from(format!("generated:{number}")), "nominal")
 }
 
+/// The same with people who walk about in it, stand in the way and leave.
+///
+/// # Panics
+/// When there is none.
+#[must_use]
+pub fn peopled(number: u32) -> Scene {
+    scene_of(PathBuf::from(format!("generated:{number}+people")), "nominal")
+}
+
 fn scene_of(home: PathBuf, noise: &str) -> Scene {
     Scene::load(&SceneSettings {
         home,

@@ -1,0 +1,35 @@
+//! Somebody stands in a door while the robot cleans a home that it knows.
+
+use brain::BehaviorState;
+use brain::command::StrategyName;
+use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::{Host, Household};
+use scenarios::{peopled, settings};
+
+/// A home whose people stand in a door for minutes: a fifth of it lies behind.
+const HOME: u32 = 4;
+const MINUTE_MS: u64 = 60_000;
+
+fn is_docked(household: &Household) -> bool {
+    household.host().and_then(Host::state) == Some(BehaviorState::Docked)
+}
+
+#[test]
+fn what_lies_behind_who_stood_in_a_door_is_swept_once_the_door_is_free() {
+    let scene = peopled(HOME);
+    for seed in [3, 5] {
+        let mut household = household(&scene, &settings(seed, 0)).with_known_map();
+        assert!(start_cleaning(&mut household, StrategyName::Systematic));
+        household.pass_ms(MINUTE_MS);
+        for _ in 0..45 {
+            household.pass_ms(MINUTE_MS);
+            if is_docked(&household) {
+                break;
+            }
+        }
+        assert!(is_docked(&household), "seed {seed}");
+        let report = household.report();
+        assert!(report.covered > 0.93, "{} with seed {seed}", report.covered);
+        assert_eq!(report.monitor_violations, 0);
+    }
+}
