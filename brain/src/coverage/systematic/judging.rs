@@ -44,6 +44,7 @@ impl Systematic {
         self.floor_m2 = self.floor_m2.max(plan.floor_m2);
         self.shares.take(&plan);
         self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
+        self.misses_a_part = plan.floor_m2 < (1.0 - REST_SHARE) * self.floor_m2;
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);
             self.passed_at_start_m2 = plan.passed_m2();

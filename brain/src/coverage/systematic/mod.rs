@@ -94,6 +94,8 @@ pub(crate) struct Systematic {
     floor_m2: f64,
     /// Much less than that can be reached now.
     is_cut_off: bool,
+    /// Less than that can be reached now, by so much that somebody may stand in a door.
+    misses_a_part: bool,
     /// It keeps off what it has just touched.
     shyness: Shyness,
     squeeze: Squeeze,
@@ -343,7 +345,7 @@ impl Systematic {
             beyond_m,
             radius_m: situation.config.body.radius_m + KEEP_OFF_M,
             squeezed_m,
-            began: squeezed_m.and(self.began.clone()),
+            began: squeezed_m.filter(|_| self.misses_a_part).and(self.began.clone()),
             blocked: self.obstructions.points(situation.observation.time_us),
             wanted,
             passed,
