@@ -1,12 +1,11 @@
 //! The files of the packed panel, named by their content.
 
 use std::fs;
-use std::io::Write;
+use std::num::NonZeroU64;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use flate2::Compression;
-use flate2::write::GzEncoder;
+use zopfli::{Format, Options};
 
 /// Files in the order they were added.
 #[derive(Debug, Default)]
@@ -65,13 +64,18 @@ impl Bundle {
     }
 }
 
+/// Rounds of the search for short codes; more than this save a thousandth.
+const ROUNDS: NonZeroU64 = NonZeroU64::new(3).expect("is not zero");
+
 /// The same bytes give the same archive: no time stamp, no name.
 fn gzip(plain: &[u8]) -> Vec<u8> {
-    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
-    encoder
-        .write_all(plain)
-        .and_then(|()| encoder.finish())
-        .expect("writing to memory does not fail")
+    let options = Options {
+        iteration_count: ROUNDS,
+        ..Options::default()
+    };
+    let mut packed = Vec::new();
+    zopfli::compress(options, Format::Gzip, plain, &mut packed).expect("writing to memory does not fail");
+    packed
 }
 
 /// Fowler-Noll-Vo 1a, 64 bits. It tells versions apart and guards against nothing.
