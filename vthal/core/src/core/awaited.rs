@@ -48,6 +48,11 @@ impl<T> Awaited<T> {
     }
 }
 
+/// Why a change is refused that the disk did not take; `None` = it did.
+pub(super) fn refused(reason: &'static str, result: &Result<(), String>) -> Option<(&'static str, String)> {
+    result.as_ref().err().map(|text| (reason, text.clone()))
+}
+
 /// Tells whoever asked what came of it. A refusal is told also to those who gave no number.
 pub(super) fn answer((client, id): Asker, refused: Option<(&'static str, String)>, outputs: &mut Outputs) {
     let update = match (refused, id) {

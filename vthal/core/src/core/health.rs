@@ -5,7 +5,7 @@ use brain::BehaviorState;
 use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::Core;
-use super::awaited::{Awaited, answer};
+use super::awaited::{Awaited, answer, refused};
 use super::feed::currents_a;
 use super::refusal::Refusal;
 use crate::Outputs;
@@ -128,10 +128,7 @@ impl Core {
             self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
         }
         for (asker, (component, before)) in self.health.resets.settle(number) {
-            let refused = result
-                .as_ref()
-                .err()
-                .map(|text| ("health-unwritable", text.clone()));
+            let refused = refused("health-unwritable", &result);
             if refused.is_some() {
                 self.health.health.put_back(component, before);
             }

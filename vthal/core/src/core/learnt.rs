@@ -4,7 +4,7 @@
 use brain::{Learnt, LearntPart};
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
-use super::awaited::{Awaited, answer};
+use super::awaited::{Awaited, answer, refused};
 use super::refusal::Refusal;
 use super::{Core, recorder};
 use crate::Outputs;
@@ -117,10 +117,7 @@ impl Core {
             self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
         }
         for (asker, Forgotten { device, before }) in self.learnt.settle(number) {
-            let refused = result
-                .as_ref()
-                .err()
-                .map(|text| ("learnt-unwritable", text.clone()));
+            let refused = refused("learnt-unwritable", &result);
             if refused.is_some() {
                 // The robot that is here learns anew all the same, and with its next run the disk hears of that.
                 self.config.learnt.take(&device, before);
