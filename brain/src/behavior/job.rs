@@ -9,7 +9,7 @@ use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
 use crate::no_go::NoGo;
 use crate::order::CleaningOrder;
 use crate::random::Random;
-use crate::recovery::{Ladder, Pen, ProgressWatch, SlipWatch};
+use crate::recovery::{EdgeWatch, Ladder, Pen, ProgressWatch, SlipWatch};
 use crate::spot::Spot;
 use crate::task::Task;
 
@@ -30,6 +30,7 @@ pub(super) struct Job {
     pub(super) pen: Pen,
     pub(super) progress: ProgressWatch,
     pub(super) slip: SlipWatch,
+    pub(super) edges: EdgeWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
     /// When to stand still next for the gyro's sake.
@@ -78,6 +79,7 @@ impl Job {
             pen: Pen::default(),
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
+            edges: EdgeWatch::default(),
             detour: None,
             gyro_rest: GyroRest::default(),
             brushes: false,

@@ -130,6 +130,9 @@ impl Behavior {
             // The firmware rests for a second after it saw no progress; the escape starts after that.
             return Plan::Go(Motion::Rest);
         }
+        if job.edges.must_wait(situation.at_cliff, self.facts.now_us, mind) {
+            return Plan::Go(Motion::Halt);
+        }
         if job.detour.is_none() && job.pen.is_due() {
             return Plan::Trouble(Reason::ShutIn);
         }

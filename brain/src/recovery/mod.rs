@@ -4,12 +4,14 @@
 //! between two of them the task has a bounded time to get out ([`Pen`]).
 
 mod edge;
+mod edge_watch;
 mod ladder;
 mod pen;
 mod progress;
 mod slip;
 
 pub(crate) use edge::EdgeTrace;
+pub(crate) use edge_watch::EdgeWatch;
 pub(crate) use ladder::{Grip, Ladder, Rung};
 pub(crate) use pen::{Pen, Whereabouts};
 pub(crate) use progress::ProgressWatch;

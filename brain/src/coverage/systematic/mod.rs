@@ -10,7 +10,6 @@
 
 mod assignment;
 mod caution;
-mod edges;
 mod frontier;
 mod judging;
 mod obstructions;
@@ -38,7 +37,6 @@ use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
 pub(crate) use caution::caution;
-use edges::Edges;
 use frontier::margin_cells;
 pub(crate) use obstructions::{Obstructions, encounter};
 use outline::{Hope, Outline, knows_home, shuts_in};
@@ -80,7 +78,6 @@ pub(crate) struct Systematic {
     /// The frame in which lanes are planned, once it is found in this drawing of the map.
     frame: Option<LaneFrame>,
     obstructions: Obstructions,
-    edges: Edges,
     vain_plans: u32,
     fresh_starts: u32,
     astray: Option<Astray>,
@@ -135,9 +132,6 @@ impl Task for Systematic {
         }
         if let Some(reason) = encounter(situation) {
             return self.evade(reason, situation, mind);
-        }
-        if self.edges.must_wait(situation.observation.time_us, mind) {
-            return Plan::Go(Motion::Halt);
         }
         self.drive(situation, mind)
     }
@@ -255,7 +249,6 @@ impl Systematic {
         self.shyness.touched(reason);
         self.follower = None;
         if situation.at_cliff {
-            self.edges.note(situation.observation.time_us);
             self.evasion = Some(Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason)));
             // Beside an edge a plan begins where the robot really stands.
             self.planning = None;
