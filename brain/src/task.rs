@@ -27,6 +27,11 @@ pub(crate) struct Situation<'step> {
     pub(crate) map: &'step Map,
     /// What is seen is compared with a map of the home that is good enough for it.
     pub(crate) is_tracked: bool,
+    /// Deviation of the gyro's scale, relative, where only what the robot does on purpose tells it soon; `None` = it has no gyro, or
+    /// a map tells it.
+    pub(crate) gyro_scale_sigma: Option<f64>,
+    /// Deviation of the gyro's bias, rad/s; `None` = it has no gyro.
+    pub(crate) gyro_bias_sigma_rad_per_s: Option<f64>,
     /// Way for which backing may still be commanded, in metres.
     pub(crate) way_back_m: f64,
     /// What is heard of the dock, and where it was heard.
@@ -54,6 +59,8 @@ impl<'step> Situation<'step> {
             estimate: localization.estimate(),
             map,
             is_tracked: localization.explained().is_some(),
+            gyro_scale_sigma: localization.surveyed_gyro_scale_sigma(observation.time_us),
+            gyro_bias_sigma_rad_per_s: localization.gyro_bias_sigma_rad_per_s(observation.time_us),
             way_back_m: localization.way_back_m(),
             beams,
             config,

@@ -27,7 +27,16 @@ pub fn scene(home: &str, noise: &str) -> Scene {
 /// When there is none.
 #[must_use]
 pub fn generated(number: u32) -> Scene {
-    scene_of(PathBuf::from(format!("generated:{number}")), "nominal")
+    generated_with(number, "nominal")
+}
+
+/// The generated home of this number with this noise.
+///
+/// # Panics
+/// When there is none.
+#[must_use]
+pub fn generated_with(number: u32, noise: &str) -> Scene {
+    scene_of(PathBuf::from(format!("generated:{number}")), noise)
 }
 
 /// The same with people who walk about in it, stand in the way and leave.

@@ -4,7 +4,7 @@ use brain::command::StrategyName;
 use brain::{GyroLearnt, Learnt};
 use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{generated_with, scene, settings};
 use vthal_core::CoreConfig;
 use vthal_core::learnt::Learnings;
 
@@ -69,6 +69,25 @@ fn the_daemon_after_this_one_begins_with_the_scale_that_was_learnt() {
     household.pass_ms(2_000);
     let in_run = learnt(&household).gyro.expect("is taken up");
     assert!((in_run.scale - gyro.scale).abs() < 1e-9, "{in_run:?}");
+}
+
+/// Without the turns the first of these four knows it to 0.4 % after so long, and the second nothing worth keeping.
+#[test]
+fn whole_turns_beside_a_wall_tell_a_new_robot_its_gyros_scale_within_minutes() {
+    for (home, seed) in [(1, 1), (7, 2), (11, 3), (25, 4)] {
+        let mut household = household(&generated_with(home, "bad"), &settings(seed, 0));
+        assert!(start_cleaning(&mut household, StrategyName::Systematic));
+        household.pass_ms(4 * MINUTE_MS);
+        let error = household.robot().world().gyro_scale_error().expect("a gyro");
+        let gyro = learnt(&household).gyro.expect("the turns have told it");
+        let off = (gyro.scale - error).abs();
+        assert!(gyro.scale_sigma < 2e-3, "home {home}: {gyro:?}");
+        assert!(off < 4e-3, "home {home}: {gyro:?}, in truth {error}");
+        assert!(
+            off < 4.0 * gyro.scale_sigma,
+            "home {home}: {gyro:?}, in truth {error}"
+        );
+    }
 }
 
 #[test]

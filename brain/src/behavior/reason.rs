@@ -125,6 +125,8 @@ reasons! {
     NotMoving => "not-moving",
     /// Gyro and wheels disagree for long (S14).
     Slip => "slip",
+    /// The gyro's scale is not known well enough: whole turns beside a wall tell it.
+    GyroScale => "gyro-scale",
     /// The gyro's bias wanders and is measured at rest.
     GyroDrift => "gyro-drift",
     /// The time of the job is used up (S26).

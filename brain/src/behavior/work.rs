@@ -17,6 +17,11 @@ use crate::task::{Mind, Plan, Situation};
 
 /// The firmware may be out of reach of `arm` for this long before the job is put off.
 const STARVE_US: u64 = 3_000_000;
+/// A gyro's bias that is known so well, rad/s, has been told by a rest of two seconds: over a minute it turns a map by two degrees
+/// at most.
+const SETTLED_RAD_PER_S: f64 = 6.0e-4;
+/// Longest that a job waits for that before its first move, seconds.
+const SETTLE_MAX_S: f64 = 6.0;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
 /// A place that took so many rungs to leave is not entered again in this job.
@@ -51,6 +56,12 @@ impl Behavior {
             self.end_job(Reason::NoHeading, mind);
             return Motion::Halt;
         }
+        if plans_on_map && self.settles_gyro(situation) {
+            if commanded != Motion::Halt {
+                mind.decide("rest", Reason::GyroDrift, 0.0);
+            }
+            return Motion::Halt;
+        }
         self.watch_pen(situation, mind);
         let plan = self.watched_plan(commanded, situation, mind);
         let motion = self.follow(plan, situation, mind);
@@ -83,6 +94,16 @@ impl Behavior {
                 }
             }
         }
+    }
+
+    /// Whether the robot must stand still before its first move, because nothing has told its gyro's bias yet: it was switched on
+    /// only just now.
+    fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
+        let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
+        self.job.as_ref().is_some_and(has_not_moved)
+            && situation
+                .gyro_bias_sigma_rad_per_s
+                .is_some_and(|sigma| sigma > SETTLED_RAD_PER_S)
     }
 
     /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.

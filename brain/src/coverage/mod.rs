@@ -11,6 +11,7 @@ mod statistical;
 pub(crate) mod systematic;
 mod wall_bounce;
 mod wanted;
+mod whole_turns;
 
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;

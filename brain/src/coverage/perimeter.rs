@@ -11,6 +11,7 @@
 use core::f64::consts::TAU;
 
 use super::astray::Astray;
+use super::whole_turns::WholeTurns;
 use crate::action::Motion;
 use crate::behavior::Reason;
 use crate::geometry::{Pose2, normalize_rad};
@@ -53,6 +54,7 @@ pub(crate) struct Perimeter {
     wall: WallFollower,
     away: Option<Turn>,
     astray: Option<Astray>,
+    whole_turns: WholeTurns,
     track: Vec<Footprint>,
     way_m: f64,
     turned_rad: f64,
@@ -90,6 +92,7 @@ impl Perimeter {
     /// Half-done movements are void; the track stays.
     pub(crate) fn interrupted(&mut self) {
         self.wall.interrupted();
+        self.whole_turns.interrupted();
         self.away = None;
         if let Some(astray) = &mut self.astray {
             astray.interrupted();
@@ -137,6 +140,9 @@ impl Perimeter {
         if let Some(step) = self.bounce(situation, mind) {
             return step;
         }
+        if let Some(motion) = self.turn_for_gyro(situation, mind) {
+            return LapStep::Going(motion);
+        }
         if !self.wall.is_evading() && situation.is_free() {
             match self.passed_before(situation) {
                 Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, mind)),
@@ -157,6 +163,14 @@ impl Perimeter {
                 }
             }
         }
+    }
+
+    /// Turns on the spot for the gyro's sake. Whole turns lead round nothing and do not count as such.
+    fn turn_for_gyro(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Motion> {
+        let is_beside_wall = self.wall.is_along_wall();
+        let motion = self.whole_turns.step(situation, is_beside_wall, mind);
+        self.turned_rad -= self.whole_turns.take_made_rad();
+        motion
     }
 
     /// Bounces out of a place where following leads nowhere.

@@ -299,17 +299,20 @@ impl Localization {
         // Below zero: it was put down, and nobody has drawn the consequences yet.
         self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
         let odom = self.odometry.odom_from_base();
-        let turns = match advance.gyro_turn_rad {
-            Some(_) => TurnCounting {
+        // Asked of the gyro and not of this advance, which the first one after a start is not of: what was learnt of the gyro
+        // before counts from the first step on.
+        let turns = if self.has_gyro(observation.time_us) {
+            TurnCounting {
                 scale: self.odometry.gyro().0,
                 scale_sigma: self.odometry.calibration.scale_sigma(),
                 bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
-            },
-            None => TurnCounting {
+            }
+        } else {
+            TurnCounting {
                 scale: 0.0,
                 scale_sigma: WHEEL_TURN_SCALE,
                 bias_sigma_rad_per_s: 0.0,
-            },
+            }
         };
         let Some(fix) = self
             .survey
@@ -335,6 +338,19 @@ impl Localization {
     #[must_use]
     pub fn knows_heading(&self, now_us: u64) -> bool {
         self.has_gyro(now_us) || self.beacons.is_following() || self.tracked.is_some()
+    }
+
+    /// Deviation of the gyro's scale, relative, while the robot surveys a home that it does not know; `None` = it has no gyro,
+    /// or compares with a map, which tells the scale by itself.
+    pub(crate) fn surveyed_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
+        let surveys = self.survey.is_some() && self.has_gyro(now_us);
+        surveys.then(|| self.odometry.calibration.scale_sigma())
+    }
+
+    /// Deviation of the gyro's bias, rad/s; `None` = it has no gyro.
+    pub(crate) fn gyro_bias_sigma_rad_per_s(&self, now_us: u64) -> Option<f64> {
+        self.has_gyro(now_us)
+            .then(|| self.odometry.calibration.bias_sigma_rad_per_s())
     }
 
     fn has_gyro(&self, now_us: u64) -> bool {

@@ -56,7 +56,7 @@ impl Survey {
             node.pose = self.belief.pose;
             self.drawn.push(node.pose);
             self.graph.docked.push(self.here);
-            self.is_closed_anew = first.is_some();
+            self.has_telling_news |= first.is_some();
         }
     }
 

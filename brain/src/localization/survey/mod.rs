@@ -30,7 +30,7 @@ use visit::{Visit, VisitLog};
 
 use super::Advance;
 use crate::config::ProximityLayout;
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::mapping::Keyframe;
 use crate::observation::Observation;
 
@@ -47,6 +47,8 @@ const NODES_MAX: usize = 2_000;
 /// All is fitted anew when so many marks have come: a share of those there are, or this number.
 const FIT_SHARE: f64 = 0.03;
 const FIT_MARKS: usize = 2;
+/// A step that turns so much, in radians, is one of whole turns on the spot: what it tells of the gyro is fitted at once.
+const TELLING_RAD: f64 = 7.0;
 /// The map is drawn again when a pose has moved by this much since, metres.
 const REDRAW_M: f64 = 0.025;
 /// At least this long after the last time, microseconds,
@@ -58,7 +60,8 @@ const REDRAW_SHARE: u64 = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Fix {
     pub(super) map_from_odom: Pose2,
-    /// What is wrong with the scale with which turns are counted, relative, and its deviation, when a fit has told it.
+    /// What is wrong with the scale with which turns are counted, relative, and its deviation, when a fit has told it. It comes
+    /// where a step ends, so that all turns of the next one are counted alike: whole turns on the spot that are not tell a wrong scale.
     pub(super) scale: Option<(f64, f64)>,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
@@ -84,8 +87,10 @@ pub(super) struct Survey {
     drawn: Vec<Pose2>,
     /// A pose has moved since by enough to draw the map again.
     outdated: bool,
-    /// The robot has come home, and what that tells is not in a fit yet.
-    is_closed_anew: bool,
+    /// The robot has come home, or has turned whole turns beside a wall, and what that tells is not in a fit yet.
+    has_telling_news: bool,
+    /// A fit has told the scale of turns, and nobody counts with it yet.
+    has_new_scale: bool,
     /// It is in a fit: the map is drawn again at once, for the work may be over.
     is_hurried: bool,
 }
@@ -182,7 +187,8 @@ impl Survey {
             drawn_us: 0,
             drawn: Vec::new(),
             outdated: false,
-            is_closed_anew: false,
+            has_telling_news: false,
+            has_new_scale: false,
             is_hurried: false,
         }
     }
@@ -211,6 +217,7 @@ impl Survey {
             self.stand_on_dock((observation.time_us, odom), turns);
         }
         let is_fitted = self.fit_on();
+        self.has_new_scale |= is_fitted;
         if visit.is_none() && !arrives && !is_fitted {
             return None;
         }
@@ -220,10 +227,19 @@ impl Survey {
         let (sigma_m, sigma_rad) = now.sigmas();
         Some(Fix {
             map_from_odom: now.pose * odom.inverse(),
-            scale: self.graph.turn_errors.found().filter(|_| is_fitted),
+            scale: self.new_scale(),
             sigma_m,
             sigma_rad,
         })
+    }
+
+    /// The scale that a fit has found since this was asked last, at a moment at which no step is under way.
+    fn new_scale(&mut self) -> Option<(f64, f64)> {
+        let is_between_steps = self.pending.time_s == 0.0;
+        if !is_between_steps || !core::mem::take(&mut self.has_new_scale) {
+            return None;
+        }
+        self.graph.turn_errors.found()
     }
 
     /// The first node is where it began. What later ones tell of the scale of turns says how far the robot had turned until it
@@ -248,8 +264,15 @@ impl Survey {
 
     /// Takes in a visit.
     fn take(&mut self, visit: &Visit, turns: TurnCounting) {
+        let turned_rad = self.pending.turn_rad;
         self.step_to(visit, turns);
+        let expected_rad = self.belief.pose.heading_rad;
         self.place_strokes(&visit.strokes);
+        if turned_rad.abs() > TELLING_RAD {
+            let off_rad = normalize_rad(self.belief.pose.heading_rad - expected_rad);
+            self.graph.turn_errors.guess(off_rad / turned_rad);
+            self.has_telling_news = true;
+        }
         if let Some(node) = self.graph.nodes.get_mut(self.here) {
             node.pose = self.belief.pose;
             self.drawn.push(node.pose);
@@ -309,9 +332,9 @@ impl Survey {
     fn begin_fit(&mut self) {
         let marks = self.graph.marks.len();
         let due = FIT_MARKS.max((FIT_SHARE * marks as f64) as usize);
-        let is_closed = core::mem::take(&mut self.is_closed_anew);
-        self.is_hurried |= is_closed;
-        if is_closed || marks >= self.marks_fitted + due {
+        let is_telling = core::mem::take(&mut self.has_telling_news);
+        self.is_hurried |= is_telling;
+        if is_telling || marks >= self.marks_fitted + due {
             self.marks_fitted = marks;
             self.graph.count_anew(self.graph.turn_errors.scale);
             self.fit = Fit::of(&self.graph);

@@ -8,6 +8,9 @@ use crate::geometry::{Point2, Pose2, normalize_rad};
 
 /// A spell lasts so long, microseconds.
 const SPELL_US: u64 = 60_000_000;
+/// A rest that leaves less than this share of a spell's doubt begins another one: the first is that of a robot that has only just
+/// been switched on.
+const SURER_SHARE: f64 = 0.5;
 /// Least deviations that are believed, so that weights stay finite.
 const SCALE_SIGMA_MIN: f64 = 1e-4;
 const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 1e-5;
@@ -54,6 +57,13 @@ pub(super) struct Spell {
     sigma_rad_per_s: f64,
 }
 
+impl Spell {
+    fn takes_in(&self, time_us: u64, sigma_rad_per_s: f64) -> bool {
+        time_us < self.began_us.saturating_add(SPELL_US)
+            && sigma_rad_per_s > SURER_SHARE * self.sigma_rad_per_s
+    }
+}
+
 /// How all turns are counted.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TurnErrors {
@@ -87,6 +97,12 @@ impl TurnErrors {
         }
     }
 
+    /// Turns turned out to be longer by this share. The next fit begins there: whole turns that were counted wrong by many deviations
+    /// of a wall's direction would count as a wall that does not fit.
+    pub(super) fn guess(&mut self, share: f64) {
+        self.scale += share * (1.0 + self.scale);
+    }
+
     /// The scale that a fit has found and its deviation.
     pub(super) fn found(&self) -> Option<(f64, f64)> {
         self.scale_sigma.map(|sigma| (self.scale, sigma))
@@ -97,7 +113,7 @@ impl TurnErrors {
         let goes_on = self
             .spells
             .last()
-            .is_some_and(|spell| time_us < spell.began_us.saturating_add(SPELL_US));
+            .is_some_and(|spell| spell.takes_in(time_us, sigma_rad_per_s));
         if !goes_on {
             self.spells.push(Spell {
                 began_us: time_us,

@@ -15,6 +15,11 @@ const STEP_M: f64 = 0.01;
 const STEP_RAD: f64 = 0.045;
 /// Most glimpses of a visit.
 const GLIMPSES_MAX: usize = 500;
+/// A turn on the spot by more than this is made to see by how much the gyro is off, radians: no corner needs as much. What is seen
+/// on it tells no direction, and what was seen before and after belongs to two visits.
+const SPIN_RAD: f64 = 3.5;
+/// Way that ends a turn on the spot, metres.
+const SPIN_WAY_M: f64 = 0.02;
 /// Levels below this are noise.
 const LEVEL_MIN: f64 = 0.06;
 
@@ -37,6 +42,33 @@ pub(super) struct VisitLog {
     unseen_m: f64,
     step_m: f64,
     step_rad: f64,
+    spin: Spin,
+}
+
+/// A turn on the spot.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spin {
+    turned_rad: f64,
+    way_m: f64,
+    /// Glimpses that were there when it began.
+    began: usize,
+}
+
+impl Spin {
+    fn follow(&mut self, advance: Advance, glimpses: usize) {
+        self.way_m += advance.distance_m.abs();
+        self.turned_rad += advance.turn_rad;
+        if self.way_m > SPIN_WAY_M {
+            *self = Self {
+                began: glimpses,
+                ..Self::default()
+            };
+        }
+    }
+
+    fn is_whole_turn(&self) -> bool {
+        self.turned_rad.abs() > SPIN_RAD
+    }
 }
 
 impl VisitLog {
@@ -54,16 +86,31 @@ impl VisitLog {
             self.way_m += way_m;
             self.unseen_m += way_m;
         }
-        if self.step_m >= STEP_M || self.step_rad >= STEP_RAD {
+        self.spin.follow(advance, self.glimpses.len());
+        let spins = self.spin.is_whole_turn();
+        if !spins && (self.step_m >= STEP_M || self.step_rad >= STEP_RAD) {
             (self.step_m, self.step_rad) = (0.0, 0.0);
             self.look(odom, observation, layout);
         }
-        let over =
-            self.unseen_m >= UNSEEN_M || self.way_m >= WAY_MAX_M || self.glimpses.len() >= GLIMPSES_MAX;
+        let is_cut = spins && !self.glimpses.is_empty();
+        let over = is_cut
+            || self.unseen_m >= UNSEEN_M
+            || self.way_m >= WAY_MAX_M
+            || self.glimpses.len() >= GLIMPSES_MAX;
         if !over {
             return None;
         }
-        let log = core::mem::take(self);
+        let next = Self {
+            spin: Spin {
+                began: 0,
+                ..self.spin
+            },
+            ..Self::default()
+        };
+        let mut log = core::mem::replace(self, next);
+        if is_cut {
+            log.glimpses.truncate(log.spin.began);
+        }
         let base_from_odom = odom.inverse();
         let strokes = strokes(&log.glimpses, &layout.response)
             .into_iter()
@@ -92,5 +139,96 @@ impl VisitLog {
                 });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Visit, VisitLog};
+    use crate::config::{ProximityLayout, ProximityResponse};
+    use crate::geometry::{Pose2, normalize_rad};
+    use crate::localization::Advance;
+    use crate::observation::Observation;
+    use core::f64::consts::{FRAC_PI_2, TAU};
+
+    /// By how much this gyro counts too much.
+    const ERROR: f64 = 0.01;
+
+    /// Looks to its right.
+    fn layout() -> ProximityLayout {
+        let response = ProximityResponse {
+            range_m: 0.25,
+            half_angle_rad: 0.0,
+            half_level_m: 0.06,
+            skin_m: 0.01,
+            near_m: None,
+        };
+        ProximityLayout::ring(&[-FRAC_PI_2], 0.16, response)
+    }
+
+    /// A robot that goes along a wall on its right, 0.2 m from its centre, and now and then turns on the spot.
+    #[derive(Default)]
+    struct Ride {
+        truth: Pose2,
+        odom: Pose2,
+        log: VisitLog,
+        visits: Vec<Visit>,
+    }
+
+    impl Ride {
+        fn step(&mut self, distance_m: f64, turn_rad: f64) {
+            let layout = layout();
+            self.truth = self.truth.after_arc(distance_m, turn_rad);
+            self.odom = self.odom.after_arc(distance_m, turn_rad * (1.0 + ERROR));
+            let beam = self.truth * layout.sensors()[0];
+            let toward = -beam.heading_rad.sin();
+            let clear_m = (beam.y_m + 0.2) / toward.max(1e-9);
+            let level = layout.response.level(clear_m);
+            let observation = Observation {
+                proximity: vec![level as f32],
+                ..Observation::default()
+            };
+            let advance = Advance {
+                distance_m,
+                turn_rad: turn_rad * (1.0 + ERROR),
+                ..Advance::default()
+            };
+            self.visits
+                .extend(self.log.follow((self.odom, advance), &observation, &layout));
+        }
+
+        fn drive(&mut self, centimetres: u32) {
+            (0..2 * centimetres).for_each(|_| self.step(0.005, 0.0));
+        }
+
+        fn turn(&mut self, turns: f64) {
+            (0..600).for_each(|_| self.step(0.0, turns * TAU / 600.0));
+        }
+
+        /// Direction of the wall that the visit saw best, by odometry.
+        fn normal_rad(&self, visit: usize) -> f64 {
+            let visit = &self.visits[visit];
+            normalize_rad(visit.odom.heading_rad + visit.strokes[0].normal_rad)
+        }
+    }
+
+    #[test]
+    fn whole_turns_part_the_wall_before_from_the_wall_after_and_show_by_how_much_the_gyro_is_off() {
+        let mut ride = Ride::default();
+        ride.drive(50);
+        ride.turn(3.0);
+        ride.drive(75);
+        assert_eq!(ride.visits.len(), 2);
+        assert!(ride.visits.iter().all(|visit| visit.strokes.len() == 1));
+        let off_rad = normalize_rad(ride.normal_rad(1) - ride.normal_rad(0));
+        assert!((off_rad - 3.0 * TAU * ERROR).abs() < 0.02, "{off_rad}");
+    }
+
+    #[test]
+    fn a_corner_parts_nothing() {
+        let mut ride = Ride::default();
+        ride.drive(20);
+        ride.turn(0.25);
+        assert!(ride.visits.is_empty());
     }
 }

@@ -123,6 +123,11 @@ impl WallFollower {
         !matches!(self.phase, Phase::Seek { .. })
     }
 
+    /// Whether a wall is beside it that it sees and goes along.
+    pub(crate) fn is_along_wall(&self) -> bool {
+        self.phase == Phase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
+    }
+
     /// Whether it is getting away from something that it touched.
     pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()

@@ -106,6 +106,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("off-the-way", "It had come too far from the planned way.", ""),
     entry("no-heading", "Nothing but the wheels tells this robot its heading, so it has no map to find rooms by.", ""),
     entry("obstructed", "Too many things stand in the way.", "Clear the way."),
+    entry("gyro-scale", "Whole turns beside a wall show how much its gyro is off.", ""),
     entry("gyro-drift", "Its gyro must be measured at rest now and then.", ""),
     entry("wall-ahead", "Something stands ahead.", ""),
     entry("wall-ended", "The wall ends here.", ""),

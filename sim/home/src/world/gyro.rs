@@ -51,6 +51,11 @@ impl Gyro {
         self.rate_rad_per_s += 0.3 * (seen * (1.0 / STEP_S) - self.rate_rad_per_s);
     }
 
+    /// What its turns must be multiplied by, less 1, to be true.
+    pub(crate) fn scale_error(&self) -> f64 {
+        1.0 / self.scale - 1.0
+    }
+
     /// The bias changes by so much.
     pub(crate) fn shift_bias(&mut self, rad_per_s: f64) {
         self.bias_rad_per_s += rad_per_s;

@@ -173,6 +173,12 @@ impl World {
         [self.left.exact_count(), self.right.exact_count()]
     }
 
+    /// What the gyro's turns must be multiplied by, less 1, to be true; `None` without a gyro.
+    #[must_use]
+    pub fn gyro_scale_error(&self) -> Option<f64> {
+        self.gyro.as_ref().map(Gyro::scale_error)
+    }
+
     /// The home as it is now, doors included.
     #[must_use]
     pub const fn home(&self) -> &Arc<Home> {

@@ -120,6 +120,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("off-the-way", "Robot oli kavandatud teest liiga kaugele sattunud.", ""),
     entry("no-heading", "Robot teab oma suunda ainult rataste järgi, seepärast ei ole tal kaarti, millelt tube leida.", ""),
     entry("obstructed", "Liiga palju asju on ees.", "Tee tee vabaks."),
+    entry("gyro-scale", "Täispöörded seina ääres näitavad, kui palju güroskoop eksib.", ""),
     entry("gyro-drift", "Güroskoopi tuleb aeg-ajalt seistes mõõta.", ""),
     entry("wall-ahead", "Midagi on ees.", ""),
     entry("wall-ended", "Sein lõpeb siin.", ""),
