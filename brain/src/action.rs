@@ -57,3 +57,97 @@ pub struct Decision {
     /// A number that belongs to it, for example the angle of a turn in radians; 0 where there is none.
     pub value: f64,
 }
+
+/// The names of all decisions, for those who put them into words.
+pub const DECISIONS: [&str; 53] = [
+    "approach",
+    "arc",
+    "back-off",
+    "bounce",
+    "clean-by-statistics",
+    "contour-closed",
+    "covered",
+    "depart",
+    "dock-found",
+    "dock-line",
+    "dock-retry",
+    "dock-scan",
+    "dock-search",
+    "dock-search-turn",
+    "dock-travel",
+    "dock-way",
+    "dock-wiggle",
+    "edit-refused",
+    "end-lap",
+    "escape-back-out",
+    "escape-edge-left",
+    "escape-edge-right",
+    "escape-reverse",
+    "escape-wait",
+    "escape-wiggle",
+    "follow-wall",
+    "forget-obstructions",
+    "free",
+    "keep-no-map",
+    "lap",
+    "leave-wall",
+    "leave-way",
+    "plan",
+    "refuse",
+    "rest",
+    "spiral",
+    "squeeze",
+    "state-cleaning",
+    "state-disconnected",
+    "state-docked",
+    "state-docking",
+    "state-error",
+    "state-idle",
+    "state-manual",
+    "state-paused",
+    "state-spot",
+    "state-starting",
+    "state-stuck",
+    "turn",
+    "turn-to-part",
+    "wait",
+    "wait-for-current",
+    "withdraw",
+];
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    use super::DECISIONS;
+
+    /// All code of this crate besides this file.
+    fn code(folder: &Path) -> String {
+        let mut text = String::new();
+        for entry in fs::read_dir(folder).expect("is there") {
+            let path = entry.expect("is there").path();
+            if path.is_dir() {
+                text += &code(&path);
+            } else if !path.ends_with("src/action.rs") {
+                text += &fs::read_to_string(&path).expect("is text");
+            }
+        }
+        text
+    }
+
+    #[test]
+    fn every_decision_stands_in_the_list_and_nothing_else_does() {
+        let code = code(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+        let decided = code.split("decide(").skip(1);
+        let named = decided.filter_map(|rest| rest.trim_start().strip_prefix('"')?.split('"').next());
+        let named: BTreeSet<&str> = named.collect();
+        assert!(named.len() > 30, "only {} were found", named.len());
+        let known: BTreeSet<&str> = DECISIONS.into();
+        assert_eq!(named.difference(&known).collect::<Vec<_>>(), Vec::<&&str>::new());
+        for name in DECISIONS {
+            assert!(code.contains(&format!("\"{name}\"")), "{name} is decided nowhere");
+        }
+    }
+}

@@ -62,7 +62,13 @@ fn deed(what: &str, value: f64) -> String {
             "Began to clean without a map, and reckons by statistics how much is swept".to_owned()
         }
         "leave-way" => "Left the planned way".to_owned(),
+        "wait" => "Waited".to_owned(),
+        "turn-to-part" => "Turned to the next part of the job".to_owned(),
+        "keep-no-map" => "Keeps no map of this run".to_owned(),
+        "edit-refused" => "Refused a change of the map".to_owned(),
         "lap" => "Began a lap along the walls".to_owned(),
+        "end-lap" => "Ended its lap along the walls".to_owned(),
+        "contour-closed" => "Came back along the walls to where it began".to_owned(),
         "turn" => "Turned away".to_owned(),
         "arc" => "Drove an arc round the corner".to_owned(),
         "follow-wall" => "Began to follow a wall".to_owned(),
@@ -76,7 +82,17 @@ fn deed(what: &str, value: f64) -> String {
         "bounce" => "Bounced to get out of this place".to_owned(),
         "squeeze" => "Tried a way through a narrow gap".to_owned(),
         "approach" => "Approached the dock".to_owned(),
-        "retry" => "Backed off the dock to try again".to_owned(),
+        "wait-for-current" => "Waited for current from the dock".to_owned(),
+        "dock-travel" => "Set out for its dock".to_owned(),
+        "forget-obstructions" => "Forgot what had stood in its way".to_owned(),
+        "dock-way" => format!("Planned a way of {value:.0} m to its dock"),
+        "dock-search" => "Began to search for its dock".to_owned(),
+        "dock-search-turn" => "Turned to where it had not searched yet".to_owned(),
+        "dock-scan" => "Looked round for the beams of the dock".to_owned(),
+        "dock-line" => "Turned towards the middle of the dock's beams".to_owned(),
+        "dock-wiggle" => "Shifted on the dock to find the contacts".to_owned(),
+        "dock-retry" => "Backed away from the dock to try again".to_owned(),
+        "dock-found" => "Noted where its dock is".to_owned(),
         "rest" => "Stood still for a moment".to_owned(),
         "refuse" => "Refused".to_owned(),
         "depart" => "Left the dock backwards".to_owned(),
@@ -114,9 +130,9 @@ fn plain(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use brain::action::Decision;
+    use brain::action::{DECISIONS, Decision};
 
-    use super::{Diary, KEPT};
+    use super::{Diary, KEPT, deed, plain};
 
     fn decision(what: &'static str, reason: &'static str, value: f64) -> Decision {
         Decision { what, reason, value }
@@ -134,6 +150,15 @@ mod tests {
             (entry.number, entry.t, entry.reason.as_str()),
             (1, 2.5, "bump-left")
         );
+    }
+
+    #[test]
+    fn every_decision_of_the_brain_has_words() {
+        let lacking: Vec<_> = DECISIONS
+            .iter()
+            .filter(|what| deed(what, 1.0) == plain(what))
+            .collect();
+        assert!(lacking.is_empty(), "{lacking:?}");
     }
 
     #[test]

@@ -228,6 +228,14 @@ mod tests {
         assert_eq!(clause("no-map"), "tal ei ole veel kodu kaarti");
     }
 
+    #[test]
+    fn every_decision_of_the_brain_is_told_in_estonian() {
+        let missing = |what: &&&str| find(super::diary::DEEDS, what).is_none();
+        let missing: Vec<_> = brain::action::DECISIONS.iter().filter(missing).collect();
+        assert!(missing.is_empty(), "{missing:?}");
+        assert_eq!(brain::action::DECISIONS.len(), super::diary::DEEDS.len());
+    }
+
     /// The book names every code with which a request is refused.
     #[test]
     fn every_refusal_of_the_book_is_told_in_estonian() {
