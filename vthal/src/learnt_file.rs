@@ -27,7 +27,7 @@ mod tests {
     use super::{load, save};
     use brain::{EnergyModel, GyroLearnt, Learnt};
     use std::fs;
-    use vthal_core::learnt::{Learnings, StoredLearnings};
+    use vthal_core::learnt::{Kept, Learnings, StoredLearnings};
 
     /// Figures that no short decimal number is.
     fn learnings() -> Learnings {
@@ -44,7 +44,11 @@ mod tests {
                 ..EnergyModel::default()
             },
         };
-        learnings.take("sr8730", learnt);
+        learnings.take(Kept {
+            device: "sr8730".to_owned(),
+            learnt,
+            learnt_s: Some(1_800_000_000),
+        });
         learnings
     }
 

@@ -17,6 +17,9 @@ pub struct LearntView {
     /// Absent while the figures of the data sheet are used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyLearnt>,
+    /// When it learnt that last, seconds since 1970; absent if its clock was not set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub learnt_s: Option<i64>,
 }
 
 /// What is wrong with its gyro.

@@ -1347,13 +1347,14 @@ fn what_robots_have_learnt() {
             driving_per_h: 0.25,
             seen_s: 1200.0,
         }),
+        learnt_s: Some(1_800_000_000),
     };
     check(
         &Update::Learnt {
             id: Some(5),
             devices: vec![learnt],
         },
-        r#"{"e":"learnt","id":5,"devices":[{"device":"sr8730","here":true,"gyro":{"scale":0.0125,"scale_sigma":0.001,"bias_rad_per_s":-0.002},"energy":{"cleaning_per_h":0.875,"driving_per_h":0.25,"seen_s":1200.0}}]}"#,
+        r#"{"e":"learnt","id":5,"devices":[{"device":"sr8730","here":true,"gyro":{"scale":0.0125,"scale_sigma":0.001,"bias_rad_per_s":-0.002},"energy":{"cleaning_per_h":0.875,"driving_per_h":0.25,"seen_s":1200.0},"learnt_s":1800000000}]}"#,
     );
     request(RequestBody::Learnt, r#"{"c":"learnt"}"#);
     for (part, text) in [

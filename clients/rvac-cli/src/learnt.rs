@@ -8,6 +8,7 @@ use rvac_api::{LearntPart, LearntView, RequestBody, Update};
 
 use crate::arguments::{LearntJob, LearntVerb};
 use crate::control;
+use crate::history::when;
 use crate::socket::Connection;
 
 pub(crate) fn run(job: &LearntJob) -> anyhow::Result<ExitCode> {
@@ -39,11 +40,13 @@ fn in_words(devices: &[LearntView]) -> String {
         here,
         gyro,
         energy,
+        learnt_s,
     } in devices
     {
         let here = if *here { ", attached" } else { "" };
         // A string takes whatever it is given.
-        writeln!(text, "{device}{here}").ok();
+        let when = learnt_s.map(|learnt_s| format!(", learnt last {}", when(Some(learnt_s))));
+        writeln!(text, "{device}{here}{}", when.unwrap_or_default()).ok();
         if let Some(gyro) = gyro {
             writeln!(
                 text,
@@ -94,6 +97,7 @@ mod tests {
                     bias_rad_per_s: 0.0001,
                 }),
                 energy: None,
+                learnt_s: None,
             },
         ];
         assert_eq!(

@@ -821,6 +821,7 @@ fn learned(request: &Request) -> Vec<Update> {
             bias_rad_per_s: 0.0,
         }),
         energy: None,
+        learnt_s: Some(1_800_000_000),
     };
     match &request.body {
         RequestBody::Learnt => vec![Update::Learnt {
@@ -836,9 +837,10 @@ fn what_was_learnt_is_told_and_forgotten_in_parts() {
     let (output, _) = Daemon::start("learnt", learned).rvac(&["learnt"], "");
     let words = text(&output.stdout);
     assert!(
-        words.starts_with("sr8730, attached\n  gyro    counts +1.00 %"),
+        words.starts_with("sr8730, attached, learnt last 2027-01-1"),
         "{words}"
     );
+    assert!(words.contains("\n  gyro    counts +1.00 %"), "{words}");
     for (name, options, part) in [
         ("forget-0", &[][..], None),
         ("forget-1", &["--part", "gyro"], Some(LearntPart::Gyro)),

@@ -9,56 +9,62 @@ const VERSION: u32 = 1;
 /// Robots of which something is kept: a board is moved from one to another now and then.
 const DEVICES_MAX: usize = 8;
 
-/// What robots have learnt, by their names, the newest last.
+/// What is kept of one robot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Kept {
+    /// The robot's name.
+    pub device: String,
+    /// What it has learnt.
+    pub learnt: Learnt,
+    /// When it learnt that, seconds since 1970; `None` = by a board without a clock.
+    pub learnt_s: Option<i64>,
+}
+
+/// What robots have learnt, the newest last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Learnings {
-    devices: Vec<(String, Learnt)>,
+    devices: Vec<Kept>,
 }
 
 impl Learnings {
     /// What this robot has learnt.
     #[must_use]
     pub fn of(&self, device: &str) -> Learnt {
-        let known = self.devices.iter().find(|(name, _)| name == device);
-        known.map(|(_, learnt)| *learnt).unwrap_or_default()
+        let known = self.devices.iter().find(|kept| kept.device == device);
+        known.map(|kept| kept.learnt).unwrap_or_default()
     }
 
     /// The robots of which something is kept, the newest last.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &Learnt)> {
-        self.devices
-            .iter()
-            .map(|(device, learnt)| (device.as_str(), learnt))
+    pub fn iter(&self) -> impl Iterator<Item = &Kept> {
+        self.devices.iter()
     }
 
     /// This robot knows nothing of these parts any more. Gives what was kept of it; `None` = nothing was.
-    pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<Learnt> {
-        let (_, known) = self.devices.iter_mut().find(|(name, _)| name == device)?;
-        let before = *known;
+    pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<Kept> {
+        let known = self.devices.iter_mut().find(|kept| kept.device == device)?;
+        let before = known.clone();
         for part in parts {
             match part {
-                LearntPart::Gyro => known.gyro = None,
-                LearntPart::Energy => known.energy = EnergyModel::default(),
+                LearntPart::Gyro => known.learnt.gyro = None,
+                LearntPart::Energy => known.learnt.energy = EnergyModel::default(),
             }
         }
-        self.devices.retain(|(_, learnt)| *learnt != Learnt::default());
+        self.devices.retain(|kept| kept.learnt != Learnt::default());
         Some(before)
     }
 
-    /// This robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
-    pub fn take(&mut self, device: &str, learnt: Learnt) -> bool {
-        let before = self.of(device);
-        let learnt = Learnt {
-            gyro: learnt.gyro.or(before.gyro),
-            ..learnt
-        };
-        if before == learnt {
+    /// A robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
+    pub fn take(&mut self, mut kept: Kept) -> bool {
+        let before = self.of(&kept.device);
+        kept.learnt.gyro = kept.learnt.gyro.or(before.gyro);
+        if before == kept.learnt {
             return false;
         }
-        self.devices.retain(|(name, _)| name != device);
+        self.devices.retain(|known| known.device != kept.device);
         if self.devices.len() >= DEVICES_MAX {
             self.devices.remove(0);
         }
-        self.devices.push((device.to_owned(), learnt));
+        self.devices.push(kept);
         true
     }
 }
@@ -97,6 +103,8 @@ struct StoredDevice {
     gyro: Option<StoredGyro>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<StoredEnergy>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    learnt_s: Option<i64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -132,24 +140,29 @@ pub enum LearntError {
 
 impl From<&Learnings> for StoredLearnings {
     fn from(learnings: &Learnings) -> Self {
-        let devices = learnings.devices.iter().map(|(device, learnt)| StoredDevice {
-            device: device.clone(),
-            gyro: learnt.gyro.map(|gyro| StoredGyro {
+        Self {
+            version: VERSION,
+            devices: learnings.devices.iter().map(StoredDevice::from).collect(),
+        }
+    }
+}
+
+impl From<&Kept> for StoredDevice {
+    fn from(kept: &Kept) -> Self {
+        let Learnt { gyro, energy } = kept.learnt;
+        Self {
+            device: kept.device.clone(),
+            gyro: gyro.map(|gyro| StoredGyro {
                 scale: gyro.scale,
                 scale_sigma: gyro.scale_sigma,
                 bias_rad_per_s: gyro.bias_rad_per_s,
             }),
-            energy: Some(learnt.energy)
-                .filter(|energy| energy.seen_s > 0.0)
-                .map(|energy| StoredEnergy {
-                    cleaning_per_s: energy.cleaning_per_s,
-                    driving_per_s: energy.driving_per_s,
-                    seen_s: energy.seen_s,
-                }),
-        });
-        Self {
-            version: VERSION,
-            devices: devices.collect(),
+            energy: (energy.seen_s > 0.0).then_some(StoredEnergy {
+                cleaning_per_s: energy.cleaning_per_s,
+                driving_per_s: energy.driving_per_s,
+                seen_s: energy.seen_s,
+            }),
+            learnt_s: kept.learnt_s,
         }
     }
 }
@@ -168,7 +181,11 @@ impl TryFrom<StoredLearnings> for Learnings {
                 gyro: stored.gyro()?,
                 energy: stored.energy()?,
             };
-            learnings.take(&stored.device, learnt);
+            learnings.take(Kept {
+                device: stored.device,
+                learnt,
+                learnt_s: stored.learnt_s,
+            });
         }
         Ok(learnings)
     }
@@ -207,7 +224,7 @@ impl StoredDevice {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, StoredLearnings, told};
+    use super::{DEVICES_MAX, Kept, Learnings, LearntError, OtherVersion, StoredLearnings, told};
     use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 
     fn learnt(scale: f64) -> Learnt {
@@ -224,20 +241,31 @@ mod tests {
         }
     }
 
+    fn kept(device: &str, learnt: Learnt) -> Kept {
+        Kept {
+            device: device.to_owned(),
+            learnt,
+            learnt_s: Some(1_800_000_000),
+        }
+    }
+
     #[test]
     fn each_robot_has_its_own_and_only_news_are_news() {
         let mut learnings = Learnings::default();
         assert_eq!(learnings.of("sr8730"), Learnt::default());
-        assert!(learnings.take("sr8730", learnt(0.01)));
-        assert!(!learnings.take("sr8730", learnt(0.01)));
-        assert!(learnings.take("relax", learnt(-0.02)));
+        assert!(learnings.take(kept("sr8730", learnt(0.01))));
+        assert!(!learnings.take(kept("sr8730", learnt(0.01))));
+        assert!(learnings.take(kept("relax", learnt(-0.02))));
         assert_eq!(learnings.of("sr8730"), learnt(0.01));
-        assert!(!learnings.take("other", Learnt::default()), "nothing was learnt");
+        assert!(
+            !learnings.take(kept("other", Learnt::default())),
+            "nothing was learnt"
+        );
         let of_pack = Learnt {
             gyro: None,
             ..learnt(0.01)
         };
-        assert!(!learnings.take("sr8730", of_pack), "the gyro is as it was");
+        assert!(!learnings.take(kept("sr8730", of_pack)), "the gyro is as it was");
         let stored = StoredLearnings::from(&learnings);
         assert_eq!(Learnings::try_from(stored), Ok(learnings));
     }
@@ -245,24 +273,30 @@ mod tests {
     #[test]
     fn a_part_is_forgotten_and_a_robot_of_which_nothing_is_left() {
         let mut learnings = Learnings::default();
-        learnings.take("a", learnt(0.01));
+        learnings.take(kept("a", learnt(0.01)));
         assert_eq!(learnings.forget("b", &[LearntPart::Gyro]), None);
-        assert_eq!(learnings.forget("a", &[LearntPart::Gyro]), Some(learnt(0.01)));
+        assert_eq!(
+            learnings.forget("a", &[LearntPart::Gyro]),
+            Some(kept("a", learnt(0.01)))
+        );
         let of_pack = Learnt {
             gyro: None,
             ..learnt(0.01)
         };
-        assert_eq!(learnings.iter().collect::<Vec<_>>(), [("a", &of_pack)]);
-        assert_eq!(learnings.forget("a", &[LearntPart::Energy]), Some(of_pack));
+        assert_eq!(learnings.iter().collect::<Vec<_>>(), [&kept("a", of_pack)]);
+        assert_eq!(
+            learnings.forget("a", &[LearntPart::Energy]),
+            Some(kept("a", of_pack))
+        );
         assert_eq!(learnings, Learnings::default());
-        assert!(learnings.take("a", learnt(0.02)), "it can be learnt anew");
+        assert!(learnings.take(kept("a", learnt(0.02))), "it can be learnt anew");
     }
 
     #[test]
     fn the_robots_that_were_seen_longest_ago_are_forgotten() {
         let mut learnings = Learnings::default();
         for number in 0..=DEVICES_MAX {
-            learnings.take(&number.to_string(), learnt(0.01));
+            learnings.take(kept(&number.to_string(), learnt(0.01)));
         }
         assert_eq!(learnings.of("0"), Learnt::default());
         assert_eq!(learnings.of("1"), learnt(0.01));
@@ -272,7 +306,7 @@ mod tests {
     #[test]
     fn what_cannot_be_is_refused() {
         let mut learnings = Learnings::default();
-        learnings.take("a", learnt(0.01));
+        learnings.take(kept("a", learnt(0.01)));
         let stored = StoredLearnings::from(&learnings);
         let mut wrong = stored.clone();
         wrong.version = 2;

@@ -90,6 +90,11 @@ impl Scheduler {
         view(&self.book, (self.zone(), self.now_s), keeping)
     }
 
+    /// What the clock shows, if it was ever set.
+    pub(crate) fn set_clock_s(&self) -> Option<i64> {
+        self.now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S)
+    }
+
     /// The clock shows this. Whatever it showed before: it may have been set.
     pub(crate) fn set_clock(&mut self, now_s: i64) {
         self.now_s = Some(now_s);

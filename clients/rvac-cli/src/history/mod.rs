@@ -2,6 +2,8 @@
 
 mod words;
 
+pub(crate) use words::when;
+
 use std::fs::File;
 use std::io::{Write as _, stdout};
 use std::path::Path;

@@ -102,7 +102,7 @@ fn stop_line(stop: &RunStop) -> String {
 }
 
 /// A time as clocks here show it.
-fn when(utc_s: Option<i64>) -> String {
+pub(crate) fn when(utc_s: Option<i64>) -> String {
     let time = utc_s.and_then(|utc_s| Timestamp::from_second(utc_s).ok());
     match time {
         Some(time) => time

@@ -1,7 +1,7 @@
 //! What the robot has learnt of itself: it goes to the disk after each run, a robot that was seen before begins with it, and
 //! people may look at it and have it forgotten.
 
-use brain::{Learnt, LearntPart};
+use brain::LearntPart;
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
 use super::awaited::{Awaited, answer, refused};
@@ -10,22 +10,15 @@ use super::{Core, recorder};
 use crate::Outputs;
 use crate::RunEnd;
 use crate::journal::Part;
-use crate::learnt::{StoredLearnings, told};
+use crate::learnt::{Kept, StoredLearnings, told};
 use crate::outputs::{Delivery, LearntOrder, Recipients};
 use crate::scheduler::Asker;
 
 /// Seconds of an hour.
 const HOUR_S: f64 = 3600.0;
 
-/// What of a robot was forgotten, as it was before.
-#[derive(Debug)]
-pub(super) struct Forgotten {
-    device: String,
-    before: Learnt,
-}
-
-/// Those who wait until the disk has forgotten.
-pub(super) type LearntDesk = Awaited<Forgotten>;
+/// Those who wait until the disk has forgotten, with what was kept before.
+pub(super) type LearntDesk = Awaited<Kept>;
 
 impl Core {
     /// Tells what a robot of this name begins with.
@@ -40,7 +33,12 @@ impl Core {
         let Some(mind) = self.mind.as_ref().filter(|mind| !mind.brain().estimate().lost) else {
             return;
         };
-        if self.config.learnt.take(mind.device(), mind.brain().learnt()) {
+        let kept = Kept {
+            device: mind.device().to_owned(),
+            learnt: mind.brain().learnt(),
+            learnt_s: self.scheduler.set_clock_s(),
+        };
+        if self.config.learnt.take(kept) {
             self.write_learnt(outputs);
         }
     }
@@ -55,8 +53,7 @@ impl Core {
     /// A client asks what is kept.
     pub(super) fn show_learnt(&self, (client, id): Asker, outputs: &mut Outputs) -> Result<(), Refusal> {
         let here = self.mind.as_ref().map(|mind| mind.device());
-        let devices = self.config.learnt.iter();
-        let devices = devices.map(|(device, learnt)| view(device, learnt, here));
+        let devices = self.config.learnt.iter().map(|kept| view(kept, here));
         outputs.deliveries.push(Delivery {
             to: Recipients::One(client),
             update: Update::Learnt {
@@ -83,15 +80,14 @@ impl Core {
         let known = self.config.learnt.forget(device, parts);
         let before = match known {
             Some(before) => before,
-            None if is_here => Learnt::default(),
+            None if is_here => Kept::default(),
             None => return Err("nothing-learnt".into()),
         };
         if is_here {
             self.forget_in_mind(now_us, parts, outputs);
         }
         self.write_learnt(outputs);
-        let device = device.to_owned();
-        self.learnt.wait(asker, Forgotten { device, before });
+        self.learnt.wait(asker, before);
         Ok(())
     }
 
@@ -116,11 +112,11 @@ impl Core {
         if let Err(text) = &result {
             self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
         }
-        for (asker, Forgotten { device, before }) in self.learnt.settle(number) {
+        for (asker, before) in self.learnt.settle(number) {
             let refused = refused("learnt-unwritable", &result);
             if refused.is_some() {
                 // The robot that is here learns anew all the same, and with its next run the disk hears of that.
-                self.config.learnt.take(&device, before);
+                self.config.learnt.take(before);
             }
             answer(asker, refused, outputs);
         }
@@ -135,10 +131,16 @@ fn parts(part: Option<rvac_api::LearntPart>) -> &'static [LearntPart] {
     }
 }
 
-fn view(device: &str, learnt: &Learnt, here: Option<&str>) -> LearntView {
+fn view(kept: &Kept, here: Option<&str>) -> LearntView {
+    let Kept {
+        device,
+        learnt,
+        learnt_s,
+    } = kept;
     LearntView {
-        device: device.to_owned(),
+        device: device.clone(),
         here: here == Some(device),
+        learnt_s: *learnt_s,
         gyro: learnt.gyro.map(|gyro| GyroLearnt {
             scale: gyro.scale,
             scale_sigma: gyro.scale_sigma,
