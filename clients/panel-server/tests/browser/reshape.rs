@@ -93,11 +93,20 @@ async fn a_no_go_zone_is_dragged_into_another_shape_and_back_and_left_alone() {
     };
     let browser = &visit.browser;
     browser.click("#draw-zone").await;
-    keys(browser, &CORNERS).await;
+    // The same place twice is no zone: that is said, and the second corner can be shown again.
+    keys(browser, &["Enter", "Enter"]).await;
+    browser
+        .says("sketch-bar", "Too narrow: a zone is at least 5 cm")
+        .await;
+    browser.shot("desktop-too-narrow").await;
+    crate::accessibility::expect_none(browser, "a zone that is too narrow").await;
+    keys(browser, &CORNERS[1..]).await;
     browser.says("no-go", "No-go zone 1").await;
     let drawn = told(browser, "#no-go .words").await;
     browser.click("#reshape-no-go-1").await;
+    let larger_yet = told(browser, "#reshape-told").await;
     drag(browser, "handle-3", (-60.0, -40.0)).await;
+    until_other(browser, "#reshape-told", &larger_yet).await;
     browser.shot("desktop-reshape-dragged").await;
     browser.click("#reshape-save").await;
     until_other(browser, "#no-go .words", &drawn).await;

@@ -236,6 +236,8 @@ pub struct Reshape {
     name: String,
     before: Outline,
     outline: Outline,
+    /// The last movement would have made it too small.
+    is_too_small: bool,
 }
 
 /// What comes of it.
@@ -257,6 +259,7 @@ impl Reshape {
             name,
             outline: before.clone(),
             before,
+            is_too_small: false,
         })
     }
 
@@ -286,9 +289,17 @@ impl Reshape {
 
     /// Moves a handle; what cannot be stays as it is.
     pub fn move_to(&mut self, handle: Handle, to: [f64; 2]) {
-        if let Some(moved) = self.outline.moved(handle, to) {
+        let moved = self.outline.moved(handle, to);
+        self.is_too_small = moved.is_none();
+        if let Some(moved) = moved {
             self.outline = moved;
         }
+    }
+
+    /// What was wrong with the last movement, for people.
+    #[must_use]
+    pub fn problem(&self, words: &Words) -> Option<&'static str> {
+        self.is_too_small.then_some(words.map.too_small)
     }
 
     /// Whether a part of the choice is reshaped that is no more what it was: it was taken out, or another one stands at its place.
@@ -463,7 +474,11 @@ mod tests {
             (zone.name(), zone.clone().finish(&choice)),
             ("No-go zone 4", None)
         );
+        zone.move_to(Handle::Corner(2), [0.02, 1.0]);
+        assert!(zone.problem(ENGLISH).is_some_and(|told| told.contains("5 cm")));
+        assert_eq!(zone.text(ENGLISH), "No-go zone 4: 2.0 x 1.0 m");
         zone.move_to(Handle::Corner(2), [3.0, 1.0]);
+        assert_eq!(zone.problem(ENGLISH), None);
         assert_eq!(zone.text(ENGLISH), "No-go zone 4: 3.0 x 1.0 m");
         let wider = vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]];
         assert_eq!(

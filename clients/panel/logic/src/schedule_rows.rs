@@ -326,9 +326,13 @@ mod tests {
             ..FloorsView::default()
         };
         let words = |here| {
-            schedule_rows(ENGLISH, &upstairs, (&[kitchen.clone()], &[], &floors(here)))[0]
-                .words
-                .clone()
+            schedule_rows(
+                ENGLISH,
+                &upstairs,
+                (std::slice::from_ref(&kitchen), &[], &floors(here)),
+            )[0]
+            .words
+            .clone()
         };
         assert_eq!(words(1), "Mon, Fri at 07:30, room 4, room 9, 2 times, on Attic");
         assert_eq!(words(2), "Mon, Fri at 07:30, Kitchen, room 9, 2 times");

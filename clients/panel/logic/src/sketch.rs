@@ -65,12 +65,17 @@ pub enum Drawn {
 pub struct Sketch {
     tool: Tool,
     first: Option<(f64, f64)>,
+    /// The last place that was pointed at would have made it too small.
+    is_too_small: bool,
 }
 
 impl Sketch {
     /// Takes a tool; what was begun is dropped.
     pub fn take(&mut self, tool: Tool) {
-        *self = Self { tool, first: None };
+        *self = Self {
+            tool,
+            ..Self::default()
+        };
     }
 
     /// Whether a line is being drawn, and not a rectangle.
@@ -107,9 +112,13 @@ impl Sketch {
             self.first = (self.tool != Tool::Choose).then_some(place);
             return None;
         };
-        let shape = self.shape_to(first, place)?;
-        self.take(Tool::Choose);
-        Some(shape)
+        let shape = self.shape_to(first, place);
+        if shape.is_some() {
+            self.take(Tool::Choose);
+        } else {
+            self.is_too_small = true;
+        }
+        shape
     }
 
     fn shape_to(self, (x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> Option<Drawn> {
@@ -137,10 +146,22 @@ impl Sketch {
         (wide.min(high) >= APART_MIN_M).then_some(drawn)
     }
 
+    /// Whether what was pointed at last was too small to be meant.
+    #[must_use]
+    pub fn is_too_small(self) -> bool {
+        self.is_too_small
+    }
+
     /// What to do next, for people; nothing while nothing is drawn.
     #[must_use]
     pub fn hint(self, words: &Words) -> Option<&'static str> {
         let told = &words.map;
+        if self.is_too_small {
+            return Some(match self.tool {
+                Tool::Wall | Tool::Cut | Tool::Dock => told.too_short,
+                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => told.too_narrow,
+            });
+        }
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
             (Tool::Spot, _) => Some(told.spot_place),
@@ -253,7 +274,10 @@ mod tests {
         assert_eq!(sketch, Sketch::default(), "without a tool nothing is drawn");
         sketch.take(Tool::Wall);
         assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert!(!sketch.is_too_small());
         assert_eq!(sketch.point((1.0, 1.01)), None, "the same place again");
+        assert!(sketch.is_too_small() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("5 cm")));
+        assert_eq!(sketch.first(), Some((1.0, 1.0)), "what was begun stays");
         let wall = sketch.point((1.0, 2.0));
         let drawn = NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]]);
         assert_eq!(no_go_strokes(&drawn), [1.0, 1.0, 1.0, 2.0]);
@@ -305,6 +329,11 @@ mod tests {
         sketch.point((2.0, 3.0));
         assert_eq!(sketch.first(), Some((2.0, 3.0)));
         assert_eq!(sketch.point((0.0, 3.01)), None);
+        let told = sketch.hint(ENGLISH).expect("it says why");
+        assert!(
+            told.contains("narrow") && told.contains("opposite corner"),
+            "{told}"
+        );
         let zone = sketch.point((0.0, 1.0));
         let corners = vec![[2.0, 3.0], [0.0, 3.0], [0.0, 1.0], [2.0, 1.0]];
         assert_eq!(no_go_strokes(&NoGoShape::Zone(corners.clone())).len(), 16);

@@ -41,7 +41,7 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
         <div class="order-place">
             <Show when=move || hint().is_some()>
                 <div class="order-bar" id="sketch-bar" role="status">
-                    <p>{hint}</p>
+                    <p class:wrong=move || orders.sketch.with(|sketch| sketch.is_too_small())>{hint}</p>
                     <button type="button" class="small" id="sketch-cancel" on:click=move |_| store.take_tool(Tool::Choose)>
                         {words().frame.cancel}
                     </button>

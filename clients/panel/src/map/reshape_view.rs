@@ -64,7 +64,7 @@ impl Store {
         })
     }
 
-    fn from_screen(self, (x, y): (f64, f64)) -> [f64; 2] {
+    fn place_under(self, (x, y): (f64, f64)) -> [f64; 2] {
         self.map
             .with_value(|map| map.with(|scene| scene.camera.map_from_screen(x, y)))
             .into()
@@ -86,7 +86,7 @@ impl Store {
             .with_untracked(|reshape| reshape.as_ref()?.outline().at(handle));
         let Some([x, y]) = at else { return };
         let (px, py) = untrack(|| self.on_screen([x, y]));
-        let [ahead_x, ahead_y] = self.from_screen((px + AHEAD_PX * right, py + AHEAD_PX * down));
+        let [ahead_x, ahead_y] = self.place_under((px + AHEAD_PX * right, py + AHEAD_PX * down));
         let length_m = (ahead_x - x).hypot(ahead_y - y);
         if length_m > 0.0 {
             let share = step_m / length_m;
@@ -180,7 +180,7 @@ fn HandleView(store: Store, handle: Handle) -> impl IntoView {
         if let Some(grip) = grip.get_value().filter(|grip| grip.pointer == event.pointer_id()) {
             let (x, y) = client(&event);
             let to = (grip.handle.0 + x - grip.down.0, grip.handle.1 + y - grip.down.1);
-            store.move_handle(handle, store.from_screen(to));
+            store.move_handle(handle, store.place_under(to));
         }
     };
     let is_first = move || {
@@ -253,9 +253,14 @@ pub(super) fn ReshapeBar(store: Store) -> impl IntoView {
         let reshape = store.orders.reshape;
         reshape.with(|held| held.as_ref().map(|held| held.text(words())))
     };
+    let problem = move || {
+        let reshape = store.orders.reshape;
+        reshape.with(|held| held.as_ref().and_then(|held| held.problem(words())))
+    };
     view! {
         <div class="order-bar" id="reshape-bar">
             <p role="status"><strong id="reshape-told">{told}</strong></p>
+            <p role="status" class="wrong" id="reshape-wrong">{problem}</p>
             <p class="hint">{words().map.reshape_hint}</p>
             <div class="order-tools">
                 <button type="button" class="small" id="reshape-cancel" on:click=move |_| store.drop_reshape()>

@@ -87,6 +87,12 @@ screen! {
         zone_first: "Tap one corner of the zone, or move it to the cross and press Enter.",
             "Puuduta ala üht nurka või nihuta see ristile ja vajuta Enter.";
         zone_second: "Now the opposite corner.", "Nüüd vastasnurk.";
+        too_short: "Too short: the two places must be at least 5 cm apart. Point at the second one again, farther away.",
+            "Liiga lühike: kahe koha vahe peab olema vähemalt 5 cm. Osuta teisele kohale uuesti, kaugemale.";
+        too_narrow: "Too narrow: a zone is at least 5 cm long and wide. Point at the opposite corner again, farther away.",
+            "Liiga kitsas: ala on vähemalt 5 cm pikk ja lai. Osuta vastasnurgale uuesti, kaugemale.";
+        too_small: "Smaller it cannot be: at least 5 cm must stay between its ends or sides.",
+            "Väiksemaks ei saa: otste või külgede vahele peab jääma vähemalt 5 cm.";
         chosen: "Chosen rooms, zones and spots", "Valitud toad, alad ja kohad";
         reckons: "The robot reckons what this takes.", "Robot arvutab, kui palju see võtab.";
         join_these: "Join these rooms", "Ühenda need toad";
