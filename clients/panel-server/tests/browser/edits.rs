@@ -221,7 +221,7 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_an
         .until("return document.body.innerText.includes('lies in no room')")
         .await;
     browser.click("#draw-cut").await;
-    keys(browser, &["0", "ArrowLeft"]).await;
+    keys(browser, &["0", "ArrowLeft", "ArrowLeft"]).await;
     keys(browser, &["ArrowUp"; 8]).await;
     keys(browser, &["Enter"]).await;
     keys(browser, &["ArrowDown"; 16]).await;

@@ -8,6 +8,8 @@ const SCALE_MAX: f64 = 1000.0;
 
 /// Share of the view that [`Camera::fit`] leaves free on each side.
 const FIT_MARGIN: f64 = 0.06;
+/// On the right it leaves at least so many pixels free: the buttons of the map stand there, 46 wide and 16 from the edge.
+const TOOLS_PX: f64 = 68.0;
 
 /// Steps after which a picture from an orbit fits to a pixel or two.
 const FIT_STEPS: usize = 12;
@@ -199,14 +201,27 @@ impl Camera {
         self.y -= y;
     }
 
+    /// Pixels that a map that fits may take, and how far its middle is left of that of the view.
+    fn free_px(&self) -> (View, f64) {
+        let View { width, height } = self.view;
+        let left = FIT_MARGIN * width;
+        // A view that is hardly wider than the buttons is on its way to its size.
+        let right = left.max(TOOLS_PX.min(width / 2.0));
+        let free = View {
+            width: width - left - right,
+            height: height * (1.0 - 2.0 * FIT_MARGIN),
+        };
+        (free, (right - left) / 2.0)
+    }
+
     /// Shows all of `bounds` with a margin.
     pub fn fit(&mut self, bounds: Bounds) {
-        let free = 1.0 - 2.0 * FIT_MARGIN;
+        let (free, aside) = self.free_px();
         let width = (bounds.x_max - bounds.x_min).max(0.5);
         let height = (bounds.y_max - bounds.y_min).max(0.5);
-        let scale = (self.view.width * free / width).min(self.view.height * free / height);
+        let scale = (free.width / width).min(free.height / height);
         self.scale = scale.clamp(SCALE_MIN, SCALE_MAX);
-        self.x = f64::midpoint(bounds.x_min, bounds.x_max);
+        self.x = f64::midpoint(bounds.x_min, bounds.x_max) + aside / self.scale;
         self.y = f64::midpoint(bounds.y_min, bounds.y_max);
         if self.orbit.is_some() {
             // What is near looks larger, so neither size nor middle follow from the bounds at once.
@@ -218,12 +233,11 @@ impl Camera {
 
     fn fit_nearer(&mut self, bounds: Bounds) {
         let seen = self.screen_box(bounds, 0.0);
-        let free = 1.0 - 2.0 * FIT_MARGIN;
-        let factor = (self.view.width * free / (seen.right - seen.left))
-            .min(self.view.height * free / (seen.bottom - seen.top));
+        let (free, aside) = self.free_px();
+        let factor = (free.width / (seen.right - seen.left)).min(free.height / (seen.bottom - seen.top));
         let off = |low: f64, high: f64, size: f64| size / 2.0 - f64::midpoint(low, high);
         self.drag(
-            off(seen.left, seen.right, self.view.width),
+            off(seen.left, seen.right, self.view.width) - aside,
             off(seen.top, seen.bottom, self.view.height),
         );
         if factor.is_finite() {
@@ -305,6 +319,27 @@ mod tests {
         for (x, y) in [(-3.0, 2.0), (9.0, 5.0)] {
             let (px, py) = camera.screen_from_map(x, y);
             assert!((0.0..=800.0).contains(&px) && (0.0..=600.0).contains(&py));
+        }
+    }
+
+    #[test]
+    fn what_fits_lies_beside_the_buttons_on_a_phone() {
+        let mut camera = camera();
+        camera.resize(View {
+            width: 390.0,
+            height: 388.0,
+        });
+        let bounds = Bounds {
+            x_min: 0.0,
+            y_min: 0.0,
+            x_max: 8.0,
+            y_max: 4.0,
+        };
+        for orbit in [None, Some(Orbit::default())] {
+            camera.look_from(orbit);
+            camera.fit(bounds);
+            let seen = camera.screen_box(bounds, 0.0);
+            assert!(seen.left > 20.0 && seen.right < 390.0 - 66.0, "{seen:?}");
         }
     }
 
