@@ -4,8 +4,8 @@ use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, Request,
-    RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, JobOrder, KeptMap,
+    Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -24,6 +24,8 @@ use crate::schedules::ScheduleDesk;
 const NOT_NOW: &str = "not-now";
 /// Under this one an edit of the map tells why it cannot be.
 pub(crate) const NOT_DRAWN: &str = "edit";
+/// The reason of the state while nobody answers behind the server.
+const NO_DAEMON: &str = "no-daemon";
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 
@@ -38,6 +40,9 @@ pub(crate) const RUN_ID: u32 = 5;
 
 /// Number of the requests that say that a part was cleaned.
 const HEALTH_ID: u32 = 6;
+
+/// Number of the requests that have what is chosen cleaned.
+const CLEAN_ID: u32 = 10;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -218,6 +223,15 @@ impl Store {
         }
     }
 
+    /// Has what is chosen cleaned.
+    pub(crate) fn clean(self, order: JobOrder) {
+        let body = RequestBody::Clean(order);
+        if self.admits_request(&body) {
+            self.refusal.set(None);
+            self.send(Some(CLEAN_ID), body);
+        }
+    }
+
     /// Says that a part was cleaned.
     pub(crate) fn reset_health(self, component: String) {
         let body = RequestBody::ResetHealth { component };
@@ -228,10 +242,13 @@ impl Store {
     }
 
     fn on_done(self, id: u32) {
-        if id == HEALTH_ID {
-            self.send(None, RequestBody::Health);
+        match id {
+            CLEAN_ID => self.on_choice_sent(),
+            HEALTH_ID => self.send(None, RequestBody::Health),
+            _ => {}
         }
         self.edits.on_done(id, &self.known_home());
+        self.take_put_off_steps();
         self.schedules.on_done(id);
         self.on_floors_done(id);
         if id == MIX_ID
@@ -288,6 +305,7 @@ impl Store {
     pub(crate) fn on_close(self) {
         // Nothing can be said any more: the lease ends by itself.
         self.seat.lose();
+        self.edits.on_lost();
         self.seat.driver.update_value(Driver::forget_inputs);
         self.floor_desk.on_close();
         let status = Status {
@@ -372,12 +390,16 @@ impl Store {
         }
         self.orders.on_home(home);
         self.map.with_value(|map| map.on_home(home));
+        self.take_put_off_steps();
     }
 
     fn on_status(self, status: Status) {
         self.seat.on_status(&status);
         if status.state == "disconnected" {
             self.device.set(None);
+        }
+        if status.reason == NO_DAEMON {
+            self.edits.on_lost();
         }
         self.forget_why_not(&status);
         self.status.set(Some(status));

@@ -3,6 +3,8 @@
 //! Edits of the map count when the robot has confirmed them; what is chosen for a job is known to this page alone, and stands among
 //! them in the order in which it was chosen.
 
+use std::collections::VecDeque;
+
 use rvac_api::{HomeView, Request, RequestBody};
 
 use crate::edits::{Edit, EditError};
@@ -35,6 +37,15 @@ impl Change {
     }
 }
 
+/// What a person wants of the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Take the last change back.
+    Undo,
+    /// Do again what was taken back last.
+    Redo,
+}
+
 /// Which way an edit goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Course {
@@ -49,6 +60,8 @@ pub struct EditLog {
     done: Vec<Change>,
     undone: Vec<Change>,
     asked: Vec<(u32, Course, Edit)>,
+    /// What a person wanted meanwhile.
+    put_off: VecDeque<Step>,
     /// Revision of the home when the robot confirmed the last edit.
     confirmed_at: Option<u32>,
     count: u32,
@@ -73,6 +86,31 @@ impl EditLog {
             count: self.count,
             ..Self::default()
         };
+    }
+
+    /// Whether the robot has still to answer, so that nobody knows yet which change is the last: then the step is put off.
+    pub fn puts_off(&mut self, step: Step) -> bool {
+        let waits = !self.asked.is_empty();
+        if waits && self.put_off.len() < KEPT_MAX {
+            self.put_off.push_back(step);
+        }
+        waits
+    }
+
+    /// The step that was put off first, if it can be taken now.
+    pub fn take_put_off(&mut self) -> Option<Step> {
+        self.asked.is_empty().then(|| self.put_off.pop_front()).flatten()
+    }
+
+    /// It could not be taken yet: the robot has not told of the home as it is now.
+    pub fn put_off_again(&mut self, step: Step) {
+        self.put_off.push_front(step);
+    }
+
+    /// The robot will not answer any more: whether it has done what was asked nobody knows.
+    pub fn on_lost(&mut self) {
+        self.asked.clear();
+        self.put_off.clear();
     }
 
     /// Asks for a new edit.
@@ -199,9 +237,12 @@ impl EditLog {
     /// The robot has refused it, for this reason: nothing has changed. What does not exist any more never will again, and must not
     /// stand before what can still be taken back.
     pub fn on_failed(&mut self, id: u32, reason: &str) {
-        if let Some((course, edit)) = self.take_asked(id)
-            && !reason.starts_with("no-such-")
-        {
+        let Some((course, edit)) = self.take_asked(id) else {
+            return;
+        };
+        // What was pressed meanwhile was meant for that edit.
+        self.put_off.clear();
+        if !reason.starts_with("no-such-") {
             self.put_back(course, edit);
         }
     }
@@ -223,7 +264,7 @@ fn pop_edit(changes: &mut Vec<Change>) -> Option<Edit> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Change, EditLog};
+    use super::{Change, EditLog, Step};
     use crate::edits::{Edit, EditError, Forbidden, Kept};
     use crate::room_choice::RoomChoice;
     use rvac_api::{
@@ -266,6 +307,35 @@ mod tests {
 
     fn number(request: &rvac_api::Request) -> u32 {
         request.id.expect("edits are numbered")
+    }
+
+    #[test]
+    fn what_is_pressed_before_the_answer_is_taken_after_it() {
+        let mut log = EditLog::default();
+        assert!(!log.puts_off(Step::Undo), "nothing is on its way");
+        let first = log.begin(forbid(1.0), &home(1, &[], None)).unwrap();
+        log.on_done(number(&first), 1);
+        let second = log.begin(forbid(2.0), &home(2, &[(6, 1.0)], None)).unwrap();
+        assert!(log.puts_off(Step::Undo), "the first wall is not meant");
+        assert_eq!(log.take_put_off(), None);
+        log.on_done(number(&second), 2);
+        assert_eq!(log.take_put_off(), Some(Step::Undo));
+        // The answer came before the news: that wall is not in the home yet.
+        let asked = log.undo(&home(2, &[(6, 1.0)], None)).unwrap();
+        assert_eq!(asked, Err(EditError::NotToldYet));
+        log.put_off_again(Step::Undo);
+        assert_eq!(log.take_put_off(), Some(Step::Undo));
+        let asked = log.undo(&home(3, &[(6, 1.0), (7, 2.0)], None)).unwrap().unwrap();
+        assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
+        assert!(log.puts_off(Step::Undo));
+        log.on_failed(503, "disk-busy");
+        assert_eq!(log.take_put_off(), None, "it was meant for what was refused");
+        log.begin(forbid(3.0), &home(3, &[(6, 1.0), (7, 2.0)], None))
+            .unwrap();
+        assert!(log.puts_off(Step::Redo));
+        log.on_lost();
+        assert_eq!(log.take_put_off(), None);
+        assert!(!log.puts_off(Step::Redo), "nobody will answer any more");
     }
 
     #[test]

@@ -55,7 +55,7 @@ pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
-pub use edit_log::{Change, EditLog};
+pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
 pub use evidence::{FeltRow, felt_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};

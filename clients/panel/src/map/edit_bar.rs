@@ -2,7 +2,7 @@
 
 use leptos::ev;
 use leptos::prelude::*;
-use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Told};
+use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Step, Told};
 use rvac_api::{Failure, HomeView, Request, RequestBody};
 use wasm_bindgen::JsCast;
 
@@ -45,6 +45,11 @@ impl Edits {
         }
     }
 
+    /// Nobody will answer any more.
+    pub(crate) fn on_lost(self) {
+        self.log.update(EditLog::on_lost);
+    }
+
     /// Something else is chosen for a job.
     pub(super) fn on_chosen(self, before: RoomChoice, now: RoomChoice) {
         self.log.update(|log| log.on_chosen(before, now));
@@ -67,24 +72,43 @@ impl Store {
         self.ask_edit(asked);
     }
 
-    fn undo(self) {
-        let home = self.known_home();
-        let earlier = self.edits.log.try_update(EditLog::undo_choice).flatten();
-        if let Some(earlier) = earlier {
-            return self.bring_back(&earlier, &home);
+    /// Takes a step in the log, or puts it off until the robot has answered.
+    fn step(self, step: Step) {
+        let is_put_off = self.edits.log.try_update(|log| log.puts_off(step));
+        if is_put_off != Some(true) {
+            let asked = self.take_step(step);
+            self.ask_edit(asked);
         }
-        let asked = self.edits.log.try_update(|log| log.undo(&home));
-        self.ask_edit(asked.flatten());
     }
 
-    fn redo(self) {
-        let home = self.known_home();
-        let later = self.edits.log.try_update(EditLog::redo_choice).flatten();
-        if let Some(later) = later {
-            return self.bring_back(&later, &home);
+    /// Takes what was put off, as far as that can be known now.
+    pub(crate) fn take_put_off_steps(self) {
+        while let Some(step) = self.edits.log.try_update(EditLog::take_put_off).flatten() {
+            let asked = self.take_step(step);
+            if matches!(asked, Some(Err(EditError::NotToldYet))) {
+                self.edits.log.update(|log| log.put_off_again(step));
+                return;
+            }
+            self.ask_edit(asked);
         }
-        let asked = self.edits.log.try_update(|log| log.redo(&home));
-        self.ask_edit(asked.flatten());
+    }
+
+    /// A change of the choice is made at once; one of the map is asked for.
+    fn take_step(self, step: Step) -> Option<Result<Request, EditError>> {
+        let home = self.known_home();
+        let choice = match step {
+            Step::Undo => EditLog::undo_choice,
+            Step::Redo => EditLog::redo_choice,
+        };
+        if let Some(chosen) = self.edits.log.try_update(choice).flatten() {
+            self.bring_back(&chosen, &home);
+            return None;
+        }
+        let asked = self.edits.log.try_update(|log| match step {
+            Step::Undo => log.undo(&home),
+            Step::Redo => log.redo(&home),
+        });
+        asked.flatten()
     }
 
     fn bring_back(self, chosen: &RoomChoice, home: &HomeView) {
@@ -132,15 +156,11 @@ pub(super) fn EditBar(store: Store) -> impl IntoView {
         let is_ours = (event.ctrl_key() || event.meta_key()) && !event.alt_key() && !is_typing(&event);
         if is_ours && event.key().eq_ignore_ascii_case("z") {
             event.prevent_default();
-            if event.shift_key() {
-                store.redo();
-            } else {
-                store.undo();
-            }
+            store.step(if event.shift_key() { Step::Redo } else { Step::Undo });
         }
     });
     on_cleanup(move || keys.remove());
-    let button = move |(id, shape): (&'static str, Icon), label: Memo<Option<String>>, press: fn(Store)| {
+    let button = move |(id, shape): (&'static str, Icon), label: Memo<Option<String>>, step: Step| {
         view! {
             <Show when=move || label.get().is_some()>
                 <button
@@ -149,7 +169,7 @@ pub(super) fn EditBar(store: Store) -> impl IntoView {
                     id=id
                     aria-label=move || label.get()
                     title=move || label.get()
-                    on:click=move |_| press(store)
+                    on:click=move |_| store.step(step)
                 >
                     {icon(shape)}
                 </button>
@@ -157,8 +177,8 @@ pub(super) fn EditBar(store: Store) -> impl IntoView {
         }
     };
     view! {
-        {button(("undo", Icon::Undo), undo, Store::undo)}
-        {button(("redo", Icon::Redo), redo, Store::redo)}
+        {button(("undo", Icon::Undo), undo, Step::Undo)}
+        {button(("redo", Icon::Redo), redo, Step::Redo)}
     }
 }
 

@@ -2,7 +2,6 @@
 
 use leptos::prelude::*;
 use panel_logic::{DrawnPart, Offer, PASSES_MAX, RoomChoice, Target, Tool};
-use rvac_api::RequestBody;
 
 use super::reshape_view::ReshapeBar;
 use crate::access::{EDITS_HOME, Needs};
@@ -24,11 +23,10 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
                 .unwrap_or_default()
         })
     });
-    // The choice has become a job.
+    // A job begins, whoever asked for it.
     Effect::new(move |_| {
         if state.get() == "starting" {
-            orders.choice.update(RoomChoice::clear);
-            store.edits.on_sent();
+            store.on_choice_sent();
         }
     });
     let chosen = Memo::new(move |_| orders.choice.get());
@@ -80,7 +78,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     let clean = move |_| {
         let order = orders.choice.with_untracked(RoomChoice::order);
         if let (Some(order), Offer::Ready) = (order, offer.get_untracked()) {
-            store.ask(RequestBody::Clean(order));
+            store.clean(order);
         }
     };
     view! {

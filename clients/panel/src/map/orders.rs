@@ -203,6 +203,12 @@ impl Store {
         }
     }
 
+    /// What was chosen has become a job.
+    pub(crate) fn on_choice_sent(self) {
+        self.orders.choice.update(RoomChoice::clear);
+        self.edits.on_sent();
+    }
+
     /// Asks what cleaning the chosen rooms takes.
     pub(crate) fn ask_prospect(self) {
         self.orders.prospect.set(None);
