@@ -18,6 +18,7 @@ mod home_view;
 mod icons;
 mod job_settings_view;
 mod language;
+mod learnt_view;
 mod link;
 mod log_view;
 mod map;

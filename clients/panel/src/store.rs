@@ -5,7 +5,8 @@ use mixer::Steered;
 use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, JobOrder, KeptMap,
-    Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
+    LearntPart, LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status,
+    Topic,
 };
 
 use rvac_api::Update as Message;
@@ -40,6 +41,9 @@ pub(crate) const RUN_ID: u32 = 5;
 
 /// Number of the requests that say that a part was cleaned.
 const HEALTH_ID: u32 = 6;
+
+/// Number of the requests that have something forgotten.
+const LEARNT_ID: u32 = 8;
 
 /// Number of the requests that have what is chosen cleaned.
 const CLEAN_ID: u32 = 10;
@@ -86,6 +90,8 @@ pub(crate) struct Store {
     pub(crate) schedules: ScheduleDesk,
     /// How the parts are.
     pub(crate) health: RwSignal<Vec<ComponentHealth>>,
+    /// What robots have learnt of themselves.
+    pub(crate) learnt: RwSignal<Vec<LearntView>>,
     /// Runs that are over.
     pub(crate) history: HistoryDesk,
     /// The log.
@@ -127,6 +133,7 @@ impl Store {
             edits: Edits::new(),
             schedules: ScheduleDesk::new(),
             health: RwSignal::new(Vec::new()),
+            learnt: RwSignal::new(Vec::new()),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
@@ -241,10 +248,21 @@ impl Store {
         }
     }
 
+    /// Says that a part was changed of which a robot had learnt something.
+    pub(crate) fn forget_learnt(self, device: String, part: LearntPart) {
+        let part = Some(part);
+        let body = RequestBody::ForgetLearnt { device, part };
+        if self.admits_request(&body) {
+            self.refusal.set(None);
+            self.send(Some(LEARNT_ID), body);
+        }
+    }
+
     fn on_done(self, id: u32) {
         match id {
             CLEAN_ID => self.on_choice_sent(),
             HEALTH_ID => self.send(None, RequestBody::Health),
+            LEARNT_ID => self.send(None, RequestBody::Learnt),
             _ => {}
         }
         self.edits.on_done(id, &self.known_home());
@@ -363,6 +381,7 @@ impl Store {
                 self.floors.set(floors);
             }
             Message::Health { components, .. } => self.health.set(components),
+            Message::Learnt { devices, .. } => self.learnt.set(devices),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
@@ -375,7 +394,6 @@ impl Store {
             Message::Packet { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
-            | Message::Learnt { .. }
             | Message::Button { .. } => {}
             Message::NewDevice { name, role, from } => {
                 self.entrance.newcomer.set(Some(Newcomer { name, role, from }));

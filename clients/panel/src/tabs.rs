@@ -10,6 +10,7 @@ use crate::focus::focus_on;
 use crate::history::HistorySheet;
 use crate::home_view::HomeSheet;
 use crate::language::words;
+use crate::learnt_view::LearntSection;
 use crate::log_view::LogView;
 use crate::parts_view::PartsView;
 use crate::schedules::ScheduleSheet;
@@ -89,6 +90,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <Show when=move || open.get() == 5>
                     <DeviceView store />
                     <PartsView store />
+                    <LearntSection store />
                     <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
                 </Show>
             </div>

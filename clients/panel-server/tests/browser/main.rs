@@ -19,6 +19,7 @@ mod history;
 mod keyboard;
 mod language;
 mod large_home;
+mod learnt;
 mod losses;
 mod mixes;
 mod offline;

@@ -24,6 +24,7 @@ mod home;
 mod job_settings;
 mod kept_places;
 mod latency;
+mod learnt;
 mod log_book;
 mod map_palette;
 mod mixes;
@@ -70,6 +71,7 @@ pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, 
 pub use job_settings::{JobSettings, SettingChoice};
 pub use kept_places::{PlaceRow, place_rows};
 pub use latency::LatencyMeter;
+pub use learnt::{LearntRobot, LearntRow, learnt_robots};
 pub use log_book::{LogBook, LogFilter};
 pub use map_palette::{MapPalette, Rgb};
 pub use mixes::{

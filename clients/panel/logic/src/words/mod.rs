@@ -12,6 +12,7 @@ mod frame;
 mod health;
 mod history;
 mod home;
+mod learnt;
 mod map;
 mod mix;
 mod schedule;
@@ -29,6 +30,7 @@ pub use frame::{ActionWords, FrameWords, LogWords, OfferWords, StateWords, UnitW
 pub use health::HealthWords;
 pub use history::HistoryWords;
 pub use home::HomeWords;
+pub use learnt::LearntWords;
 pub use map::MapWords;
 pub use mix::MixWords;
 pub use schedule::ScheduleWords;
@@ -144,6 +146,7 @@ pub struct Words {
     pub health: HealthWords,
     pub history: HistoryWords,
     pub home: HomeWords,
+    pub learnt: LearntWords,
     pub log: LogWords,
     pub map: MapWords,
     pub mix: MixWords,
@@ -179,6 +182,7 @@ macro_rules! all_screens {
             health: HealthWords::$which,
             history: HistoryWords::$which,
             home: HomeWords::$which,
+            learnt: LearntWords::$which,
             log: LogWords::$which,
             map: MapWords::$which,
             mix: MixWords::$which,

@@ -2,13 +2,13 @@
 
 use super::{
     AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords, HistoryWords,
-    HomeWords, Language, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords, StatusWords,
-    Told, UnitWords,
+    HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords,
+    StatusWords, Told, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
 
-const SCREENS: [&Texts; 17] = [
+const SCREENS: [&Texts; 18] = [
     AccessWords::ALL,
     ActionWords::ALL,
     DeviceWords::ALL,
@@ -18,6 +18,7 @@ const SCREENS: [&Texts; 17] = [
     HealthWords::ALL,
     HistoryWords::ALL,
     HomeWords::ALL,
+    LearntWords::ALL,
     LogWords::ALL,
     MapWords::ALL,
     MixWords::ALL,
