@@ -45,6 +45,9 @@ const HEALTH_ID: u32 = 6;
 /// Number of the requests that have something forgotten.
 const LEARNT_ID: u32 = 8;
 
+/// Number of the requests that tell what is lent, so that a refusal of one is known as such.
+const LEND_ID: u32 = 9;
+
 /// Number of the requests that have what is chosen cleaned.
 const CLEAN_ID: u32 = 10;
 
@@ -200,12 +203,27 @@ impl Store {
     /// All inputs are lost: whatever is held is let go, and says so at once.
     pub(crate) fn let_go(self) {
         self.send_steered(self.seat.lose());
+        self.pause_lending();
+    }
+
+    /// Looks at all inputs, and drives nothing by them; the time of it.
+    pub(crate) fn step_aside(self) -> u64 {
+        let (steered, now_us) = self.seat.step_aside();
+        self.send_steered(steered);
+        now_us
+    }
+
+    /// Tells the robot of what is lent, if there is anything to tell.
+    pub(crate) fn say_lent(self, said: Option<RequestBody>) {
+        if let Some(body) = said {
+            self.send(Some(LEND_ID), body);
+        }
     }
 
     /// Looks at all inputs for the mix that is edited.
     pub(crate) fn edit_step(self) {
-        let (steered, now_us) = self.seat.step_aside();
-        self.send_steered(steered);
+        let now_us = self.step_aside();
+        self.pause_lending();
         self.seat
             .driver
             .with_value(|driver| self.bench.step(now_us, driver.readings()));
@@ -323,6 +341,7 @@ impl Store {
     pub(crate) fn on_close(self) {
         // Nothing can be said any more: the lease ends by itself.
         self.seat.lose();
+        self.pause_lending();
         self.edits.on_lost();
         self.seat.driver.update_value(Driver::forget_inputs);
         self.floor_desk.on_close();
@@ -444,6 +463,9 @@ impl Store {
             || self.floor_desk.on_failed(&failure)
         {
             return;
+        }
+        if failure.id == Some(LEND_ID) {
+            self.on_lending_refused();
         }
         if failure.id == Some(DRIVE_ID) {
             self.seat.driver.update_value(Driver::on_refused);

@@ -12,7 +12,7 @@ use crate::robot::Witness;
 use crate::teller::Teller;
 
 /// Drives by this mix: the page reads it from a file into its editor, and the robot keeps it.
-async fn drive_by(browser: &Browser, profile: &str) {
+pub(crate) async fn drive_by(browser: &Browser, profile: &str) {
     browser.click("#edit-mixes").await;
     browser
         .until("return document.getElementById('mix-file') !== null")
@@ -36,7 +36,7 @@ async fn drive_by(browser: &Browser, profile: &str) {
 }
 
 /// A mix in which these inputs turn the robot, half to each side.
-fn turning_by(inputs: &[&str]) -> String {
+pub(crate) fn turning_by(inputs: &[&str]) -> String {
     let line = |input: &&str| json!({ "name": "Turns", "input": input });
     let lines: Vec<_> = inputs.iter().map(line).collect();
     json!({
@@ -110,7 +110,7 @@ async fn two_pads_drive_by_lines_of_their_own_and_each_loss_stops_the_wheels() {
 }
 
 /// A finger on the screen, as far from the middle of the pad as its radius, or gone from there.
-fn touch(browser: &Browser, kind: &str, places: &[[f64; 2]]) {
+pub(crate) fn touch(browser: &Browser, kind: &str, places: &[[f64; 2]]) {
     let points: Vec<_> = places.iter().map(|[x, y]| json!({ "x": x, "y": y })).collect();
     browser.devtools(
         "Input.dispatchTouchEvent",
@@ -119,7 +119,7 @@ fn touch(browser: &Browser, kind: &str, places: &[[f64; 2]]) {
 }
 
 /// Middle and radius of the pad on the screen.
-async fn pad_on_screen(browser: &Browser) -> [f64; 3] {
+pub(crate) async fn pad_on_screen(browser: &Browser) -> [f64; 3] {
     let told = browser
         .text(
             "const pad = document.getElementById('pad'); pad.scrollIntoView({ block: 'center' });

@@ -20,6 +20,7 @@ mod keyboard;
 mod language;
 mod large_home;
 mod learnt;
+mod lending;
 mod losses;
 mod mixes;
 mod offline;

@@ -25,6 +25,7 @@ mod job_settings;
 mod kept_places;
 mod latency;
 mod learnt;
+mod lending;
 mod log_book;
 mod map_palette;
 mod mixes;
@@ -72,6 +73,7 @@ pub use job_settings::{JobSettings, SettingChoice};
 pub use kept_places::{PlaceRow, place_rows};
 pub use latency::LatencyMeter;
 pub use learnt::{LearntRobot, LearntRow, learnt_robots};
+pub use lending::{LENT_NAME_MAX, Lending, lending_text, lent_name};
 pub use log_book::{LogBook, LogFilter};
 pub use map_palette::{MapPalette, Rgb};
 pub use mixes::{

@@ -15,6 +15,8 @@ pub(super) fn watch(store: Store) {
             store.let_go();
         } else if store.bench.is_open() {
             store.edit_step();
+        } else if store.seat.is_lent.get_untracked() {
+            store.lend_step();
         } else {
             store.drive();
         }

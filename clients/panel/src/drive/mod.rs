@@ -3,6 +3,7 @@
 mod choice;
 mod gamepads;
 mod guard;
+mod lend;
 mod pad;
 mod seat;
 mod tilt;
@@ -14,6 +15,7 @@ use crate::language::words;
 use crate::mixes::{MixEditor, ask_before_leaving};
 use crate::store::Store;
 use choice::MixChoice;
+use lend::{LendView, LentState};
 use pad::Pad;
 use tilt::TiltButton;
 
@@ -27,13 +29,15 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
     let offer = Memo::new(move |_| store.offers().drive);
     let why = move || match offer.get() {
         _ if store.bench.is_open_now() => words().drive.while_edited,
+        _ if seat.is_lent.get() => words().drive.while_lent,
         Offer::NotNow(why) => why.text(words()),
         Offer::Ready | Offer::Absent => words().drive.how,
     };
     view! {
         <div class="drive">
-            <Pad seat ready=Signal::derive(move || offer.get() == Offer::Ready) />
+            <Pad seat ready=Signal::derive(move || seat.is_lent.get() || offer.get() == Offer::Ready) />
             <p class="hint" id="drive-hint">{why}</p>
+            <LentState store />
             <Cleaners store />
             <MixChoice seat />
             <button
@@ -46,6 +50,7 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
                 {move || if store.bench.is_open_now() { words().drive.editor_close } else { words().drive.editor_open }}
             </button>
             <Hands seat />
+            <LendView store />
         </div>
         <Show when=move || store.bench.is_open_now()><MixEditor store /></Show>
     }

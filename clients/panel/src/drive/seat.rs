@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use mixer::{BumpWatch, MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
-use panel_logic::{Driver, LatencyMeter, top_speeds};
+use panel_logic::{Driver, LatencyMeter, Lending, top_speeds};
 use rvac_api::{ClientInput, Pose, Status};
 
 use super::{choice, gamepads};
@@ -29,6 +29,12 @@ pub(crate) struct Seat {
     pub(crate) is_live: RwSignal<bool>,
     /// How fast the robot follows, for people.
     pub(crate) latency: RwSignal<Option<String>>,
+    /// What is lent to whoever drives elsewhere.
+    pub(super) lending: StoredValue<Lending>,
+    /// Whether anything is lent.
+    pub(crate) is_lent: RwSignal<bool>,
+    /// What of it the robot passes on, as mixes call it.
+    pub(super) passed_on: RwSignal<Vec<String>>,
     meter: StoredValue<LatencyMeter>,
     /// When the newest input came.
     input_ms: StoredValue<f64>,
@@ -45,6 +51,9 @@ impl Seat {
             pads: RwSignal::new(Vec::new()),
             is_live: RwSignal::new(true),
             latency: RwSignal::new(None),
+            lending: StoredValue::new(Lending::default()),
+            is_lent: RwSignal::new(false),
+            passed_on: RwSignal::new(Vec::new()),
             meter: StoredValue::new(LatencyMeter::default()),
             input_ms: StoredValue::new(0.0),
             bumps: StoredValue::new(BumpWatch::default()),
@@ -157,6 +166,10 @@ impl Seat {
         let now_us = micros(now_ms());
         self.driver
             .update_value(|driver| driver.hear_inputs(now_us, inputs));
+        let passed_on = self.lending.with_value(|lending| lending.passed_on(inputs));
+        if self.passed_on.with_untracked(|known| *known != passed_on) {
+            self.passed_on.set(passed_on);
+        }
     }
 
     /// What the robot does; a hand that holds a gamepad feels the bumper.

@@ -25,5 +25,21 @@ screen! {
         tilt: "Drive by tilt", "Juhi kallutades";
         tilt_refused: "The browser does not tell this page how the device is held: allow motion sensors for it.",
             "Veebilehitseja ei anna sellele lehele teada, kuidas seadet hoitakse: luba talle liikumisandurid.";
+        lend_title: "Lend this stick to another driver", "Laena juhtpadi teisele juhile";
+        lend_how: "Whoever drives at another device can use the stick, the tilt and the gamepad of this one as inputs of a control mix. This device then drives nothing itself.",
+            "Kes juhib teises seadmes, saab selle seadme juhtpatja, kallutust ja mängupulti kasutada juhtskeemi sisenditena. See seade ise siis ei juhi.";
+        lend_name: "Its name in the mix", "Nimi juhtskeemis";
+        // As long as nobody has given another one.
+        lend_usual: "phone", "telefon";
+        // Characters.
+        lend_name_wrong[1]: "A name has 1 to {0} letters, digits, blanks, - or _.", "Nimes on 1 kuni {0} tähte, numbrit, tühikut, - või _.";
+        lend: "Lend it", "Laena";
+        lend_end: "Take it back", "Võta tagasi";
+        lend_waits: "The robot has not taken it yet.", "Robot ei ole seda veel vastu võtnud.";
+        // Who drives, and the inputs.
+        lent_to[2]: "Lent; the driver now is {0}. Inputs for a mix: {1}", "Välja laenatud; praegu juhib {0}. Juhtskeemi sisendid: {1}";
+        lent_to_nobody[1]: "Lent; nobody drives at this moment. Inputs for a mix: {0}", "Välja laenatud; praegu ei juhi keegi. Juhtskeemi sisendid: {0}";
+        while_lent: "This stick is lent: it moves what another driver's mix makes of it. Letting go stops.",
+            "Juhtpadi on välja laenatud: see liigutab seda, mida teise juhi juhtskeem ette näeb. Lahti lastes robot peatub.";
     }
 }
