@@ -177,8 +177,12 @@ impl Core {
             Input::ClientGone(client) => self.client_gone(now_us, client, outputs),
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
-            Input::HealthKept { number, result } => self.health_kept(now_us, (number, result), outputs),
-            Input::LearntKept { number, result } => self.learnt_kept(now_us, (number, result), outputs),
+            Input::HealthKept { number, result } => {
+                self.on_kept(now_us, (number, result), &health::RESET, outputs);
+            }
+            Input::LearntKept { number, result } => {
+                self.on_kept(now_us, (number, result), &learnt::FORGETTING, outputs);
+            }
             Input::RunKept { number, result } => self.run_kept(now_us, (number, result), outputs),
             Input::RecordingOpened { run, name } => self.runs.recorded_as(run, name),
             Input::Wake => {}

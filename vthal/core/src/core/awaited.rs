@@ -1,8 +1,10 @@
 //! Changes that are answered when the disk has them.
 
-use rvac_api::{Failure, Update};
+use rvac_api::{Failure, LogLevel, Update};
 
+use super::Core;
 use crate::Outputs;
+use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Asker;
 
@@ -48,9 +50,34 @@ impl<T> Awaited<T> {
     }
 }
 
-/// Why a change is refused that the disk did not take; `None` = it did.
-pub(super) fn refused(reason: &'static str, result: &Result<(), String>) -> Option<(&'static str, String)> {
-    result.as_ref().err().map(|text| (reason, text.clone()))
+/// A kind of change: why it is refused when the disk does not take it, who waits, and how it is taken back.
+pub(super) struct Change<T> {
+    pub(super) refused_as: &'static str,
+    pub(super) waiting: fn(&mut Core) -> &mut Awaited<T>,
+    pub(super) take_back: fn(&mut Core, T),
+}
+
+impl Core {
+    /// The disk has what it was given under this number, or says why it has not.
+    pub(super) fn on_kept<T>(
+        &mut self,
+        now_us: u64,
+        (number, result): (u64, Result<(), String>),
+        change: &Change<T>,
+        outputs: &mut Outputs,
+    ) {
+        let refused = result.err().map(|text| (change.refused_as, text));
+        if let Some((_, text)) = &refused {
+            self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
+        }
+        let settled: Vec<_> = (change.waiting)(self).settle(number).collect();
+        for (asker, before) in settled {
+            if refused.is_some() {
+                (change.take_back)(self, before);
+            }
+            answer(asker, refused.clone(), outputs);
+        }
+    }
 }
 
 /// Tells whoever asked what came of it. A refusal is told also to those who gave no number.

@@ -5,7 +5,7 @@ use brain::BehaviorState;
 use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::Core;
-use super::awaited::{Awaited, answer, refused};
+use super::awaited::{Awaited, Change};
 use super::feed::currents_a;
 use super::refusal::Refusal;
 use crate::Outputs;
@@ -18,6 +18,13 @@ use crate::scheduler::Asker;
 /// Wheels below this speed, or that differ by more, carry loads of their own kind.
 const STRAIGHT_MIN_M_PER_S: f64 = 0.12;
 const STRAIGHT_DIFFERENCE: f64 = 0.15;
+
+/// A part was cleaned.
+pub(super) const RESET: Change<(Component, Gauge)> = Change {
+    refused_as: "health-unwritable",
+    waiting: |core| &mut core.health.resets,
+    take_back: |core, (component, before)| core.health.health.put_back(component, before),
+};
 
 /// The loads, and who waits until a reset is on the disk.
 #[derive(Debug, Default)]
@@ -115,25 +122,6 @@ impl Core {
         self.health.keep(outputs);
         self.health.resets.wait(asker, (component, before));
         Ok(())
-    }
-
-    /// The disk has the loads that it was given under this number, or says why it has not.
-    pub(super) fn health_kept(
-        &mut self,
-        now_us: u64,
-        (number, result): (u64, Result<(), String>),
-        outputs: &mut Outputs,
-    ) {
-        if let Err(text) = &result {
-            self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
-        }
-        for (asker, (component, before)) in self.health.resets.settle(number) {
-            let refused = refused("health-unwritable", &result);
-            if refused.is_some() {
-                self.health.health.put_back(component, before);
-            }
-            answer(asker, refused, outputs);
-        }
     }
 }
 

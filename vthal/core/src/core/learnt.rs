@@ -4,7 +4,7 @@
 use brain::LearntPart;
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
-use super::awaited::{Awaited, answer, refused};
+use super::awaited::{Awaited, Change};
 use super::refusal::Refusal;
 use super::{Core, recorder};
 use crate::Outputs;
@@ -16,6 +16,16 @@ use crate::scheduler::Asker;
 
 /// Seconds of an hour.
 const HOUR_S: f64 = 3600.0;
+
+/// A robot shall learn something anew.
+pub(super) const FORGETTING: Change<Kept> = Change {
+    refused_as: "learnt-unwritable",
+    waiting: |core| &mut core.learnt,
+    // The robot that is here learns anew all the same, and with its next run the disk hears of that.
+    take_back: |core, before| {
+        core.config.learnt.take(before);
+    },
+};
 
 /// Those who wait until the disk has forgotten, with what was kept before.
 pub(super) type LearntDesk = Awaited<Kept>;
@@ -100,26 +110,6 @@ impl Core {
             mind.end_run(now_us, RunEnd::Finished, &mut recorder(recording, outputs));
         }
         mind.forget(parts);
-    }
-
-    /// The disk has what it was given under this number, or says why it has not.
-    pub(super) fn learnt_kept(
-        &mut self,
-        now_us: u64,
-        (number, result): (u64, Result<(), String>),
-        outputs: &mut Outputs,
-    ) {
-        if let Err(text) = &result {
-            self.log(now_us, (LogLevel::Error, Part::Vthal, text.clone()), outputs);
-        }
-        for (asker, before) in self.learnt.settle(number) {
-            let refused = refused("learnt-unwritable", &result);
-            if refused.is_some() {
-                // The robot that is here learns anew all the same, and with its next run the disk hears of that.
-                self.config.learnt.take(before);
-            }
-            answer(asker, refused, outputs);
-        }
     }
 }
 
