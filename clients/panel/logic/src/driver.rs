@@ -271,6 +271,16 @@ mod tests {
             self.driver.step(self.now_us, top_speeds(None))
         }
 
+        /// Drives by a mix in which this input alone turns the robot.
+        fn turn_by(&mut self, input: &str) {
+            let text = format!(
+                r#"{{"version":1,"name":"turn","outputs":[{{"output":"turn","low":-1,"high":1,
+                "lines":[{{"name":"turn","input":"{input}"}}]}}]}}"#
+            );
+            let mix = Profile::parse(&text).expect("a mix");
+            self.driver.take_mix(mix).expect("a mix");
+        }
+
         fn press(&mut self, code: &str) {
             let key = self.driver.key(code).expect("a key of the mix");
             self.driver.press(key);
@@ -355,11 +365,7 @@ mod tests {
     #[test]
     fn another_client_drives_by_the_mix_until_its_lease_ends() {
         let mut page = Page::new();
-        let text = r#"{"version":1,"name":"far","outputs":[{"output":"turn","low":-1,"high":1,
-            "lines":[{"name":"far","input":"client-steer"}]}]}"#;
-        page.driver
-            .take_mix(Profile::parse(text).expect("a mix"))
-            .expect("a mix");
+        page.turn_by("client-steer");
         let told = |value, left_ms| ClientInput {
             name: "steer".to_owned(),
             value,
@@ -391,11 +397,7 @@ mod tests {
     #[test]
     fn a_tilt_of_which_nothing_more_is_told_stops_the_wheels() {
         let mut page = Page::new();
-        let text = r#"{"version":1,"name":"tilt","outputs":[{"output":"turn","low":-1,"high":1,
-            "lines":[{"name":"tilt","input":"tilt-left"}]}]}"#;
-        page.driver
-            .take_mix(Profile::parse(text).expect("a mix"))
-            .expect("a mix");
+        page.turn_by("tilt-left");
         page.driver.set_tilt(page.now_us, [0.0, 0.0]);
         page.step();
         page.step();
@@ -441,11 +443,7 @@ mod tests {
     #[test]
     fn another_mix_brings_its_own_keys() {
         let mut page = Page::new();
-        let text = r#"{"version":1,"name":"q","outputs":[{"output":"turn","low":-1,"high":1,
-            "lines":[{"name":"q","input":"key-KeyQ"}]}]}"#;
-        page.driver
-            .take_mix(Profile::parse(text).expect("a mix"))
-            .expect("a mix");
+        page.turn_by("key-KeyQ");
         page.step();
         page.step();
         assert_eq!(page.driver.key("KeyW"), None);
@@ -454,6 +452,10 @@ mod tests {
         let mut broken = standard_profile();
         broken.outputs[0].low = -2.0;
         assert!(page.driver.take_mix(broken).is_err());
-        assert_eq!(page.driver.profile().name.as_str(), "q", "the one before goes on");
+        assert_eq!(
+            page.driver.profile().name.as_str(),
+            "turn",
+            "the one before goes on"
+        );
     }
 }

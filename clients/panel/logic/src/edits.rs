@@ -3,6 +3,8 @@
 //! An edit is known by what it changed, not by the number under which the robot keeps it: what is brought back gets a new number,
 //! and another client may have been there in between.
 
+use std::mem::swap;
+
 use rvac_api::{
     HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomChangeView, RoomNaming,
     RoomSettings, RoomSplitting,
@@ -148,49 +150,33 @@ impl Edit {
         match self.clone() {
             Self::Forbid(shape) => Self::Allow(shape),
             Self::Allow(shape) => Self::Forbid(shape),
-            Self::NameForbidden { shape, before, after } => Self::NameForbidden {
-                shape,
-                before: after,
-                after: before,
-            },
-            Self::ReshapeForbidden { before, after } => Self::ReshapeForbidden {
-                before: after,
-                after: before,
-            },
-            Self::ReshapePlace { name, before, after } => Self::ReshapePlace {
-                name,
-                before: after,
-                after: before,
-            },
-            Self::TakeUp { floor, before, after } => Self::TakeUp {
-                floor,
-                before: after,
-                after: before,
-            },
             Self::Keep(kept) => Self::Forget(kept),
             Self::Forget(kept) => Self::Keep(kept),
-            Self::NamePlace { before, after } => Self::NamePlace {
-                before: after,
-                after: before,
-            },
-            Self::Name { room, before, after } => Self::Name {
-                room,
-                before: after,
-                after: before,
-            },
-            Self::Settings { room, before, after } => Self::Settings {
-                room,
-                before: after,
-                after: before,
-            },
             Self::Split(line) => Self::Unsplit(line),
             Self::Unsplit(line) => Self::Split(line),
             Self::Join(rooms) => Self::Unjoin(rooms),
             Self::Unjoin(rooms) => Self::Join(rooms),
-            Self::Dock { before, after } => Self::Dock {
-                before: after,
-                after: before,
-            },
+            mut edit => {
+                edit.swap_sides();
+                edit
+            }
+        }
+    }
+
+    /// What was after is before, and the other way round; an edit without sides stays as it is.
+    fn swap_sides(&mut self) {
+        match self {
+            Self::NameForbidden { before, after, .. } | Self::Name { before, after, .. } => {
+                swap(before, after)
+            }
+            Self::ReshapeForbidden { before, after } => swap(before, after),
+            Self::ReshapePlace { before, after, .. } => swap(before, after),
+            Self::TakeUp { before, after, .. } => swap(before, after),
+            Self::NamePlace { before, after } => swap(before, after),
+            Self::Settings { before, after, .. } => swap(before, after),
+            Self::Dock { before, after } => swap(before, after),
+            Self::Forbid(_) | Self::Allow(_) | Self::Keep(_) | Self::Forget(_) => {}
+            Self::Split(_) | Self::Unsplit(_) | Self::Join(_) | Self::Unjoin(_) => {}
         }
     }
 
