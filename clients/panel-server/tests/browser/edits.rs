@@ -72,19 +72,9 @@ async fn forbidden(browser: &Browser, count: usize) {
         .await;
 }
 
-async fn at_home() -> Option<Visit> {
-    let visit = Visit::begin_at_home(Screen::Desktop).await?;
-    visit.browser.click("#tab-home").await;
-    visit
-        .browser
-        .until("return document.querySelectorAll('#rooms .choose').length > 1")
-        .await;
-    Some(visit)
-}
-
 #[tokio::test]
 async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
-    let Some(visit) = at_home().await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -125,7 +115,7 @@ async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
 
 #[tokio::test]
 async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
-    let Some(visit) = at_home().await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -158,7 +148,7 @@ async fn drawn_parts(browser: &Browser, count: usize) {
 
 #[tokio::test]
 async fn a_spot_is_set_taken_out_by_a_tap_and_by_its_button_and_cleaned() {
-    let Some(visit) = at_home().await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -197,16 +187,12 @@ async fn rooms(browser: &Browser, count: usize) {
 
 #[tokio::test]
 async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_and_set() {
-    let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Phone).await else {
         return;
     };
     let browser = &visit.browser;
     browser.darken().await;
     let mut onlooker = Onlooker::watch(&visit.stack.daemon_socket());
-    browser.click("#tab-home").await;
-    browser
-        .until("return document.querySelectorAll('#rooms .choose').length > 1")
-        .await;
     let before: usize = browser
         .text("return String(document.querySelectorAll('#rooms .choose').length)")
         .await
@@ -284,7 +270,7 @@ async fn settings_are_undone(browser: &Browser, onlooker: &mut Onlooker, room: u
 
 #[tokio::test]
 async fn a_dock_that_was_moved_is_shown_by_two_places_and_taken_back() {
-    let Some(visit) = at_home().await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;

@@ -69,6 +69,17 @@ impl Visit {
         Self::with(Stack::start_at_home, screen).await
     }
 
+    /// The same with the list of its rooms in sight.
+    async fn begin_among_rooms(screen: Screen) -> Option<Self> {
+        let visit = Self::begin_at_home(screen).await?;
+        visit.browser.click("#tab-home").await;
+        visit
+            .browser
+            .until("return document.querySelectorAll('#rooms .choose').length > 1")
+            .await;
+        Some(visit)
+    }
+
     /// With the robot's real firmware in an emulated chip.
     async fn begin_emulated(screen: Screen) -> Option<Self> {
         Self::with(Stack::start_emulated, screen).await

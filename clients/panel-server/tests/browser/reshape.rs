@@ -76,19 +76,9 @@ async fn until_other(browser: &Browser, selector: &str, before: &str) {
         .await;
 }
 
-async fn at_home(screen: Screen) -> Option<Visit> {
-    let visit = Visit::begin_at_home(screen).await?;
-    visit.browser.click("#tab-home").await;
-    visit
-        .browser
-        .until("return document.querySelectorAll('#rooms .choose').length > 1")
-        .await;
-    Some(visit)
-}
-
 #[tokio::test]
 async fn a_no_go_zone_is_dragged_into_another_shape_and_back_and_left_alone() {
-    let Some(visit) = at_home(Screen::Desktop).await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -127,7 +117,7 @@ async fn a_no_go_zone_is_dragged_into_another_shape_and_back_and_left_alone() {
 
 #[tokio::test]
 async fn a_kept_zone_is_reshaped_by_a_finger_on_a_phone_in_the_dark() {
-    let Some(visit) = at_home(Screen::Phone).await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Phone).await else {
         return;
     };
     let browser = &visit.browser;
@@ -167,7 +157,7 @@ async fn chosen(browser: &Browser, (parts, avoided): (usize, usize)) {
 
 #[tokio::test]
 async fn what_is_chosen_for_a_job_is_reshaped_taken_back_and_done_again() {
-    let Some(visit) = at_home(Screen::Desktop).await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
@@ -212,7 +202,7 @@ async fn what_is_chosen_for_a_job_is_reshaped_taken_back_and_done_again() {
 
 #[tokio::test]
 async fn an_older_map_is_taken_up_and_the_newest_brought_back() {
-    let Some(visit) = at_home(Screen::Desktop).await else {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;
