@@ -21,8 +21,8 @@ pub struct Observation {
     pub proximity: Vec<f32>,
     /// Symbols heard by the dock receivers (0 = none); empty if the robot has none.
     pub dock_beams: Vec<u8>,
-    /// Ranges to radio beacons that were measured since the last observation; empty where there is no radio.
-    pub beacon_ranges: Vec<BeaconRange>,
+    /// What a radio has measured of beacons since the last observation; empty where there is no radio.
+    pub beacons: Vec<BeaconSignal>,
     /// On the dock's contacts.
     pub docked: bool,
     /// Battery charge 0..1, if measured.
@@ -64,7 +64,7 @@ impl Default for Observation {
             wheel_drop: false,
             proximity: Vec::new(),
             dock_beams: Vec::new(),
-            beacon_ranges: Vec::new(),
+            beacons: Vec::new(),
             docked: false,
             battery_charge: None,
             charge_flow: None,
@@ -86,7 +86,26 @@ pub enum ChargeFlow {
     Missing,
 }
 
-/// Distance to a radio beacon, measured by time of flight or guessed from the strength of its signal.
+/// What a radio has measured of a beacon. A strength is no distance: walls, bodies and the way an antenna points change it by as
+/// much as walking half or twice as far does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BeaconSignal {
+    /// How far it is.
+    Range(BeaconRange),
+    /// How strongly it is received.
+    Strength(BeaconStrength),
+}
+
+/// Strength with which a radio beacon is received.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeaconStrength {
+    /// Number of the beacon, the same as long as the daemon runs.
+    pub beacon: u16,
+    /// Received power, decibels above a milliwatt.
+    pub dbm: f64,
+}
+
+/// Distance to a radio beacon, measured by time of flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconRange {
     /// Number of the beacon, the same as long as the daemon runs.

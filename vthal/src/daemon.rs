@@ -177,12 +177,12 @@ impl Daemon {
 
     fn take_radio(&mut self, event: RadioEvent) {
         match event {
-            RadioEvent::Heard(ranges) => {
-                for range in ranges {
-                    self.handle(Input::BeaconRange(range));
+            RadioEvent::Heard(signals) => {
+                for signal in signals {
+                    self.handle(Input::Beacon(signal));
                 }
             }
-            RadioEvent::Speaks => tracing::info!(part = "radio", "the radio tells distances"),
+            RadioEvent::Speaks => tracing::info!(part = "radio", "the radio speaks of beacons"),
             RadioEvent::NewBeacon(name, number) => {
                 tracing::info!(part = "radio", "hears the beacon {name} (number {number})");
             }
@@ -195,7 +195,7 @@ impl Daemon {
             ),
             RadioEvent::Absent(reason) => tracing::warn!(
                 part = "radio",
-                "no distances to beacons: {reason}; looking again every 2 s"
+                "nothing of beacons: {reason}; looking again every 2 s"
             ),
         }
     }

@@ -76,7 +76,7 @@ fn expect(module: &mut Pty, wanted: &[u8]) {
 #[test]
 fn a_module_is_made_to_speak_is_lost_and_comes_back() {
     let desk = Desk::new("form = \"dwm1001\"\n", |_| {});
-    desk.wait_for("no distances to beacons: cannot open", 1);
+    desk.wait_for("nothing of beacons: cannot open", 1);
     let link = desk.scratch.join("radio");
     let mut module = Pty::open(&link).expect("opens");
     expect(&mut module, b"\r\r");
@@ -89,7 +89,7 @@ fn a_module_is_made_to_speak_is_lost_and_comes_back() {
     desk.wait_for("hears the beacon 1151 (number 0)", 1);
     desk.wait_for("lines that could not be used: 1; the last, \"DIST,1,AN0\"", 1);
     drop(module);
-    desk.wait_for("no distances to beacons: it hung up", 1);
+    desk.wait_for("nothing of beacons: it hung up", 1);
     let mut again = Pty::open(&link).expect("opens");
     // This one prints already, so nothing is sent to it.
     for _ in 0..40 {
@@ -98,7 +98,7 @@ fn a_module_is_made_to_speak_is_lost_and_comes_back() {
             .expect("writes");
         std::thread::sleep(Duration::from_millis(100));
     }
-    desk.wait_for("the radio tells distances", 2);
+    desk.wait_for("the radio speaks of beacons", 2);
     let mut bytes = [0; 64];
     assert_eq!(again.read(&mut bytes).expect("reads"), 0);
     assert_eq!(
@@ -121,10 +121,10 @@ fn any_program_can_tell_distances_through_a_fifo() {
                 b"\n{\"beacon\":\"kitchen\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":-1}\n",
             )
             .expect("writes");
-        desk.wait_for("the radio tells distances", 1);
+        desk.wait_for("the radio speaks of beacons", 1);
         desk.wait_for("could not be used: 1; the last, \"{\\\"beacon\\\"", 1);
         assert!(
-            !desk.log().contains("no distances"),
+            !desk.log().contains("nothing of beacons"),
             "round {round}: a FIFO has no end"
         );
     }
@@ -140,7 +140,7 @@ fn a_program_may_also_listen_on_a_socket() {
         .expect("writes");
     desk.wait_for("hears the beacon hall (number 0)", 1);
     drop(program);
-    desk.wait_for("no distances to beacons: it hung up", 1);
+    desk.wait_for("nothing of beacons: it hung up", 1);
 }
 
 #[test]

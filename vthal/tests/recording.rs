@@ -6,7 +6,7 @@ use std::io::Read as _;
 use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
-use brain::observation::{BeaconRange, ChargeFlow};
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow};
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
@@ -103,11 +103,17 @@ fn records() -> Vec<Record> {
         dock_beams: vec![0, 3],
         battery_charge: Some(0.94),
         charge_flow: Some(ChargeFlow::Flowing),
-        beacon_ranges: vec![BeaconRange {
-            beacon: 2,
-            range_m: 3.5,
-            sigma_m: 0.2,
-        }],
+        beacons: vec![
+            BeaconSignal::Range(BeaconRange {
+                beacon: 2,
+                range_m: 3.5,
+                sigma_m: 0.2,
+            }),
+            BeaconSignal::Strength(BeaconStrength {
+                beacon: 4,
+                dbm: -71.0,
+            }),
+        ],
         inhibits: vec!["wheel-drop"],
         ..Observation::default()
     };

@@ -36,6 +36,8 @@ enum Subject {
     Docking,
     /// How surely a robot that was put down somewhere finds out on which floor it is.
     Floors,
+    /// How soon and how surely a robot that was lifted from its work knows its place again.
+    Lifted,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -160,6 +162,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Navigation => &["--bin", "bench-navigation"],
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
+        Subject::Lifted => &["--bin", "bench-lifted"],
         Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
@@ -179,6 +182,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Navigation
         | Subject::Docking
         | Subject::Floors
+        | Subject::Lifted
         | Subject::Coverage => &[],
     }
 }
@@ -193,7 +197,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
         Subject::Docking => &["--runs", "1000"],
-        Subject::Floors => &["--seeds", "8"],
+        Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],

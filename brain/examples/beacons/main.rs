@@ -13,7 +13,7 @@ use std::env;
 use std::fs;
 
 use brain::localization::Localization;
-use brain::observation::BeaconRange;
+use brain::observation::{BeaconRange, BeaconSignal};
 use brain::{Observation, Point2, Pose2};
 use rawlog::{Entry, Rawlog};
 
@@ -99,19 +99,20 @@ fn main() -> Result<(), String> {
     for entry in log.entries() {
         match entry {
             Entry::Ranges(ranges) => {
-                view.beacon_ranges
-                    .extend(ranges.into_iter().map(|(beacon, range_m)| BeaconRange {
+                view.beacons.extend(ranges.into_iter().map(|(beacon, range_m)| {
+                    BeaconSignal::Range(BeaconRange {
                         beacon,
                         range_m,
                         sigma_m: RANGE_SIGMA_M,
-                    }));
+                    })
+                }));
             }
             Entry::Moved(step) => {
                 let Some(truth) = now else { break };
                 let advance = odometry.update(&view);
                 localization.update(&view);
                 localization.refine(&view, advance);
-                view.beacon_ranges.clear();
+                view.beacons.clear();
                 by_beacons.add(localization.pose(), *truth);
                 by_odometry.add(odometry.pose(), *truth);
                 if known_at.is_none() && localization.knows_heading(view.time_us) {

@@ -21,6 +21,7 @@ mod particles;
 mod rest;
 mod retreat;
 mod search;
+mod strengths;
 mod survey;
 mod terrain;
 mod tracker;
@@ -35,6 +36,7 @@ pub use odometry::Advance;
 use odometry::Odometry;
 use particles::GyroBelief;
 use retreat::Retreat;
+use strengths::Strengths;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
 use tracker::{Moved, Tracker};
@@ -71,6 +73,9 @@ fn finite(sigma: f64, least: f64) -> f64 {
     }
 }
 
+/// A robot whose place is less sure than this does not learn how strongly beacons are received there, metres.
+const HEARD_SIGMA_M: f64 = 0.3;
+
 /// What was unknown is taken into the map that the filter compares with this often, microseconds,
 const LEARN_US: u64 = 120_000_000;
 /// as long as the map explains so much of what the sensors show.
@@ -97,6 +102,7 @@ pub struct Localization {
     witness: Witness,
     withdrawal: Option<Withdrawal>,
     beacons: Beacons,
+    strengths: Strengths,
     /// When the first observation came.
     began_us: Option<u64>,
     /// When a gyro spoke last.
@@ -122,6 +128,7 @@ impl Localization {
             witness: Witness::default(),
             withdrawal: None,
             beacons: Beacons::new(),
+            strengths: Strengths::default(),
             began_us: None,
             gyro_us: None,
             was_docked: false,
@@ -250,6 +257,24 @@ impl Localization {
     /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::track`] was asked for there is
     /// no map; then only ranges to beacons count.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) {
+        self.strengths.listen(observation, advance);
+        self.find_place(observation, advance);
+        if self.is_placed() {
+            let at = self.pose().position();
+            self.strengths.learn(at);
+        }
+    }
+
+    /// Whether what is received here may be learnt as that of the place where the robot believes to be.
+    fn is_placed(&self) -> bool {
+        let is_followed = match &self.tracked {
+            Some(tracked) => tracked.tracker.is_settled(),
+            None => self.survey.is_some() && self.hanging_s >= 0.0,
+        };
+        is_followed && self.drift.sigma_m <= HEARD_SIGMA_M
+    }
+
+    fn find_place(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
         self.leave_hopeless_map(observation.time_us);
         let moved = Moved::of(&self.odometry, advance, self.pose());
@@ -268,6 +293,7 @@ impl Localization {
         };
         let Tracked { tracker, terrain } = &mut **tracked;
         tracker.hear(self.beacons.heard());
+        tracker.receive(&self.strengths);
         tracker.search_on(terrain);
         // Where the dock is not known better than the robot knows its own place, that one stays.
         let place = terrain.dock();

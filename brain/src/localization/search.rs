@@ -6,6 +6,7 @@
 
 use super::Advance;
 use super::particles::Surroundings;
+use super::strengths::Hearing;
 use super::trail::{Trace, Trail};
 use crate::geometry::{Point2, Pose2, normalize_rad};
 
@@ -85,6 +86,8 @@ pub(super) struct Search {
     /// Least score of a coarse candidate, in solid points.
     least: f64,
     found: Vec<Candidate>,
+    /// How strongly beacons were received on the trail.
+    hearing: Option<Hearing>,
     /// From where the robot was when the search began to where it is.
     moved: Pose2,
 }
@@ -119,8 +122,19 @@ impl Search {
             coarse,
             least: COARSE_SHARE * solid as f64,
             found: Vec::new(),
+            hearing: None,
             moved: Pose2::IDENTITY,
         })
+    }
+
+    /// The same search for a robot that has received beacons, too.
+    pub(super) fn hearing(self, hearing: Option<Hearing>) -> Self {
+        Self { hearing, ..self }
+    }
+
+    /// What it costs a pose that other strengths are received there.
+    fn cost(&self, pose: Pose2) -> f64 {
+        self.hearing.as_ref().map_or(0.0, |hearing| hearing.cost(pose))
     }
 
     /// The robot has moved on.
@@ -137,9 +151,13 @@ impl Search {
                 place,
             } => self.stage = self.try_places(map, direction, (turned, place)),
             Stage::Refine { next } => {
-                if let Some(candidate) = self.found.get_mut(next) {
+                if let Some(start) = self.found.get(next).map(|candidate| candidate.pose) {
                     let trail = (self.radius_m, self.solid);
-                    *candidate = refined(map, &self.fine, trail, candidate.pose);
+                    let mut best = refined(map, &self.fine, trail, start);
+                    best.score -= self.cost(best.pose);
+                    if let Some(candidate) = self.found.get_mut(next) {
+                        *candidate = best;
+                    }
                     self.stage = Stage::Refine { next: next + 1 };
                 } else {
                     self.found = distinct(core::mem::take(&mut self.found));
@@ -172,15 +190,17 @@ impl Search {
             let Some(score) = score(map, &turned, *place, trail) else {
                 continue;
             };
+            let pose = Pose2 {
+                x_m: place.x_m,
+                y_m: place.y_m,
+                heading_rad: direction_rad(direction),
+            };
+            let score = score - self.cost(pose);
+            if score * solid < self.least {
+                continue;
+            }
             self.least = self.least.max(COARSE_OF_BEST * score * solid);
-            self.found.push(Candidate {
-                pose: Pose2 {
-                    x_m: place.x_m,
-                    y_m: place.y_m,
-                    heading_rad: direction_rad(direction),
-                },
-                score,
-            });
+            self.found.push(Candidate { pose, score });
         }
         let place = place + PLACES_A_STEP;
         if place < self.places.len() {

@@ -10,8 +10,11 @@ use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
 use super::odometry::Odometry;
 use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::search::{Candidate, Search};
+use super::strengths::{Hearing, StrengthMap, Strengths};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
+use std::sync::Arc;
+
 use crate::config::SensorLayout;
 use crate::geometry::{Point2, Pose2};
 use crate::observation::{Cliffs, Contacts, Observation};
@@ -49,6 +52,9 @@ const LOST_SIGMA_M: f64 = 0.8;
 /// A lost robot searches the map when its trail is so long, metres, and again after as much more.
 const SEARCH_FROM_M: f64 = 4.0;
 const SEARCH_EVERY_M: f64 = 2.5;
+/// The same of one that receives beacons: strengths forbid most of what a few metres leave open.
+const HEARING_FROM_M: f64 = 2.5;
+const HEARING_EVERY_M: f64 = 1.5;
 /// How far the guesses around a searched place are spread.
 const SEARCHED: Spread = Spread {
     sigma_m: 0.06,
@@ -105,6 +111,8 @@ pub(super) struct Tracker {
     /// What a rest has told of the gyro since the last weighing.
     told: Option<BiasTold>,
     trail: Trail,
+    /// While it is lost: how strongly beacons are received where.
+    strengths: Option<Arc<StrengthMap>>,
     /// Way until the next search of a lost robot, metres.
     search_in_m: f64,
     /// The search that is under way.
@@ -135,6 +143,7 @@ impl Tracker {
             heard: Vec::new(),
             told: None,
             trail: Trail::default(),
+            strengths: None,
             search_in_m: 0.0,
             searching: None,
             since_found: Fit::default(),
@@ -215,6 +224,23 @@ impl Tracker {
     /// Takes in ranges to beacons whose places are known.
     pub(super) fn hear(&mut self, heard: &[Heard]) {
         self.heard.extend_from_slice(heard);
+    }
+
+    /// Takes in how strongly beacons are received. Only where a lost robot may be follows from that.
+    pub(super) fn receive(&mut self, strengths: &Strengths) {
+        self.trail.receive(strengths.fresh());
+        if !self.lost {
+            self.strengths = None;
+        } else if self.strengths.is_none() && !strengths.is_empty() {
+            self.strengths = Some(strengths.map());
+            let from_m = (HEARING_FROM_M - self.trail.length_m()).max(0.0);
+            self.search_in_m = self.search_in_m.min(from_m);
+        }
+    }
+
+    /// Whether the robot is where it believes to be, and is not still on probation.
+    pub(super) fn is_settled(&self) -> bool {
+        !self.lost && self.probation == 0 && self.hanging_s <= 0.0
     }
 
     /// Does a step of the search of a lost robot, before each [`Self::follow`] or now and then.
@@ -339,8 +365,14 @@ impl Tracker {
         self.confidence.take(self.filter.fit(map, estimate.pose));
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
         if self.searching.is_none() && self.search_in_m <= 0.0 {
-            self.search_in_m = SEARCH_EVERY_M;
-            self.searching = Search::of(map, &self.trail, self.radius_m).map(Box::new);
+            self.search_in_m = match self.strengths {
+                Some(_) => HEARING_EVERY_M,
+                None => SEARCH_EVERY_M,
+            };
+            let hearing = self.strengths.clone();
+            let hearing = hearing.map(|map| Hearing::new(self.trail.received(), map));
+            self.searching =
+                Search::of(map, &self.trail, self.radius_m).map(|search| Box::new(search.hearing(hearing)));
         }
         if let Some(places) = self.searching.as_ref().and_then(|search| search.places()) {
             self.searching = None;

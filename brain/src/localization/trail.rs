@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 
 use super::Advance;
+use super::strengths::Level;
 use crate::config::ProximityLayout;
 use crate::geometry::{Point2, Pose2};
 use crate::observation::{Contacts, Observation};
@@ -37,6 +38,14 @@ struct Note {
     way_m: f64,
 }
 
+/// How strongly a beacon was received on the way.
+#[derive(Clone, Copy, Debug)]
+struct Received {
+    at: Point2,
+    level: Level,
+    way_m: f64,
+}
+
 /// The last metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
@@ -45,6 +54,7 @@ pub(super) struct Trail {
     noted_way_m: f64,
     turned_rad: f64,
     notes: VecDeque<Note>,
+    received: VecDeque<Received>,
 }
 
 impl Trail {
@@ -94,6 +104,29 @@ impl Trail {
         {
             self.notes.pop_front();
         }
+    }
+
+    /// Notes how strongly beacons are received here.
+    pub(super) fn receive(&mut self, levels: &[Level]) {
+        let (at, way_m) = (self.trail_from_base.position(), self.way_m);
+        let received = levels.iter().map(|&level| Received { at, level, way_m });
+        self.received.extend(received);
+        while self
+            .received
+            .front()
+            .is_some_and(|oldest| way_m - oldest.way_m > TRAIL_M)
+        {
+            self.received.pop_front();
+        }
+    }
+
+    /// Where in the frame of the robot as it stands now which strength was received.
+    pub(super) fn received(&self) -> Vec<(Point2, Level)> {
+        let base_from_trail = self.trail_from_base.inverse();
+        self.received
+            .iter()
+            .map(|received| (base_from_trail.transform(received.at), received.level))
+            .collect()
     }
 
     /// Notes a contact at the rim of a body of this radius.

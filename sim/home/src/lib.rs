@@ -26,7 +26,7 @@ mod world;
 
 pub use digest::Digest;
 pub use home::Home;
-pub use linux_board::{Beacons, BoardGyro};
+pub use linux_board::{Beacons, BoardGyro, Measured};
 pub use load::HomeError;
 pub use model::{
     Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,

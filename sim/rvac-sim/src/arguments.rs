@@ -176,6 +176,9 @@ pub(crate) struct RunArguments {
     /// Radio beacons at the edges of the home, of which the host knows no place.
     #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=8))]
     pub(crate) beacons: u8,
+    /// The radio knows only how strongly it receives --beacons, not how far they are.
+    #[arg(long, requires = "beacons")]
+    pub(crate) by_strength: bool,
     /// Tell the host its true pose: shows a planner without the errors of localization.
     #[arg(long)]
     perfect_pose: bool,
@@ -230,6 +233,9 @@ impl RunArguments {
         }
         if self.beacons > 0 {
             title.push_str(&format!(", {} beacons", self.beacons));
+        }
+        if self.by_strength {
+            title.push_str(" by strength");
         }
         if self.perfect_pose {
             title.push_str(", perfect pose");

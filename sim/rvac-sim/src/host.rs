@@ -2,9 +2,9 @@
 
 use brain::command::StrategyName;
 use brain::mapping::StoredMap;
-use brain::observation::BeaconRange;
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
 use brain::{BehaviorState, Brain, Pose2};
-use home::{Beacons, Pose as TruePose};
+use home::{Beacons, Measured, Pose as TruePose};
 use rvac_api::{
     ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status,
 };
@@ -88,16 +88,17 @@ impl Host {
         self.handle(now_us, Input::BoardHeading { heading_urad });
     }
 
-    /// The radio on the Linux board has measured the distance to a beacon.
-    pub(crate) fn beacon_range(&mut self, now_us: u64, beacon: u16, range_m: f64) {
-        self.handle(
-            now_us,
-            Input::BeaconRange(BeaconRange {
+    /// The radio on the Linux board has measured something of a beacon.
+    pub(crate) fn beacon(&mut self, now_us: u64, beacon: u16, measured: Measured) {
+        let signal = match measured {
+            Measured::Range(range_m) => BeaconSignal::Range(BeaconRange {
                 beacon,
                 range_m,
                 sigma_m: Beacons::SIGMA_M,
             }),
-        );
+            Measured::Strength(dbm) => BeaconSignal::Strength(BeaconStrength { beacon, dbm }),
+        };
+        self.handle(now_us, Input::Beacon(signal));
     }
 
     /// Gives it a clock on the wall, or sets it.

@@ -25,9 +25,9 @@ impl LinuxBoard {
             }
         }
         if let Some(beacons) = &mut self.beacons
-            && let Some((beacon, range_m)) = beacons.step(robot.world().home(), pose)
+            && let Some((beacon, measured)) = beacons.step(robot.world().home(), pose)
         {
-            host.beacon_range(now_us, beacon, range_m);
+            host.beacon(now_us, beacon, measured);
         }
     }
 }

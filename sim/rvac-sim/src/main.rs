@@ -62,7 +62,12 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         household = household.with_board_gyro(scene.board_gyro(settings.seed));
     }
     if arguments.beacons > 0 {
-        household = household.with_beacons(scene.beacons(settings.seed, arguments.beacons.into()));
+        let beacons = scene.beacons(settings.seed, arguments.beacons.into());
+        household = household.with_beacons(if arguments.by_strength {
+            beacons.by_strength()
+        } else {
+            beacons
+        });
     }
     if arguments.known_map {
         household = household.with_known_map();

@@ -158,9 +158,9 @@ impl Core {
                     mind.observer.take_board_heading(now_us, heading_urad);
                 }
             }
-            Input::BeaconRange(range) => {
+            Input::Beacon(signal) => {
                 if let Some(mind) = &mut self.mind {
-                    mind.observer.take_beacon_range(range);
+                    mind.observer.take_beacon(signal);
                 }
             }
             Input::ClientConnected(client) => self.clients.connect(client),

@@ -1,7 +1,7 @@
 //! Everything that can happen to the core.
 
 use brain::StoredMap;
-use brain::observation::BeaconRange;
+use brain::observation::BeaconSignal;
 use rvac_api::{Failure, Request, Run};
 
 use crate::{FloorTask, KeptFloor};
@@ -27,8 +27,8 @@ pub enum Input<'a> {
         /// Microradians counter-clockwise, wrapping.
         heading_urad: i32,
     },
-    /// A radio on the Linux board measured how far a beacon is.
-    BeaconRange(BeaconRange),
+    /// A radio on the Linux board measured how far a beacon is, or how strongly it is received.
+    Beacon(BeaconSignal),
     /// A client connected.
     ClientConnected(ClientId),
     /// A client asks for something.

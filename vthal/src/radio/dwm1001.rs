@@ -98,7 +98,7 @@ fn reading(number: usize, (address, range): (&str, &str)) -> Result<Reading, Lin
     let (Ok(name), Ok(range_m)) = (BeaconName::new(address), range.parse()) else {
         return Err(broken);
     };
-    Reading::new(name, range_m, None)
+    Reading::range(name, range_m, None)
 }
 
 fn is_address(text: &str) -> bool {
@@ -178,13 +178,17 @@ impl Waker {
 mod tests {
     use std::time::Duration;
 
+    use super::super::reading::Measured;
     use super::{Waker, read};
 
     fn told(line: &str) -> Vec<(String, f64)> {
         let readings = read(line).unwrap();
         readings
             .into_iter()
-            .map(|reading| (reading.beacon.to_string(), reading.range_m))
+            .map(|reading| match reading.measured {
+                Measured::Range(range_m, None) => (reading.beacon.to_string(), range_m),
+                other => panic!("{other:?}"),
+            })
             .collect()
     }
 

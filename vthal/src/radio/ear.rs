@@ -1,11 +1,11 @@
-//! From a radio's bytes to ranges for the brain: pure, so that any bytes can be tried.
+//! From a radio's bytes to signals for the brain: pure, so that any bytes can be tried.
 
 use std::time::Duration;
 
-use brain::observation::BeaconRange;
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
 
 use super::lines::Lines;
-use super::reading::{LineError, Reading};
+use super::reading::{LineError, Measured, Reading};
 use super::roster::{Place, Roster};
 use super::{RadioForm, RadioSettings, dwm1001, json};
 
@@ -17,11 +17,11 @@ const EXCERPT: usize = 60;
 /// What bytes said.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Heard {
-    /// Ranges of beacons that count.
-    pub(super) ranges: Vec<BeaconRange>,
+    /// What was measured of beacons that count.
+    pub(super) signals: Vec<BeaconSignal>,
     /// Beacons that were heard for the first time, and their numbers.
     pub(super) new: Vec<(String, u16)>,
-    /// Lines told a distance, whether or not it counts.
+    /// Lines told of a beacon, whether or not it counts.
     pub(super) is_speaking: bool,
     /// What there is to tell of refused lines.
     pub(super) refused: Option<Refused>,
@@ -108,10 +108,13 @@ impl Ear {
             }
             Place::Stranger => return,
         };
-        let sigma_m = reading.sigma_m.unwrap_or(self.sigma_m);
-        heard
-            .ranges
-            .push(level(beacon, (reading.range_m, sigma_m), self.height_m));
+        heard.signals.push(match reading.measured {
+            Measured::Range(range_m, sigma_m) => {
+                let sigma_m = sigma_m.unwrap_or(self.sigma_m);
+                BeaconSignal::Range(level(beacon, (range_m, sigma_m), self.height_m))
+            }
+            Measured::Strength(dbm) => BeaconSignal::Strength(BeaconStrength { beacon, dbm }),
+        });
     }
 
     fn refuse(&mut self, now: Duration, (line, error): (&str, &LineError), heard: &mut Heard) {
@@ -148,13 +151,13 @@ fn level(beacon: u16, (slant_m, sigma_m): (f64, f64), height_m: f64) -> BeaconRa
 mod tests {
     use std::time::Duration;
 
-    use brain::observation::BeaconRange;
+    use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
     use proptest::prelude::*;
 
     use super::super::{BeaconName, RadioForm, RadioSettings};
     use super::{Ear, level};
 
-    const LINES: &str = "\n{\"beacon\":\"hall\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":0.5,\"sigma_m\":0.1}\n";
+    const LINES: &str = "\n{\"beacon\":\"hall\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":0.5,\"sigma_m\":0.1}\n{\"beacon\":\"hall\",\"rssi_dbm\":-63}\n";
     const SHELL: &str = "\r\nDIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51,POS,2.57,1.98,1.68,100\r\n\
          1151[5.00,8.00,2.25]=6.48 0CA8[0.00,8.00,2.25]=6.51 le_us=2576 est[2.57,1.98,1.68,100]\r\n";
 
@@ -169,12 +172,24 @@ mod tests {
     fn distances_get_numbers_and_deviations() {
         let mut ear = Ear::new(&settings(RadioForm::Lines));
         let heard = ear.take(Duration::ZERO, LINES.as_bytes());
-        let range = |beacon, range_m, sigma_m| BeaconRange {
-            beacon,
-            range_m,
-            sigma_m,
+        let range = |beacon, range_m, sigma_m| {
+            BeaconSignal::Range(BeaconRange {
+                beacon,
+                range_m,
+                sigma_m,
+            })
         };
-        assert_eq!(heard.ranges, [range(0, 3.21, 0.2), range(1, 0.5, 0.1)]);
+        assert_eq!(
+            heard.signals,
+            [
+                range(0, 3.21, 0.2),
+                range(1, 0.5, 0.1),
+                BeaconSignal::Strength(BeaconStrength {
+                    beacon: 0,
+                    dbm: -63.0
+                }),
+            ]
+        );
         assert_eq!(heard.new, [("hall".to_owned(), 0), ("kitchen".to_owned(), 1)]);
         assert!(heard.is_speaking);
         assert_eq!(heard.refused, None);
@@ -189,7 +204,7 @@ mod tests {
             ..settings(RadioForm::Lines)
         });
         let heard = ear.take(Duration::ZERO, LINES.as_bytes());
-        assert_eq!((heard.ranges.len(), heard.is_speaking), (1, true));
+        assert_eq!((heard.signals.len(), heard.is_speaking), (2, true));
     }
 
     #[test]
@@ -198,7 +213,7 @@ mod tests {
         let mut told = Vec::new();
         for second in 0..=120 {
             let heard = ear.take(Duration::from_secs(second), b"\nnonsense\n");
-            assert_eq!((heard.ranges.len(), heard.is_speaking), (0, false));
+            assert_eq!((heard.signals.len(), heard.is_speaking), (0, false));
             told.extend(heard.refused.map(|refused| (second, refused.count, refused.line)));
         }
         let line = || "nonsense".to_owned();
@@ -241,17 +256,22 @@ mod tests {
             }
             bytes.extend_from_slice(text.as_bytes());
             let mut ear = Ear::new(&RadioSettings { height_m: 1.0, ..settings(form) });
-            let mut ranges = Vec::new();
+            let mut signals = Vec::new();
             for piece in bytes.chunks(cut) {
-                ranges.extend(ear.take(Duration::ZERO, piece).ranges);
+                signals.extend(ear.take(Duration::ZERO, piece).signals);
             }
-            for range in &ranges {
-                prop_assert!((0.0..=200.0).contains(&range.range_m));
-                prop_assert!(range.sigma_m > 0.0 && range.sigma_m.is_finite());
+            for signal in &signals {
+                match signal {
+                    BeaconSignal::Range(range) => {
+                        prop_assert!((0.0..=200.0).contains(&range.range_m));
+                        prop_assert!(range.sigma_m > 0.0 && range.sigma_m.is_finite());
+                    }
+                    BeaconSignal::Strength(strength) => prop_assert!((-130.0..=0.0).contains(&strength.dbm)),
+                }
             }
             // The last lines were whole, whatever came before.
-            let whole = if dwm1001 { 4 } else { 2 };
-            prop_assert!(ranges.len() >= whole, "{ranges:?}");
+            let whole = if dwm1001 { 4 } else { 3 };
+            prop_assert!(signals.len() >= whole, "{signals:?}");
         }
     }
 }

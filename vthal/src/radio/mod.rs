@@ -1,9 +1,9 @@
-//! A radio on the Linux board that measures how far beacons are.
+//! A radio on the Linux board that measures how far beacons are, or how strongly it receives them.
 //!
 //! Terms. *Beacon*: a radio that stands somewhere in the home; nobody needs to know where. *Form*: in which words the radio
-//! tells distances ([`RadioForm`]). *Ear*: what makes ranges of its bytes. *Port*: where the bytes come from.
+//! tells that ([`RadioForm`]). *Ear*: what makes signals of its bytes. *Port*: where the bytes come from.
 //!
-//! A task keeps the port open and sends ranges as events. It knows nothing of the robot; what is not heard is missing, and
+//! A task keeps the port open and sends signals as events. It knows nothing of the robot; what is not heard is missing, and
 //! the robot goes by its wheels.
 
 mod dwm1001;
@@ -18,7 +18,7 @@ use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use brain::observation::BeaconRange;
+use brain::observation::BeaconSignal;
 use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 use tokio::time::{Instant, sleep, timeout};
@@ -45,10 +45,10 @@ pub const SIGMA_M: f64 = 0.2;
 /// Beacons that may be listed, and that get a number when none are; a home has some, and a street has hundreds.
 pub const BEACONS_MAX: usize = 32;
 
-/// In which words a radio tells distances.
+/// In which words a radio tells what it measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RadioForm {
-    /// `{"beacon":"kitchen","range_m":3.21}`, a line each.
+    /// `{"beacon":"kitchen","range_m":3.21}` or `{"beacon":"kitchen","rssi_dbm":-63}`, a line each.
     Lines,
     /// The shell of a DWM1001 module with its stock firmware.
     Dwm1001,
@@ -103,13 +103,13 @@ impl RadioSettings {
 pub(crate) enum RadioEvent {
     /// It speaks: for the first time, or again.
     Speaks,
-    /// Ranges that were measured.
-    Heard(Vec<BeaconRange>),
+    /// What was measured.
+    Heard(Vec<BeaconSignal>),
     /// A beacon was heard for the first time; its name and number.
     NewBeacon(String, u16),
     /// Lines could not be used.
     Refused(Refused),
-    /// It is not there, was lost, or says no distance; told once per outage, with the reason.
+    /// It is not there, was lost, or says nothing of beacons; told once per outage, with the reason.
     Absent(String),
 }
 
@@ -160,7 +160,7 @@ struct Listener {
     ear: Ear,
     events: Sender<Event>,
     started: Instant,
-    /// When a distance came last, or the port was opened.
+    /// When it spoke of a beacon last, or the port was opened.
     spoke_at: Duration,
     outage: Outage,
 }
@@ -195,7 +195,7 @@ impl Listener {
                 return Ok(Loss::Failed(error));
             }
             if now >= self.spoke_at + SILENCE {
-                self.tell_absent("it says no distance".to_owned()).await?;
+                self.tell_absent("it says nothing of beacons".to_owned()).await?;
             }
         }
     }
@@ -209,7 +209,7 @@ impl Listener {
         due.min(silent).saturating_sub(self.started.elapsed())
     }
 
-    /// Whether a distance was told.
+    /// Whether it spoke of a beacon.
     async fn take(&mut self, bytes: &[u8]) -> Result<bool, Over> {
         let now = self.started.elapsed();
         let heard = self.ear.take(now, bytes);
@@ -226,9 +226,9 @@ impl Listener {
         if let Some(refused) = heard.refused {
             self.tell(RadioEvent::Refused(refused)).await?;
         }
-        // A loop that is busy gets the next ones: an old range says nothing of the present.
-        let ranges = Event::Radio(RadioEvent::Heard(heard.ranges));
-        match self.events.try_send(ranges) {
+        // A loop that is busy gets the next ones: an old signal says nothing of the present.
+        let signals = Event::Radio(RadioEvent::Heard(heard.signals));
+        match self.events.try_send(signals) {
             Err(TrySendError::Closed(_)) => Err(Over),
             Ok(()) | Err(TrySendError::Full(_)) => Ok(heard.is_speaking),
         }

@@ -11,6 +11,11 @@ const RANGE_MAX_M: f64 = 200.0;
 /// Largest deviation that a line may tell, metres; one that knows less knows nothing.
 const SIGMA_MAX_M: f64 = 10.0;
 
+/// Received powers that a line may tell, dBm: thermal noise of a narrow receiver, and as much as any radio stands. A strength told
+/// as a positive number of some scale is none of these.
+const STRENGTH_MIN_DBM: f64 = -130.0;
+const STRENGTH_MAX_DBM: f64 = 0.0;
+
 /// Name of a beacon: printable letters without blanks.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
@@ -46,18 +51,24 @@ impl fmt::Display for BeaconName {
     }
 }
 
-/// A distance that was measured.
+/// What was measured of a beacon.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub(super) beacon: BeaconName,
-    pub(super) range_m: f64,
-    /// Its deviation, metres, if the radio tells it.
-    pub(super) sigma_m: Option<f64>,
+    pub(super) measured: Measured,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Measured {
+    /// Distance and its deviation, metres, if the radio tells that.
+    Range(f64, Option<f64>),
+    /// Received power, dBm.
+    Strength(f64),
 }
 
 impl Reading {
-    /// Checks the numbers; written so that NaN is refused.
-    pub(super) fn new(beacon: BeaconName, range_m: f64, sigma_m: Option<f64>) -> Result<Self, LineError> {
+    /// A distance. Checks the numbers; written so that NaN is refused.
+    pub(super) fn range(beacon: BeaconName, range_m: f64, sigma_m: Option<f64>) -> Result<Self, LineError> {
         if !(0.0..=RANGE_MAX_M).contains(&range_m) {
             return Err(LineError::Range(range_m));
         }
@@ -66,8 +77,18 @@ impl Reading {
         }
         Ok(Self {
             beacon,
-            range_m,
-            sigma_m,
+            measured: Measured::Range(range_m, sigma_m),
+        })
+    }
+
+    /// A strength. Checks the number; written so that NaN is refused.
+    pub(super) fn strength(beacon: BeaconName, dbm: f64) -> Result<Self, LineError> {
+        if !(STRENGTH_MIN_DBM..=STRENGTH_MAX_DBM).contains(&dbm) {
+            return Err(LineError::Strength(dbm));
+        }
+        Ok(Self {
+            beacon,
+            measured: Measured::Strength(dbm),
         })
     }
 }
@@ -87,6 +108,12 @@ pub(super) enum LineError {
     Range(f64),
     #[error("{0} m is no deviation above 0 and up to {SIGMA_MAX_M} m")]
     Sigma(f64),
+    #[error("{0} dBm is no received power from {STRENGTH_MIN_DBM} to {STRENGTH_MAX_DBM} dBm")]
+    Strength(f64),
+    #[error("tell range_m or rssi_dbm of a beacon: one of the two")]
+    RangeOrStrength,
+    #[error("sigma_m belongs to range_m")]
+    SigmaOfStrength,
     #[error("{0:?} is no number of anchors that fits the line")]
     Count(String),
     #[error("what it says of anchor {0} is broken")]

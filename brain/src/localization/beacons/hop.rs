@@ -3,7 +3,7 @@
 use super::super::Advance;
 use super::BEACONS_MAX;
 use crate::geometry::{Point2, Pose2};
-use crate::observation::{BeaconRange, Observation};
+use crate::observation::{BeaconRange, BeaconSignal, Observation};
 
 /// A hop ends after this way, metres, or this turn, radians.
 const HOP_M: f64 = 0.15;
@@ -101,8 +101,10 @@ impl Gathering {
         hop.by_gyro = advance.gyro_turn_rad.is_some();
         hop.wheel_turn_rad += advance.wheel_turn_rad;
         self.turned_rad += advance.turn_rad.abs();
-        for range in &observation.beacon_ranges {
-            self.add(*range);
+        for signal in &observation.beacons {
+            if let BeaconSignal::Range(range) = signal {
+                self.add(*range);
+            }
         }
         let over = self.hop.length_m >= HOP_M || self.turned_rad >= HOP_RAD;
         over.then(|| self.end())

@@ -2,7 +2,7 @@
 
 use super::super::Localization;
 use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::observation::{BeaconRange, Observation};
+use crate::observation::{BeaconRange, BeaconSignal, BeaconStrength, Observation};
 use crate::random::Random;
 
 const TRACK_M: f64 = 0.21;
@@ -85,11 +85,11 @@ impl Truth {
             0.0
         };
         let delay_m = if turn == 0 { self.delay_m } else { 0.0 };
-        self.view.beacon_ranges = vec![BeaconRange {
+        self.view.beacons = vec![BeaconSignal::Range(BeaconRange {
             beacon: 10 + turn as u16,
             range_m: away_m + 0.2 * self.random.normal() + detour_m + delay_m,
             sigma_m: 0.2,
-        }];
+        })];
     }
 
     fn off(&self, localization: &Localization) -> (f64, f64) {
@@ -177,7 +177,7 @@ fn a_robot_that_hears_nothing_goes_by_its_wheels() {
     let (mut localization, mut odometry) = (placed(truth.pose), placed(truth.pose));
     for _ in 0..5_000 {
         let mut view = truth.step().clone();
-        view.beacon_ranges.clear();
+        view.beacons.clear();
         take(&mut localization, &view);
         odometry.update(&view);
         assert_eq!(localization.pose(), odometry.pose());
@@ -195,11 +195,17 @@ fn nothing_from_outside_upsets_it() {
             time_us: step * 20_000,
             travel_left_m: step as f64 * 0.01,
             travel_right_m: step as f64 * 0.011,
-            beacon_ranges: (0..step % 40)
-                .map(|number| BeaconRange {
-                    beacon: (number % 17) as u16,
-                    range_m: pick(),
-                    sigma_m: pick(),
+            beacons: (0..step % 40)
+                .map(|number| {
+                    let beacon = (number % 17) as u16;
+                    if number % 3 == 0 {
+                        return BeaconSignal::Strength(BeaconStrength { beacon, dbm: pick() });
+                    }
+                    BeaconSignal::Range(BeaconRange {
+                        beacon,
+                        range_m: pick(),
+                        sigma_m: pick(),
+                    })
                 })
                 .collect(),
             ..Observation::default()

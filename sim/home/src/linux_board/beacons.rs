@@ -1,9 +1,10 @@
-//! Radio beacons that stand in a home, and a radio on the robot that measures how far they are.
+//! Radio beacons that stand in a home, and a radio on the robot that measures how far they are, or how strongly it receives them.
 //!
-//! The figures are those of ultra-wideband modules of the Decawave class (Sensors 22 (2022) 2927: 0.21 m in motion, 0.25 m
+//! The figures of ranges are those of ultra-wideband modules of the Decawave class (Sensors 22 (2022) 2927: 0.21 m in motion, 0.25 m
 //! mixed): noise of [`Beacons::SIGMA_M`], a delay behind walls that only ever lengthens the way and stays the same at a
 //! place, replies that do not come, and now and then one that came by way of the ceiling.
 
+use super::strength::Air;
 use crate::{Home, Pcg, Pose};
 
 /// Stream of random numbers, beside those of the world.
@@ -25,10 +26,27 @@ const LOOK_M: f64 = 0.04;
 /// Solid cells for which the way is not free: a leg of a chair is nothing to a radio.
 const SOLID_STEPS: u32 = 2;
 
-/// Beacons and radio. The same seed and the same poses give the same ranges.
+/// What was measured of a beacon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// Distance, metres.
+    Range(f64),
+    /// Received power, dBm.
+    Strength(f64),
+}
+
+/// What the radio measures.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Ranges,
+    Strengths(Air),
+}
+
+/// Beacons and radio. The same seed and the same poses give the same measurements.
 #[derive(Clone, Debug)]
 pub struct Beacons {
     places: Vec<(f64, f64)>,
+    kind: Kind,
     delays: u64,
     random: Pcg,
     steps: u64,
@@ -63,9 +81,19 @@ impl Beacons {
             .collect();
         Self {
             places,
+            kind: Kind::Ranges,
             delays: u64::from(random.next_u32()) << 32 | u64::from(random.next_u32()),
             random,
             steps: 0,
+        }
+    }
+
+    /// The same beacons with a radio that tells only how strongly it receives them.
+    #[must_use]
+    pub fn by_strength(self) -> Self {
+        Self {
+            kind: Kind::Strengths(Air::new(self.delays)),
+            ..self
         }
     }
 
@@ -75,8 +103,8 @@ impl Beacons {
         &self.places
     }
 
-    /// One millisecond later the robot is at `pose` of the plan: number and range in metres, if one was measured now.
-    pub fn step(&mut self, home: &Home, pose: Pose) -> Option<(u16, f64)> {
+    /// One millisecond later the robot is at `pose` of the plan: number of a beacon and what was measured of it, if something was now.
+    pub fn step(&mut self, home: &Home, pose: Pose) -> Option<(u16, Measured)> {
         self.steps += 1;
         if !self.steps.is_multiple_of(TURN_MS) || self.places.is_empty() {
             return None;
@@ -84,8 +112,13 @@ impl Beacons {
         let turn = (self.steps / TURN_MS) as usize % self.places.len();
         let place = *self.places.get(turn)?;
         let number = u16::try_from(turn).ok()?;
-        self.measure(home, pose, (number, place))
-            .map(|range_m| (number, range_m))
+        let measured = match self.kind {
+            Kind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
+            Kind::Strengths(air) => {
+                Measured::Strength(air.receive((home, pose), (number, place), &mut self.random)?)
+            }
+        };
+        Some((number, measured))
     }
 
     fn measure(&mut self, home: &Home, pose: Pose, (number, place): (u16, (f64, f64))) -> Option<f64> {
@@ -139,7 +172,7 @@ fn is_behind(home: &Home, from: (f64, f64), to: (f64, f64)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::Beacons;
+    use super::{Beacons, Measured};
     use crate::{Home, Pose, RobotModel};
 
     /// Two rooms with a wall between them and a door at its upper end.
@@ -158,7 +191,7 @@ mod tests {
         let mut asked = 0;
         for step in 1..=200_000_u64 {
             asked += usize::from(step.is_multiple_of(200));
-            if let Some((0, range_m)) = beacons.step(&home, at) {
+            if let Some((0, Measured::Range(range_m))) = beacons.step(&home, at) {
                 errors.push(range_m - libm::hypot(x_m - at.x_m, y_m - at.y_m));
             }
         }

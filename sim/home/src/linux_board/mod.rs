@@ -2,6 +2,7 @@
 
 mod beacons;
 mod gyro;
+mod strength;
 
-pub use beacons::Beacons;
+pub use beacons::{Beacons, Measured};
 pub use gyro::BoardGyro;

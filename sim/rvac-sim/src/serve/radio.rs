@@ -8,7 +8,7 @@
 use std::io;
 use std::path::Path;
 
-use home::Beacons;
+use home::{Beacons, Measured};
 
 use super::pty::{Peer, Pty, PtyError};
 use crate::Robot;
@@ -61,7 +61,8 @@ impl Radio {
     /// One millisecond later.
     pub(super) fn pass_ms(&mut self, robot: &Robot) {
         let world = robot.world();
-        if let Some((beacon, range_m)) = self.beacons.step(world.home(), world.truth().pose) {
+        if let Some((beacon, Measured::Range(range_m))) = self.beacons.step(world.home(), world.truth().pose)
+        {
             self.module.measure(beacon, range_m);
         }
         if robot.now_ms().is_multiple_of(LINE_MS) {

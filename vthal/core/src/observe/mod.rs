@@ -5,7 +5,7 @@ mod odometer;
 
 pub use odometer::{Odometer, RawTotals, Travel};
 
-use brain::observation::{BeaconRange, Cliffs, Contacts, Observation};
+use brain::observation::{BeaconSignal, Cliffs, Contacts, Observation};
 use rvac_protocol::message::{Battery, Inhibit, Inhibits, State};
 
 use crate::device::{Description, Part};
@@ -16,8 +16,8 @@ pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
 /// A heading of the Linux board's gyro older than this says nothing about the robot's present.
 const BOARD_HEADING_FRESH_US: u64 = 200_000;
 
-/// Ranges to beacons that wait for the next step of the brain at most; a radio measures some in 20 ms, not dozens.
-const BEACON_RANGES_MAX: usize = 32;
+/// Signals of beacons that wait for the next step of the brain at most; a radio measures some in 20 ms, not dozens.
+const BEACONS_MAX: usize = 32;
 
 /// What the gyro on the Linux board said last.
 #[derive(Clone, Copy, Debug)]
@@ -67,16 +67,16 @@ impl Observer {
         });
     }
 
-    /// Takes a range to a beacon; the next step of the brain sees it. More than a step can be worth are dropped.
-    pub fn take_beacon_range(&mut self, range: BeaconRange) {
-        if self.observation.beacon_ranges.len() < BEACON_RANGES_MAX {
-            self.observation.beacon_ranges.push(range);
+    /// Takes what was measured of a beacon; the next step of the brain sees it. More than a step can be worth are dropped.
+    pub fn take_beacon(&mut self, signal: BeaconSignal) {
+        if self.observation.beacons.len() < BEACONS_MAX {
+            self.observation.beacons.push(signal);
         }
     }
 
     /// What is told once only has been seen.
     pub fn seen(&mut self) {
-        self.observation.beacon_ranges.clear();
+        self.observation.beacons.clear();
     }
 
     fn heading_urad(&self, now_us: u64, state: &State, description: &Description) -> Option<i32> {

@@ -14,7 +14,7 @@ pub use command::GivenCommand;
 pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
 pub use state::BrainState;
 
-use brain::observation::{BeaconRange, Cliffs, Contacts};
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts};
 use brain::{Body, BrainConfig, Observation, Speeds};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
@@ -161,6 +161,9 @@ pub struct Seen {
     /// Number, range and its deviation of each beacon that was measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     beacons: Vec<(u16, f64, f64)>,
+    /// Number and received power of each beacon of which only that was measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    strengths: Vec<(u16, f64)>,
 }
 
 impl From<&Observation> for Seen {
@@ -181,11 +184,8 @@ impl From<&Observation> for Seen {
             inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
-            beacons: seen
-                .beacon_ranges
-                .iter()
-                .map(|range| (range.beacon, range.range_m, range.sigma_m))
-                .collect(),
+            beacons: seen.beacons.iter().filter_map(range).collect(),
+            strengths: seen.beacons.iter().filter_map(strength).collect(),
         }
     }
 }
@@ -216,16 +216,38 @@ impl Seen {
             inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
             link_up: self.link_up,
             speed_share: self.speed_share,
-            beacon_ranges: self
-                .beacons
-                .iter()
-                .map(|&(beacon, range_m, sigma_m)| BeaconRange {
-                    beacon,
-                    range_m,
-                    sigma_m,
-                })
-                .collect(),
+            beacons: self.signals(),
         }
+    }
+
+    /// First the ranges: what a step is told of beacons has no order.
+    fn signals(&self) -> Vec<BeaconSignal> {
+        let ranges = self.beacons.iter().map(|&(beacon, range_m, sigma_m)| {
+            BeaconSignal::Range(BeaconRange {
+                beacon,
+                range_m,
+                sigma_m,
+            })
+        });
+        let strengths = self
+            .strengths
+            .iter()
+            .map(|&(beacon, dbm)| BeaconSignal::Strength(BeaconStrength { beacon, dbm }));
+        ranges.chain(strengths).collect()
+    }
+}
+
+fn range(signal: &BeaconSignal) -> Option<(u16, f64, f64)> {
+    match signal {
+        BeaconSignal::Range(range) => Some((range.beacon, range.range_m, range.sigma_m)),
+        BeaconSignal::Strength(_) => None,
+    }
+}
+
+fn strength(signal: &BeaconSignal) -> Option<(u16, f64)> {
+    match signal {
+        BeaconSignal::Strength(strength) => Some((strength.beacon, strength.dbm)),
+        BeaconSignal::Range(_) => None,
     }
 }
 
@@ -245,7 +267,7 @@ pub struct Given {
 #[cfg(test)]
 mod tests {
     use brain::mapping::CutLine;
-    use brain::observation::{BeaconRange, ChargeFlow};
+    use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow};
     use brain::{
         CleaningOrder, Command, HomePart, KeptPlace, NoGo, Observation, Pattern, PlaceShape, Point2, Pose2,
         RoomName, RoomPower, RoomSettings, Zone,
@@ -264,11 +286,17 @@ mod tests {
             inhibits: vec!["wheel-drop", "unknown-inhibit"],
             battery_charge: Some(0.3),
             charge_flow: Some(ChargeFlow::Missing),
-            beacon_ranges: vec![BeaconRange {
-                beacon: 3,
-                range_m: 4.1,
-                sigma_m: 0.2,
-            }],
+            beacons: vec![
+                BeaconSignal::Range(BeaconRange {
+                    beacon: 3,
+                    range_m: 4.1,
+                    sigma_m: 0.2,
+                }),
+                BeaconSignal::Strength(BeaconStrength {
+                    beacon: 4,
+                    dbm: -71.3,
+                }),
+            ],
             ..Observation::default()
         };
         let text = serde_json::to_string(&Seen::from(&observation)).expect("plain");

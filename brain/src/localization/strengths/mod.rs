@@ -1,0 +1,71 @@
+//! How strongly radio beacons are received where: what tells a robot that was carried away which part of the home it may be in.
+//!
+//! A strength is no distance. Walls and shadowing change it by 4 to 6 dB, which at the path loss of a home is half of any distance
+//! that one would make of it, and all of it stays the same at a place however long one listens. So no distance is made. While
+//! the robot knows its place it keeps the mean strength of each beacon for each piece of floor ([`StrengthMap`]), in which walls,
+//! power and exponent are contained; a lost robot compares with that what it has received lately ([`Hearing`]). Nothing is known of
+//! where beacons are, and no heading and no place of a robot that is not lost ever follows from strengths.
+
+mod gathering;
+mod hearing;
+mod map;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+pub(super) use hearing::Hearing;
+pub(super) use map::StrengthMap;
+
+use super::Advance;
+use crate::geometry::Point2;
+use crate::observation::Observation;
+use gathering::Gathering;
+
+/// Beacons that are remembered.
+const BEACONS_MAX: u16 = 32;
+
+/// Mean strength of a beacon on a short way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Level {
+    pub(super) beacon: u16,
+    pub(super) dbm: f64,
+}
+
+/// What is received now, and what was learnt of the home.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Strengths {
+    gathering: Gathering,
+    map: Arc<StrengthMap>,
+    fresh: Vec<Level>,
+}
+
+impl Strengths {
+    /// Takes in what was received on a step; [`Self::fresh`] tells whether a short way ended with it.
+    pub(super) fn listen(&mut self, observation: &Observation, advance: Advance) {
+        self.fresh.clear();
+        self.gathering.take(observation, advance, &mut self.fresh);
+    }
+
+    /// Means of the way that has just ended; empty between.
+    pub(super) fn fresh(&self) -> &[Level] {
+        &self.fresh
+    }
+
+    /// What is fresh was received here, by a robot that knows it.
+    pub(super) fn learn(&mut self, at: Point2) {
+        if !self.fresh.is_empty() {
+            Arc::make_mut(&mut self.map).learn(at, &self.fresh);
+        }
+    }
+
+    /// Nothing was learnt yet.
+    pub(super) fn is_empty(&self) -> bool {
+        self.map.is_empty()
+    }
+
+    /// What was learnt of the home.
+    pub(super) fn map(&self) -> Arc<StrengthMap> {
+        Arc::clone(&self.map)
+    }
+}

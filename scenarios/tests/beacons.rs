@@ -1,0 +1,83 @@
+//! A flat of two rooms that are alike to a robot, turned by half a turn, on a virtual clock: what it sees cannot tell them apart
+//! after somebody has carried it, and how strongly it receives radio beacons can.
+
+use std::sync::Arc;
+
+use brain::command::StrategyName;
+use home::{Home, Noise, Pose, RobotModel};
+use robot::RobotSettings;
+use rvac_api::RequestBody;
+use rvac_sim::run::{core_config, start_cleaning};
+use rvac_sim::{Host, Household, Scene};
+
+const SEED: u64 = 3;
+const MINUTE_MS: u64 = 60_000;
+/// Longest wait for a robot to know its place, seconds.
+const WAIT_S: u64 = 300;
+/// Beacons at the edges of the flat.
+const BEACONS: usize = 4;
+/// Two rooms of 3 m by 3.4 m with a door in the middle of the wall between them.
+const TWINS: &str = "format = \"librervac-home\"\nversion = 1\nname = \"Twins\"\n\
+    [[room]]\npolygon = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.4], [0.0, 3.4]]\n\
+    [[room]]\npolygon = [[3.1, 0.0], [6.1, 0.0], [6.1, 3.4], [3.1, 3.4]]\n\
+    [[wall]]\nfrom = [3.05, 0.0]\nto = [3.05, 3.4]\nthickness-m = 0.1\n\
+    [[door]]\nfrom = [3.05, 1.25]\nto = [3.05, 2.15]\nstate = \"open\"\n";
+
+fn twins() -> Scene {
+    let model = RobotModel::by_name("sr8730").expect("the project's robot");
+    let home = Home::from_floorplan("twins", TWINS, &model).expect("a plan");
+    Scene::new(Arc::new(home), model, Noise::nominal())
+}
+
+fn household(scene: &Scene) -> Household {
+    let settings = RobotSettings {
+        seed: SEED,
+        ..RobotSettings::default()
+    };
+    let config = core_config(scene, SEED, StrategyName::Systematic);
+    Household::new(scene.robot(SEED, &settings), Host::start(0, config)).with_known_map()
+}
+
+/// Lets it clean both rooms, carries it to a place of the second one, and waits until it says that it knows its place; gives by how
+/// much that is wrong, metres.
+fn off_after_lifting_m(scene: &Scene, mut household: Household) -> Option<f64> {
+    start_cleaning(&mut household, StrategyName::Systematic);
+    household.pass_ms(6 * MINUTE_MS);
+    household.robot_mut().world_mut().lift();
+    household.pass_ms(3_000);
+    household
+        .robot_mut()
+        .world_mut()
+        .put_down_at(Pose::new(4.9, 0.8, 2.5));
+    household.pass_ms(3_000);
+    household.ask(RequestBody::Resume);
+    household.pass_ms(1_000);
+    for _ in 0..WAIT_S {
+        household.pass_ms(1_000);
+        let estimate = household
+            .host()
+            .and_then(Host::brain)
+            .expect("a brain")
+            .estimate();
+        if !estimate.lost {
+            let truth = household.robot().world().truth().pose;
+            let in_map = scene.home().start().inverse().then(truth);
+            let pose = estimate.pose;
+            return Some(Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map));
+        }
+    }
+    None
+}
+
+#[test]
+fn strengths_of_beacons_tell_rooms_apart_that_look_the_same() {
+    let scene = twins();
+    let by_sight = off_after_lifting_m(&scene, household(&scene));
+    assert!(
+        by_sight.is_none_or(|off_m| off_m > 1.0),
+        "it may not have known: {by_sight:?}"
+    );
+    let beacons = scene.beacons(SEED, BEACONS).by_strength();
+    let by_strength = off_after_lifting_m(&scene, household(&scene).with_beacons(beacons));
+    assert!(by_strength.is_some_and(|off_m| off_m < 0.25), "{by_strength:?}");
+}
