@@ -6,7 +6,6 @@
 
 use std::fs;
 
-use brain::localization::Advance;
 use brain::{
     Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, Observation, Point2, Pose2, PoseEstimate,
     ProximityLayout, ProximityResponse, Raster, SensorLayout, StoredMap,
@@ -129,7 +128,7 @@ fn main() {
             sigma_m: 0.02,
             ..PoseEstimate::default()
         };
-        map.insert(&estimate, observation, Advance::default());
+        map.insert(&estimate, observation);
     }
     let simulated_s = reports.len() as f64 / REPORTS_PER_S;
     let per_s = (processor_s() - started_s) * 1e6 / simulated_s;

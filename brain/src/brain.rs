@@ -111,7 +111,7 @@ impl Brain {
             self.feel_dock(pose);
         }
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
-            self.map.insert(&estimate, observation, advance);
+            self.map.insert(&estimate, observation);
         }
         self.localization.look(observation, advance, &self.config);
         self.localization

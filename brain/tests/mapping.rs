@@ -1,6 +1,5 @@
 //! The map of the home: from perceptions and from hand-made rasters to knowledge, distances, rooms, doors and walls.
 
-use brain::localization::Advance;
 use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
@@ -78,7 +77,7 @@ impl Fed {
             time_us: self.time_us,
             ..observation.clone()
         };
-        self.map.insert(&estimate, &observation, Advance::default());
+        self.map.insert(&estimate, &observation);
     }
 
     fn knows(&mut self, x_m: f64, y_m: f64) -> CellKnowledge {
@@ -200,7 +199,7 @@ fn a_lost_lifted_or_silent_robot_draws_nothing() {
         lost: true,
         ..PoseEstimate::default()
     };
-    fed.map.insert(&lost, &Observation::default(), Advance::default());
+    fed.map.insert(&lost, &Observation::default());
     fed.map.refresh();
     assert!(fed.map.knowledge().values().is_empty());
     assert!(fed.map.stored().is_empty());

@@ -264,7 +264,7 @@ fn take_and_draw(localization: &mut Localization, map: &mut Map, view: &Observat
     if let Some(keyframes) = localization.take_redraw(view.time_us) {
         map.redraw(&keyframes);
     }
-    map.insert(&localization.estimate(), view, advance);
+    map.insert(&localization.estimate(), view);
     localization.learn(map, &config(), view.time_us);
 }
 
@@ -466,8 +466,8 @@ fn a_map_that_odometry_alone_has_drawn_is_not_compared_with() {
     let mut drawn = Map::new(config().body, config().sensors);
     for _ in 0..60 * 50 * 5 {
         let view = truth.step().clone();
-        let advance = odometry.update(&view);
-        drawn.insert(&odometry.estimate(), &view, advance);
+        odometry.update(&view);
+        drawn.insert(&odometry.estimate(), &view);
     }
     drawn.refresh();
     let solid = drawn

@@ -259,7 +259,7 @@ mod tests {
                 sigma_m: 0.02,
                 ..PoseEstimate::default()
             };
-            map.insert(&estimate, &view, Advance::default());
+            map.insert(&estimate, &view);
         }
         known(map)
     }

@@ -79,7 +79,6 @@ impl Pencil {
                     evidence.contact = evidence.contact.saturating_sub(CONTACT_SURE);
                     evidence.set(Flag::Body);
                     note_sigma(evidence, sighting);
-                    note_slip(evidence, sighting);
                 });
             }
         }
@@ -228,16 +227,6 @@ fn note_sigma(evidence: &mut Evidence, sighting: &Sighting) {
         evidence.sigma_cm = sighting.sigma_cm;
     }
     evidence.set(Flag::Seen);
-}
-
-/// A slow mean, so that one jerk makes no carpet.
-fn note_slip(evidence: &mut Evidence, sighting: &Sighting) {
-    if sighting.slip == u8::MAX {
-        return;
-    }
-    let (old, new) = (i16::from(evidence.slip), i16::from(sighting.slip));
-    let step = (new - old) / 8 + (new - old).signum();
-    evidence.slip = (old + step).clamp(0, 254) as u8;
 }
 
 /// Visits the cells along a beam from one distance to another, each once.

@@ -16,7 +16,7 @@ use super::{CELL_M, Cell, Map, Raster, StoredMap};
 use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::{Gradual, Pace, at_once};
-use crate::localization::{Advance, PoseEstimate};
+use crate::localization::PoseEstimate;
 use crate::observation::Observation;
 
 /// Derived rasters are brought up to date after this time, microseconds.
@@ -25,8 +25,6 @@ const REFRESH_US: u64 = 2_000_000;
 const SURVEY_US: u64 = 120_000_000;
 /// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
 const SIGHTINGS_MAX: usize = 100_000;
-/// Turn rates of wheels and gyro are compared over ways of this length, metres.
-const SLIP_WAY_M: f64 = 0.1;
 /// Radius of what is shut around a place that trapped the robot; plans keep the body's radius away from it, too.
 const POCKET_M: f64 = 0.1;
 
@@ -46,7 +44,6 @@ pub(super) struct HomeMap {
     pub(super) rooms: Rooms,
     surveyed_us: u64,
     surveying: Option<Gradual<Rooms>>,
-    slip: SlipMeter,
     pub(super) dock: DockPlace,
     revision: u32,
     /// Direction of the walls at a revision.
@@ -73,7 +70,6 @@ impl HomeMap {
             rooms: Rooms::default(),
             surveyed_us: 0,
             surveying: None,
-            slip: SlipMeter::default(),
             dock: DockPlace::default(),
             revision: 0,
             direction: DirectionAt::default(),
@@ -84,8 +80,7 @@ impl HomeMap {
         }
     }
 
-    fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation, advance: Advance) {
-        let slip = self.slip.take(advance);
+    fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation) {
         if !is_of_use(estimate, observation) {
             self.last = None;
             return;
@@ -93,10 +88,7 @@ impl HomeMap {
         if observation.docked && self.dock.pose().is_none() {
             self.dock = DockPlace::sure(estimate.pose);
         }
-        let mut sighting = Sighting {
-            slip,
-            ..Sighting::new(estimate, observation)
-        };
+        let mut sighting = Sighting::new(estimate, observation);
         let before = self.last.map(|last| last.touched).unwrap_or_default();
         sighting.touched = sighting.touched.after(before);
         if self.last.is_some_and(|last| sighting.repeats(&last)) {
@@ -293,42 +285,16 @@ fn is_of_use(estimate: &PoseEstimate, observation: &Observation) -> bool {
     is_finite && !estimate.lost && observation.link_up && !observation.wheel_drop
 }
 
-/// Compares what wheels and gyro say of turning.
-#[derive(Clone, Copy, Debug, Default)]
-struct SlipMeter {
-    way_m: f64,
-    apart_rad: f64,
-    /// Slip of the last piece of way, in steps of 0.01 radians a metre.
-    found: Option<u8>,
-}
-
-impl SlipMeter {
-    /// Slip in steps of 0.01 radians a metre, 255 = not known.
-    fn take(&mut self, advance: Advance) -> u8 {
-        let Some(gyro_turn_rad) = advance.gyro_turn_rad else {
-            return u8::MAX;
-        };
-        self.way_m += advance.distance_m.abs();
-        self.apart_rad += advance.wheel_turn_rad - gyro_turn_rad;
-        if self.way_m >= SLIP_WAY_M {
-            let per_m = (self.apart_rad / self.way_m).abs();
-            self.found = Some((100.0 * per_m).min(254.0) as u8);
-            (self.way_m, self.apart_rad) = (0.0, 0.0);
-        }
-        self.found.unwrap_or(u8::MAX)
-    }
-}
-
 /// What is known of the home.
 impl Map {
     /// Takes in what was perceived at a pose. Nothing is taken from a robot that is lost, lifted or silent, and nothing
     /// twice while it stands still.
-    pub fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation, advance: Advance) {
+    pub fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation) {
         if self.home.is_full() {
             self.finish_redraw();
             self.settle();
         }
-        self.home.insert(estimate, observation, advance);
+        self.home.insert(estimate, observation);
         self.home.refresh_on();
         self.home.survey_on();
         self.redraw_on();
@@ -435,12 +401,6 @@ impl Map {
     /// Allows again what [`Self::shut_pocket`] forbade.
     pub(super) fn open_pockets(&mut self) {
         self.home.open_pockets();
-    }
-
-    /// How much wheels and gyro differed where the robot drove over a cell, in radians a metre; 0 where it did not.
-    #[must_use]
-    pub fn slip_rad_per_m(&self, cell: Cell) -> f64 {
-        0.01 * f64::from(self.home.layers.at(cell).slip)
     }
 
     /// Standard deviation of the pose when a cell was seen best, in metres; `None` if it never was.

@@ -42,8 +42,6 @@ pub(super) struct Evidence {
     pub(super) contact: u8,
     /// For the end of the floor.
     pub(super) cliff: u8,
-    /// How much the wheels slipped or drifted, in steps of 0.01 radians a metre.
-    pub(super) slip: u8,
     /// Standard deviation of the pose in centimetres when the cell was seen best.
     pub(super) sigma_cm: u8,
     /// [`Flag`]s.

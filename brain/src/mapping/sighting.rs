@@ -21,8 +21,6 @@ pub(super) struct Sighting {
     pub(super) levels: [u8; PROXIMITY_MAX],
     /// Bumper halves left and right that were pressed, and cliff sensors left, middle and right that saw no floor.
     pub(super) touched: Touched,
-    /// How much the wheels slipped, in steps of 0.01 radians a metre; 255 = not known.
-    pub(super) slip: u8,
 }
 
 /// Switches of a sighting.
@@ -105,7 +103,6 @@ impl Sighting {
             sigma_cm: (100.0 * estimate.sigma_m) as u8,
             levels,
             touched: Touched::of(observation),
-            slip: u8::MAX,
         }
     }
 

@@ -212,7 +212,8 @@ fn sure(kind: CellKnowledge) -> Evidence {
     evidence
 }
 
-/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 slip, 1 body, 1 no-go, 1 seen, 3 uncertainty.
+/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 free (older maps kept there how much wheels
+/// slipped, which nothing used), 1 body, 1 no-go, 1 seen, 3 uncertainty.
 fn pack(evidence: Evidence) -> u16 {
     // Rounded so that what counts as free or occupied still does.
     let rounding = if evidence.occupancy < 0 {
@@ -226,7 +227,7 @@ fn pack(evidence: Evidence) -> u16 {
         (occupancy as u16 ^ 7, 4),
         (u16::from(evidence.contact / 2).min(3), 2),
         (u16::from(evidence.cliff / 2).min(3), 2),
-        (u16::from(evidence.slip / 10).min(3), 2),
+        (0, 2),
         (u16::from(evidence.has(Flag::Body)), 1),
         (u16::from(evidence.has(Flag::NoGo)), 1),
         (u16::from(evidence.has(Flag::Seen)), 1),
@@ -248,7 +249,6 @@ fn unpack(packed: u16) -> Evidence {
         occupancy,
         contact: 2 * field(4, 2),
         cliff: 2 * field(6, 2),
-        slip: 10 * field(8, 2),
         sigma_cm: 5 * field(13, 3),
         flags: 0,
     };
