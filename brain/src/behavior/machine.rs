@@ -77,6 +77,8 @@ pub(crate) struct Behavior {
     pub(super) way_home_us: Option<u64>,
     /// Its length is just being looked for.
     pub(super) way_home: Option<Gradual<Option<f64>>>,
+    /// How long the way home was when it was looked at last, metres.
+    pub(super) home_way_m: Option<f64>,
     pub(super) facts: Facts,
     pub(super) cliff_sensor_since_us: Option<u64>,
     pub(super) starved_since_us: Option<u64>,
@@ -114,6 +116,7 @@ impl Behavior {
             energy: EnergyWatch::default(),
             way_home_us: None,
             way_home: None,
+            home_way_m: None,
             facts: Facts::default(),
             cliff_sensor_since_us: None,
             starved_since_us: None,

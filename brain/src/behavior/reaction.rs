@@ -182,7 +182,7 @@ impl Behavior {
         } else if job.figures.time_s >= self.config.task_budget_s {
             self.turn_home(Reason::TaskBudget, mind);
         } else if self.must_go_home(situation) {
-            self.turn_home(Reason::BatteryLow, mind);
+            self.turn_home_for_charge(situation, mind);
         }
     }
 }

@@ -119,6 +119,8 @@ reasons! {
     NoHeading => "no-heading",
     /// What is not swept yet cannot be reached.
     RestOutOfReach => "rest-out-of-reach",
+    /// The pack is low, and what is left is not worth another charge.
+    CrumbsLeft => "crumbs-left",
     /// Too many things in the way.
     Obstructed => "obstructed",
     /// Commanded to move and did not (S15).

@@ -11,7 +11,7 @@ use super::{JobKind, Reason};
 use crate::checkpoint::JobCheckpoint;
 use crate::command::StrategyName;
 use crate::docking;
-use crate::energy::{Activity, EnergyModel, EnergyWatch};
+use crate::energy::{Activity, EnergyModel, EnergyWatch, Leftover};
 use crate::task::{Mind, Situation};
 
 /// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
@@ -43,6 +43,29 @@ impl Behavior {
         self.energy.follow(situation.advance.time_s, activity, charge);
     }
 
+    /// The running job ends for the pack's sake: it is put off, unless what is left of it is not worth a charge.
+    pub(super) fn turn_home_for_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        if self.leaves_crumbs(situation) {
+            self.finish(Reason::CrumbsLeft, situation, mind);
+        } else {
+            self.turn_home(Reason::BatteryLow, mind);
+        }
+    }
+
+    /// Weighs what is left against the charge that its ways would take.
+    fn leaves_crumbs(&self, situation: &Situation<'_>) -> bool {
+        let (Some(swept), Some(way_m)) = (self.swept_share(situation.map), self.home_way_m) else {
+            return false;
+        };
+        let left = Leftover {
+            left_m2: swept.left_m2,
+            share: 1.0 - swept.share,
+            way_m,
+        };
+        let pace = (self.config.body.swath_m, self.config.speeds.cruise_m_per_s);
+        self.energy.model().are_crumbs(left, pace)
+    }
+
     /// Whether so little charge is left that the way home might become too long.
     pub(super) fn must_go_home(&mut self, situation: &Situation<'_>) -> bool {
         if self.facts.battery_low {
@@ -66,6 +89,7 @@ impl Behavior {
                 return None;
             };
             self.way_home = None;
+            self.home_way_m = way_m;
             return way_m;
         }
         let now_us = self.facts.now_us;
@@ -95,7 +119,7 @@ impl Behavior {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(
                 reason,
-                Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics
+                Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics | Reason::CrumbsLeft
             );
         let is_whole_home = self.order().is_some_and(|order| order.parts().is_empty());
         self.has_covered_home |=

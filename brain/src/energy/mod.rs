@@ -25,6 +25,21 @@ const WAY_FACTOR: f64 = 1.5;
 /// Finding the line and driving in, with a few tries, seconds.
 const APPROACH_S: f64 = 90.0;
 
+/// Lanes in corners take so many times what the same floor takes in the open.
+const CORNER_FACTOR: f64 = 2.0;
+/// Rest of a job that may be left at all, share of its floor: in clutter a job ends by itself with hardly less.
+const CRUMBS_MAX: f64 = 0.05;
+
+/// What of a job is left when the pack is low.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Leftover {
+    /// Floor, square metres, and its share of what the job wants, 0..=1.
+    pub(crate) left_m2: f64,
+    pub(crate) share: f64,
+    /// Way to the dock, metres.
+    pub(crate) way_m: f64,
+}
+
 /// What the wheels and the cleaning parts do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
@@ -82,6 +97,13 @@ impl EnergyModel {
     #[must_use]
     pub fn charge_to_return(&self, way_m: f64, cruise_m_per_s: f64) -> f64 {
         MARGIN * self.charge_for(0.0, time_to_return_s(way_m, cruise_m_per_s)) + RESERVE
+    }
+
+    /// Whether so little is left that a charge for it would mostly go into the ways there and back: then the job is over.
+    pub(crate) fn are_crumbs(&self, left: Leftover, (swath_m, cruise_m_per_s): (f64, f64)) -> bool {
+        let cleaning_s = CORNER_FACTOR * left.left_m2 / (swath_m * cruise_m_per_s).max(0.01);
+        let ways_s = 2.0 * time_to_return_s(left.way_m, cruise_m_per_s);
+        left.share <= CRUMBS_MAX && self.charge_for(cleaning_s, 0.0) < self.charge_for(0.0, ways_s)
     }
 }
 
@@ -167,7 +189,25 @@ impl EnergyWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Activity, EnergyModel, EnergyWatch};
+    use super::{Activity, EnergyModel, EnergyWatch, Leftover};
+
+    #[test]
+    fn what_is_left_is_worth_a_charge_unless_the_ways_take_more_than_the_floor() {
+        let model = EnergyModel::default();
+        let are_crumbs = |left_m2, share, way_m| {
+            let left = Leftover {
+                left_m2,
+                share,
+                way_m,
+            };
+            model.are_crumbs(left, (0.3, 0.25))
+        };
+        assert!(are_crumbs(0.3, 0.005, 8.0));
+        assert!(!are_crumbs(0.3, 0.06, 8.0), "a corner of a small room");
+        assert!(!are_crumbs(4.0, 0.03, 8.0), "some minutes of a large home");
+        assert!(are_crumbs(4.0, 0.03, 60.0), "far away");
+        assert!(!are_crumbs(f64::NAN, 0.01, 8.0));
+    }
 
     /// Hours of cleaning and driving in turns, with these rates.
     fn learnt(cleaning_per_s: f64, driving_per_s: f64) -> EnergyModel {

@@ -71,6 +71,7 @@ impl Tally {
         Some(SweptShare {
             share: swept(times),
             share_low: swept(times / larger),
+            left_m2: (1.0 - swept(times)) * floor_m2,
         })
     }
 }

@@ -15,6 +15,8 @@ pub struct SweptShare {
     pub share: f64,
     /// The same if it knows its place half as well as it believes.
     pub share_low: f64,
+    /// What of it is left, square metres.
+    pub left_m2: f64,
 }
 
 /// Floor that was passed, square metres, and what stays of it with more doubt.
@@ -107,6 +109,7 @@ impl Shares {
         Some(SweptShare {
             share,
             share_low: share * now.kept_low(),
+            left_m2: (1.0 - share) * floor_m2,
         })
     }
 }

@@ -116,7 +116,10 @@ impl Ending {
 
 /// Reasons for which a cleaning job is over because nothing is left to do.
 fn is_done(reason: &str) -> bool {
-    matches!(reason, "finished" | "rest-out-of-reach" | "by-statistics")
+    matches!(
+        reason,
+        "finished" | "rest-out-of-reach" | "by-statistics" | "crumbs-left"
+    )
 }
 
 /// Whoever commands, within a sentence.

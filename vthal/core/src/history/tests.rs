@@ -15,6 +15,25 @@ fn clean() -> RunJob {
 }
 
 #[test]
+fn a_job_that_has_nothing_left_to_do_is_finished_for_its_own_reason() {
+    let clean = clean();
+    for reason in ["finished", "rest-out-of-reach", "by-statistics", "crumbs-left"] {
+        let words = LastWords {
+            job: &clean,
+            reason: "docked",
+            turned_home: Some(reason),
+            trouble: None,
+            by: None,
+        };
+        let ending = Ending::of(words);
+        assert_eq!(
+            (ending.result, ending.reason.as_str()),
+            (RunResult::Finished, reason)
+        );
+    }
+}
+
+#[test]
 fn results_follow_from_the_last_words() {
     use RunResult::{Finished, GaveUp, Stopped};
     let clean = clean();
@@ -29,12 +48,6 @@ fn results_follow_from_the_last_words() {
     for (words, result, reason) in [
         (words("finished", None), Finished, "finished"),
         (words("docked", Some("finished")), Finished, "finished"),
-        (
-            words("docked", Some("rest-out-of-reach")),
-            Finished,
-            "rest-out-of-reach",
-        ),
-        (words("docked", Some("by-statistics")), Finished, "by-statistics"),
         (
             words("dock-not-found", Some("finished")),
             Finished,

@@ -33,6 +33,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("rest-out-of-reach", "Sinna, kus on veel koristamata, ei pääse.", "Vaata uksi ja keelualasid."),
     entry("start-up", "Tarkvara äsja käivitus.", ""),
     entry("command", "Keegi palus seda.", ""),
+    entry("crumbs-left", "Aku on tühjenemas ja koristamata on nii vähe, et uus laadimine kuluks peamiselt sõidule sinna ja tagasi.", "Kui see põrand on tähtis, saada robot sellesse tuppa."),
     entry("finished", "Töö on tehtud.", ""),
     entry("continued", "Robot jätkab pärast katkestust ise.", ""),
     entry("restored", "Robot jätkab pärast taaskäivitust poolelijäänud tööd.", ""),
