@@ -178,10 +178,10 @@ impl Core {
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::SchedulesKept { number, result } => self.schedules_kept(now_us, (number, result), outputs),
             Input::HealthKept { number, result } => {
-                self.on_kept(now_us, (number, result), &health::RESET, outputs);
+                self.on_kept(now_us, (&health::RESET, number, result), outputs);
             }
             Input::LearntKept { number, result } => {
-                self.on_kept(now_us, (number, result), &learnt::FORGETTING, outputs);
+                self.on_kept(now_us, (&learnt::FORGETTING, number, result), outputs);
             }
             Input::RunKept { number, result } => self.run_kept(now_us, (number, result), outputs),
             Input::RecordingOpened { run, name } => self.runs.recorded_as(run, name),

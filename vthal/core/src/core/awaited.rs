@@ -62,8 +62,7 @@ impl Core {
     pub(super) fn on_kept<T>(
         &mut self,
         now_us: u64,
-        (number, result): (u64, Result<(), String>),
-        change: &Change<T>,
+        (change, number, result): (&Change<T>, u64, Result<(), String>),
         outputs: &mut Outputs,
     ) {
         let refused = result.err().map(|text| (change.refused_as, text));
