@@ -53,6 +53,16 @@ pub(crate) fn is_stop(text: &str) -> bool {
     serde_json::from_str::<Request>(text).is_ok_and(|request| request.body == RequestBody::Stop)
 }
 
+/// What a client says of itself when it begins.
+pub(crate) fn introduction(id: Option<u32>, name: &str) -> String {
+    text_of(&Request {
+        id,
+        body: RequestBody::Hello {
+            name: name.to_owned(),
+        },
+    })
+}
+
 /// What everybody hears when a device was let in.
 pub(crate) fn new_device(newcomer: Newcomer) -> String {
     text_of(&Update::NewDevice {

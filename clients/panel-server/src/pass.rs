@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use pairing::wire::Greeting;
 use pairing::{Denied, Register, Role, checked_request};
+use rvac_api::{Request, RequestBody};
 use tokio::sync::{broadcast, watch};
 
 use crate::api::may;
-use crate::courtesy::refused;
+use crate::courtesy::{introduction, refused};
 use crate::gate::Gate;
 use crate::guarded::{Known, Newcomer};
 
@@ -87,7 +88,7 @@ impl Pass {
         }
         let is_present = self.gate.guarded.is_present(self.known.id);
         match checked_request(text, (self.known.role, is_present)) {
-            Ok(request) => Judged::PassOn(request),
+            Ok(request) => Judged::PassOn(self.under_own_name(request)),
             Err(Denied::Unreadable) => Judged::Answer(refused(
                 text,
                 "syntax",
@@ -107,6 +108,22 @@ impl Pass {
                 "not-allowed",
                 &not_allowed(self.known.role, needed),
             )),
+        }
+    }
+
+    /// The same, with the name under which the client was paired where it tells one: the daemon and everybody who reads its log
+    /// shall know which phone drives, and none may call itself another.
+    fn under_own_name(&self, request: String) -> String {
+        let register = self.register.borrow();
+        let Some(client) = register.get(self.known.id) else {
+            return request;
+        };
+        match serde_json::from_str::<Request>(&request) {
+            Ok(Request {
+                id,
+                body: RequestBody::Hello { .. },
+            }) => introduction(id, client.name.as_str()),
+            _ => request,
         }
     }
 

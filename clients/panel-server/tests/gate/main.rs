@@ -37,6 +37,12 @@ async fn a_device_is_paired_drives_and_is_shut_out() {
     let mut daemon = rig.daemon().await;
     socket.say(r#"{"id":1,"c":"start"}"#).await;
     assert_eq!(daemon.hear().await.unwrap(), r#"{"c":"start","id":1}"#);
+    socket.say(r#"{"c":"hello","name":"an administrator"}"#).await;
+    assert_eq!(
+        daemon.hear().await.unwrap(),
+        r#"{"c":"hello","name":"Mari's phone"}"#,
+        "who drives is told by the name that was paired"
+    );
     socket.say(r#"{"id":2,"c":"set-quiet"}"#).await;
     let refused = socket.hear().await.unwrap();
     assert!(
