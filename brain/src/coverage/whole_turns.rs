@@ -13,7 +13,7 @@ use crate::task::{Mind, Situation};
 
 /// Worth it while the scale is known no better, relative. A gyro is off by some 0.5 %; with a tenth of a percent a first run
 /// is wrong by 7 cm instead of 11 (design page on navigation).
-const WORTH_SIGMA: f64 = 2.5e-3;
+const WORTH_SIGMA: f64 = 5.0e-3;
 /// Most turns at a time: the direction of a piece of wall is known to one degree, so three of them tell the scale to 0.1 %.
 const TURNS_MAX: f64 = 3.0;
 /// They may be counted wrong by so much that the wall after is still taken for the wall before, radians: 6 degrees at one deviation.
@@ -23,7 +23,7 @@ const WALL_M: f64 = 0.75;
 /// A wall is straight as long as the robot that follows it turns no more than this, radians.
 const STRAIGHT_RAD: f64 = 0.12;
 /// Tries in one lap: a robot that turns all the time and learns nothing has something else wrong.
-const TRIES_MAX: u32 = 3;
+const TRIES_MAX: u32 = 2;
 /// Way between two tries, metres: what the first one showed must have been fitted.
 const BETWEEN_M: f64 = 4.0;
 
