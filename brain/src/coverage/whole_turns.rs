@@ -13,7 +13,7 @@ use crate::task::{Mind, Situation};
 
 /// Worth it while the scale is known no better, relative. A gyro is off by some 0.5 %; with a tenth of a percent a first run
 /// is wrong by 7 cm instead of 11 (design page on navigation).
-const WORTH_SIGMA: f64 = 5.0e-3;
+const WORTH_SIGMA: f64 = 3.0e-3;
 /// Most turns at a time: the direction of a piece of wall is known to one degree, so three of them tell the scale to 0.1 %.
 const TURNS_MAX: f64 = 3.0;
 /// They may be counted wrong by so much that the wall after is still taken for the wall before, radians: 6 degrees at one deviation.
@@ -22,10 +22,6 @@ const MISCOUNTED_RAD: f64 = 0.105;
 const WALL_M: f64 = 0.75;
 /// A wall is straight as long as the robot that follows it turns no more than this, radians.
 const STRAIGHT_RAD: f64 = 0.12;
-/// Tries in one lap: a robot that turns all the time and learns nothing has something else wrong.
-const TRIES_MAX: u32 = 2;
-/// Way between two tries, metres: what the first one showed must have been fitted.
-const BETWEEN_M: f64 = 4.0;
 
 /// The turns of one lap.
 #[derive(Debug, Default)]
@@ -37,8 +33,8 @@ pub(super) struct WholeTurns {
     /// Way along what is beside it, and by how much the robot turned meanwhile.
     wall_m: f64,
     turned_rad: f64,
-    since_m: f64,
-    tries: u32,
+    /// Once in a lap: a robot that turned and learnt nothing by it has something else wrong, and the lap goes on telling the scale.
+    has_begun: bool,
 }
 
 impl WholeTurns {
@@ -72,8 +68,7 @@ impl WholeTurns {
         }
         self.count(situation, is_beside_wall);
         let turns = self.due(situation)?;
-        self.tries += 1;
-        self.since_m = 0.0;
+        self.has_begun = true;
         self.turn = Some(Turn::by(turns * TAU));
         mind.decide("turn", Reason::GyroScale, turns);
         Some(Motion::Halt)
@@ -82,7 +77,6 @@ impl WholeTurns {
     fn count(&mut self, situation: &Situation<'_>, is_beside_wall: bool) {
         let advance = situation.advance;
         let way_m = advance.distance_m.max(0.0);
-        self.since_m += way_m;
         self.turned_rad += advance.turn_rad;
         if is_beside_wall && self.turned_rad.abs() < STRAIGHT_RAD {
             self.wall_m += way_m;
@@ -95,8 +89,7 @@ impl WholeTurns {
     /// Turns that are due.
     fn due(&self, situation: &Situation<'_>) -> Option<f64> {
         let sigma = situation.gyro_scale_sigma.filter(|sigma| *sigma > WORTH_SIGMA)?;
-        let has_waited = self.tries == 0 || self.since_m > BETWEEN_M;
-        let is_due = has_waited && self.tries < TRIES_MAX && self.wall_m > WALL_M && situation.is_free();
+        let is_due = !self.has_begun && self.wall_m > WALL_M && situation.is_free();
         is_due.then(|| libm::floor(MISCOUNTED_RAD / (TAU * sigma)).clamp(1.0, TURNS_MAX))
     }
 }
