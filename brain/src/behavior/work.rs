@@ -57,10 +57,7 @@ impl Behavior {
             return Motion::Halt;
         }
         if plans_on_map && self.settles_gyro(situation) {
-            if commanded != Motion::Halt {
-                mind.decide("rest", Reason::GyroDrift, 0.0);
-            }
-            return Motion::Halt;
+            return rest_for_gyro(commanded, mind);
         }
         self.watch_pen(situation, mind);
         let plan = self.watched_plan(commanded, situation, mind);
@@ -68,10 +65,7 @@ impl Behavior {
         if !self.rests_for_gyro(motion, situation) {
             return motion;
         }
-        if commanded != Motion::Halt {
-            mind.decide("rest", Reason::GyroDrift, 0.0);
-        }
-        Motion::Halt
+        rest_for_gyro(commanded, mind)
     }
 
     /// Whether the robot has come free.
@@ -256,6 +250,14 @@ impl Behavior {
     pub(crate) fn job_kind(&self) -> Option<JobKind> {
         self.job.as_ref().map(|job| job.kind)
     }
+}
+
+/// Stands still, and tells why when the rest begins.
+fn rest_for_gyro(commanded: Motion, mind: &mut Mind) -> Motion {
+    if commanded != Motion::Halt {
+        mind.decide("rest", Reason::GyroDrift, 0.0);
+    }
+    Motion::Halt
 }
 
 fn slowed(motion: Motion) -> Motion {
