@@ -264,6 +264,12 @@ impl Brain {
         self.behavior.job_kind()
     }
 
+    /// The job goes on once the pack is charged: the robot is on its way to the dock for that, or stands on it.
+    #[must_use]
+    pub fn awaits_charge(&self) -> bool {
+        self.behavior.awaits_charge()
+    }
+
     /// Corners of the way that the running or waiting job means to drive from here on, in the map frame; none where the
     /// robot decides as it goes. For people who look at it.
     #[must_use]

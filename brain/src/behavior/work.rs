@@ -246,6 +246,11 @@ impl Behavior {
         self.job.as_ref().map(|job| &job.order)
     }
 
+    /// The job is put off until the pack is charged.
+    pub(crate) fn awaits_charge(&self) -> bool {
+        self.mode == Mode::Recharging || self.put_off.is_some()
+    }
+
     /// Kind of the running or waiting job.
     pub(crate) fn job_kind(&self) -> Option<JobKind> {
         self.job.as_ref().map(|job| job.kind)

@@ -149,7 +149,7 @@ pub(crate) struct RunArguments {
     /// Seed of everything random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Simulated minutes.
+    /// Simulated minutes; those on the charger in the middle of a job do not count.
     #[arg(long, default_value_t = 10.0, value_parser = minutes)]
     minutes: f64,
     /// End when the robot says that its job is over and has docked or given up; --minutes is the longest then.

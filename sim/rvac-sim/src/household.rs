@@ -188,6 +188,12 @@ impl Household {
         self.figures.job_s(self.robot.now_ms())
     }
 
+    /// Milliseconds of work: those since it was switched on, without those on the charger in the middle of the job.
+    #[must_use]
+    pub fn work_ms(&self) -> u64 {
+        self.robot.now_ms() - self.figures.charging_ms()
+    }
+
     /// 95 % of the reachable floor were swept during the job.
     #[must_use]
     pub fn reached_all_shares(&self) -> bool {
@@ -218,6 +224,7 @@ impl Household {
                 pose: Pose::new(believed.x, believed.y, believed.heading),
                 state: host.state(),
                 lost: host.brain().is_some_and(|brain| brain.estimate().lost),
+                awaits_charge: host.brain().is_some_and(brain::Brain::awaits_charge),
             };
             let truth_in_map = self.map_from_plan.then(truth.pose);
             self.figures.sample(truth, truth_in_map, &belief);
@@ -226,7 +233,8 @@ impl Household {
                 self.figures.note_told(told, truth.swept_share);
             }
             if let Some(trace) = &mut self.trace {
-                trace.sample(truth, belief.pose.distance_m(truth_in_map), &belief);
+                let time_ms = truth.time_ms - self.figures.charging_ms();
+                trace.sample((time_ms, truth), belief.pose.distance_m(truth_in_map), &belief);
             }
         }
     }

@@ -16,14 +16,14 @@ pub struct RunSettings {
     pub pattern: Option<CleaningPattern>,
     /// Seed of everything random.
     pub seed: u64,
-    /// Simulated milliseconds, from power-on.
+    /// Simulated milliseconds from power-on, without those on the charger in the middle of the job.
     pub duration_ms: u64,
 }
 
 /// When a run ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RunEnd {
-    /// When its time is over.
+    /// When its time is over; that on the charger in the middle of a job does not count.
     #[default]
     Time,
     /// When the robot says that its job is over, and has docked or given that up; at latest when its time is over.
@@ -141,6 +141,9 @@ pub fn run(
     run_until(household, (settings, RunEnd::Time), progress)
 }
 
+/// A job waits for charge for at most so long in all: a dock that gives none would hold a run for ever. Three charges of 6 h.
+const CHARGING_MAX_MS: u64 = 18 * 3_600_000;
+
 /// Cleans until the run's end. After each simulated second `progress` is told the share of the longest time that has passed.
 ///
 /// # Errors
@@ -163,11 +166,11 @@ pub fn run_until(
     if !is_answered {
         return Err(NoAnswer);
     }
-    while household.robot().now_ms() < settings.duration_ms {
+    let at_most_ms = settings.duration_ms.saturating_add(CHARGING_MAX_MS);
+    while household.work_ms() < settings.duration_ms && household.robot().now_ms() < at_most_ms {
         household.tick();
-        let now_ms = household.robot().now_ms();
-        if now_ms.is_multiple_of(1000) {
-            progress(now_ms as f64 / settings.duration_ms as f64);
+        if household.robot().now_ms().is_multiple_of(1000) {
+            progress(household.work_ms() as f64 / settings.duration_ms as f64);
             if end.is_reached(household) {
                 settle(household);
                 break;

@@ -26,7 +26,7 @@ pub struct Trace {
 /// One moment.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Sample {
-    /// Simulated seconds.
+    /// Simulated seconds, without those on the charger in the middle of the job.
     pub t_s: f64,
     /// Share of the reachable floor that was swept.
     pub share: f64,
@@ -85,15 +85,19 @@ pub(crate) const RUG: u32 = 4;
 pub(crate) const OUT_OF_REACH: u32 = 5;
 
 impl Trace {
-    pub(crate) fn sample(&mut self, truth: &Truth, error_m: f64, belief: &Belief) {
+    pub(crate) fn sample(&mut self, (time_ms, truth): (u64, &Truth), error_m: f64, belief: &Belief) {
         let place = [truth.pose.x_m, truth.pose.y_m];
         if truth.contacts > self.contacts {
             self.contacts = truth.contacts;
             self.bumps.push(place);
         }
-        if truth.time_ms.is_multiple_of(1000) {
+        let is_new = self
+            .samples
+            .last()
+            .is_none_or(|last| time_ms > (1000.0 * last.t_s) as u64);
+        if truth.time_ms.is_multiple_of(1000) && is_new {
             self.samples.push(Sample {
-                t_s: truth.time_ms as f64 / 1000.0,
+                t_s: time_ms as f64 / 1000.0,
                 share: truth.swept_share,
                 place,
                 error_m,

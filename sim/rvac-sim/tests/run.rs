@@ -50,6 +50,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "told_low_over_true",
         "job_over_t0",
         "away_s",
+        "charging_s",
         "turn_deg_per_m2",
         "bumps_per_m2",
         "pose_rmse_10_min_m",

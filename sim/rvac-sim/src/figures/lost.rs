@@ -10,7 +10,7 @@ const LOST_MS: u64 = 60_000;
 /// A stretch of being lost.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LostStretch {
-    /// Simulated second at which it began.
+    /// Simulated second at which it began, without those on the charger in the middle of the job.
     pub begun_s: f64,
     /// How long it lasted.
     pub length_s: f64,

@@ -53,6 +53,8 @@ pub struct Figures {
     pub job_over_t0: Option<f64>,
     /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
     pub away_s: Option<f64>,
+    /// Seconds on the charger in the middle of the job; no other figure counts them.
+    pub charging_s: f64,
     /// What the job's seconds were spent on.
     pub time_spent: TimeSpent,
     /// Turning during the job for each square metre of reachable floor, degrees.
@@ -107,6 +109,8 @@ pub(crate) struct Belief {
     pub(crate) pose: Pose,
     pub(crate) state: Option<BehaviorState>,
     pub(crate) lost: bool,
+    /// The job goes on once the pack is charged.
+    pub(crate) awaits_charge: bool,
 }
 
 /// What the figures are of.
@@ -152,25 +156,42 @@ struct Told {
 struct Job {
     begun_ms: Option<u64>,
     ended_ms: Option<u64>,
+    /// Time on the charger in the middle of the job.
+    charging_ms: u64,
+    last_ms: Option<u64>,
+    charges: bool,
 }
 
 impl Job {
-    fn follow(&mut self, now_ms: u64, state: Option<BehaviorState>) {
+    fn follow(&mut self, now_ms: u64, belief: &Belief) {
         use BehaviorState::{Cleaning, Docked, Docking, Error, Idle, Spot, Stuck};
-        match state {
+        let passed_ms = now_ms - self.last_ms.replace(now_ms).unwrap_or(now_ms);
+        self.charges = belief.awaits_charge && belief.state == Some(Docked);
+        if self.charges {
+            self.charging_ms += passed_ms;
+        }
+        match belief.state {
             Some(Cleaning | Spot) => {
                 self.begun_ms.get_or_insert(now_ms);
                 self.ended_ms = None;
             }
-            Some(Docking | Docked | Idle | Stuck | Error) if self.begun_ms.is_some() => {
+            Some(Docking | Docked | Idle | Stuck | Error)
+                if self.begun_ms.is_some() && !belief.awaits_charge =>
+            {
                 self.ended_ms.get_or_insert(now_ms);
             }
             _ => {}
         }
     }
 
+    /// It is under way; on the charger it is not.
     fn runs(self) -> bool {
-        self.begun_ms.is_some() && self.ended_ms.is_none()
+        self.begun_ms.is_some() && self.ended_ms.is_none() && !self.charges
+    }
+
+    /// Nothing more is swept by it for now.
+    fn rests(self) -> bool {
+        self.ended_ms.is_some() || self.charges
     }
 }
 
@@ -201,7 +222,7 @@ impl Collector {
     /// One sample. `truth_in_map` is the true pose in the map frame.
     pub(crate) fn sample(&mut self, truth: &Truth, truth_in_map: Pose, belief: &Belief) {
         let now_ms = truth.time_ms;
-        self.job.follow(now_ms, belief.state);
+        self.job.follow(now_ms, belief);
         self.last = belief.state;
         self.docked = truth.docked;
         let turned_rad = self
@@ -221,13 +242,20 @@ impl Collector {
             }
         }
         self.time.sample(truth, self.job.runs());
+        if !self.job.charges {
+            self.sample_place((job_s, now_ms - self.job.charging_ms), truth_in_map, belief);
+        }
+    }
+
+    /// Hours on the dock would say that a robot knows its place well, and are left out.
+    fn sample_place(&mut self, (job_s, work_ms): (f64, u64), truth_in_map: Pose, belief: &Belief) {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
         self.alignment
-            .sample(now_ms, (belief.pose, belief.lost), truth_in_map);
-        self.lost.sample(now_ms, error_m);
-        self.honesty.sample(now_ms, error_m, belief.lost);
+            .sample(work_ms, (belief.pose, belief.lost), truth_in_map);
+        self.lost.sample(work_ms, error_m);
+        self.honesty.sample(work_ms, error_m, belief.lost);
     }
 
     /// The host has just said how much it has swept; `swept_share` is the truth.
@@ -238,10 +266,15 @@ impl Collector {
         self.told.low_over_true = Some(self.told.low_over_true.map_or(over, |before| before.max(over)));
     }
 
-    /// Seconds since the job began.
+    /// Seconds since the job began, without those on the charger.
     pub(crate) fn job_s(&self, now_ms: u64) -> f64 {
         let begun_ms = self.job.begun_ms.unwrap_or(now_ms);
-        (now_ms - begun_ms) as f64 / 1000.0
+        (now_ms - begun_ms - self.job.charging_ms) as f64 / 1000.0
+    }
+
+    /// Time that the robot spent on the charger in the middle of its job.
+    pub(crate) fn charging_ms(&self) -> u64 {
+        self.job.charging_ms
     }
 
     fn note_share(&mut self, job_s: f64, share: f64) {
@@ -257,10 +290,11 @@ impl Collector {
         }
     }
 
-    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end.
+    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end, and one that
+    /// waits for charge what it has now.
     fn share_at(&self, number: usize, now: &Truth) -> Option<f64> {
-        let over = self.job.ended_ms.is_some();
-        self.share_at[number].or(over.then_some(now.swept_share))
+        let rests = self.job.rests();
+        self.share_at[number].or(rests.then_some(now.swept_share))
     }
 
     /// The figures up to now.
@@ -281,6 +315,7 @@ impl Collector {
             share_told_low: self.told.last.map(|told| told.share_low),
             told_low_over_true: self.told.low_over_true,
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
+            charging_s: self.job.charging_ms as f64 / 1000.0,
             away_s: self.away_s,
             time_spent: self.time.spent(),
             turn_deg_per_m2: per_m2(self.turn_rad.to_degrees()),
@@ -348,6 +383,7 @@ mod tests {
             pose: Pose::default(),
             state: Some(state),
             lost: false,
+            awaits_charge: false,
         }
     }
 
@@ -385,5 +421,47 @@ mod tests {
         assert!((figures.turn_deg_per_m2 - 1.5_f64.to_degrees()).abs() < 1e-9);
         assert_eq!(figures.bumps_per_m2, 1.5);
         assert_eq!(figures.state, "docked");
+    }
+
+    #[test]
+    fn a_job_goes_on_after_a_charge_and_its_time_is_without_it() {
+        let mut collector = Collector::new(Floor {
+            reachable_m2: 2.0,
+            t0_s: 10.0,
+            cruise_m_per_s: 0.25,
+        });
+        let mut truth = truth();
+        let states = [
+            (0, BehaviorState::Cleaning, false, 0.0),
+            (8_000, BehaviorState::Cleaning, false, 0.81),
+            (9_000, BehaviorState::Docking, true, 0.82),
+            (11_000, BehaviorState::Docked, true, 0.82),
+            (7_211_000, BehaviorState::Docked, true, 0.82),
+            (7_212_000, BehaviorState::Cleaning, false, 0.82),
+            (7_216_000, BehaviorState::Cleaning, false, 0.96),
+            (7_220_000, BehaviorState::Docking, false, 0.97),
+        ];
+        for (time_ms, state, awaits_charge, share) in states {
+            (truth.time_ms, truth.swept_share) = (time_ms, share);
+            let belief = Belief {
+                awaits_charge,
+                ..belief(state)
+            };
+            collector.sample(&truth, Pose::default(), &belief);
+            assert_eq!(
+                collector.job_is_over(),
+                time_ms == 7_220_000,
+                "a job that waits for charge is not over"
+            );
+        }
+        let figures = collector.figures(&truth);
+        assert_eq!(figures.t80_over_t0, Some(0.8));
+        assert_eq!(
+            figures.t90_over_t0,
+            Some(1.4),
+            "two hours on the charger are no work"
+        );
+        assert_eq!(figures.charging_s, 7_202.0);
+        assert_eq!(figures.job_over_t0, Some(1.8));
     }
 }
