@@ -69,6 +69,7 @@ pub struct World {
     on_foot: bool,
     foot_pushed_ms: u32,
     random: Pcg,
+    thermistor_random: Pcg,
     actuation: Actuation,
     sensors: Sensors,
     truth: Truth,
@@ -85,6 +86,7 @@ enum Stream {
     Dirt = 3,
     Faults = 4,
     Dock = 5,
+    Thermistor = 6,
 }
 
 impl World {
@@ -127,6 +129,7 @@ impl World {
             on_foot: false,
             foot_pushed_ms: 0,
             random: Pcg::new(seed, Stream::Run as u64),
+            thermistor_random: Pcg::new(seed, Stream::Thermistor as u64),
             actuation: Actuation::default(),
             sensors: Sensors {
                 dust_box: true,

@@ -24,6 +24,9 @@ const BATTERY_MS: u64 = 10;
 const DOCK_MS: u64 = 40;
 /// Less than this into the pack is a trickle, which is not hastened, ampere.
 const HASTE_FROM_A: f64 = 0.1;
+/// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any converter
+/// has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
+const THERMISTOR_C: f64 = 0.1;
 /// Milliseconds between two looks at the doors.
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
@@ -294,7 +297,9 @@ impl World {
         let mut noisy = |value: f64| value * (1.0 + 0.2 * deviation * self.random.normal());
         self.sensors.battery_voltage = Voltage::from_v(noisy(self.battery.voltage_v()));
         self.sensors.battery_current = Current::from_a(noisy(self.battery.current_a()));
-        self.sensors.battery_temperature = Temperature::from_celsius(self.battery.sensor_c());
+        self.sensors.battery_temperature = Temperature::from_celsius(
+            self.battery.sensor_c() + THERMISTOR_C * self.thermistor_random.normal(),
+        );
         self.sensors.wheel_left_current = Current::from_a(noisy(self.left.current_a));
         self.sensors.wheel_right_current = Current::from_a(noisy(self.right.current_a));
         self.sensors.brush_main_current = Current::from_a(noisy(brush_a));

@@ -1,0 +1,48 @@
+//! A job that one charge is not enough for, with a charge that takes as long as it does: what stops a charger after an hour
+//! shows in no charge that is hastened.
+
+use brain::command::StrategyName;
+use brain::{BehaviorState, Brain};
+use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::{Host, Household};
+use scenarios::{generated, settings};
+
+/// Longest charge, seconds.
+const CHARGE_S: u32 = 4 * 60 * 60;
+
+fn brain(household: &Household) -> &Brain {
+    household.host().and_then(Host::brain).expect("a brain")
+}
+
+/// Lets time pass until something is so, at most this many seconds; gives the seconds that it took.
+fn until(is_so: impl Fn(&Brain) -> bool, at_most_s: u32, household: &mut Household) -> u32 {
+    for second in 0..at_most_s {
+        household.pass_ms(1_000);
+        if is_so(brain(household)) {
+            return second;
+        }
+    }
+    panic!("not within {at_most_s} s: {:?}", brain(household).status());
+}
+
+#[test]
+fn a_pack_is_charged_in_its_own_time_and_the_job_goes_on() {
+    for seed in [1, 2] {
+        let mut household = household(&generated(28), &settings(seed, 0)).with_known_map();
+        household.robot_mut().world_mut().set_battery_charge(0.2);
+        assert!(start_cleaning(&mut household, StrategyName::Systematic));
+        let on_the_dock =
+            |brain: &Brain| brain.awaits_charge() && brain.status().state == BehaviorState::Docked;
+        until(on_the_dock, 600, &mut household);
+        let goes_on = |brain: &Brain| brain.status().state == BehaviorState::Cleaning;
+        let charging_s = until(goes_on, CHARGE_S, &mut household);
+        assert!(
+            charging_s > 60 * 60,
+            "a charge with 1 A is not over in {charging_s} s"
+        );
+        let charge = household.robot().world().truth().battery_charge;
+        assert!(charge > 0.85, "it set out with {charge}");
+        assert!(!household.job_is_over());
+        assert_eq!(household.robot().monitor().violations().len(), 0);
+    }
+}
