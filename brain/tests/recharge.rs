@@ -32,6 +32,18 @@ fn a_job_goes_on_when_the_pack_is_charged_and_announces_itself() {
 }
 
 #[test]
+fn a_job_that_waits_says_when_the_charger_has_stopped_and_goes_on_once_it_charges_again() {
+    check(&format!(
+        "{ON_THE_DOCK}
+         wait 60                => docked recharging
+         inhibit charger-fault  => docked charger-fault
+         wait 600               => docked charger-fault
+         free charger-fault     => docked recharging
+         charge 0.9             => starting charged"
+    ));
+}
+
+#[test]
 fn a_person_decides_over_a_job_that_waits_for_charge() {
     for (line, end) in [
         ("charge 0.4\n resume", "starting command"),

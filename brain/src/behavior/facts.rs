@@ -18,6 +18,8 @@ pub(crate) struct Facts {
     pub(crate) at_cliff: bool,
     /// Something besides the wheels tells the heading.
     pub(crate) knows_heading: bool,
+    /// The charger has stopped for a fault.
+    pub(crate) charger_fault: bool,
     /// A fault that needs a person.
     pub(crate) fault: Option<Reason>,
     /// Inhibits that `arm` takes away.
@@ -77,8 +79,8 @@ impl Facts {
             "bumper" | "cliff" => {}
             // The firmware wants to be charged (S16).
             "battery-low" | "battery-weak" => self.battery_low = true,
-            // Told to people; it forbids charging only, and no motion.
-            "charger-fault" => {}
+            // It forbids charging only, and no motion.
+            "charger-fault" => self.charger_fault = true,
             "cliff-sensor" => self.cliff_sensor = true,
             "wheel-drop" => self.wheel_drop = true,
             "not-moving" => self.not_moving = true,

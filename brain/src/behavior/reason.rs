@@ -139,6 +139,8 @@ reasons! {
     DockNotFound => "dock-not-found",
     /// The job waits on the dock for charge and goes on by itself.
     Recharging => "recharging",
+    /// The charger has stopped for a fault.
+    ChargerFault => "charger-fault",
     /// The pack holds enough to go on.
     Charged => "charged",
     /// A beam of the dock is heard.

@@ -184,6 +184,7 @@ impl Behavior {
 
     /// Goes on when the pack is charged; waits for a person when somebody took the robot off its dock.
     pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        self.tell_of_charger(mind);
         let charged = situation
             .observation
             .battery_charge
@@ -195,6 +196,18 @@ impl Behavior {
             self.hold(Reason::Released, mind);
         } else if charged && !self.facts.battery_low && !self.facts.wheel_drop {
             self.announce(Reason::Charged, mind);
+        }
+    }
+
+    /// A job that waits for charge says so when the charger has stopped for a fault, and goes on waiting: once a person has seen
+    /// to it, current flows again.
+    fn tell_of_charger(&mut self, mind: &mut Mind) {
+        let reason = match self.facts.charger_fault {
+            true => Reason::ChargerFault,
+            false => Reason::Recharging,
+        };
+        if self.reason != reason {
+            self.enter(Mode::Recharging, reason, mind);
         }
     }
 
