@@ -20,8 +20,11 @@ const STARVE_US: u64 = 3_000_000;
 /// A gyro's bias that is known so well, rad/s, has been told by a rest of two seconds: over a minute it turns a map by two degrees
 /// at most.
 const SETTLED_RAD_PER_S: f64 = 6.0e-4;
+/// The same for a robot that is about to draw a map, told by twelve seconds: until it sees the first wall nothing else tells its
+/// heading, and what that is wrong by then the whole map is turned by.
+const SETTLED_SURVEYING_RAD_PER_S: f64 = 2.0e-4;
 /// Longest that a job waits for that before its first move, seconds.
-const SETTLE_MAX_S: f64 = 6.0;
+const SETTLE_MAX_S: f64 = 16.0;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
 /// A place that took so many rungs to leave is not entered again in this job.
@@ -94,10 +97,15 @@ impl Behavior {
     /// only just now.
     fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
         let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
+        let settled_rad_per_s = if situation.is_tracked {
+            SETTLED_RAD_PER_S
+        } else {
+            SETTLED_SURVEYING_RAD_PER_S
+        };
         self.job.as_ref().is_some_and(has_not_moved)
             && situation
                 .gyro_bias_sigma_rad_per_s
-                .is_some_and(|sigma| sigma > SETTLED_RAD_PER_S)
+                .is_some_and(|sigma| sigma > settled_rad_per_s)
     }
 
     /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.

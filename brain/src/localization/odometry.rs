@@ -21,6 +21,13 @@ pub struct Advance {
     pub gyro_turn_rad: Option<f64>,
 }
 
+impl Advance {
+    /// Neither wheels nor gyro moved.
+    pub(crate) fn stands(&self) -> bool {
+        self.distance_m == 0.0 && self.turn_rad == 0.0
+    }
+}
+
 /// Totals of the last observation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Totals {
@@ -177,6 +184,25 @@ mod tests {
         let mut odometry = Odometry::new(0.2, 0.5);
         assert_eq!(odometry.update(&at(5, 12.0, 13.0)).distance_m, 0.0);
         assert_eq!(odometry.odom_from_base().x_m, 0.0);
+    }
+
+    #[test]
+    fn a_robot_at_rest_does_not_turn_by_its_gyros_bias_however_often_it_reports() {
+        let step_rad = 0.01_f64.to_radians();
+        let mut odometry = Odometry::new(0.2, 0.5);
+        let mut seen = Vec::new();
+        for report in 0..60_000_u64 {
+            // Two reports in 25 ms: one soon after the other.
+            let time_us = report / 2 * 25_000 + report % 2 * 3_000;
+            let heading_rad = (1e-3 * time_us as f64 * 1e-6 / step_rad).round() * step_rad;
+            odometry.update(&Observation {
+                gyro_heading_rad: Some(heading_rad),
+                ..at(time_us, 0.0, 0.0)
+            });
+            seen.push(odometry.odom_from_base().heading_rad);
+        }
+        let settled = seen.get(100).copied().unwrap();
+        assert_eq!(seen.last().copied(), Some(settled), "twelve minutes later");
     }
 
     #[test]

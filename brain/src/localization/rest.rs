@@ -10,6 +10,9 @@ const REST_MIN_S: f64 = 0.3;
 const REST_MAX_S: f64 = 2.0;
 /// A faster turn at resting wheels is a person who turns the robot, or a bump that pushed it.
 const CARRIED_RAD_PER_S: f64 = 0.03;
+/// One step of a heading that is told in hundredths of a degree, radians. Two reports that come soon after one another may have one
+/// between them: who counted it as a turn would turn on its dock by degrees an hour.
+const STEP_RAD: f64 = 1.8e-4;
 
 /// Tells rests.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,7 +45,7 @@ impl RestWatch {
         let rests = self
             .rest
             .is_some_and(|rest| rest.since.wheels_agree_with(now) && seconds(rest.began_us, now) > SETTLE_S);
-        rests && seen_rad.abs() <= CARRIED_RAD_PER_S * time_s
+        rests && seen_rad.abs() <= CARRIED_RAD_PER_S * time_s + STEP_RAD
     }
 
     /// Takes in the totals of an observation. Gives the piece of a rest that is over.

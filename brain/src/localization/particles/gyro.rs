@@ -47,8 +47,7 @@ pub(in crate::localization) struct GyroCount {
 impl GyroCount {
     /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
     pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroBelief) {
-        let stands = advance.distance_m == 0.0 && advance.turn_rad == 0.0;
-        let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !stands) else {
+        let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.stands()) else {
             return;
         };
         self.shown_rad += turn_rad / (1.0 + belief.scale) + belief.bias_rad_per_s * advance.time_s;
@@ -72,6 +71,16 @@ impl GyroGuess {
             bias_rad_per_s: belief.bias_rad_per_s
                 + belief.bias_sigma_rad_per_s.min(BIAS_SIGMA_DRAWN_MAX_RAD_PER_S) * random.normal(),
         }
+    }
+
+    /// Error of the scale, relative.
+    pub(super) fn scale(self) -> f64 {
+        self.scale
+    }
+
+    /// The same with another scale.
+    pub(super) fn with_scale(self, scale: f64) -> Self {
+        Self { scale, ..self }
     }
 
     /// By how much the robot turned more than odometry counted, if the guess is right. Bias and scale wander
