@@ -65,8 +65,11 @@ impl Drift {
     }
 }
 
-/// Variance that a motion adds to the heading, in square radians.
+/// Variance that a motion adds to the heading, in square radians. Standing adds none: what the gyro shows then is not counted.
 pub(super) fn turn_variance(advance: Advance) -> f64 {
+    if advance.stands() {
+        return 0.0;
+    }
     match advance.gyro_turn_rad {
         Some(turn_rad) => {
             let scale_rad = GYRO_TURN_SCALE * turn_rad;

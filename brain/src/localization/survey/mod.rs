@@ -119,8 +119,11 @@ struct Pending {
 }
 
 impl Pending {
-    /// Adds an advance that ended at `odom`.
+    /// Adds an advance that ended at `odom`. Standing turns nobody, however long it lasts.
     fn add(&mut self, advance: Advance, odom: Pose2) {
+        if advance.stands() {
+            return;
+        }
         let heading_rad = odom.heading_rad - 0.5 * advance.turn_rad;
         let (sin, cos) = libm::sincos(heading_rad);
         let lever_m = (self.turn_rad + 0.5 * advance.turn_rad) * advance.distance_m;
