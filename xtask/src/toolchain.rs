@@ -12,12 +12,14 @@ pub(crate) struct Target {
     pub(crate) triple: &'static str,
     /// What it is, for people.
     what: &'static str,
-    /// Crates of the standard library that are compiled along when they are not installed.
-    library: &'static str,
+    /// What cargo is told so that it compiles the standard library along when that is not installed.
+    library: &'static [&'static str],
     /// The linker in Debian's packages.
     linker: &'static str,
     /// Variable by which cargo is told that linker.
     linker_variable: &'static str,
+    /// What the compiler is told besides when it compiles the standard library along, after the variable by which it is told.
+    flags: Option<(&'static str, &'static str)>,
     /// What a person with rustup can do.
     remedy: &'static str,
 }
@@ -26,9 +28,18 @@ pub(crate) struct Target {
 pub(crate) const WEB: Target = Target {
     triple: "wasm32-unknown-unknown",
     what: "WebAssembly",
-    library: "std,panic_abort",
+    library: &[
+        "-Zbuild-std=std,panic_abort",
+        "-Zbuild-std-features=optimize_for_size",
+    ],
     linker: "wasm-ld-19",
     linker_variable: "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER",
+    // Nobody reads the words of a panic in a browser, and it ends the program either way. Without them (30 kB), and with the library's
+    // smaller code (16 kB), a first visit brings 849 kB in place of 895.
+    flags: Some((
+        "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS",
+        "-Zunstable-options -Cpanic=immediate-abort",
+    )),
     remedy: "rustup target add wasm32-unknown-unknown",
 };
 
@@ -36,9 +47,10 @@ pub(crate) const WEB: Target = Target {
 pub(crate) const MIPS: Target = Target {
     triple: "mipsel-unknown-none",
     what: "MIPS microcontrollers",
-    library: "core",
+    library: &["-Zbuild-std=core"],
     linker: "ld.lld-19",
     linker_variable: "CARGO_TARGET_MIPSEL_UNKNOWN_NONE_LINKER",
+    flags: None,
     remedy: "rustup component add rust-src",
 };
 
@@ -153,7 +165,10 @@ impl Toolchain {
         };
         if self.way != Way::Installed {
             command.env("RUSTC_BOOTSTRAP", "1");
-            command.arg(format!("-Zbuild-std={}", self.target.library));
+            command.args(self.target.library);
+            if let Some((variable, flags)) = self.target.flags {
+                command.env(variable, flags);
+            }
         }
         command
     }
