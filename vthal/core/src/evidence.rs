@@ -19,6 +19,7 @@ pub(crate) struct Evidence {
 /// A sample that is complete.
 #[derive(Clone, Debug)]
 struct Sample {
+    since: Standing,
     end_us: u64,
     felt: Felt,
 }
@@ -27,6 +28,7 @@ struct Sample {
 #[derive(Debug)]
 struct Open {
     since: Standing,
+    newest: Standing,
     signs: Vec<&'static str>,
     echo: Option<f32>,
     currents_a: Option<[f32; 3]>,
@@ -74,12 +76,13 @@ impl Evidence {
         let open = self.open.get_or_insert_with(|| Open::from(now));
         open.take(observation, currents_a);
         if now.time_us >= open.since.time_us + SAMPLE_US {
-            let felt = open.closed(now, track_m);
+            let (since, felt) = (open.since, open.told(open.since, track_m));
             self.open = Some(Open::from(now));
             if self.samples.len() == SAMPLES {
                 self.samples.pop_front();
             }
             self.samples.push_back(Sample {
+                since,
                 end_us: now.time_us,
                 felt,
             });
@@ -92,12 +95,14 @@ impl Evidence {
         let at_s = |end_us: u64| -(now_us.saturating_sub(end_us) as f64) * 1e-6;
         let complete = self.samples.iter().filter(|sample| sample.end_us > earliest_us);
         let newest = self.open.as_ref().filter(|open| open.has_news());
+        // Few counts of a wheel come in the time of a sample that has just begun, so its rates are those since the one before it began.
+        let rates_since = |open: &Open| self.samples.back().map_or(open.since, |sample| sample.since);
         complete
             .map(|sample| Felt {
                 at_s: rounded(at_s(sample.end_us)),
                 ..sample.felt.clone()
             })
-            .chain(newest.map(|open| open.closed(open.since, track_m)))
+            .chain(newest.map(|open| open.told(rates_since(open), track_m)))
             .collect()
     }
 }
@@ -106,6 +111,7 @@ impl Open {
     const fn from(since: Standing) -> Self {
         Self {
             since,
+            newest: since,
             signs: Vec::new(),
             echo: None,
             currents_a: None,
@@ -117,6 +123,7 @@ impl Open {
     }
 
     fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>) {
+        self.newest = Standing::of(observation);
         for sign in signs(observation) {
             if !self.signs.contains(&sign) {
                 self.signs.push(sign);
@@ -130,8 +137,9 @@ impl Open {
         };
     }
 
-    fn closed(&self, now: Standing, track_m: f64) -> Felt {
-        let (v, w) = self.since.rates(now, track_m);
+    /// What it tells when it ends now, with the rates since a moment.
+    fn told(&self, rates_since: Standing, track_m: f64) -> Felt {
+        let (v, w) = rates_since.rates(self.newest, track_m);
         Felt {
             at_s: 0.0,
             v: rounded(v),
@@ -236,6 +244,8 @@ mod tests {
             (-2.1..-1.8).contains(&touched[0]) && touched[1] == 0.0,
             "{touched:?}"
         );
+        let newest = felt.last().expect("has just come");
+        assert!((newest.v - 0.2).abs() < 1e-3, "it was driving: {newest:?}");
     }
 
     #[test]
