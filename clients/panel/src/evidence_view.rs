@@ -88,7 +88,7 @@ fn EvidenceTables(evidence: Evidence) -> impl IntoView {
             <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
         </table>
         <Show when=move || has_tried>
-            <h4>{told.tried}</h4>
+            <p class="tried">{told.tried}</p>
         </Show>
         <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
     }

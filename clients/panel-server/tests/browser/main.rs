@@ -36,6 +36,7 @@ mod roles;
 mod schedules;
 #[path = "../stack/mod.rs"]
 mod stack;
+mod stands;
 mod stranger;
 mod teller;
 mod wire_tap;

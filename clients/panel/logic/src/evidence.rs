@@ -10,6 +10,10 @@ const STANDS_M_PER_S: f64 = 0.02;
 const STANDS_RAD_PER_S: f64 = 0.1;
 /// Length of what is felt at once, seconds.
 const SAMPLE_S: f64 = 0.2;
+/// Begin of the ten seconds that are told.
+const EARLIEST_S: f64 = -10.0;
+/// The shortest stretch that times with one digit can show, seconds.
+const SHOWN_S: f64 = 0.1;
 
 /// A stretch of time in which the robot felt and did the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,17 +51,23 @@ impl Motion {
 #[must_use]
 pub fn felt_rows(words: &Words, evidence: &Evidence) -> Vec<FeltRow> {
     let alike = |one: &Felt, other: &Felt| one.signs == other.signs && Motion::of(one) == Motion::of(other);
+    let mut before_s = EARLIEST_S;
     evidence
         .felt
         .chunk_by(alike)
-        .map(|felt| row(words, felt))
+        .map(|felt| {
+            let row = row(words, felt, before_s);
+            before_s = felt.last().map_or(before_s, |last| last.at_s);
+            row
+        })
         .collect()
 }
 
-fn row(words: &Words, felt: &[Felt]) -> FeltRow {
+/// The row of a stretch; another one ended at `before_s`. The newest sample may be shorter than the others.
+fn row(words: &Words, felt: &[Felt], before_s: f64) -> FeltRow {
     let first = felt.first().cloned().unwrap_or_default();
-    let from_s = (first.at_s - SAMPLE_S).max(-10.0);
     let to_s = felt.last().map_or(first.at_s, |last| last.at_s);
+    let from_s = (first.at_s - SAMPLE_S).max(before_s).min(to_s - SHOWN_S);
     let mean = |value: fn(&Felt) -> f64| felt.iter().map(value).sum::<f64>() / felt.len().max(1) as f64;
     let (speed, turn) = (mean(|felt| felt.v), mean(|felt| felt.w));
     let told = &words.evidence;
@@ -68,7 +78,7 @@ fn row(words: &Words, felt: &[Felt]) -> FeltRow {
         Motion::Standing => told.standing.to_owned(),
     };
     let echo = felt.iter().filter_map(|felt| felt.echo).reduce(f32::max);
-    let signs: Vec<&str> = first.signs.iter().map(|sign| sign_text(words, sign)).collect();
+    let signs: Vec<String> = first.signs.iter().map(|sign| sign_text(words, sign)).collect();
     FeltRow {
         when: told
             .span
@@ -91,9 +101,9 @@ fn tenths(value: f64) -> f64 {
 }
 
 /// A sign in words; what kept the firmware from moving has an explanation.
-fn sign_text<'a>(words: &Words, sign: &'a str) -> &'a str {
+fn sign_text(words: &Words, sign: &str) -> String {
     let told = &words.evidence;
-    match sign {
+    let known = match sign {
         "bumper-left" => told.bumper_left,
         "bumper-right" => told.bumper_right,
         "cliff-left" => told.cliff_left,
@@ -102,8 +112,19 @@ fn sign_text<'a>(words: &Words, sign: &'a str) -> &'a str {
         "wheel-drop" => told.wheel_drop,
         "docked" => told.docked,
         "link-lost" => told.link_lost,
-        other => explain(words, other).map_or(other, |explanation| explanation.cause.trim_end_matches('.')),
-    }
+        other => {
+            let explained = explain(words, other).map(|explanation| in_a_list(explanation.cause));
+            return explained.unwrap_or_else(|| other.to_owned());
+        }
+    };
+    known.to_owned()
+}
+
+/// A sentence as one of the things in a list.
+fn in_a_list(sentence: &str) -> String {
+    let mut letters = sentence.trim_end_matches('.').chars();
+    let first = letters.next().into_iter().flat_map(char::to_lowercase);
+    first.chain(letters).collect()
 }
 
 #[cfg(test)]
@@ -131,7 +152,7 @@ mod tests {
                 felt(-0.6, 0.3, &[]),
                 felt(-0.4, 0.0, &["bumper-left"]),
                 felt(-0.2, -0.1, &["bumper-left"]),
-                felt(-0.01, 0.0, &["bumper-left", "wheel-drop"]),
+                felt(0.0, 0.0, &["bumper-left", "not-armed"]),
             ],
             tried: Vec::new(),
         };
@@ -148,9 +169,20 @@ mod tests {
                 row("-1.0 to -0.6 s", "ahead, 0.25 m/s", "nothing"),
                 row("-0.6 to -0.4 s", "standing", "bumper on the left"),
                 row("-0.4 to -0.2 s", "back, 0.10 m/s", "bumper on the left"),
-                row("-0.2 to 0.0 s", "standing", "bumper on the left, a wheel hangs"),
+                row(
+                    "-0.2 to 0.0 s",
+                    "standing",
+                    "bumper on the left, the robot's controller was reset and has not been released to move yet"
+                ),
             ]
         );
+        let short = Evidence {
+            felt: vec![felt(-0.04, 0.2, &[]), felt(0.0, 0.2, &["wheel-drop"])],
+            tried: Vec::new(),
+        };
+        let rows = felt_rows(Language::English.words(), &short);
+        let times: Vec<&str> = rows.iter().map(|row| row.when.as_str()).collect();
+        assert_eq!(times, ["-0.2 to 0.0 s", "-0.1 to 0.0 s"]);
         let estonian = felt_rows(Language::Estonian.words(), &evidence);
         assert_eq!(estonian[0].when, "-1,0 kuni -0,6 s");
     }

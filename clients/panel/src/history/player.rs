@@ -207,9 +207,9 @@ fn plot_view(plot: Plot, (time, end_s): (RwSignal<f64>, f64)) -> impl IntoView {
         <figure class="plot">
             <figcaption>{plot.title}</figcaption>
             <span class="edge high">{plot.high}</span>
-            <svg viewBox="0 0 300 60" preserveAspectRatio="none" role="img" aria-label=label>
+            <svg viewBox="0 -2 300 64" preserveAspectRatio="none" role="img" aria-label=label>
                 {plot.lines.iter().enumerate().map(line).collect_view()}
-                <line class="now-line" y1="0" y2="60" x1=at x2=at vector-effect="non-scaling-stroke" />
+                <line class="now-line" y1="-2" y2="62" x1=at x2=at vector-effect="non-scaling-stroke" />
             </svg>
             <span class="edge low">{plot.low}</span>
             <ul class="plot-keys">{keys}</ul>
