@@ -85,7 +85,7 @@ fn row(words: &Words, felt: &[Felt], before_s: f64) -> FeltRow {
             .fill([&words.number(tenths(from_s), 1), &words.number(tenths(to_s), 1)]),
         motion,
         echo: echo.map_or_else(String::new, |echo| {
-            words.number(100.0 * f64::from(echo), 0) + " %"
+            words.number(100.0 * f64::from(echo), 0) + "\u{a0}%"
         }),
         signs: if signs.is_empty() {
             told.nothing.to_owned()
@@ -160,17 +160,17 @@ mod tests {
         let row = |when: &str, motion: &str, signs: &str| FeltRow {
             when: when.to_owned(),
             motion: motion.to_owned(),
-            echo: "25 %".to_owned(),
+            echo: "25\u{a0}%".to_owned(),
             signs: signs.to_owned(),
         };
         assert_eq!(
             rows,
             [
-                row("-1.0 to -0.6 s", "ahead, 0.25 m/s", "nothing"),
-                row("-0.6 to -0.4 s", "standing", "bumper on the left"),
-                row("-0.4 to -0.2 s", "back, 0.10 m/s", "bumper on the left"),
+                row("-1.0 to -0.6\u{a0}s", "ahead, 0.25\u{a0}m/s", "nothing"),
+                row("-0.6 to -0.4\u{a0}s", "standing", "bumper on the left"),
+                row("-0.4 to -0.2\u{a0}s", "back, 0.10\u{a0}m/s", "bumper on the left"),
                 row(
-                    "-0.2 to 0.0 s",
+                    "-0.2 to 0.0\u{a0}s",
                     "standing",
                     "bumper on the left, the robot's controller was reset and has not been released to move yet"
                 ),
@@ -182,8 +182,8 @@ mod tests {
         };
         let rows = felt_rows(Language::English.words(), &short);
         let times: Vec<&str> = rows.iter().map(|row| row.when.as_str()).collect();
-        assert_eq!(times, ["-0.2 to 0.0 s", "-0.1 to 0.0 s"]);
+        assert_eq!(times, ["-0.2 to 0.0\u{a0}s", "-0.1 to 0.0\u{a0}s"]);
         let estonian = felt_rows(Language::Estonian.words(), &evidence);
-        assert_eq!(estonian[0].when, "-1,0 kuni -0,6 s");
+        assert_eq!(estonian[0].when, "-1,0 kuni -0,6\u{a0}s");
     }
 }

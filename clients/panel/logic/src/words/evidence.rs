@@ -12,10 +12,10 @@ screen! {
         motion: "Motion", "Liikumine";
         echo: "Echo", "Kaja";
         signs: "Felt", "Tundis";
-        span[2]: "{0} to {1} s", "{0} kuni {1} s";
-        ahead[1]: "ahead, {0} m/s", "edasi, {0} m/s";
-        back[1]: "back, {0} m/s", "tagasi, {0} m/s";
-        turning[1]: "turning, {0} °/s", "pöörab, {0} °/s";
+        span[2]: "{0} to {1}\u{a0}s", "{0} kuni {1}\u{a0}s";
+        ahead[1]: "ahead, {0}\u{a0}m/s", "edasi, {0}\u{a0}m/s";
+        back[1]: "back, {0}\u{a0}m/s", "tagasi, {0}\u{a0}m/s";
+        turning[1]: "turning, {0}\u{a0}°/s", "pöörab, {0}\u{a0}°/s";
         standing: "standing", "seisab";
         nothing: "nothing", "ei midagi";
         bumper_left: "bumper on the left", "põrkeraud vasakul";
