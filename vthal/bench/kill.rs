@@ -10,7 +10,7 @@ use anyhow::{Context, bail};
 use clap::Parser;
 use rvac_api::{Pose, SimulatedTruth, Update};
 
-use vthal_bench::{Client, Daemon, Scratch, built_beside, next_random};
+use vthal_bench::{Client, Daemon, Scratch, needed_beside, next_random};
 
 /// The robot must stand this long after the daemon's end (S1).
 const STAND_WITHIN_S: f64 = 0.3;
@@ -53,9 +53,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let missing = "is not built beside this program: cargo build -p vthal -p rvac-sim";
-    let vthal = built_beside("vthal")?.with_context(|| format!("vthal {missing}"))?;
-    let simulator = built_beside("rvac-sim")?.with_context(|| format!("rvac-sim {missing}"))?;
+    let (vthal, simulator) = (needed_beside("vthal")?, needed_beside("rvac-sim")?);
     let scratch = Scratch::new()?;
     let _simulator = start_simulator(&simulator, &scratch, arguments)?;
     let mut truth = Truth {

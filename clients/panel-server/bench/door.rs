@@ -16,7 +16,7 @@ use rustls::pki_types::{CertificateDer, ServerName};
 use rustls::{ClientConfig, ClientConnection, RootCertStore, StreamOwned};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
-use vthal_bench::{Daemon, Scratch, built_beside};
+use vthal_bench::{Daemon, Scratch, needed_beside};
 
 use crate::http;
 use crate::peer::{LOOK, PATIENCE};
@@ -46,8 +46,7 @@ struct Pass {
 impl Door {
     /// Starts a server before the daemon of `scratch`; a guarded one keeps its identity below the same folder.
     pub(crate) fn start(scratch: &Scratch, is_guarded: bool) -> anyhow::Result<Self> {
-        let program =
-            built_beside("panel-server")?.context("panel-server is not built beside this program")?;
+        let program = needed_beside("panel-server")?;
         let (page, state) = (scratch.join("page"), scratch.join("panel"));
         std::fs::create_dir_all(&page)?;
         std::fs::write(page.join("index.html"), "<!doctype html><title>x</title>")?;

@@ -1,11 +1,11 @@
 //! A robot on its dock in a large home that it knows, the daemon, and two servers before it.
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use std::time::{Duration, Instant};
 
 use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
 use rvac_protocol::message::BinaryKinds;
-use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot, built_beside};
+use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot, needed_beside};
 
 use crate::door::Door;
 use crate::peer::{Asker, Peer};
@@ -53,7 +53,7 @@ impl Stage {
         std::fs::write(maps.join("000001.map"), home())?;
         let mut robot = SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::NONE, 1)?;
         robot.dock();
-        let vthal = built_beside("vthal")?.context("vthal is not built beside this program")?;
+        let vthal = needed_beside("vthal")?;
         let daemon = Daemon::start(&vthal, &scratch, &["--seed", "1"])?;
         let deadline = Instant::now() + Duration::from_secs(20);
         if !robot.live_until(deadline, SyntheticRobot::is_sealed)? {

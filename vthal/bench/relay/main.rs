@@ -17,7 +17,7 @@ use anyhow::{Context, bail};
 use clap::{Parser, Subcommand};
 use lane::{Lane, Relay};
 use measure::Figures;
-use vthal_bench::built_beside;
+use vthal_bench::needed_beside;
 
 /// Numbers of clients.
 const CLIENTS: [usize; 3] = [1, 10, 100];
@@ -118,7 +118,7 @@ fn build_vthal() -> anyhow::Result<PathBuf> {
             bail!("vthal could not be built");
         }
     }
-    built_beside("vthal")?.context("vthal is not built beside this program: cargo build -p vthal")
+    needed_beside("vthal")
 }
 
 fn print_row((relay, clients): (Relay, usize), figures: &Figures) {

@@ -11,7 +11,7 @@ mod usage;
 
 pub use client::Client;
 pub use living::LivingRobot;
-pub use process::{Daemon, Scratch, built_beside};
+pub use process::{Daemon, Scratch, built_beside, needed_beside};
 pub use pty::Pty;
 pub use random::next_random;
 pub use robot::SyntheticRobot;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use anyhow::Context;
 use rustix::process::{Pid, Signal, kill_process};
 
 /// A folder for one trial, removed at its end.
@@ -115,7 +116,13 @@ impl Drop for Daemon {
     }
 }
 
-/// A program of the same build as the running one.
+/// A program of the same build as the running one, without which there is nothing to measure.
+pub fn needed_beside(name: &str) -> anyhow::Result<PathBuf> {
+    built_beside(name)?
+        .with_context(|| format!("{name} is not built beside this program: cargo build --bin {name}"))
+}
+
+/// A program of the same build as the running one, if it is there.
 pub fn built_beside(name: &str) -> io::Result<Option<PathBuf>> {
     let mut folder = std::env::current_exe()?;
     folder.pop();

@@ -3,13 +3,12 @@
 //! Each life of a program takes some changes that are acknowledged, and one during which it is killed. The next life must know
 //! all that was acknowledged; the last change is whole or not there at all.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 use std::thread::{self, ScopedJoinHandle};
 
 use anyhow::Context;
 use clap::Parser;
-use vthal_bench::built_beside;
+use vthal_bench::needed_beside;
 
 mod daemon;
 mod devices;
@@ -65,7 +64,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let (vthal, server) = (program("vthal")?, program("panel-server")?);
+    let (vthal, server) = (needed_beside("vthal")?, needed_beside("panel-server")?);
     let at_daemon = |store| measure(arguments, &AtDaemon::new(store, &vthal)?);
     let at_server = || measure(arguments, &AtServer::new(server)?);
     // A life is mostly waiting for the disk and for each other's starts: the kinds take it side by side.
@@ -101,9 +100,4 @@ fn measure(arguments: &Arguments, keeper: &dyn Keeper) -> anyhow::Result<(&'stat
     let figures = trial::try_keeper(keeper, arguments.kills.div_ceil(kinds), arguments.seed)
         .with_context(|| format!("{} (seed {})", keeper.name(), arguments.seed))?;
     Ok((keeper.name(), figures))
-}
-
-fn program(name: &str) -> anyhow::Result<PathBuf> {
-    built_beside(name)?
-        .with_context(|| format!("{name} is not built beside this program: cargo build --bin {name}"))
 }
