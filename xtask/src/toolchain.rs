@@ -18,7 +18,8 @@ pub(crate) struct Target {
     linker: &'static str,
     /// Variable by which cargo is told that linker.
     linker_variable: &'static str,
-    /// What the compiler is told besides when it compiles the standard library along, after the variable by which it is told.
+    /// What a compiler that knows it is told besides when it compiles the standard library along, after the variable by which it is
+    /// told.
     flags: Option<(&'static str, &'static str)>,
     /// What a person with rustup can do.
     remedy: &'static str,
@@ -166,11 +167,26 @@ impl Toolchain {
         if self.way != Way::Installed {
             command.env("RUSTC_BOOTSTRAP", "1");
             command.args(self.target.library);
-            if let Some((variable, flags)) = self.target.flags {
+            if let Some((variable, flags)) = self.target.flags
+                && self.knows(flags)
+            {
                 command.env(variable, flags);
             }
         }
         command
+    }
+
+    /// Whether the compiler, which may be older than these flags are, takes them.
+    fn knows(&self, flags: &str) -> bool {
+        let mut command = match self.way {
+            Way::Installed | Way::Source => rustc(),
+            Way::Debian => Command::new(DEBIAN_RUSTC),
+        };
+        command
+            .env("RUSTC_BOOTSTRAP", "1")
+            .args(flags.split(' '))
+            .args(["--print", "cfg"]);
+        process::finish(&mut command).is_ok_and(|output| output.status.success())
     }
 
     fn debian_cargo(&self) -> Command {
