@@ -10,7 +10,7 @@ use rvac_api::RequestBody;
 use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 
-const SEED: u64 = 3;
+const SEED: u64 = 6;
 const MINUTE_MS: u64 = 60_000;
 /// Longest wait for a robot to know its place, seconds.
 const WAIT_S: u64 = 300;
