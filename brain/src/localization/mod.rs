@@ -21,6 +21,7 @@ mod particles;
 mod rest;
 mod retreat;
 mod search;
+mod stand;
 mod strengths;
 mod survey;
 mod terrain;

@@ -10,6 +10,7 @@ use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
 use super::odometry::Odometry;
 use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::search::{Candidate, Search};
+use super::stand::Stand;
 use super::strengths::{Hearing, StrengthMap, Strengths};
 use super::trail::Trail;
 use super::{Advance, PoseEstimate};
@@ -24,8 +25,6 @@ const WEIGH_M: f64 = 0.05;
 const WEIGH_RAD: f64 = 0.15;
 /// A wrong scale errs the same way in all weighings of a turn; guesses err by chance, so they must err more.
 const CORRELATED: f64 = 3.0;
-/// After a stand of so long, seconds, its rests have told more of the gyro than was learnt on the way before.
-const LONG_STAND_S: f64 = 60.0;
 /// A wheel that hangs for so long hangs because somebody holds the robot.
 const LIFTED_S: f64 = 1.0;
 /// How far a robot is put from where it was lifted by people who put it back.
@@ -112,8 +111,7 @@ pub(super) struct Tracker {
     heard: Vec<Heard>,
     /// What a rest has told of the gyro since the last weighing.
     told: Option<BiasTold>,
-    /// How long the robot has stood, seconds.
-    stood_s: f64,
+    stand: Stand,
     trail: Trail,
     /// While it is lost: how strongly beacons are received where.
     strengths: Option<Arc<StrengthMap>>,
@@ -146,7 +144,7 @@ impl Tracker {
             weighings: 0,
             heard: Vec::new(),
             told: None,
-            stood_s: 0.0,
+            stand: Stand::default(),
             trail: Trail::default(),
             strengths: None,
             search_in_m: 0.0,
@@ -276,11 +274,12 @@ impl Tracker {
         let Moved { advance, pose, .. } = moved;
         self.filter.know_gyro(moved.gyro);
         self.collect(advance, moved.gyro);
-        self.told = match (self.told, moved.told) {
-            (Some(before), Some(now)) => Some(before.and(now)),
-            (before, now) => before.or(now),
-        };
-        self.watch_stand(advance, moved.gyro);
+        let told = [self.told, moved.told];
+        self.told = told.into_iter().flatten().reduce(BiasTold::and);
+        if self.stand.ends_long(advance) {
+            self.filter.draw_bias(moved.gyro);
+            self.told = None;
+        }
         if let Some(search) = &mut self.searching {
             search.follow(advance);
         }
@@ -438,20 +437,6 @@ impl Tracker {
         let lifted = self.hanging_s >= LIFTED_S;
         self.hanging_s = 0.0;
         lifted
-    }
-
-    /// Where a long stand ends the guesses take over what its rests have told of the bias: it has wandered away from all that they
-    /// remember.
-    fn watch_stand(&mut self, advance: Advance, gyro: GyroBelief) {
-        if advance.stands() {
-            self.stood_s += advance.time_s;
-            return;
-        }
-        let stood_s = core::mem::take(&mut self.stood_s);
-        if stood_s >= LONG_STAND_S && advance.gyro_turn_rad.is_some() {
-            self.filter.draw_bias(gyro);
-            self.told = None;
-        }
     }
 
     fn collect(&mut self, advance: Advance, gyro: GyroBelief) {

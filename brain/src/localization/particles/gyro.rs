@@ -2,6 +2,7 @@
 //! a long way that of the bias. Guesses that are right about both fit the walls turn after turn, so both are learnt with
 //! the pose, and as sure as the guesses agree.
 
+use super::ParticleFilter;
 use crate::localization::Advance;
 use crate::localization::calibration::{BIAS_DRIFT_RAD2_PER_S3, BiasTold};
 use crate::random::Random;
@@ -73,16 +74,6 @@ impl GyroGuess {
         }
     }
 
-    /// Error of the scale, relative.
-    pub(super) fn scale(self) -> f64 {
-        self.scale
-    }
-
-    /// The same with another scale.
-    pub(super) fn with_scale(self, scale: f64) -> Self {
-        Self { scale, ..self }
-    }
-
     /// By how much the robot turned more than odometry counted, if the guess is right. Bias and scale wander
     /// meanwhile.
     pub(super) fn turned_more_rad(&mut self, count: GyroCount, random: &mut Random) -> f64 {
@@ -119,6 +110,18 @@ impl GyroGuess {
                 belief.bias_sigma_rad_per_s.max(BIAS_SIGMA_MIN_RAD_PER_S),
                 random.normal(),
             ),
+        }
+    }
+}
+
+impl ParticleFilter {
+    /// All guesses take over this belief of the gyro's bias, and keep their scales.
+    pub(in crate::localization) fn draw_bias(&mut self, belief: GyroBelief) {
+        for particle in &mut self.particles {
+            particle.gyro = GyroGuess {
+                scale: particle.gyro.scale,
+                ..GyroGuess::drawn(belief, &mut self.random)
+            };
         }
     }
 }

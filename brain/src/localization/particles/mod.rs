@@ -169,14 +169,6 @@ impl ParticleFilter {
         self.gyro = belief;
     }
 
-    /// All guesses take over this belief of the gyro's bias, and keep their scales.
-    pub(super) fn draw_bias(&mut self, belief: GyroBelief) {
-        for particle in &mut self.particles {
-            let scale = particle.gyro.scale();
-            particle.gyro = GyroGuess::drawn(belief, &mut self.random).with_scale(scale);
-        }
-    }
-
     /// From now on guesses are moved and weighed so. Those that begin to hold what they learn know no more of the gyro than was
     /// told.
     pub(super) fn take_manner(&mut self, manner: Manner) {
