@@ -378,6 +378,14 @@ mod tests {
         *World::new(Arc::new(home), &model, &Noise::ideal(), 1, None).truth()
     }
 
+    fn collector() -> Collector {
+        Collector::new(Floor {
+            reachable_m2: 2.0,
+            t0_s: 10.0,
+            cruise_m_per_s: 0.25,
+        })
+    }
+
     fn belief(state: BehaviorState) -> Belief {
         Belief {
             pose: Pose::default(),
@@ -389,11 +397,7 @@ mod tests {
 
     #[test]
     fn times_count_from_the_beginning_of_cleaning_and_end_with_it() {
-        let mut collector = Collector::new(Floor {
-            reachable_m2: 2.0,
-            t0_s: 10.0,
-            cruise_m_per_s: 0.25,
-        });
+        let mut collector = collector();
         let mut truth = truth();
         let states = [
             (0, BehaviorState::Starting, 0.0),
@@ -425,11 +429,7 @@ mod tests {
 
     #[test]
     fn a_job_goes_on_after_a_charge_and_its_time_is_without_it() {
-        let mut collector = Collector::new(Floor {
-            reachable_m2: 2.0,
-            t0_s: 10.0,
-            cruise_m_per_s: 0.25,
-        });
+        let mut collector = collector();
         let mut truth = truth();
         let states = [
             (0, BehaviorState::Cleaning, false, 0.0),
