@@ -167,7 +167,8 @@ impl Job {
         use BehaviorState::{Cleaning, Docked, Docking, Error, Idle, Spot, Stuck};
         let passed_ms = now_ms - self.last_ms.replace(now_ms).unwrap_or(now_ms);
         self.charges = belief.awaits_charge && belief.state == Some(Docked);
-        if self.charges {
+        // A job that is ordered at an empty battery waits before it begins: that takes nothing from its own time.
+        if self.charges && self.begun_ms.is_some() {
             self.charging_ms += passed_ms;
         }
         match belief.state {
@@ -463,5 +464,28 @@ mod tests {
         );
         assert_eq!(figures.charging_s, 7_202.0);
         assert_eq!(figures.job_over_t0, Some(1.8));
+    }
+
+    #[test]
+    fn what_is_charged_before_the_job_begins_takes_nothing_from_it() {
+        let mut collector = collector();
+        let mut truth = truth();
+        let states = [
+            (0, BehaviorState::Docked, true),
+            (3_600_000, BehaviorState::Docked, true),
+            (3_601_000, BehaviorState::Cleaning, false),
+            (3_605_000, BehaviorState::Docking, false),
+        ];
+        for (time_ms, state, awaits_charge) in states {
+            truth.time_ms = time_ms;
+            let belief = Belief {
+                awaits_charge,
+                ..belief(state)
+            };
+            collector.sample(&truth, Pose::default(), &belief);
+        }
+        let figures = collector.figures(&truth);
+        assert_eq!(figures.charging_s, 0.0);
+        assert_eq!(figures.job_over_t0, Some(0.4));
     }
 }
