@@ -323,7 +323,7 @@ fn browser(long: bool) -> Result {
     system::need("chromedriver", &["chromium-driver"])?;
     let assets = panel::build()?;
     let elf = firmware::usual_elf()?;
-    workspace::build(&["rvac-sim", "vthal", "panel-server"], Profile::Dev)?;
+    workspace::build(&["rvac-sim", "vthal", "panel-server", "rvac"], Profile::Dev)?;
     let screenshots = workspace::target().join("screenshots");
     std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
     let axe = axe()?;

@@ -1,8 +1,8 @@
 //! The panel in a real browser, in front of the real daemon and the real simulator.
 //!
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
-//! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal` and `rvac-sim` beside that of the
-//! server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
+//! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal`, `rvac` and `rvac-sim` beside that of
+//! the server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
 //! `RVAC_PICTURES` names the folder for the pictures of the README, which are taken anew only then.
 //! `RVAC_LOSSES` says how often the driver is lost in each way, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
