@@ -6,7 +6,7 @@ use crate::browser::Screen;
 use crate::mixes::{is_ready, plug_in, turn_by_pad};
 use crate::rival::Rival;
 use crate::robot::Witness;
-use crate::{Visit, hold_until_it_turns, leave_the_dock};
+use crate::{Visit, hold_until_it_turns};
 
 /// Longest time from the loss until the wheels stand, as a look ten times a second sees it.
 const STANDS_WITHIN: Duration = Duration::from_millis(1000);
@@ -43,10 +43,14 @@ impl Losses {
     }
 }
 
-/// A robot off its dock, and who sees where it is.
+/// Open floor in front of the dock, which a robot on it faces along x.
+const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
+
+/// A robot that somebody has put beside its dock, and who sees where it is.
 pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Witness)> {
     let visit = Visit::begin(screen).await?;
-    leave_the_dock(&visit.browser).await;
+    visit.stack.hand(OFF_DOCK);
+    visit.browser.until_state(&["idle"]).await;
     let witness = Witness::watch(&visit.stack.simulator_socket());
     Some((visit, witness))
 }

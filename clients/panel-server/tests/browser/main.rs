@@ -198,15 +198,6 @@ async fn hold_until_it_turns(browser: &Browser, witness: &Witness) {
     browser.fail("the robot does not turn").await
 }
 
-/// A robot on the dock does not let itself be driven off it by hand: a short job takes it away from there.
-async fn leave_the_dock(browser: &Browser) {
-    browser.press_start().await;
-    browser.until_state(&["cleaning"]).await;
-    browser.sweeps_more_than(40).await;
-    browser.click("#stop").await;
-    browser.until_state(&["idle"]).await;
-}
-
 #[tokio::test]
 async fn the_keyboard_is_enough() {
     let Some(visit) = Visit::begin(Screen::Desktop).await else {

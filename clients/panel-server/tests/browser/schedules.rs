@@ -57,6 +57,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser.click("#day-sa").await;
     browser.click("#schedule-form .rooms input").await;
     browser.choose("schedule-power", "quiet").await;
+    fill(browser, "schedule-late", "90").await;
     browser.shot("phone-schedule-form").await;
     browser.click("#save-schedule").await;
 
@@ -64,7 +65,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
     browser
         .says("schedules", "Mon, Tue, Wed, Thu, Fri, Sat at 07:30")
         .await;
-    browser.says("schedules", ", quiet").await;
+    browser.says("schedules", ", quiet, up to 90 minutes late").await;
     assert_eq!(
         browser
             .text("return document.querySelectorAll('#next-runs li').length")

@@ -1,8 +1,8 @@
 //! Schedules as rows for people who read.
 
 use rvac_api::{
-    FloorView, FloorsView, JobPart, PlannedRun, ScheduleDecision, ScheduleTime, ScheduleView, ScheduledJob,
-    Schedules, Weekday,
+    FloorView, FloorsView, InQuiet, JobPart, PlannedRun, ScheduleDecision, ScheduleEntry, ScheduleTime,
+    ScheduleView, ScheduledJob, Schedules, Weekday,
 };
 
 use crate::codes::explain;
@@ -83,12 +83,24 @@ fn row(
     ScheduleRow {
         number: view.number,
         name: entry.name.clone(),
-        words: format!("{}, {job}", time_text(words, &entry.when)),
+        words: [time_text(words, &entry.when), job]
+            .into_iter()
+            .chain(missed_text(words, entry))
+            .collect::<Vec<_>>()
+            .join(", "),
         next,
         now: now.unwrap_or_default(),
         enabled: entry.enabled,
         skips: view.skip_next,
     }
+}
+
+/// What becomes of a run whose time finds the robot off or in its quiet hours, as far as it is not just left out.
+fn missed_text(words: &Words, entry: &ScheduleEntry) -> Vec<String> {
+    let told = &words.schedule;
+    let late = (entry.late_min > 0).then(|| told.may_be_late.fill([&entry.late_min]));
+    let waits = (entry.in_quiet == InQuiet::Wait).then(|| told.may_wait.to_owned());
+    late.into_iter().chain(waits).collect()
 }
 
 /// What a code means; a code without words is shown as it is.
@@ -258,8 +270,8 @@ mod tests {
                         days: vec![Weekday::Mo, Weekday::Fr],
                         at: "07:30".to_owned(),
                     },
-                    late_min: 0,
-                    in_quiet: InQuiet::Refuse,
+                    late_min: 45,
+                    in_quiet: InQuiet::Wait,
                     floor: None,
                 },
                 skip_next: true,
@@ -291,7 +303,10 @@ mod tests {
             ..FloorsView::default()
         };
         let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &[], &here));
-        assert_eq!(rows[0].words, "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
+        assert_eq!(
+            rows[0].words,
+            "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
+        );
         assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, left out");
         assert_eq!(
             rows[0].now,
@@ -334,8 +349,14 @@ mod tests {
             .words
             .clone()
         };
-        assert_eq!(words(1), "Mon, Fri at 07:30, room 4, room 9, 2 times, on Attic");
-        assert_eq!(words(2), "Mon, Fri at 07:30, Kitchen, room 9, 2 times");
+        assert_eq!(
+            words(1),
+            "Mon, Fri at 07:30, room 4, room 9, 2 times, on Attic, up to 45 minutes late, waits for the end of the quiet hours"
+        );
+        assert_eq!(
+            words(2),
+            "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
+        );
     }
 
     #[test]

@@ -32,6 +32,8 @@ screen! {
         late: "Minutes that it may start late, if the robot was off at its time",
             "Mitu minutit hiljem võib alustada, kui robot oli õigel ajal väljas";
         waits: "In the quiet hours wait for their end", "Vaiksel ajal oota selle lõppu";
+        may_be_late[1]: "up to {0} minutes late", "kuni {0} minutit hiljem";
+        may_wait: "waits for the end of the quiet hours", "ootab vaikse aja lõppu";
         need_name: "Give it a name.", "Anna ajakavale nimi.";
         need_time: "Say at what time it starts.", "Määra kellaaeg, millal see algab.";
         need_date: "Choose the day on which it starts.", "Vali päev, millal see algab.";
