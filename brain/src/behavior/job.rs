@@ -1,6 +1,7 @@
 //! A job: what it is for, who drives for it, what it has done.
 
 use super::gyro_rest::GyroRest;
+use super::second_look::SecondLook;
 use super::{JobFigures, JobKind};
 use crate::coverage;
 use crate::docking::Docking;
@@ -39,6 +40,7 @@ pub(super) struct Job {
     pub(super) brushes: bool,
     /// On its way back to where it was put off: brushes stay off over floor that was swept before.
     pub(super) returns: bool,
+    pub(super) second_look: SecondLook,
 }
 
 /// Movements that come before the task.
@@ -84,6 +86,7 @@ impl Job {
             gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,
+            second_look: SecondLook::default(),
         }
     }
 

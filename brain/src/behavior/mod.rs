@@ -14,6 +14,7 @@ mod manual;
 mod reaction;
 mod reason;
 mod recharge;
+mod second_look;
 mod start;
 mod state;
 mod work;

@@ -121,6 +121,8 @@ reasons! {
     RestOutOfReach => "rest-out-of-reach",
     /// The pack is low, and what is left is not worth another charge.
     CrumbsLeft => "crumbs-left",
+    /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.
+    LookAgain => "look-again",
     /// Too many things in the way.
     Obstructed => "obstructed",
     /// Commanded to move and did not (S15).

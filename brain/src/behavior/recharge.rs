@@ -1,7 +1,8 @@
 //! Home for charge, and on with the job afterwards.
 //!
 //! A cleaning job that ends for the pack's sake is *put off*: a job that looks for the dock takes its place, and on the dock
-//! it comes back and waits until the pack is charged. A lost dock leaves it with a person.
+//! it comes back and waits until the pack is charged. A lost dock leaves it with a person. A job that looks again from the dock
+//! ([`super::second_look`]) is put off in the same way.
 
 use core::task::Poll;
 
@@ -107,7 +108,8 @@ impl Behavior {
     pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut Mind) {
         let figures = self.figures();
         let before = self.job.replace(Job::new(JobKind::Dock, figures));
-        self.put_off = before.filter(|job| reason == Reason::BatteryLow && job.kind != JobKind::Dock);
+        let goes_on = matches!(reason, Reason::BatteryLow | Reason::LookAgain);
+        self.put_off = before.filter(|job| goes_on && job.kind != JobKind::Dock);
         if let Some(job) = &mut self.put_off {
             job.interrupt();
         }
@@ -121,6 +123,9 @@ impl Behavior {
                 reason,
                 Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics | Reason::CrumbsLeft
             );
+        if has_cleaned && self.takes_second_look(reason, situation) {
+            return self.turn_home(Reason::LookAgain, mind);
+        }
         let is_whole_home = self.order().is_some_and(|order| order.parts().is_empty());
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
@@ -185,16 +190,17 @@ impl Behavior {
     /// Goes on when the pack is charged; waits for a person when somebody took the robot off its dock.
     pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         self.tell_of_charger(mind);
-        let charged = situation
-            .observation
-            .battery_charge
-            .is_some_and(|charge| charge >= self.config.battery_charged);
+        let may_start = !self.facts.battery_low && !self.facts.wheel_drop;
+        let charge = situation.observation.battery_charge;
+        let charged = charge.is_some_and(|charge| charge >= self.config.battery_charged);
         if !self.facts.docked && self.slips_off() {
             self.put_off_again();
             self.announce(Reason::DockMissed, mind);
         } else if !self.facts.docked {
             self.hold(Reason::Released, mind);
-        } else if charged && !self.facts.battery_low && !self.facts.wheel_drop {
+        } else if may_start && self.may_look_again(charge) {
+            self.announce(Reason::LookAgain, mind);
+        } else if may_start && charged {
             self.announce(Reason::Charged, mind);
         }
     }

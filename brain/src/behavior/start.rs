@@ -66,6 +66,7 @@ impl Behavior {
     pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
         if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
             job.returns = true;
+            job.second_look.begins();
         }
         self.enter(
             Mode::Starting {
