@@ -155,7 +155,7 @@ impl Task for Systematic {
 
     fn swept_share(&self, map: &Map) -> Option<SweptShare> {
         let wanted = self.assignment.wanted(map);
-        self.shares.share(self.floor_m2, |settings| {
+        self.shares.share(|settings| {
             let passed = self.passed.as_ref()?.cells();
             Some(PassedFloor::count(&passed, (&wanted, map), settings))
         })
@@ -186,6 +186,7 @@ impl Systematic {
         mind.decide("turn-to-part", Reason::NextPart, 0.0);
         (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
         (self.vain_plans, self.fresh_starts, self.strays) = (0, 0, 0);
+        self.shares = Shares::default();
         true
     }
 

@@ -49,6 +49,11 @@ impl Hope {
         at_last_m: FAR_M,
     };
 
+    /// Whether floor is hoped for as far as a room reaches: where a wall was missed that is also what lies outside of the home.
+    pub(super) fn is_far(self) -> bool {
+        self.beyond_m > NEAR_M
+    }
+
     /// Nothing else is left. `false` when as much was hoped for already.
     pub(super) fn grow(&mut self) -> bool {
         let grows = self.beyond_m < self.at_last_m;

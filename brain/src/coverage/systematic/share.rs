@@ -66,8 +66,9 @@ struct Tally {
     settings: PlanSettings,
     /// What was counted when it was begun.
     counted: PassedFloor,
-    /// What it found passed, square metres; 0 while it is being made.
+    /// What it found passed, and how much floor there is, square metres; 0 while it is being made.
     passed_m2: f64,
+    floor_m2: f64,
 }
 
 /// What the plan that is being made and the newest one know of it.
@@ -84,25 +85,33 @@ impl Shares {
             settings,
             counted,
             passed_m2: 0.0,
+            floor_m2: 0.0,
         });
     }
 
-    /// That plan is made.
-    pub(super) fn take(&mut self, plan: &CoveragePlan) {
+    /// That plan is made, and there is so much floor.
+    pub(super) fn take(&mut self, plan: &CoveragePlan, floor_m2: f64) {
         self.newest = self.next.take().map(|tally| Tally {
             passed_m2: plan.passed_m2(),
+            floor_m2,
             ..tally
         });
     }
 
-    /// The share of `floor_m2` with what is counted now; where that gives nothing, since the map was drawn again, what the plan
-    /// knew has to do.
-    pub(super) fn share(
-        &self,
-        floor_m2: f64,
-        count: impl Fn(&PlanSettings) -> Option<PassedFloor>,
-    ) -> Option<SweptShare> {
-        let tally = self.newest.filter(|_| floor_m2 > 0.0)?;
+    /// That plan tells nothing: the one before it stays the newest.
+    pub(super) fn pass_over(&mut self) {
+        self.next = None;
+    }
+
+    /// Whether a plan has told anything yet.
+    pub(super) fn are_told(&self) -> bool {
+        self.newest.is_some()
+    }
+
+    /// The share with what is counted now; where that gives nothing, since the map was drawn again, what the plan knew has to do.
+    pub(super) fn share(&self, count: impl Fn(&PlanSettings) -> Option<PassedFloor>) -> Option<SweptShare> {
+        let tally = self.newest.filter(|tally| tally.floor_m2 > 0.0)?;
+        let floor_m2 = tally.floor_m2;
         let now = count(&tally.settings).unwrap_or(tally.counted);
         let passed_m2 = tally.passed_m2 + (now.m2 - tally.counted.m2).max(0.0);
         let share = (passed_m2 / floor_m2).clamp(0.0, 1.0);
@@ -140,15 +149,15 @@ mod tests {
         };
         let mut shares = Shares::default();
         shares.begin(SETTINGS, passed(2.5, 2.0));
-        assert_eq!(shares.share(10.0, |_| None), None, "no plan is made yet");
-        shares.take(&plan);
+        assert_eq!(shares.share(|_| None), None, "no plan is made yet");
+        shares.take(&plan, 10.0);
         shares
     }
 
     #[test]
     fn what_was_passed_since_the_plan_is_added() {
         let told = shares()
-            .share(10.0, |_| Some(passed(5.5, 4.4)))
+            .share(|_| Some(passed(5.5, 4.4)))
             .expect("there is floor");
         assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
         assert!((told.share_low - 0.4).abs() < 1e-9, "{told:?}");
@@ -156,13 +165,24 @@ mod tests {
 
     #[test]
     fn without_a_count_the_plan_tells_and_no_share_is_more_than_all() {
-        let told = shares().share(10.0, |_| None).expect("there is floor");
+        let told = shares().share(|_| None).expect("there is floor");
         assert!((told.share - 0.2).abs() < 1e-9, "{told:?}");
         assert!((told.share_low - 0.16).abs() < 1e-9, "{told:?}");
         let all = shares()
-            .share(10.0, |_| Some(passed(40.0, 40.0)))
+            .share(|_| Some(passed(40.0, 40.0)))
             .expect("there is floor");
         assert_eq!((all.share, all.share_low), (1.0, 1.0));
-        assert_eq!(shares().share(0.0, |_| None), None);
+    }
+
+    #[test]
+    fn a_plan_of_a_robot_that_is_cut_off_changes_nothing_and_no_floor_has_no_share() {
+        let mut shares = shares();
+        shares.begin(SETTINGS, passed(3.5, 2.8));
+        shares.pass_over();
+        let told = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
+        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
+        shares.begin(SETTINGS, passed(0.0, 0.0));
+        shares.take(&CoveragePlan::default(), 0.0);
+        assert_eq!(shares.share(|_| None), None);
     }
 }
