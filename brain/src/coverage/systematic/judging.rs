@@ -41,10 +41,9 @@ impl Systematic {
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
-        let known_m2 = self.known_floor_m2(&plan, situation);
-        self.floor_m2 = self.floor_m2.max(known_m2);
+        self.floor_m2 = self.floor_m2.max(plan.floor_m2);
         self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
-        self.take_share(&plan, known_m2);
+        self.take_share(&plan, situation);
         self.misses_a_part = plan.floor_m2 < (1.0 - REST_SHARE) * self.floor_m2;
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);
@@ -92,7 +91,9 @@ impl Systematic {
         if self.is_cut_off && self.strays < STRAYS_CUT_OFF_MAX {
             return self.go_astray(situation, mind);
         }
-        if self.turns_to_next(self.is_cut_off, (situation.map, mind)) {
+        let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
+        let is_missed = self.is_cut_off && share < WHOLE_SHARE;
+        if self.turns_to_next(is_missed, (situation.map, mind)) {
             return Plan::Go(Motion::Halt);
         }
         let reason = if self.assignment.is_missed {
@@ -100,7 +101,6 @@ impl Systematic {
         } else {
             Reason::Finished
         };
-        let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
         mind.decide("covered", reason, share);
         Plan::Finished(reason)
     }
@@ -126,27 +126,24 @@ impl Systematic {
         Some(self.end(ended, false, (situation, mind)))
     }
 
-    /// Floor of a plan without what it only hopes for far beyond what is known.
-    fn known_floor_m2(&self, plan: &CoveragePlan, situation: &Situation<'_>) -> f64 {
-        match &self.outline {
-            Some(Outline::Growing(hope)) if hope.is_far() => plan.floor_m2.min(situation.map.free_m2()),
-            _ => plan.floor_m2,
-        }
-    }
-
     /// Counts the share that is swept by this plan, unless it is one of a robot that is cut off: that knows nothing of what was
     /// passed elsewhere. While the home is being found out, floor turns out to be furniture, so that the newest plan knows best
     /// how much there is; in a home that is known, what has got out of reach is floor still.
-    fn take_share(&mut self, plan: &CoveragePlan, known_m2: f64) {
+    fn take_share(&mut self, plan: &CoveragePlan, situation: &Situation<'_>) {
+        let known_m2 = match &self.outline {
+            // What is hoped for far beyond what is known is no floor yet.
+            Some(Outline::Growing(hope)) if hope.is_far() => plan.floor_m2.min(situation.map.free_m2()),
+            _ => plan.floor_m2,
+        };
+        let most_m2 = self.shares.know_floor(known_m2);
+        if plan.floor_m2 < WHOLE_SHARE * most_m2 && self.shares.are_told() {
+            return self.shares.pass_over();
+        }
         let floor_m2 = match &self.outline {
             Some(Outline::Growing(_)) => known_m2,
-            _ => self.floor_m2,
+            _ => most_m2,
         };
-        if self.is_cut_off && self.shares.are_told() {
-            self.shares.pass_over();
-        } else {
-            self.shares.take(plan, floor_m2);
-        }
+        self.shares.take(plan, floor_m2);
     }
 
     /// Hopes for floor farther beyond what is known, once, after a lap that ended for want of anything new: it may have missed a

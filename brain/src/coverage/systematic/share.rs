@@ -76,6 +76,8 @@ struct Tally {
 pub(super) struct Shares {
     next: Option<Tally>,
     newest: Option<Tally>,
+    /// Most floor that was known at any time, square metres.
+    most_m2: f64,
 }
 
 impl Shares {
@@ -87,6 +89,12 @@ impl Shares {
             passed_m2: 0.0,
             floor_m2: 0.0,
         });
+    }
+
+    /// So much floor is known now; gives the most that ever was.
+    pub(super) fn know_floor(&mut self, known_m2: f64) -> f64 {
+        self.most_m2 = self.most_m2.max(known_m2);
+        self.most_m2
     }
 
     /// That plan is made, and there is so much floor.
