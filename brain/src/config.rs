@@ -207,6 +207,24 @@ impl BrainConfig {
 }
 
 #[cfg(test)]
+impl BrainConfig {
+    /// A robot with nothing but a bumper, for tests in which its size and its speeds do not matter.
+    pub(crate) fn of_tests() -> Self {
+        let body = Body {
+            radius_m: 0.175,
+            track_m: 0.23,
+            swath_m: 0.3,
+        };
+        let speeds = Speeds {
+            cruise_m_per_s: 0.25,
+            max_m_per_s: 0.35,
+            turn_max_rad_per_s: 1.5,
+        };
+        Self::new(body, speeds)
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::ProximityResponse;
 

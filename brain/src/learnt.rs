@@ -87,7 +87,7 @@ mod tests {
     use super::{GyroLearnt, Learnt, LearntPart};
     use crate::brain::Brain;
     use crate::checkpoint::Checkpoint;
-    use crate::config::{Body, BrainConfig, Speeds};
+    use crate::config::BrainConfig;
     use crate::energy::EnergyModel;
 
     const GYRO: GyroLearnt = GyroLearnt {
@@ -124,21 +124,11 @@ mod tests {
 
     #[test]
     fn each_part_is_forgotten_alone() {
-        let body = Body {
-            radius_m: 0.17,
-            swath_m: 0.25,
-            track_m: 0.23,
-        };
-        let speeds = Speeds {
-            cruise_m_per_s: 0.25,
-            max_m_per_s: 0.35,
-            turn_max_rad_per_s: 1.5,
-        };
         let energy = EnergyModel {
             seen_s: 600.0,
             ..EnergyModel::default()
         };
-        let mut brain = Brain::new(BrainConfig::new(body, speeds), 1);
+        let mut brain = Brain::new(BrainConfig::of_tests(), 1);
         brain.begin_with(Learnt {
             gyro: Some(GYRO),
             energy,

@@ -68,7 +68,7 @@ mod tests {
     use crate::action::Motion;
     use crate::behavior::{BehaviorState, JobFigures, JobKind};
     use crate::command::StrategyName;
-    use crate::config::{Body, BrainConfig, Speeds};
+    use crate::config::BrainConfig;
     use crate::coverage::SweptShare;
     use crate::docking::BeamMemory;
     use crate::geometry::Pose2;
@@ -98,20 +98,6 @@ mod tests {
         }
     }
 
-    fn config() -> BrainConfig {
-        let body = Body {
-            radius_m: 0.175,
-            track_m: 0.23,
-            swath_m: 0.3,
-        };
-        let speeds = Speeds {
-            cruise_m_per_s: 0.25,
-            max_m_per_s: 0.35,
-            turn_max_rad_per_s: 1.5,
-        };
-        BrainConfig::new(body, speeds)
-    }
-
     /// A robot that works, in a home of which it knows where its dock is.
     struct Stage {
         behavior: Behavior,
@@ -123,7 +109,7 @@ mod tests {
 
     impl Stage {
         fn with_swept(share: f64) -> Self {
-            let config = config();
+            let config = BrainConfig::of_tests();
             let floor = Raster::filled(Cell { x: 0, y: 0 }, 80, 80, CellKnowledge::Free);
             let mut map = Map::new(config.body, config.sensors);
             map.take_up(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)));
@@ -147,7 +133,7 @@ mod tests {
 
         /// One step of the job, or of the wait for charge; gives the state after it.
         fn step(&mut self, step: fn(&mut Behavior, &Situation<'_>, &mut Mind)) -> (BehaviorState, Reason) {
-            let (config, beams) = (config(), BeamMemory::default());
+            let (config, beams) = (BrainConfig::of_tests(), BeamMemory::default());
             let seen = (&self.localization, &self.map, &beams);
             let situation = Situation {
                 knows_heading: true,

@@ -87,7 +87,7 @@ pub(crate) struct Systematic {
     passed_at_start_m2: f64,
     /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
-    /// Most floor that could be reached at any time: what is cut off later still counts as not swept.
+    /// Most floor that could be reached at any time, with what was hoped for: by it is judged whether something is cut off.
     floor_m2: f64,
     /// Much less than that can be reached now.
     is_cut_off: bool,
