@@ -1,6 +1,7 @@
 //! What the proximity sensors and the map advise a robot that follows a way: slower towards what is ahead, and away from what
 //! it nearly touches at a side.
 
+use super::standoff::Ahead;
 use crate::config::ProximityLayout;
 use crate::geometry::Point2;
 use crate::manoeuvre::{Caution, Follower};
@@ -38,12 +39,11 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution
     }
     let radius_m = situation.config.body.radius_m;
     let mut sides = Sides::default();
-    let mut ahead_m = f64::INFINITY;
     for hit in seen {
         sides.note(hit, hit.distance_m(Point2::ORIGIN) - radius_m, radius_m);
-        ahead_m = ahead_m.min(way_to(hit, radius_m));
     }
     note_known(situation, &mut sides);
+    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.way_m);
     Caution {
         speed_m_per_s: if follower.turns_on_spot() {
             f64::INFINITY
@@ -54,6 +54,22 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution
         ahead_m,
         ..Caution::default()
     }
+}
+
+/// The nearest of what the sensors see straight ahead; `None` also for sensors that only say near.
+pub(super) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
+    let layout = &situation.config.sensors.proximity;
+    if layout.response.near_m.is_some() {
+        return None;
+    }
+    let radius_m = situation.config.body.radius_m;
+    hits(layout, &situation.observation.proximity)
+        .map(|at| Ahead {
+            way_m: way_to(at, radius_m),
+            at,
+        })
+        .filter(|ahead| ahead.way_m.is_finite())
+        .min_by(|one, other| one.way_m.total_cmp(&other.way_m))
 }
 
 /// What lacks of the gap at each side, metres.

@@ -22,6 +22,7 @@ mod share;
 mod shyness;
 mod since;
 mod squeeze;
+mod standoff;
 mod trail;
 
 use super::astray::Astray;
@@ -36,6 +37,7 @@ use crate::mapping::{CellKnowledge, Map, Raster};
 use crate::order::CleaningOrder;
 use crate::task::{Mind, Plan, Situation, Task};
 use assignment::{Assignment, Next};
+use caution::ahead;
 pub(crate) use caution::caution;
 use frontier::margin_cells;
 pub(crate) use obstructions::{Obstructions, encounter};
@@ -48,6 +50,7 @@ pub use share::SweptShare;
 use share::{PassedFloor, Shares};
 use shyness::Shyness;
 use squeeze::Squeeze;
+use standoff::{Ahead, Standoff};
 
 /// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
 pub(super) const KEEP_OFF_M: f64 = 0.01;
@@ -55,6 +58,8 @@ pub(super) const KEEP_OFF_M: f64 = 0.01;
 pub(super) const SIGMA_MIN_M: f64 = 0.01;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
+/// Way back from what is seen ahead.
+const SEEN_BACK_M: f64 = 0.02;
 /// Way back that is added for each plan in a row that brought nothing.
 const MORE_BACK_M: f64 = 0.02;
 /// Way back at a cliff.
@@ -95,6 +100,7 @@ pub(crate) struct Systematic {
     misses_a_part: bool,
     /// It keeps off what it has just touched.
     shyness: Shyness,
+    standoff: Standoff,
     squeeze: Squeeze,
     /// What was known when it began, in a home that was known then.
     began: Option<Raster<CellKnowledge>>,
@@ -254,12 +260,40 @@ impl Systematic {
             // Beside an edge a plan begins where the robot really stands.
             self.planning = None;
         } else {
-            let back_m = CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain_plans);
-            self.evasion = Some(Evasion::from_contact(back_m, 0.0));
-            // The plan is made meanwhile, for where the robot will stand.
-            self.planning = Some(Planning::Due(situation.pose.after_arc(-back_m, 0.0)));
+            self.standoff.touched(ahead(situation));
+            self.back_off(CONTACT_BACK_M, situation);
         }
         Plan::Go(Motion::Halt)
+    }
+
+    /// Goes on, unless it would run into what it sees in a home of which it draws the map. In a home that is known the ways end where
+    /// walls are, and a touch in passing costs less than a new plan: with it 95 % took 0.05 T0 longer in the AWS house.
+    fn go(&mut self, motion: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let explores = matches!(self.outline, Some(Outline::Growing(_)));
+        let drives = situation.advance.distance_m > 0.0
+            && matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
+        match ahead(situation) {
+            Some(seen) if explores && drives && self.standoff.is_reached(seen) => {
+                self.stand_off(seen, situation, mind)
+            }
+            _ => Plan::Go(motion),
+        }
+    }
+
+    /// Leaves a way on which something is seen, before it is touched.
+    fn stand_off(&mut self, seen: Ahead, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        mind.decide("leave-way", Reason::WallAhead, seen.way_m);
+        self.obstructions.add_seen(seen.at, situation);
+        self.follower = None;
+        self.back_off(SEEN_BACK_M, situation);
+        Plan::Go(Motion::Halt)
+    }
+
+    /// Backs off on the way it came, farther the more plans were vain; the next one is made meanwhile, for where the robot will stand.
+    fn back_off(&mut self, least_m: f64, situation: &Situation<'_>) {
+        let back_m = least_m + MORE_BACK_M * f64::from(self.vain_plans);
+        self.evasion = Some(Evasion::from_contact(back_m, 0.0));
+        self.planning = Some(Planning::Due(situation.pose.after_arc(-back_m, 0.0)));
     }
 
     /// Turn after an edge: where edges are not known yet the robot looks away from one before it drives on, because way
@@ -282,13 +316,14 @@ impl Systematic {
             return Plan::Go(Motion::Halt);
         };
         let mut caution = caution(situation, follower);
+        self.standoff.follow(situation.advance);
         caution.offset_m += self.shyness.offset_m(situation.advance);
         let step = follower.step(situation, caution);
         if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
             passed.give_up(beside);
         }
         match step {
-            FollowStep::Going(motion) => return Plan::Go(motion),
+            FollowStep::Going(motion) => return self.go(motion, situation, mind),
             FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
             FollowStep::Arrived => {}
         }

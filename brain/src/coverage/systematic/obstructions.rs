@@ -44,6 +44,16 @@ impl Obstructions {
         let (bearing, spread_rad) = bearing_rad(reason, situation);
         let at = rim(bearing, situation);
         let beside = [-spread_rad, spread_rad].map(|aside_rad| rim(bearing + aside_rad, situation));
+        self.keep(at, beside, situation);
+    }
+
+    /// Notes what the sensors show, at a place in the body's frame.
+    pub(super) fn add_seen(&mut self, hit: Point2, situation: &Situation<'_>) {
+        let at = rim(libm::atan2(hit.y_m, hit.x_m), situation);
+        self.keep(at, [at; 2], situation);
+    }
+
+    fn keep(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
         let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
         if self.met.len() >= KEPT_MAX {
             self.met.remove(0);
