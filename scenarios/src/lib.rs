@@ -48,6 +48,15 @@ pub fn peopled(number: u32) -> Scene {
     scene_of(PathBuf::from(format!("generated:{number}+people")), "nominal")
 }
 
+/// The home that this file holds, with nominal noise.
+///
+/// # Panics
+/// When it cannot be loaded.
+#[must_use]
+pub fn scene_in(file: PathBuf) -> Scene {
+    scene_of(file, "nominal")
+}
+
 fn scene_of(home: PathBuf, noise: &str) -> Scene {
     Scene::load(&SceneSettings {
         home,
