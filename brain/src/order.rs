@@ -211,6 +211,12 @@ impl CleaningOrder {
         &self.parts
     }
 
+    /// Whether it is for the whole home, and not for parts of it.
+    #[must_use]
+    pub const fn is_for_whole_home(&self) -> bool {
+        self.parts.is_empty()
+    }
+
     /// How often each part is cleaned at least.
     #[must_use]
     pub const fn passes(&self) -> u8 {

@@ -13,6 +13,7 @@ use crate::checkpoint::JobCheckpoint;
 use crate::command::StrategyName;
 use crate::docking;
 use crate::energy::{Activity, EnergyModel, EnergyWatch, Leftover};
+use crate::order::CleaningOrder;
 use crate::task::{Mind, Situation};
 
 /// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
@@ -126,7 +127,7 @@ impl Behavior {
         if has_cleaned && self.takes_second_look(reason, situation) {
             return self.turn_home(Reason::LookAgain, mind);
         }
-        let is_whole_home = self.order().is_some_and(|order| order.parts().is_empty());
+        let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
         if has_cleaned && situation.map.dock().is_some() {

@@ -46,7 +46,7 @@ impl Behavior {
             && has_left_much
             && !situation.is_tracked
             && situation.map.dock().is_some()
-            && job.order.parts().is_empty()
+            && job.order.is_for_whole_home()
             && job.second_look == SecondLook::NotYet;
         if looks_again {
             job.second_look = SecondLook::Due;

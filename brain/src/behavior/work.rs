@@ -227,7 +227,7 @@ impl Behavior {
     /// knows of the home.
     fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
         let is_cleaning = |job: &&Job| {
-            let is_whole_home = job.order.parts().is_empty();
+            let is_whole_home = job.order.is_for_whole_home();
             matches!(job.kind, JobKind::Clean(_)) && is_whole_home && job.pen.holds_the_end()
         };
         self.job.as_ref().filter(is_cleaning).is_some()

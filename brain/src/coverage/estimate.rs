@@ -57,7 +57,7 @@ pub(crate) fn estimate(
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
     let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), pace));
     let mut sum = Sum::at(start);
-    let whole = order.parts().is_empty().then_some(None);
+    let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
         sum.add(part_of(
             (part, order),

@@ -31,7 +31,7 @@ impl Assignment {
 
     /// No parts were ordered.
     pub(super) fn is_whole_home(&self) -> bool {
-        self.order.parts().is_empty()
+        self.order.is_for_whole_home()
     }
 
     /// What shall be swept now.
