@@ -41,9 +41,14 @@ impl Systematic {
         let is_vain = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.vain_plans = if is_vain { self.vain_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
-        self.floor_m2 = self.floor_m2.max(plan.floor_m2);
-        self.is_cut_off = plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
-        self.take_share(&plan, situation);
+        let is_elsewhere = self.shares.is_elsewhere(&plan);
+        if is_elsewhere {
+            self.shares.pass_over();
+        } else {
+            self.floor_m2 = self.floor_m2.max(plan.floor_m2);
+            self.take_share(&plan, situation);
+        }
+        self.is_cut_off = is_elsewhere || plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
         self.misses_a_part = plan.floor_m2 < (1.0 - REST_SHARE) * self.floor_m2;
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.strays) = (0, 0);

@@ -8,6 +8,10 @@ use crate::coverage::plan::{CoveragePlan, PlanSettings};
 use crate::coverage::wanted::Wanted;
 use crate::mapping::{CELL_M, Map, Raster};
 
+/// A plan that finds less than this share of what is counted is one of a robot that stands elsewhere: cut off from the rest, or
+/// outside of the walls by its map.
+const ELSEWHERE_SHARE: f64 = 0.5;
+
 /// Share of the floor that a job wants and knows which it has swept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SweptShare {
@@ -111,6 +115,12 @@ impl Shares {
         self.next = None;
     }
 
+    /// Whether this plan, which is made, knows nothing of most of what was passed.
+    pub(super) fn is_elsewhere(&self, plan: &CoveragePlan) -> bool {
+        let begun = self.next.filter(|_| self.are_told());
+        begun.is_some_and(|tally| plan.passed_m2() < ELSEWHERE_SHARE * tally.counted.m2)
+    }
+
     /// Whether a plan has told anything yet.
     pub(super) fn are_told(&self) -> bool {
         self.newest.is_some()
@@ -180,6 +190,32 @@ mod tests {
             .share(|_| Some(passed(40.0, 40.0)))
             .expect("there is floor");
         assert_eq!((all.share, all.share_low), (1.0, 1.0));
+    }
+
+    #[test]
+    fn a_plan_that_finds_nothing_passed_is_of_a_robot_elsewhere_once_something_was_passed() {
+        let beside = CoveragePlan {
+            floor_m2: 20.0,
+            open_m2: 20.0,
+            ..CoveragePlan::default()
+        };
+        let mut first = Shares::default();
+        first.begin(SETTINGS, passed(2.5, 2.0));
+        assert!(!first.is_elsewhere(&beside), "nothing else is known");
+        let mut shares = shares();
+        shares.begin(SETTINGS, passed(2.5, 2.0));
+        assert!(shares.is_elsewhere(&beside));
+        let within = CoveragePlan {
+            open_m2: 18.5,
+            ..beside
+        };
+        assert!(!shares.is_elsewhere(&within));
+        shares.begin(SETTINGS, passed(0.0, 0.0));
+        let beside = CoveragePlan {
+            open_m2: 20.0,
+            ..within
+        };
+        assert!(!shares.is_elsewhere(&beside), "what was passed was withdrawn");
     }
 
     #[test]
