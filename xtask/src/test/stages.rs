@@ -319,7 +319,7 @@ fn writes(long: bool) -> Result {
     check(&mut command)
 }
 
-/// The tests take one turn after the other in one process: two browsers at once would measure each other.
+/// The tests take turns in one process: those that measure a time have the machine for themselves.
 fn browser(long: bool) -> Result {
     system::need("chromium", &["chromium"])?;
     system::need("chromedriver", &["chromium-driver"])?;

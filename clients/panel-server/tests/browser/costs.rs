@@ -68,7 +68,7 @@ fn become_slow(browser: &Browser, address: &str) {
 
 #[tokio::test]
 async fn the_first_visit_of_a_slow_phone() {
-    let Some(visit) = Visit::begin(Screen::Phone).await else {
+    let Some(visit) = Visit::begin_alone(Screen::Phone).await else {
         return;
     };
     let browser = &visit.browser;
@@ -110,7 +110,7 @@ fn memory_mib(browser: &Browser) -> [f64; 2] {
 /// A robot that has finished is sent again, so that the map goes on changing.
 #[tokio::test]
 async fn a_page_that_stays_open_does_not_grow() {
-    let Some(visit) = Visit::begin(Screen::Phone).await else {
+    let Some(visit) = Visit::begin_alone(Screen::Phone).await else {
         return;
     };
     let browser = &visit.browser;

@@ -6,6 +6,7 @@ use crate::browser::{Browser, Screen};
 use crate::pairing::let_in;
 use crate::stack::Stack;
 use crate::stranger::{NAME, Stranger};
+use crate::turns::Company;
 
 /// Reads who may use the robot.
 const READ: &str = "return fetch('ROBOT/api/clients', { credentials: 'include' })
@@ -170,7 +171,7 @@ impl Attack<'_> {
 
 #[tokio::test]
 async fn pages_of_other_sites_can_do_nothing_to_a_robot() {
-    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Desktop).await else {
+    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Desktop, Company::Others).await else {
         return;
     };
     let (browser, stack) = (&visit.browser, &visit.stack);

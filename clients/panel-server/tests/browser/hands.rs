@@ -322,7 +322,7 @@ async fn another_client_drives_by_the_mix_of_the_page_and_its_loss_stops_the_whe
 /// **Set** takes what another client moves.
 #[tokio::test]
 async fn an_input_of_another_client_is_learnt_in_the_editor() {
-    let Some(visit) = crate::Visit::begin(Screen::Desktop).await else {
+    let Some(visit) = crate::Visit::begin_alone(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;

@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use crate::Browser;
 use crate::browser::Screen;
 use crate::stack::Stack;
+use crate::turns::{Company, turn};
 use crate::wire_tap::WireTap;
-use crate::{Browser, ONE_AT_A_TIME};
 
 /// Sides of the home, and of its rooms, metres.
 const SIDE_M: f64 = 20.0;
@@ -83,7 +84,7 @@ async fn four_hundred_square_metres_and_ten_thousand_points() {
         println!("skipped: RVAC_BROWSER_TESTS is not set");
         return;
     }
-    let _turn = ONE_AT_A_TIME.lock().await;
+    let _turn = turn(Company::None).await;
     let mut stack = Stack::start_in(&home());
     let tap = WireTap::before(&stack.daemon_socket(), stack.folder(), &way_mm());
     stack.serve_from(&tap.socket);

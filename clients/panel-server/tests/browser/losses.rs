@@ -48,7 +48,7 @@ const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
 
 /// A robot that somebody has put beside its dock, and who sees where it is.
 pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Witness)> {
-    let visit = Visit::begin(screen).await?;
+    let visit = Visit::begin_alone(screen).await?;
     visit.stack.hand(OFF_DOCK);
     visit.browser.until_state(&["idle"]).await;
     let witness = Witness::watch(&visit.stack.simulator_socket());

@@ -39,6 +39,7 @@ mod stack;
 mod stands;
 mod stranger;
 mod teller;
+mod turns;
 mod wire_tap;
 
 use std::time::{Duration, Instant};
@@ -47,22 +48,24 @@ use accessibility::SMALL_TARGETS;
 use browser::{Browser, Screen};
 use robot::Witness;
 use stack::Stack;
-use tokio::sync::{Mutex, MutexGuard};
-
-/// One browser at a time: two would share the processor and measure each other.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::const_new(());
+use turns::{Company, Turn, turn};
 
 /// A browser that shows the panel of a robot at rest.
 struct Visit {
     browser: Browser,
     stack: Stack,
-    _turn: MutexGuard<'static, ()>,
+    _turn: Turn,
 }
 
 impl Visit {
     /// Starts all parts and waits for the robot; `None`, and a word about it, when browser tests are not wanted.
     async fn begin(screen: Screen) -> Option<Self> {
         Self::with(Stack::start, screen).await
+    }
+
+    /// With nothing else going on, for what depends on time.
+    async fn begin_alone(screen: Screen) -> Option<Self> {
+        Self::alone_with(Stack::start, screen).await
     }
 
     /// In a home that the robot knows.
@@ -83,22 +86,36 @@ impl Visit {
 
     /// With the robot's real firmware in an emulated chip.
     async fn begin_emulated(screen: Screen) -> Option<Self> {
-        Self::with(Stack::start_emulated, screen).await
+        Self::alone_with(Stack::start_emulated, screen).await
     }
 
     async fn with(start: fn() -> Stack, screen: Screen) -> Option<Self> {
-        let visit = Self::at_the_door(start, screen).await?;
-        visit.browser.until_state(&["idle", "docked"]).await;
-        Some(visit)
+        Self::at_the_door(start, screen, Company::Others)
+            .await?
+            .greeted()
+            .await
+    }
+
+    async fn alone_with(start: fn() -> Stack, screen: Screen) -> Option<Self> {
+        Self::at_the_door(start, screen, Company::None)
+            .await?
+            .greeted()
+            .await
+    }
+
+    /// Waits for the robot.
+    async fn greeted(self) -> Option<Self> {
+        self.browser.until_state(&["idle", "docked"]).await;
+        Some(self)
     }
 
     /// Without waiting for a robot that may not be shown.
-    async fn at_the_door(start: fn() -> Stack, screen: Screen) -> Option<Self> {
+    async fn at_the_door(start: fn() -> Stack, screen: Screen, company: Company) -> Option<Self> {
         if std::env::var_os("RVAC_BROWSER_TESTS").is_none() {
             println!("skipped: RVAC_BROWSER_TESTS is not set");
             return None;
         }
-        let turn = ONE_AT_A_TIME.lock().await;
+        let turn = turn(company).await;
         let stack = start();
         let browser = Browser::open(&stack, screen).await;
         Some(Self {
@@ -111,7 +128,7 @@ impl Visit {
 
 #[tokio::test]
 async fn start_cleans_and_stop_stands() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+    let Some(visit) = Visit::begin_alone(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;

@@ -88,7 +88,7 @@ async fn measured_latency(browser: &Browser, witness: &Witness) -> String {
 
 #[tokio::test]
 async fn a_gamepad_starts_stops_drives_and_shakes_at_a_wall() {
-    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+    let Some(visit) = Visit::begin_alone(Screen::Desktop).await else {
         return;
     };
     let browser = &visit.browser;

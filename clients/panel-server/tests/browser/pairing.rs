@@ -9,6 +9,7 @@ use crate::accessibility::expect_none;
 use crate::browser::{Browser, Screen};
 use crate::robot::Witness;
 use crate::stack::Stack;
+use crate::turns::Company;
 
 /// Types into a field, as far as the page can tell.
 async fn fill(browser: &Browser, id: &str, text: &str) {
@@ -84,7 +85,7 @@ async fn try_in_vain(browser: &Browser, stack: &Stack) -> String {
 
 #[tokio::test]
 async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
-    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone).await else {
+    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone, Company::Others).await else {
         return;
     };
     let (browser, stack) = (&visit.browser, &visit.stack);
@@ -192,8 +193,8 @@ async fn hold_start(browser: &Browser, stack: &Stack) {
     panic!("START was held five times, and no window is open");
 }
 
-async fn let_in_by_presses(start: fn() -> Stack) {
-    let Some(visit) = Visit::at_the_door(start, Screen::Phone).await else {
+async fn let_in_by_presses(start: fn() -> Stack, company: Company) {
+    let Some(visit) = Visit::at_the_door(start, Screen::Phone, company).await else {
         return;
     };
     let (browser, stack) = (&visit.browser, &visit.stack);
@@ -223,10 +224,10 @@ async fn let_in_by_presses(start: fn() -> Stack) {
 
 #[tokio::test]
 async fn whoever_stands_beside_the_robot_lets_a_phone_in_without_a_code() {
-    let_in_by_presses(Stack::start_guarded).await;
+    let_in_by_presses(Stack::start_guarded, Company::Others).await;
 }
 
 #[tokio::test]
 async fn the_buttons_of_the_real_firmware_let_a_phone_in() {
-    let_in_by_presses(Stack::start_guarded_emulated).await;
+    let_in_by_presses(Stack::start_guarded_emulated, Company::None).await;
 }

@@ -4,6 +4,7 @@ use crate::Visit;
 use crate::accessibility::expect_none;
 use crate::browser::{Browser, Screen};
 use crate::stack::Stack;
+use crate::turns::Company;
 
 /// Presses all that can be pressed in a sheet, one after the other, and gives what was refused.
 async fn refused(browser: &Browser, sheet: &str) -> String {
@@ -25,7 +26,7 @@ async fn refused(browser: &Browser, sheet: &str) -> String {
 
 #[tokio::test]
 async fn a_device_that_may_only_look_is_told_so_before_it_presses_anything() {
-    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone).await else {
+    let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone, Company::Others).await else {
         return;
     };
     let (browser, stack) = (&visit.browser, &visit.stack);
