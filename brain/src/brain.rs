@@ -1,7 +1,7 @@
 //! The brain as its shell sees it.
 
 use crate::action::Actions;
-use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
+use crate::behavior::{Behavior, BehaviorState, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::{Checkpoint, CheckpointWork};
 use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
@@ -11,7 +11,7 @@ use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::learnt::{GyroLearnt, Learnt};
 use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
+use crate::mapping::{Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::order::CleaningOrder;
 use crate::random::Random;
@@ -32,6 +32,7 @@ pub struct Brain {
     localization: Localization,
     map: Map,
     beams: BeamMemory,
+    carpet: CarpetSense,
     behavior: Behavior,
     mind: Mind,
     contacts_before: Contacts,
@@ -52,6 +53,7 @@ impl Brain {
             localization,
             map: Map::new(config.body, config.sensors),
             beams: BeamMemory::default(),
+            carpet: CarpetSense::default(),
             behavior: Behavior::new(config),
             mind: Mind {
                 random: Random::new(seed),
@@ -149,12 +151,22 @@ impl Brain {
             },
             observation.time_us,
         );
+        self.feel_floor(observation, intent.cleaners);
         Actions {
             motion: intent.motion,
             cleaners: intent.cleaners,
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
+        }
+    }
+
+    /// Feels by the motors' loads what the robot drives on. How hard the brush runs while a person drives, the brain does not know.
+    fn feel_floor(&mut self, observation: &Observation, cleaners: bool) {
+        let is_known = cleaners && self.status().state != BehaviorState::Manual;
+        let brush_percent = is_known.then(|| self.power_here().main_brush);
+        if let Some(felt) = self.carpet.feel(observation, brush_percent) {
+            self.map.note_floor(observation.time_us, felt);
         }
     }
 
