@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail};
@@ -31,6 +32,9 @@ struct Arguments {
     /// Number of kills
     #[arg(long, default_value_t = 10)]
     kills: u32,
+    /// Robots that share the kills, each with a daemon and a home of its own; they all keep to the clock on the wall
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
+    robots: u32,
     /// Seed of the moments
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -53,34 +57,18 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let (vthal, simulator) = (needed_beside("vthal")?, needed_beside("rvac-sim")?);
-    let scratch = Scratch::new()?;
-    let _simulator = start_simulator(&simulator, &scratch, arguments)?;
-    let mut truth = Truth {
-        client: Client::connect(&scratch.join("sim.sock"))?,
-    };
-    let mut random = arguments.seed;
-    let mut daemon = Daemon::start(&vthal, &scratch, &[])?;
-    start_cleaning(&scratch)?;
-    let mut worst_s: f64 = 0.0;
-    let mut late = 0;
-    for kill in 1..=arguments.kills {
-        truth
-            .wait_until_it_drives()
-            .with_context(|| format!("before kill {kill}"))?;
-        truth.pass(Duration::from_micros(next_random(&mut random) % 1_500_000))?;
-        let killed_s = truth.now()?.sim_s;
-        daemon.kill()?;
-        let stood_s = truth.seconds_until_it_stands(killed_s)?;
-        worst_s = worst_s.max(stood_s);
-        late += u32::from(stood_s > STAND_WITHIN_S);
-        daemon = Daemon::start(&vthal, &scratch, &[])?;
-        if !arguments.json {
-            println!("kill {kill}: stood after at most {stood_s:.2} s");
-        }
-    }
-    truth.wait_until_it_drives().context("after the last kill")?;
-    let kills = arguments.kills;
+    let lives = thread::scope(|scope| {
+        let lives: Vec<_> = (0..arguments.robots)
+            .map(|robot| scope.spawn(move || live(arguments, robot)))
+            .collect();
+        lives
+            .into_iter()
+            .map(|life| life.join().unwrap_or_else(|_| bail!("a robot's thread panicked")))
+            .collect::<anyhow::Result<Vec<Life>>>()
+    })?;
+    let kills: u32 = lives.iter().map(|life| life.kills).sum();
+    let late: u32 = lives.iter().map(|life| life.late).sum();
+    let worst_s = lives.iter().map(|life| life.worst_s).fold(0.0, f64::max);
     if arguments.json {
         println!(
             "{}",
@@ -96,10 +84,55 @@ fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     })
 }
 
-fn start_simulator(program: &Path, scratch: &Scratch, arguments: &Arguments) -> anyhow::Result<Daemon> {
+/// What one robot went through.
+#[derive(Debug, Default)]
+struct Life {
+    kills: u32,
+    /// Kills after which it drove for too long.
+    late: u32,
+    worst_s: f64,
+}
+
+/// The robot of this number with its share of the kills.
+fn live(arguments: &Arguments, robot: u32) -> anyhow::Result<Life> {
+    let (vthal, simulator) = (needed_beside("vthal")?, needed_beside("rvac-sim")?);
+    let scratch = Scratch::new()?;
+    let seed = arguments.seed + u64::from(robot);
+    let _simulator = start_simulator(&simulator, &scratch, (&arguments.home, seed))?;
+    let mut truth = Truth {
+        client: Client::connect(&scratch.join("sim.sock"))?,
+    };
+    let mut random = seed;
+    let mut daemon = Daemon::start(&vthal, &scratch, &[])?;
+    start_cleaning(&scratch)?;
+    let mut life = Life::default();
+    for kill in (0..arguments.kills)
+        .skip(robot as usize)
+        .step_by(arguments.robots as usize)
+    {
+        truth
+            .wait_until_it_drives()
+            .with_context(|| format!("before kill {}", kill + 1))?;
+        truth.pass(Duration::from_micros(next_random(&mut random) % 1_500_000))?;
+        let killed_s = truth.now()?.sim_s;
+        daemon.kill()?;
+        let stood_s = truth.seconds_until_it_stands(killed_s)?;
+        life.kills += 1;
+        life.worst_s = life.worst_s.max(stood_s);
+        life.late += u32::from(stood_s > STAND_WITHIN_S);
+        daemon = Daemon::start(&vthal, &scratch, &[])?;
+        if !arguments.json {
+            println!("kill {}: stood after at most {stood_s:.2} s", kill + 1);
+        }
+    }
+    truth.wait_until_it_drives().context("after the last kill")?;
+    Ok(life)
+}
+
+fn start_simulator(program: &Path, scratch: &Scratch, (home, seed): (&Path, u64)) -> anyhow::Result<Daemon> {
     let mut command = Command::new(program);
-    command.arg("serve").arg("--home").arg(&arguments.home);
-    command.arg("--seed").arg(arguments.seed.to_string());
+    command.arg("serve").arg("--home").arg(home);
+    command.arg("--seed").arg(seed.to_string());
     command
         .arg("--link")
         .arg(scratch.join("tty"))
@@ -155,7 +188,7 @@ impl Truth {
         let deadline = Instant::now() + DRIVES_WITHIN;
         let mut before = self.now()?;
         while Instant::now() < deadline {
-            std::thread::sleep(Duration::from_millis(100));
+            thread::sleep(Duration::from_millis(100));
             let now = self.now()?;
             if moved(before.pose, now.pose) {
                 return Ok(());
@@ -167,7 +200,7 @@ impl Truth {
 
     /// Lets the robot drive for `pause`, and longer if it stands at its end.
     fn pass(&mut self, pause: Duration) -> anyhow::Result<()> {
-        std::thread::sleep(pause);
+        thread::sleep(pause);
         self.wait_until_it_drives()
     }
 
@@ -176,7 +209,7 @@ impl Truth {
         let mut looks = vec![self.now()?];
         let mut last = looks[0];
         while last.sim_s < killed_s + WATCHED_S {
-            std::thread::sleep(LOOKS_EVERY);
+            thread::sleep(LOOKS_EVERY);
             last = self.now()?;
             looks.push(last);
         }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-#[path = "../tests/rig/parts.rs"]
+#[path = "../tests/all/rig/parts.rs"]
 #[allow(dead_code, unreachable_pub, reason = "the parts serve tests as well")]
 mod parts;
 

@@ -208,6 +208,14 @@ impl Household {
         }
     }
 
+    /// Advances second by second until something is so; the seconds that it took, `None` if it is not so after `seconds_max`.
+    pub fn pass_until(&mut self, seconds_max: u64, mut is_so: impl FnMut(&Self) -> bool) -> Option<u64> {
+        (1..=seconds_max).find(|_| {
+            self.pass_ms(1_000);
+            is_so(self)
+        })
+    }
+
     /// The virtual clock in microseconds.
     #[must_use]
     pub const fn now_us(&self) -> u64 {

@@ -1,6 +1,7 @@
 //! Every trial at many phases.
 
 use pic32::board::CYCLES_PER_MS;
+use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
@@ -51,6 +52,7 @@ impl Theatre {
         let wanted = |scene: &Scene| trials.iter().any(|trial| trial.scene == *scene);
         let cast = |scene: Scene| -> Result<_, StageError> {
             let stages = (0..size)
+                .into_par_iter()
                 .map(|number| scene.set(workshop, number + 1, number * CYCLES_PER_MS / size))
                 .collect::<Result<_, _>>()?;
             Ok((scene, stages))
@@ -70,14 +72,16 @@ impl Theatre {
             .iter()
             .find(|(scene, _)| *scene == trial.scene)
             .map_or(&[][..], |(_, stages)| stages.as_slice());
-        let outcomes: Vec<Outcome> = stages
+        let mut phase = || (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
+        let moments: Vec<(&Stage, u64)> = stages
             .iter()
             .cycle()
             .take(phases)
-            .map(|stage| {
-                let phase = (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
-                trial.run(stage.clone(), phase)
-            })
+            .map(|stage| (stage, phase()))
+            .collect();
+        let outcomes: Vec<Outcome> = moments
+            .into_par_iter()
+            .map(|(stage, phase)| trial.run(stage.clone(), phase))
             .collect();
         Verdict::of(trial, &outcomes)
     }

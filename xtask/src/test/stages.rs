@@ -278,7 +278,7 @@ fn faults(long: bool) -> Result {
     on_chip.arg(elf);
     let other_seeds = if long { "0..10000" } else { "0..100" };
     let other = run(&["--robot", "relax", "--seeds", other_seeds, "--minutes", "2"]);
-    let minutes = if long { "10" } else { "3" };
+    let minutes = if long { "10" } else { "2" };
     checks(&mut [run(&["--seeds", seeds, "--minutes", minutes]), other, on_chip])
 }
 
@@ -304,6 +304,8 @@ fn kill(long: bool) -> Result {
     command.args([
         "--home",
         "homes/two-room-flat.toml",
+        "--robots",
+        "4",
         "--kills",
         if long { "200" } else { "20" },
     ]);

@@ -272,10 +272,13 @@ impl Systematic {
         let explores = matches!(self.outline, Some(Outline::Growing(_)));
         let drives = situation.advance.distance_m > 0.0
             && matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
-        match ahead(situation) {
-            Some(seen) if explores && drives && self.standoff.is_reached(seen) => {
-                self.stand_off(seen, situation, mind)
-            }
+        let seen = if explores && drives {
+            ahead(situation)
+        } else {
+            None
+        };
+        match seen {
+            Some(seen) if self.standoff.is_reached(seen) => self.stand_off(seen, situation, mind),
             _ => Plan::Go(motion),
         }
     }

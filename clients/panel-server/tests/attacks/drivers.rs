@@ -21,7 +21,7 @@ const LEASE_MS: u32 = 250;
 const BETWEEN: Duration = Duration::from_millis(80);
 
 /// What the table allows from the loss to the stand. The robot is looked at a hundred times a second, so that the look adds a
-/// hundredth at most; how long it really takes is measured on a virtual clock (`scenarios/tests/lost_driver.rs`).
+/// hundredth at most; how long it really takes is measured on a virtual clock (`scenarios/tests/all/lost_driver.rs`).
 const STANDS_MS: u128 = 400;
 
 /// The middle of so many trials counts: the machine may be busy with other things in one of them.

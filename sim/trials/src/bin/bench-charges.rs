@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use trials::charges::charge;
+use rayon::prelude::*;
+use trials::charges::{Charge, charge};
 use trials::{CampaignError, Workshop, conclude};
 
 /// Charges packs with a firmware.
@@ -39,27 +40,34 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     let workshop = Workshop::open(&arguments.firmware)?;
     let mut out = io::stdout().lock();
     let mut all_good = arguments.count > 0;
-    for seed in arguments.seed..arguments.seed + arguments.count {
-        let charge = charge(&workshop, seed)?;
-        all_good &= charge.is_good();
-        if arguments.json {
-            serde_json::to_writer(&mut out, &charge).map_err(io::Error::from)?;
-            writeln!(out)?;
-            continue;
+    let seeds: Vec<u64> = (arguments.seed..arguments.seed + arguments.count).collect();
+    for seeds in seeds.chunks(rayon::current_num_threads()) {
+        let charges = seeds.par_iter().map(|seed| charge(&workshop, *seed));
+        for charge in charges.collect::<Result<Vec<_>, _>>()? {
+            all_good &= charge.is_good();
+            tell(&mut out, arguments, &charge)?;
         }
-        let ended = charge.ended_ms.map_or_else(String::new, |ms| format!("{ms} ms"));
-        writeln!(
-            out,
-            "{seed:>5} {:<18} {:.2} Ah  {:>5.2} A  {:>5.1} C  {ended:>9}  {} breaches{}{}",
-            format!("{:?}", charge.trouble),
-            charge.capacity_ah,
-            charge.highest_a,
-            charge.hottest_c,
-            charge.violations,
-            if charge.began { "" } else { "  refused" },
-            if charge.is_good() { "" } else { "  WRONG" },
-        )?;
-        out.flush()?;
     }
     Ok(all_good)
+}
+
+fn tell(out: &mut impl Write, arguments: &Arguments, charge: &Charge) -> io::Result<()> {
+    if arguments.json {
+        serde_json::to_writer(&mut *out, charge).map_err(io::Error::from)?;
+        return writeln!(out);
+    }
+    let ended = charge.ended_ms.map_or_else(String::new, |ms| format!("{ms} ms"));
+    writeln!(
+        out,
+        "{:>5} {:<18} {:.2} Ah  {:>5.2} A  {:>5.1} C  {ended:>9}  {} breaches{}{}",
+        charge.seed,
+        format!("{:?}", charge.trouble),
+        charge.capacity_ah,
+        charge.highest_a,
+        charge.hottest_c,
+        charge.violations,
+        if charge.began { "" } else { "  refused" },
+        if charge.is_good() { "" } else { "  WRONG" },
+    )?;
+    out.flush()
 }

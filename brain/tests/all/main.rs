@@ -1,0 +1,15 @@
+//! The brain from outside; one program, so that it is linked once.
+
+mod behavior;
+mod contours;
+mod first_run;
+mod laws;
+mod mapping;
+mod orders;
+mod passed;
+mod plane;
+mod plans;
+mod recharge;
+mod rooms;
+mod script;
+mod traps;

@@ -1,0 +1,431 @@
+//! Jobs for parts of a known home: rooms, zones, spots, passes, no-go zones, and what a job is expected to take.
+
+use crate::plane::{Rectangle, Room, World, config, run};
+use brain::mapping::DockPlace;
+use brain::{
+    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
+    Raster, Reason, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
+};
+
+/// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
+fn flat() -> Room {
+    Room::empty((6.1, 4.0)).with(&[
+        Rectangle::new((3.0, 0.0), (3.1, 1.5)),
+        Rectangle::new((3.0, 2.4), (3.1, 4.0)),
+    ])
+}
+
+const START: Pose2 = Pose2 {
+    x_m: 1.0,
+    y_m: 1.0,
+    heading_rad: 0.0,
+};
+
+/// The flat in the frame of a robot that starts at `START`.
+fn known(room: &Room) -> StoredMap {
+    let (width, height) = (260, 180);
+    let mut knowledge = Raster::filled(Cell { x: -50, y: -50 }, width, height, CellKnowledge::Occupied);
+    for index in 0..width * height {
+        let place = knowledge.cell(index).middle();
+        let there = Point2 {
+            x_m: START.x_m + place.x_m,
+            y_m: START.y_m + place.y_m,
+        };
+        if room.clearance(there).0 > 0.0 {
+            knowledge.values_mut()[index] = CellKnowledge::Free;
+        }
+    }
+    StoredMap::from_raster(&knowledge, None)
+}
+
+/// A rectangle in the frame of the room, as a zone of the map.
+fn zone(low: (f64, f64), high: (f64, f64)) -> Zone {
+    let corners = [low, (high.0, low.1), high, (low.0, high.1)].map(|(x_m, y_m)| Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    });
+    Zone::new(corners.to_vec()).expect("a rectangle")
+}
+
+struct Stage {
+    brain: Brain,
+    world: World,
+}
+
+impl Stage {
+    fn new() -> Self {
+        let room = flat();
+        let mut brain = Brain::with_map(config(), 1, &known(&room));
+        let mut world = World::new(room, START);
+        run(&mut world, &mut brain, None, 1.0);
+        Self { brain, world }
+    }
+
+    /// Gives an order and lets the robot work until it is idle; gives the seconds that took.
+    fn clean(&mut self, order: &CleaningOrder) -> f64 {
+        let command = Command::CleanParts { order: order.clone() };
+        assert_eq!(self.brain.admit(&command), Ok(()));
+        run(&mut self.world, &mut self.brain, Some(command), 10.0);
+        let mut seconds = 10.0;
+        while self.brain.status().state != BehaviorState::Idle && seconds < 3_000.0 {
+            run(&mut self.world, &mut self.brain, None, 1.0);
+            seconds += 1.0;
+        }
+        assert_eq!(self.world.violations, Vec::<String>::new());
+        seconds
+    }
+
+    /// Share of a rectangle of the room that was swept.
+    fn swept(&self, low: (f64, f64), high: (f64, f64)) -> f64 {
+        let places: Vec<Point2> = (0..20)
+            .flat_map(|x| (0..20).map(move |y| (f64::from(x) + 0.5, f64::from(y) + 0.5)))
+            .map(|(x, y)| Point2 {
+                x_m: low.0 + x / 20.0 * (high.0 - low.0) - START.x_m,
+                y_m: low.1 + y / 20.0 * (high.1 - low.1) - START.y_m,
+            })
+            .collect();
+        let swept = places.iter().filter(|place| self.brain.map().is_swept(**place));
+        swept.count() as f64 / places.len() as f64
+    }
+}
+
+#[test]
+fn a_zone_is_cleaned_and_little_else() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((3.5, 0.5), (5.5, 2.5)))], 1).unwrap();
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    assert!(stage.swept((3.5, 0.5), (5.5, 2.5)) > 0.95);
+    assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nobody asked for this");
+}
+
+/// A place in the frame of the room, as a spot of the map.
+fn spot(x_m: f64, y_m: f64) -> HomePart {
+    HomePart::Spot(Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    })
+}
+
+#[test]
+fn a_spot_in_the_other_room_is_cleaned_to_its_rim_and_little_else() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::new(vec![spot(4.6, 2.0)], 1).unwrap();
+    let expected = stage.brain.estimate_order(&order).unwrap();
+    assert!((expected.floor_m2 - 0.785).abs() < 0.05, "{expected:?}");
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    // The largest square in the disc.
+    assert!(stage.swept((4.25, 1.65), (4.95, 2.35)) > 0.95);
+    assert!(stage.swept((3.3, 2.9), (5.9, 3.8)) < 0.1, "nobody asked for this");
+    assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nor for this");
+    for nowhere in [spot(20.0, 0.0), spot(f64::NAN, 1.0)] {
+        let order = CleaningOrder::new(vec![nowhere], 1).unwrap();
+        let refused = stage.brain.admit(&Command::CleanParts { order });
+        assert_eq!(refused, Err(Reason::NoFloorThere));
+    }
+}
+
+#[test]
+fn the_room_that_it_is_in_is_told() {
+    let mut stage = Stage::new();
+    let home = stage.brain.room();
+    assert!(home.is_some());
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((4.0, 0.5), (5.5, 2.0)))], 1).unwrap();
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::CleanParts { order }),
+        10.0,
+    );
+    let mut seconds = 0;
+    while stage.brain.room() == home && seconds < 60 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        seconds += 1;
+    }
+    let other = stage.brain.room();
+    assert!(other.is_some() && other != home, "{other:?} after {seconds} s");
+    assert!(stage.world.pose.x_m > 2.9, "it is in the other room");
+}
+
+#[test]
+fn parts_are_cleaned_in_their_order() {
+    let (first, second) = (zone((4.0, 2.6), (5.8, 3.8)), zone((0.3, 0.3), (2.0, 1.8)));
+    let order = CleaningOrder::new(vec![HomePart::Zone(first), HomePart::Zone(second)], 1).unwrap();
+    let mut stage = Stage::new();
+    let command = Command::CleanParts { order };
+    run(&mut stage.world, &mut stage.brain, Some(command), 10.0);
+    while stage.swept((4.0, 2.6), (5.8, 3.8)) < 0.9 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        assert!(stage.brain.status().state != BehaviorState::Idle);
+        assert!(
+            stage.swept((0.3, 0.3), (2.0, 1.8)) < 0.5,
+            "the second part comes second"
+        );
+    }
+    while stage.brain.status().state != BehaviorState::Idle {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+    }
+    assert!(stage.swept((0.3, 0.3), (2.0, 1.8)) > 0.95);
+}
+
+#[test]
+fn a_room_is_cleaned_by_its_identity_and_others_are_not_known() {
+    let mut stage = Stage::new();
+    let rooms = stage.brain.map().rooms().rooms().to_vec();
+    assert_eq!(rooms.len(), 2, "{rooms:?}");
+    let other = rooms.iter().find(|room| room.middle.x_m > 2.0).unwrap();
+    let order = CleaningOrder::new(vec![HomePart::Room(other.id)], 1).unwrap();
+    stage.clean(&order);
+    assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.93);
+    assert!(stage.swept((0.2, 2.5), (2.0, 3.8)) < 0.1);
+    let nowhere = CleaningOrder::new(vec![HomePart::Room(99)], 1).unwrap();
+    let command = Command::CleanParts { order: nowhere };
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchRoom));
+    let outside = CleaningOrder::new(vec![HomePart::Zone(zone((20.0, 0.0), (21.0, 1.0)))], 1).unwrap();
+    let command = Command::CleanParts { order: outside };
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoFloorThere));
+}
+
+#[test]
+fn a_second_pass_takes_as_long_again_and_the_estimate_knows() {
+    let part = || vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))];
+    let once = CleaningOrder::new(part(), 1).unwrap();
+    let twice = CleaningOrder::new(part(), 2).unwrap();
+    let (mut one, mut two) = (Stage::new(), Stage::new());
+    let expected = one.brain.estimate_order(&once).unwrap();
+    assert!((expected.floor_m2 - 2.6 * 3.6).abs() < 0.5, "{expected:?}");
+    let (once_s, twice_s) = (one.clean(&once), two.clean(&twice));
+    assert!(
+        (1.6..2.4).contains(&(twice_s / once_s)),
+        "{once_s} s and {twice_s} s"
+    );
+    assert!(
+        (0.6..1.5).contains(&(expected.time_s / once_s)),
+        "{once_s} s instead of {expected:?}"
+    );
+    let doubled = two.brain.estimate_order(&twice).unwrap();
+    assert!(doubled.time_s > 1.8 * expected.time_s);
+}
+
+#[test]
+fn the_estimate_tells_charge_and_share() {
+    let stage = Stage::new();
+    let part = || vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))];
+    let estimates: Vec<_> = [1, 3]
+        .map(|passes| CleaningOrder::new(part(), passes).unwrap())
+        .iter()
+        .map(|order| stage.brain.estimate_order(order).unwrap())
+        .collect();
+    for estimate in &estimates {
+        assert!(estimate.charge > 0.0 && estimate.charge < 1.0, "{estimate:?}");
+        assert!(
+            estimate.share_low <= estimate.share && estimate.share <= 1.0,
+            "{estimate:?}"
+        );
+        assert!(estimate.share_low > 0.8, "{estimate:?}");
+    }
+    assert!(estimates[1].charge > 2.0 * estimates[0].charge);
+    assert!(estimates[1].share_low > estimates[0].share_low);
+}
+
+fn forbid(stage: &mut Stage, no_go: NoGo) {
+    let command = Command::AddNoGo { no_go };
+    assert_eq!(stage.brain.admit(&command), Ok(()));
+    run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+}
+
+#[test]
+fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
+    let mut stage = Stage::new();
+    let rooms = stage.brain.map().rooms().clone();
+    forbid(&mut stage, NoGo::zone(&zone((1.5, 2.0), (2.5, 3.0))).unwrap());
+    let wall = NoGo::wall(Point2 { x_m: 2.05, y_m: 0.2 }, Point2 { x_m: 2.05, y_m: 1.7 }).unwrap();
+    forbid(&mut stage, wall);
+    stage.clean(&CleaningOrder::default());
+    assert!(stage.swept((1.5, 2.0), (2.5, 3.0)) < 0.05);
+    assert!(
+        stage.swept((3.3, 0.3), (5.9, 3.7)) < 0.05,
+        "a wall stands in the door"
+    );
+    assert!(stage.swept((0.2, 0.2), (1.3, 3.8)) > 0.9);
+    let command = Command::RemoveNoGo { number: 2 };
+    assert_eq!(stage.brain.admit(&command), Ok(()));
+    run(&mut stage.world, &mut stage.brain, Some(command.clone()), 0.1);
+    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchNoGo));
+    stage.clean(&CleaningOrder::default());
+    assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.9);
+    let cells = (0..40).map(|step| {
+        Cell::under(Point2 {
+            x_m: 0.5 + f64::from(step) * CELL_M,
+            y_m: 1.5,
+        })
+    });
+    for cell in cells {
+        assert_eq!(
+            stage.brain.map().knowledge().get(cell),
+            Some(&CellKnowledge::NoGo)
+        );
+    }
+    assert_eq!(stage.brain.map().rooms().rooms().len(), rooms.rooms().len());
+}
+
+#[test]
+fn what_people_say_of_a_home_is_stored_with_it_and_goes_on_in_the_next_run() {
+    let mut stage = Stage::new();
+    let room = stage.brain.map().rooms().rooms()[0].id;
+    let third = 1.0 / 3.0;
+    let wall = NoGo::wall(Point2 { x_m: third, y_m: 0.5 }, Point2 { x_m: 1.0, y_m: 0.5 }).unwrap();
+    forbid(&mut stage, wall.clone());
+    forbid(&mut stage, NoGo::zone(&zone((1.5, 2.0), (2.5, 3.0))).unwrap());
+    let name = RoomName::new("Köök").unwrap();
+    let naming = |name| Command::NameRoom { room, name };
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(naming(Some(name.clone()))),
+        0.1,
+    );
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::RemoveNoGo { number: 2 }),
+        0.1,
+    );
+
+    let stored = stage.brain.map().stored();
+    let back = StoredMap::decode(&stored.encode()).unwrap();
+    assert_eq!(back, stored, "equal bit for bit, or a replay would differ");
+    let mut again = Brain::with_map(config(), 1, &back);
+    let words = again.map().annotations();
+    assert_eq!(words.no_go().collect::<Vec<_>>(), [(1, &wall)]);
+    assert_eq!(words.name(room), Some(&name));
+    let beside = CleaningOrder::new(vec![HomePart::Room(room)], 1).unwrap();
+    assert!(again.estimate_order(&beside).is_ok());
+    let mut world = World::new(flat(), START);
+    forbid_again(&mut again, &mut world, &wall);
+}
+
+/// A number is not given a second time.
+fn forbid_again(brain: &mut Brain, world: &mut World, wall: &NoGo) {
+    let command = Command::AddNoGo { no_go: wall.clone() };
+    run(world, brain, Some(command), 0.1);
+    let numbers: Vec<u16> = brain
+        .map()
+        .annotations()
+        .no_go()
+        .map(|(number, _)| number)
+        .collect();
+    assert_eq!(numbers, [1, 3]);
+}
+
+#[test]
+fn a_room_that_is_set_so_is_cleaned_twice_when_a_job_names_it() {
+    let mut once = Stage::new();
+    let rooms = once.brain.map().rooms().rooms();
+    let small = rooms
+        .iter()
+        .min_by(|one, other| one.area_m2.total_cmp(&other.area_m2));
+    let room = small.expect("two rooms").id;
+    let order = CleaningOrder::new(vec![HomePart::Room(room)], 1).unwrap();
+    let once_s = once.clean(&order);
+    let mut twice = Stage::new();
+    let settings = RoomSettings::new(2, RoomPower::FULL).ok();
+    let set = Command::SetRoom { room, settings };
+    run(&mut twice.world, &mut twice.brain, Some(set), 0.1);
+    let stored = StoredMap::decode(&twice.brain.map().stored().encode()).unwrap();
+    assert_eq!(stored.annotations().settings(room).copied(), settings);
+    let twice_s = twice.clean(&order);
+    assert!(twice_s > 1.6 * once_s, "{twice_s} s and {once_s} s");
+    let unknown = Command::SetRoom { room: 99, settings };
+    assert_eq!(twice.brain.admit(&unknown), Err(Reason::NoSuchRoom));
+}
+
+#[test]
+fn edits_that_make_no_sense_are_refused_by_name() {
+    let mut stage = Stage::new();
+    let ids: Vec<u16> = stage
+        .brain
+        .map()
+        .rooms()
+        .rooms()
+        .iter()
+        .map(|room| room.id)
+        .collect();
+    let outside = NoGo::zone(&zone((20.0, 0.0), (21.0, 1.0))).unwrap();
+    let name = |room, text: &str| Command::NameRoom {
+        room,
+        name: Some(RoomName::new(text).unwrap()),
+    };
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(name(ids[0], "Hall")),
+        0.1,
+    );
+    for (command, reason) in [
+        (Command::AddNoGo { no_go: outside }, Reason::NoFloorThere),
+        (Command::RemoveNoGo { number: 1 }, Reason::NoSuchNoGo),
+        (name(99, "Attic"), Reason::NoSuchRoom),
+        (name(ids[1], "hall"), Reason::NameTaken),
+    ] {
+        assert_eq!(stage.brain.admit(&command), Err(reason), "{command:?}");
+        // One that slips through changes nothing either.
+        let before = stage.brain.map().annotations().clone();
+        run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+        assert_eq!(stage.brain.map().annotations(), &before);
+    }
+    let dock = stage
+        .brain
+        .map()
+        .stored()
+        .with_dock_place(DockPlace::sure(Pose2::IDENTITY));
+    let brain = Brain::with_map(config(), 1, &dock);
+    let around = NoGo::zone(&zone((0.9, 0.9), (1.1, 1.1))).unwrap();
+    assert_eq!(
+        brain.admit(&Command::AddNoGo { no_go: around }),
+        Err(Reason::DockInside)
+    );
+}
+
+#[test]
+fn a_job_keeps_out_of_what_it_was_told_to_avoid_and_the_next_one_does_not() {
+    let (low, high) = ((4.2, 1.0), (5.2, 3.0));
+    let avoid = NoGo::zone(&zone(low, high)).expect("a rectangle");
+    let whole = CleaningOrder::default();
+    let order = whole.clone().avoiding(vec![avoid]).expect("one place");
+    let mut stage = Stage::new();
+    let floor_m2 = |stage: &Stage, order| stage.brain.estimate_order(order).expect("a plan").floor_m2;
+    assert!(floor_m2(&stage, &order) < floor_m2(&stage, &whole) - 2.0);
+    stage.clean(&order);
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    assert!(stage.swept(low, high) < 0.3, "{}", stage.swept(low, high));
+    assert!(stage.swept((0.3, 0.3), (2.7, 3.7)) > 0.95, "the rest is cleaned");
+    let rooms = stage.brain.map().rooms().rooms().len();
+    assert_eq!(rooms, 2, "what a job avoids divides no room");
+    stage.clean(&whole);
+    assert!(stage.swept(low, high) > 0.9, "{}", stage.swept(low, high));
+}
+
+#[test]
+fn a_job_that_is_taken_up_again_still_avoids() {
+    let mut stage = Stage::new();
+    let avoid = NoGo::zone(&zone((4.2, 1.0), (5.2, 3.0))).expect("a rectangle");
+    let order = CleaningOrder::default().avoiding(vec![avoid]).expect("one place");
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(Command::CleanParts { order }),
+        20.0,
+    );
+    let mut successor = Brain::new(config(), 7);
+    successor.restore(&stage.brain.checkpoint());
+    stage.brain = successor;
+    let mut seconds = 0.0;
+    while stage.brain.status().state != BehaviorState::Idle && seconds < 3_000.0 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        seconds += 1.0;
+    }
+    assert!(stage.swept((4.2, 1.0), (5.2, 3.0)) < 0.3);
+    assert!(stage.swept((0.3, 0.3), (2.7, 3.7)) > 0.9);
+}

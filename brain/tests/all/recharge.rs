@@ -1,0 +1,186 @@
+//! Home for charge and on with the job, by scripts.
+
+use crate::script::{Stage, check, check_with, config};
+use brain::{BehaviorState, Brain, BrainConfig, Command, JobKind, StrategyName};
+
+/// A job that was put off for the pack's sake, on the dock.
+const ON_THE_DOCK: &str = "up
+     charge 0.5
+     clean
+     wait 6          => cleaning
+     charge 0.1      => docking battery-low
+     wait 1
+     docked          => docked recharging
+     ";
+
+#[test]
+fn a_job_goes_on_when_the_pack_is_charged_and_announces_itself() {
+    let stage = check(&format!(
+        "{ON_THE_DOCK}
+         wait 60         => docked recharging
+         charge 0.89     => docked recharging
+         charge 0.9      => starting charged
+         wait 2          => starting charged
+         undocked
+         wait 2          => cleaning charged"
+    ));
+    assert_eq!(stage.tones.iter().filter(|tone| tone.pitch_hz > 0).count(), 6);
+    assert_eq!(stage.brain.status().strategy, Some(StrategyName::Bounce));
+    assert!(stage.brain.job().time_s > 2.0, "the figures go on");
+}
+
+#[test]
+fn a_job_that_waits_says_when_the_charger_has_stopped_and_goes_on_once_it_charges_again() {
+    check(&format!(
+        "{ON_THE_DOCK}
+         wait 60                => docked recharging
+         inhibit charger-fault  => docked charger-fault
+         wait 600               => docked charger-fault
+         free charger-fault     => docked recharging
+         charge 0.9             => starting charged"
+    ));
+}
+
+#[test]
+fn a_person_decides_over_a_job_that_waits_for_charge() {
+    for (line, end) in [
+        ("charge 0.4\n resume", "starting command"),
+        ("resume", "docked recharging"),
+        ("pause\n charge 0.95\n wait 5", "paused command"),
+        ("stop\n charge 0.95\n wait 5", "docked command"),
+        ("wait 1.1\n undocked", "paused released"),
+        ("undocked", "starting dock-missed"),
+        ("undocked\n wait 4", "docking dock-missed"),
+        ("lift\n charge 0.95\n wait 1", "docked recharging"),
+    ] {
+        check(&format!("{ON_THE_DOCK}\n {} => {end}", line.replace('\n', "\n ")));
+    }
+}
+
+#[test]
+fn a_job_that_ran_out_of_time_or_was_sent_home_does_not_go_on() {
+    let short = BrainConfig {
+        task_budget_s: 10.0,
+        ..config()
+    };
+    check_with(
+        short,
+        "up\n charge 0.5\n clean\n wait 16 => docking task-budget\n docked => docked docked\n charge 1 => docked docked",
+    );
+    check(
+        "up\n charge 0.5\n clean\n wait 4\n dock => docking command\n docked => docked docked\n charge 1 => docked docked",
+    );
+}
+
+#[test]
+fn contacts_that_open_again_at_once_are_tried_a_few_times() {
+    let slip = "docked => docked docked\n undocked => starting dock-missed\n wait 4 => docking\n";
+    check(&format!(
+        "up\n dock\n wait 4 => docking\n {slip} {slip} {slip} docked => docked docked\n undocked => idle released"
+    ));
+    check("up\n dock\n wait 4\n docked\n wait 1.1\n undocked => idle released");
+}
+
+#[test]
+fn home_is_where_current_flows() {
+    let there =
+        "up\n charge 0.5\n current missing\n dock\n wait 4 => docking command\n docked => docking command\n";
+    check(&format!(
+        "{there} wait 5 => docking\n current flows => docked docked"
+    ));
+    check(&format!(
+        "{there} wait 5 => docking\n current withheld => docked docked"
+    ));
+    check(&format!("{there} lift => paused wheel-drop"));
+    // The contacts open before anything flows.
+    check(&format!(
+        "{there} wait 5\n undocked => starting dock-missed\n wait 4 => docking"
+    ));
+    let dry = "docked => docking\n wait 21 => starting no-charge-current\n undocked\n wait 4 => docking\n";
+    let stage = check(&format!(
+        "up\n charge 0.5\n current missing\n dock\n wait 4 => docking\n {dry} {dry}
+         docked => docking
+         wait 21 => docked no-charge-current
+         wait 60 => docked no-charge-current
+         current flows => docked docked"
+    ));
+    assert!(stage.backed_m <= 0.15);
+}
+
+#[test]
+fn a_job_does_not_wait_for_charge_on_a_dead_dock() {
+    let dry = "docked => docking\n wait 21 => starting no-charge-current\n undocked\n wait 4 => docking\n";
+    check(&format!(
+        "up\n charge 0.5\n current missing\n clean\n wait 4\n charge 0.1 => docking battery-low\n {dry} {dry}
+         docked\n wait 21 => paused no-charge-current"
+    ));
+}
+
+#[test]
+fn a_lost_dock_leaves_the_job_with_a_person() {
+    let short = BrainConfig {
+        dock_budget_s: 15.0,
+        ..config()
+    };
+    check_with(
+        short,
+        "up\n charge 0.5\n clean\n wait 4\n charge 0.1 => docking battery-low\n wait 16 => paused dock-not-found\n resume => starting command",
+    );
+    let carried = "up\n charge 0.5\n clean\n wait 4\n charge 0.1 => docking\n lift => paused wheel-drop\n put\n docked => docked recharging";
+    check(&format!("{carried}\n charge 0.95 => starting charged"));
+}
+
+#[test]
+fn an_outage_on_the_dock_changes_nothing() {
+    check(&format!(
+        "{ON_THE_DOCK}\n down => disconnected link-lost\n wait 20\n up => docked recharging"
+    ));
+}
+
+fn taken_up(before: &Stage) -> Stage {
+    let checkpoint = before.brain.checkpoint();
+    let mut stage = Stage::new(config());
+    stage.brain = Brain::new(config(), 9);
+    stage.brain.restore(&checkpoint);
+    stage.observation = before.observation.clone();
+    stage.observation.inhibits = vec!["docked", "not-armed"];
+    stage
+}
+
+#[test]
+fn a_restart_on_the_dock_keeps_the_job_and_what_was_learnt() {
+    let before = check(ON_THE_DOCK);
+    let job = before.brain.checkpoint().job.expect("it waits");
+    assert_eq!(job.goes_on, Some(JobKind::Clean(StrategyName::Bounce)));
+    let mut stage = taken_up(&before);
+    stage.step(&[]);
+    assert_eq!(stage.brain.status().state, BehaviorState::Docked);
+    assert_eq!(stage.brain.status().reason.name(), "recharging");
+    assert_eq!(stage.brain.job().swept_m2, before.brain.job().swept_m2);
+    assert_eq!(stage.brain.energy(), before.brain.energy());
+    stage.observation.battery_charge = Some(0.95);
+    stage.step(&[]);
+    assert_eq!(stage.brain.status().state, BehaviorState::Starting);
+    assert_eq!(stage.brain.status().reason.name(), "charged");
+    assert!(stage.brain.admit(&Command::Pause).is_ok());
+}
+
+#[test]
+fn brushes_rest_over_floor_that_was_swept_before() {
+    let mut stage = check(&format!(
+        "{ON_THE_DOCK}\n charge 0.95 => starting charged\n wait 2"
+    ));
+    stage.observation.docked = false;
+    let mut swept_again = 0;
+    for _ in 0..50 * 60 {
+        let here = stage.brain.pose().position();
+        let was_swept = stage.brain.map().is_swept(here);
+        stage.step(&[]);
+        if stage.cleaners {
+            swept_again = u32::from(was_swept);
+            break;
+        }
+    }
+    assert!(stage.cleaners, "it cleans in the end: {:?}", stage.brain.status());
+    assert_eq!(swept_again, 0);
+}

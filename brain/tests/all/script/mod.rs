@@ -1,0 +1,270 @@
+//! A small language for tests of the state machine.
+//!
+//! A script has one line a step: `verb arguments => state reason`. The verb changes what the robot perceives or what
+//! people ask; then a few observations pass, and what stands right of the arrow must be so. Right of the arrow a reason
+//! may be left out, and a line without an arrow expects nothing.
+//!
+//! Verbs: `up`, `down` (link); `wait SECONDS`; `clean`, `spot`, `dock`, `pause`, `resume`, `stop`, `clear`; `drive V W`,
+//! `release`; `press left|right|both|none`; `cliff`, `floor`; `lift`, `put`; `inhibit NAME`, `free NAME`; `docked`,
+//! `undocked`; `charge SHARE`;
+//! `current flows|withheld|missing`; `block`, `unblock` (wheels do not turn); `deaf` (the firmware ignores `arm`).
+
+use brain::action::Tone;
+use brain::observation::{ChargeFlow, Cliffs, Contacts};
+use brain::{
+    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Motion, Observation, Speeds, StrategyName,
+};
+
+const STEP_US: u64 = 20_000;
+const TRACK_M: f64 = 0.23;
+
+pub(crate) fn config() -> BrainConfig {
+    let body = Body {
+        radius_m: 0.175,
+        swath_m: 0.30,
+        track_m: TRACK_M,
+    };
+    BrainConfig::new(
+        body,
+        Speeds {
+            cruise_m_per_s: 0.25,
+            max_m_per_s: 0.35,
+            turn_max_rad_per_s: 1.5,
+        },
+    )
+}
+
+/// A robot on an endless floor that does what it is told, and the brain that tells it.
+pub(crate) struct Stage {
+    pub(crate) brain: Brain,
+    pub(crate) observation: Observation,
+    pub(crate) tones: Vec<Tone>,
+    pub(crate) arms: u32,
+    pub(crate) motion: Motion,
+    pub(crate) cleaners: bool,
+    /// Way back without a way forward that made it good, in metres.
+    pub(crate) backed_m: f64,
+    /// Mean travel of the wheels at the last observation.
+    travel_m: f64,
+    /// A person drove at the last observation.
+    driven_by_hand: bool,
+    blocked: bool,
+    deaf: bool,
+}
+
+impl Stage {
+    pub(crate) fn new(config: BrainConfig) -> Self {
+        Self {
+            brain: Brain::new(config, 1),
+            observation: Observation {
+                link_up: false,
+                inhibits: vec!["not-armed"],
+                ..Observation::default()
+            },
+            tones: Vec::new(),
+            arms: 0,
+            motion: Motion::Rest,
+            cleaners: false,
+            backed_m: 0.0,
+            travel_m: 0.0,
+            driven_by_hand: false,
+            blocked: false,
+            deaf: false,
+        }
+    }
+
+    /// One observation; the actions come true before the next one.
+    pub(crate) fn step(&mut self, commands: &[Command]) -> Actions {
+        self.observation.time_us += STEP_US;
+        let actions = self.brain.step(&self.observation, commands);
+        self.assert_lawful(&actions);
+        self.assert_seen_behind();
+        self.motion = actions.motion;
+        self.cleaners = actions.cleaners;
+        self.tones.extend(&actions.tones);
+        if actions.arm.is_some() && !self.deaf {
+            self.arms += 1;
+            let kept = [
+                "wheel-drop",
+                "wheel-stall",
+                "bumper",
+                "cliff",
+                "not-moving",
+                "from-the-future",
+            ];
+            self.observation.inhibits.retain(|name| kept.contains(name));
+        }
+        if let Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } = actions.motion
+            && !self.blocked
+        {
+            let (forward_m, turn_rad) = (speed_m_per_s * 0.02, turn_rad_per_s * 0.02);
+            self.observation.travel_left_m += forward_m - 0.5 * TRACK_M * turn_rad;
+            self.observation.travel_right_m += forward_m + 0.5 * TRACK_M * turn_rad;
+            self.observation.gyro_heading_rad = self
+                .observation
+                .gyro_heading_rad
+                .map(|heading| heading + turn_rad);
+        }
+        actions
+    }
+
+    /// What must hold in every step whatever happens.
+    pub(crate) fn assert_lawful(&self, actions: &Actions) {
+        let Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } = actions.motion
+        else {
+            return;
+        };
+        let seen = &self.observation;
+        assert!(
+            self.brain.status().state.moves(),
+            "{actions:?} in {:?}",
+            self.brain.status()
+        );
+        assert!(seen.link_up && !seen.wheel_drop, "{actions:?} while {seen:?}");
+        let restricting = ["bumper", "cliff", "cliff-sensor"];
+        assert!(
+            seen.inhibits.iter().all(|name| restricting.contains(name)),
+            "{actions:?} against {:?}",
+            seen.inhibits
+        );
+        if seen.is_touching() || seen.is_at_cliff() {
+            assert!(
+                speed_m_per_s < 0.0 && turn_rad_per_s == 0.0,
+                "{actions:?} while {seen:?}"
+            );
+        }
+        assert!(
+            speed_m_per_s.abs() <= 0.35 && turn_rad_per_s.abs() <= 1.5,
+            "{actions:?}"
+        );
+    }
+
+    /// Nobody but a person backs over more than 0.15 m of unknown ground.
+    fn assert_seen_behind(&mut self) {
+        let travel_m = 0.5 * (self.observation.travel_left_m + self.observation.travel_right_m);
+        let advance_m = travel_m - self.travel_m;
+        self.travel_m = travel_m;
+        self.backed_m = (self.backed_m - advance_m).max(0.0);
+        if self.driven_by_hand {
+            self.backed_m = self.backed_m.min(0.15);
+        }
+        self.driven_by_hand = self.brain.status().state == BehaviorState::Manual;
+        // Wheels that turn on the spot move the middle by what rounding leaves.
+        assert!(
+            self.backed_m <= 0.15 + 1e-9,
+            "{} m back: {:?}",
+            self.backed_m,
+            self.brain.status()
+        );
+    }
+
+    fn seconds(&mut self, seconds: f64) {
+        for _ in 0..(seconds * 1e6) as u64 / STEP_US {
+            self.step(&[]);
+        }
+    }
+
+    fn command(&mut self, command: Command) {
+        self.step(&[command]);
+        self.step(&[]);
+    }
+
+    fn perform(&mut self, verb: &str, arguments: &[&str]) {
+        let number = |index: usize| arguments[index].parse::<f64>().expect("a number");
+        if let Some(command) = self.parse_command(verb, arguments) {
+            return self.command(command);
+        }
+        let seen = &mut self.observation;
+        match verb {
+            "wait" => return self.seconds(number(0)),
+            "up" => seen.link_up = true,
+            "down" => seen.link_up = false,
+            "press" => {
+                let [left, right] =
+                    ["left", "right"].map(|side| arguments[0] == side || arguments[0] == "both");
+                seen.contacts = Contacts { left, right };
+            }
+            "cliff" => {
+                seen.cliffs = Cliffs {
+                    middle: true,
+                    ..Cliffs::default()
+                }
+            }
+            "floor" => seen.cliffs = Cliffs::default(),
+            "lift" => seen.wheel_drop = true,
+            "put" => seen.wheel_drop = false,
+            "inhibit" => seen.inhibits.push(leak(arguments[0])),
+            "free" => seen.inhibits.retain(|name| *name != arguments[0]),
+            "docked" => (seen.docked, seen.inhibits) = (true, vec!["docked", "not-armed"]),
+            "undocked" => seen.docked = false,
+            "charge" => seen.battery_charge = Some(number(0) as f32),
+            "current" => {
+                seen.charge_flow = Some(match arguments[0] {
+                    "flows" => ChargeFlow::Flowing,
+                    "withheld" => ChargeFlow::Withheld,
+                    _ => ChargeFlow::Missing,
+                });
+            }
+            "block" => self.blocked = true,
+            "unblock" => self.blocked = false,
+            "deaf" => self.deaf = true,
+            other => panic!("{other} is no verb"),
+        }
+        self.seconds(0.04);
+    }
+
+    fn parse_command(&self, verb: &str, arguments: &[&str]) -> Option<Command> {
+        Some(match verb {
+            "clean" => Command::Clean {
+                strategy: StrategyName::Bounce,
+            },
+            "spot" => Command::Spot,
+            "dock" => Command::Dock,
+            "pause" => Command::Pause,
+            "resume" => Command::Resume,
+            "stop" => Command::Stop,
+            "clear" => Command::ClearError,
+            "release" => Command::ManualEnd,
+            "drive" => Command::Manual {
+                speed_m_per_s: arguments[0].parse().expect("a speed"),
+                turn_rad_per_s: arguments[1].parse().expect("a turn rate"),
+                valid_until_us: self.observation.time_us + 400_000,
+                cleaners: false,
+            },
+            _ => return None,
+        })
+    }
+}
+
+/// Inhibits are static names; the few of a test may leak.
+fn leak(name: &str) -> &'static str {
+    Box::leak(name.to_owned().into_boxed_str())
+}
+
+/// Runs a script on a fresh robot and gives the stage back for further questions.
+pub(crate) fn check(script: &str) -> Stage {
+    check_with(config(), script)
+}
+
+/// As [`check`] with another configuration.
+pub(crate) fn check_with(config: BrainConfig, script: &str) -> Stage {
+    let mut stage = Stage::new(config);
+    for (number, line) in script.lines().enumerate() {
+        let (left, right) = line.split_once("=>").unwrap_or((line, ""));
+        let mut words = left.split_whitespace();
+        let Some(verb) = words.next() else { continue };
+        stage.perform(verb, &words.collect::<Vec<_>>());
+        let status = stage.brain.status();
+        let found = [status.state.name(), status.reason.name()];
+        for (expected, found) in right.split_whitespace().zip(found) {
+            assert_eq!(found, expected, "line {}: {}", number + 1, line.trim());
+        }
+    }
+    stage
+}

@@ -1,0 +1,7 @@
+//! The program `rvac` as its user starts it; one test program, so that it is linked once.
+
+mod daemon;
+mod drive;
+mod packet;
+mod program;
+mod term;

@@ -1,0 +1,16 @@
+//! The firmware's shared logic on a board of plain values; one program, so that it is linked once.
+
+mod absence;
+mod charge_faults;
+mod charging;
+mod dock;
+mod gate;
+mod housekeeping;
+mod minimal_board;
+mod motion;
+mod panic;
+mod power;
+mod probing;
+mod rig;
+mod stopping;
+mod wire;

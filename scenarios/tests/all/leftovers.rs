@@ -1,0 +1,55 @@
+//! What of a job is left when the pack is low, on a virtual clock.
+
+use brain::command::StrategyName;
+use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::{Host, Household};
+use scenarios::{generated, settings};
+
+/// A job in a known home, up to when it believes to have swept this share.
+fn swept(share: f64) -> Household {
+    let mut household = household(&generated(6), &settings(3, 0)).with_known_map();
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    work_up_to(share - 0.02, &mut household);
+    // Below half of its charge it looks now and then how far its dock is.
+    household.robot_mut().world_mut().set_battery_charge(0.45);
+    work_up_to(share, &mut household);
+    household
+}
+
+fn work_up_to(share: f64, household: &mut Household) {
+    let swept = household.pass_until(2 * 60 * 60, |household| {
+        let brain = household.host().and_then(Host::brain).expect("a brain");
+        brain.swept_share().is_some_and(|swept| swept.share >= share)
+    });
+    assert!(swept.is_some(), "it never sweeps so much");
+}
+
+fn reason(household: &Household) -> &'static str {
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    brain.status().reason.name()
+}
+
+/// Reasons that it tells while its pack falls low and it goes home.
+fn reasons_at_low_battery(household: &mut Household) -> Vec<&'static str> {
+    household.robot_mut().world_mut().set_battery_charge(0.12);
+    let mut told = Vec::new();
+    for _ in 0..240 {
+        household.pass_ms(1_000);
+        told.push(reason(household));
+    }
+    told.dedup();
+    told
+}
+
+#[test]
+fn a_job_whose_rest_is_crumbs_is_over_when_the_pack_is_low_and_any_other_waits_for_charge() {
+    for (share, word) in [(0.952, "battery-low"), (0.96, "crumbs-left")] {
+        let told = reasons_at_low_battery(&mut swept(share));
+        assert!(told.contains(&word), "{share}: {told:?}");
+        assert_eq!(
+            told.contains(&"recharging"),
+            word == "battery-low",
+            "{share}: {told:?}"
+        );
+    }
+}

@@ -1,0 +1,23 @@
+//! One program for all scenarios: each is a part of its own, and all are linked once.
+
+mod beacons;
+mod determinism;
+mod edges;
+mod floors;
+mod health;
+mod history;
+mod host_death;
+mod learnt;
+mod leftovers;
+mod lost_driver;
+mod mapping;
+mod monitor;
+mod outcomes;
+mod patterns;
+mod recharge;
+mod rooms;
+mod schedules;
+mod second_job;
+mod standoff;
+mod told_share;
+mod visitor;

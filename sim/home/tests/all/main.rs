@@ -1,0 +1,12 @@
+//! Homes and what happens in them; one program, so that it is linked once.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+mod determinism;
+mod generated;
+mod loaders;
+mod maps;
+mod odd_things;
+mod physics;
+mod scene;
+mod traps;

@@ -1,0 +1,28 @@
+//! The bench of the simulator as a process.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+/// That the copies of world and brain go the same way as the originals is looked at by the bench itself, which fails otherwise.
+#[test]
+fn the_time_of_each_case_is_told_by_parts() {
+    let output = Command::new(env!("CARGO_BIN_EXE_bench-sim"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .args(["--minutes", "2", "--parts", "--json"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let cases = object["cases"].as_array().unwrap();
+    assert_eq!(cases.len(), 3);
+    for case in cases {
+        let seconds = |value: &Value| value.as_f64().unwrap();
+        let parts = case["parts"].as_object().unwrap();
+        let sum_s: f64 = parts.values().map(seconds).sum();
+        assert!((sum_s - seconds(&case["processor_s"])).abs() < 1e-6, "{case}");
+        assert!(seconds(&parts["world_s"]) > 0.0, "{case}");
+        assert!(seconds(&parts["brain_s"]) > 0.0, "{case}");
+        assert!(seconds(&case["sim_seconds"]) >= 120.0, "{case}");
+    }
+}

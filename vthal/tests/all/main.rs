@@ -1,0 +1,7 @@
+//! The real daemon as a process of its own; one program, so that it is linked once.
+
+mod daemon;
+mod floors;
+mod learnt;
+mod radio;
+mod recording;
