@@ -1,8 +1,8 @@
 //! Whether the robot is on carpet, by what its motors draw.
 //!
-//! *Load*: what the wheels and the main brush draw. *Steady*: straight ahead at one speed, with nothing in the way; only then do
-//! loads tell of the floor. *Usual load*: the load of the same way of driving on this home's hard floor, see [`usual`]. *Excess*:
-//! by how much a load is above the usual one, relative.
+//! *Load*: what the wheels and the main brush draw. *Steady*: ahead, as good as straight and at one speed, with nothing in the
+//! way; only then do the loads of both tell of the floor. *Usual load*: the load of the same way of driving on this home's hard
+//! floor, see [`usual`]. *Excess*: by how much a load is above the usual one, relative.
 //!
 //! A pile takes force from a wheel that rolls in it and from bristles that turn in it. A robot of this class was pulled over a
 //! loop pile with 18 N (robotreviews.com, topic 16830), and makers tell floors by steps of the roller's current above a base
@@ -17,8 +17,8 @@ mod steady;
 mod usual;
 
 use crate::observation::Observation;
-use steady::{Steady, SteadyWatch};
-use usual::{UsualLoad, Way};
+use steady::{Drawn, SteadyWatch};
+use usual::{Load, UsualLoad, Way};
 
 /// What lies under the brush.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,41 +61,49 @@ pub(crate) struct CarpetSense {
 impl CarpetSense {
     /// Takes an observation in; `brush_percent` is the power of the main brush, `None` while it rests or nobody knows it.
     pub(crate) fn feel(&mut self, observation: &Observation, brush_percent: Option<u8>) -> Option<FloorFelt> {
-        let Some(steady) = self.watch.take(observation, brush_percent) else {
+        let Some(drawn) = self.watch.take(observation, brush_percent) else {
             self.is_on_carpet = false;
             return None;
         };
-        let is_mark = observation.time_us >= self.marked_us.saturating_add(MARK_US);
-        if is_mark {
-            self.marked_us = observation.time_us;
-        }
-        let was_on_carpet = self.is_on_carpet;
-        let usual = self.usual_of(steady.way);
-        let excess = usual.excess(steady.load);
-        let least = if was_on_carpet { EXCESS_OFF } else { EXCESS_ON };
-        let is_on_carpet = excess.is_some_and(|excess| excess.wheels >= least && excess.brush >= least);
-        if is_mark && !is_on_carpet {
-            usual.learn(steady.load);
-        }
-        self.is_on_carpet = is_on_carpet;
-        self.carpet_marks = self
-            .carpet_marks
-            .saturating_add(u32::from(is_mark && is_on_carpet));
-        excess?;
-        self.verdict(&steady)
+        let kind = match drawn.way {
+            Some(way) => self.judge(observation.time_us, way, drawn.load),
+            None => self.lasts(&drawn).then_some(FloorKind::Carpet),
+        };
+        self.is_on_carpet = kind == Some(FloorKind::Carpet);
+        kind.map(|kind| FloorFelt {
+            kind,
+            behind_mm: drawn.behind_mm,
+        })
     }
 
-    /// Of a home that seems to be all alike nothing is said.
-    fn verdict(&self, steady: &Steady) -> Option<FloorFelt> {
-        let kind = match self.is_on_carpet {
-            true => FloorKind::Carpet,
-            false if self.carpet_marks >= CONTRAST_MARKS => FloorKind::Hard,
-            false => return None,
-        };
-        Some(FloorFelt {
-            kind,
-            behind_mm: steady.behind_mm,
-        })
+    /// What a load of steady driving says. Of a home that seems to be all alike nothing is said.
+    fn judge(&mut self, now_us: u64, way: Way, load: Load) -> Option<FloorKind> {
+        let is_mark = now_us >= self.marked_us.saturating_add(MARK_US);
+        if is_mark {
+            self.marked_us = now_us;
+        }
+        let least = if self.is_on_carpet { EXCESS_OFF } else { EXCESS_ON };
+        let usual = self.usual_of(way);
+        let excess = usual.excess(load);
+        let is_carpet = excess.is_some_and(|excess| excess.wheels >= least && excess.brush >= least);
+        if is_mark && !is_carpet {
+            usual.learn(load);
+        }
+        self.carpet_marks = self.carpet_marks.saturating_add(u32::from(is_mark && is_carpet));
+        match excess? {
+            _ if is_carpet => Some(FloorKind::Carpet),
+            _ if self.carpet_marks >= CONTRAST_MARKS => Some(FloorKind::Hard),
+            _ => None,
+        }
+    }
+
+    /// Carpet that was felt in steady driving goes on in curves and against things as long as the brush stays loaded: what loads
+    /// the wheels there does not load the brush.
+    fn lasts(&self, drawn: &Drawn) -> bool {
+        let same_power = |usual: &&UsualLoad| usual.way.brush_percent == drawn.brush_percent;
+        let usual = self.usual.iter().rev().find(same_power);
+        let excess = usual.and_then(|usual| usual.excess(drawn.load));
+        self.is_on_carpet && excess.is_some_and(|excess| excess.brush >= EXCESS_ON)
     }
 
     fn usual_of(&mut self, way: Way) -> &mut UsualLoad {

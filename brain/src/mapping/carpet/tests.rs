@@ -159,7 +159,7 @@ fn what_is_pushed_or_climbed_is_no_carpet() {
     drive.view.inhibits.clear();
     let chair_or_slope = [PILE[0], HARD[1]];
     assert_eq!(drive.on(5.0, chair_or_slope).carpet, 0);
-    let threshold = |since_s: f64| if since_s < 0.2 { [0.5, 1.5] } else { HARD };
+    let threshold = |since_s: f64| if since_s < 0.08 { [0.5, 1.5] } else { HARD };
     assert_eq!(drive.at((2.0, [CRUISE_M_PER_S; 2]), threshold).carpet, 0);
 }
 
