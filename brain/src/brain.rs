@@ -1,7 +1,9 @@
 //! The brain as its shell sees it.
 
+mod feeling;
+
 use crate::action::Actions;
-use crate::behavior::{Behavior, BehaviorState, JobFigures, JobKind, JobStart, Reason, Status};
+use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::{Checkpoint, CheckpointWork};
 use crate::command::{Command, StrategyName};
 use crate::config::BrainConfig;
@@ -158,15 +160,6 @@ impl Brain {
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
-        }
-    }
-
-    /// Feels by the motors' loads what the robot drives on. How hard the brush runs while a person drives, the brain does not know.
-    fn feel_floor(&mut self, observation: &Observation, cleaners: bool) {
-        let is_known = cleaners && self.status().state != BehaviorState::Manual;
-        let brush_percent = is_known.then(|| self.power_here().main_brush);
-        if let Some(felt) = self.carpet.feel(observation, brush_percent) {
-            self.map.note_floor(observation.time_us, felt);
         }
     }
 

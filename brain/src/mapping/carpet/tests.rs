@@ -1,3 +1,5 @@
+//! Loads of floors and of whatever is not one, and what is said of them.
+
 use super::{CarpetSense, FloorFelt, FloorKind};
 use crate::observation::{Contacts, MotorCurrents, Observation};
 
