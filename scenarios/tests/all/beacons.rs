@@ -52,21 +52,15 @@ fn off_after_lifting_m(scene: &Scene, mut household: Household) -> Option<f64> {
     household.pass_ms(3_000);
     household.ask(RequestBody::Resume);
     household.pass_ms(1_000);
-    for _ in 0..WAIT_S {
-        household.pass_ms(1_000);
-        let estimate = household
-            .host()
-            .and_then(Host::brain)
-            .expect("a brain")
-            .estimate();
-        if !estimate.lost {
-            let truth = household.robot().world().truth().pose;
-            let in_map = scene.home().start().inverse().then(truth);
-            let pose = estimate.pose;
-            return Some(Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map));
-        }
-    }
-    None
+    let estimate = |household: &Household| {
+        let brain = household.host().and_then(Host::brain).expect("a brain");
+        brain.estimate()
+    };
+    household.pass_until(WAIT_S, |household| !estimate(household).lost)?;
+    let truth = household.robot().world().truth().pose;
+    let in_map = scene.home().start().inverse().then(truth);
+    let pose = estimate(&household).pose;
+    Some(Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map))
 }
 
 #[test]

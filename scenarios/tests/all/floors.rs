@@ -45,13 +45,10 @@ fn floors(household: &Household) -> FloorsView {
 
 /// Lets it clean until it knows its floor or asks for it; at most so many minutes.
 fn until_told(household: &mut Household, minutes: u64) -> FloorsView {
-    for _ in 0..minutes * 60 {
-        household.pass_ms(1_000);
+    household.pass_until(minutes * 60, |household| {
         let view = floors(household);
-        if view.here.is_some() || view.question.is_some() {
-            return view;
-        }
-    }
+        view.here.is_some() || view.question.is_some()
+    });
     floors(household)
 }
 

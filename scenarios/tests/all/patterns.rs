@@ -79,13 +79,7 @@ fn a_job_for_the_whole_home_sweeps_each_room_by_its_own_pattern() {
         strategy: Some(StrategyName::Systematic.name().to_owned()),
     });
     household.pass_ms(5_000);
-    for _ in 0..60 * 60 {
-        if household.job_is_over() {
-            break;
-        }
-        household.pass_ms(1_000);
-    }
-    assert!(household.job_is_over());
+    assert!(household.pass_until(60 * 60, Household::job_is_over).is_some());
     for room in rooms {
         // The border of a room may lie where the body cannot be.
         let share = swept(&household, room);

@@ -10,12 +10,11 @@ mod summary;
 mod trial;
 
 use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
 
 use home::{HomeError, RobotModel};
 use monitor::Bridges;
+use rayon::prelude::*;
 
 use crate::Firmware;
 pub use draw::FaultKind;
@@ -58,35 +57,17 @@ pub fn trials(
     (seeds, duration_ms): (Range<u64>, u64),
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<Outcome> {
-    let next = AtomicU64::new(seeds.start);
     let done = AtomicU64::new(0);
-    let outcomes = Mutex::new(Vec::new());
-    let work = || {
-        loop {
-            let seed = next.fetch_add(1, Ordering::Relaxed);
-            if seed >= seeds.end {
-                return;
-            }
-            let settings = TrialSettings {
+    seeds
+        .into_par_iter()
+        .map(|seed| {
+            let outcome = campaign.trial(TrialSettings {
                 seed,
                 duration_ms,
                 bridges: Bridges::Sound,
-            };
-            let outcome = campaign.trial(settings);
-            outcomes
-                .lock()
-                .expect("no trial panics while it holds the list")
-                .push(outcome);
+            });
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
-        }
-    };
-    let workers = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(work);
-        }
-    });
-    let mut outcomes = outcomes.into_inner().expect("all threads have ended well");
-    outcomes.sort_by_key(|outcome| outcome.seed);
-    outcomes
+            outcome
+        })
+        .collect()
 }
