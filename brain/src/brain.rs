@@ -1,5 +1,7 @@
 //! The brain as its shell sees it.
 
+mod feeling;
+
 use crate::action::Actions;
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
 use crate::checkpoint::{Checkpoint, CheckpointWork};
@@ -11,7 +13,7 @@ use crate::energy::EnergyModel;
 use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::learnt::{GyroLearnt, Learnt};
 use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
+use crate::mapping::{Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::observation::{Cliffs, Contacts, Observation};
 use crate::order::CleaningOrder;
 use crate::random::Random;
@@ -32,6 +34,7 @@ pub struct Brain {
     localization: Localization,
     map: Map,
     beams: BeamMemory,
+    carpet: CarpetSense,
     behavior: Behavior,
     mind: Mind,
     contacts_before: Contacts,
@@ -52,6 +55,7 @@ impl Brain {
             localization,
             map: Map::new(config.body, config.sensors),
             beams: BeamMemory::default(),
+            carpet: CarpetSense::default(),
             behavior: Behavior::new(config),
             mind: Mind {
                 random: Random::new(seed),
@@ -149,6 +153,7 @@ impl Brain {
             },
             observation.time_us,
         );
+        self.feel_floor(observation, intent.cleaners);
         Actions {
             motion: intent.motion,
             cleaners: intent.cleaners,

@@ -42,8 +42,8 @@ pub use kept_place::{KeptPlace, PlaceShape};
 pub use learnt::{GyroLearnt, Learnt, LearntPart};
 pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
 pub use mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind, PathPoint,
-    Raster, ReadyHome, StoredMap, StoredMapError, Sweeping, SweptRun, TakingUp,
+    CELL_M, Cell, CellKnowledge, DistanceField, FloorKind, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind,
+    PathPoint, Raster, ReadyHome, StoredMap, StoredMapError, Sweeping, SweptRun, TakingUp,
 };
 pub use no_go::{NoGo, NoGoShape, RoomName};
 pub use observation::Observation;

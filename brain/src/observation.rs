@@ -29,6 +29,8 @@ pub struct Observation {
     pub battery_charge: Option<f32>,
     /// What the charger says; `None` where the firmware controls none or has not measured yet.
     pub charge_flow: Option<ChargeFlow>,
+    /// What the motors draw; `None` where the robot does not measure it.
+    pub currents: Option<MotorCurrents>,
     /// Names of what keeps the firmware from moving, for example `wheel-drop`; empty when it may move.
     pub inhibits: Vec<&'static str>,
     /// The link to the firmware is up and its telemetry is fresh.
@@ -68,11 +70,23 @@ impl Default for Observation {
             docked: false,
             battery_charge: None,
             charge_flow: None,
+            currents: None,
             inhibits: Vec::new(),
             link_up: true,
             speed_share: 1.0,
         }
     }
+}
+
+/// What the motors draw, in amperes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotorCurrents {
+    /// Of the left wheel.
+    pub wheel_left_a: f32,
+    /// Of the right wheel.
+    pub wheel_right_a: f32,
+    /// Of the main brush.
+    pub brush_main_a: f32,
 }
 
 /// What flows from the dock into the pack.

@@ -41,6 +41,11 @@ const COUNT_MAX: u8 = 8;
 const CONTACT_SPREAD_RAD: f64 = 0.26;
 /// Level from which on a sensor sees what the bumper touches.
 const CONTACT_LEVEL: f64 = 0.35;
+/// Loads are those of what most of the brush is on: this share of it in the middle says most, its ends say little, and less than
+/// the middle of the next lane does.
+const FLOOR_INNER: f64 = 0.5;
+const FLOOR_INNER_STEP: i8 = 6;
+const FLOOR_OUTER_STEP: i8 = 2;
 /// Most by which the body is drawn smaller than it is, metres.
 const SHRINK_MAX_M: f64 = CELL_M;
 
@@ -60,6 +65,33 @@ impl Pencil {
         }
         self.draw_contacts(sighting, layers);
         self.draw_cliffs(sighting, layers);
+        self.draw_floor(sighting, layers);
+    }
+
+    /// The kind of floor under the brush, as far as the body has been there: nothing else may come of it than that.
+    pub(super) fn draw_floor(&self, sighting: &Sighting, layers: &mut Layers) {
+        let Some(felt) = sighting.floor else { return };
+        let behind_m = -0.001 * f64::from(felt.behind_mm);
+        let half_m = 0.5 * self.body.swath_m;
+        let steps = libm::ceil(half_m / (0.6 * CELL_M)).clamp(1.0, 64.0) as i32;
+        let mut last = None;
+        for step in -steps..=steps {
+            let share = f64::from(step) / f64::from(steps);
+            let cell = Cell::under(sighting.pose.transform(Point2 {
+                x_m: behind_m,
+                y_m: share * half_m,
+            }));
+            if last == Some(cell) || !layers.at(cell).has(Flag::Body) {
+                continue;
+            }
+            last = Some(cell);
+            let weight = if share.abs() <= FLOOR_INNER {
+                FLOOR_INNER_STEP
+            } else {
+                FLOOR_OUTER_STEP
+            };
+            layers.change(cell, |evidence| evidence.feel(felt.kind, weight));
+        }
     }
 
     /// Where the body is, nothing else can be. A contact speaks of what it touches now, so it is drawn after this.

@@ -3,6 +3,7 @@
 use core::task::Poll;
 
 use super::annotations::Annotations;
+use super::carpet::{FloorFelt, FloorKind};
 use super::derived::Derived;
 use super::distance::DistanceField;
 use super::dock::DockPlace;
@@ -46,6 +47,10 @@ pub(super) struct HomeMap {
     surveying: Option<Gradual<Rooms>>,
     pub(super) dock: DockPlace,
     revision: u32,
+    /// Grows when a kind of floor has changed; apart from `revision`, by which plans are judged.
+    floor_revision: u32,
+    /// Something was felt of the floor since that grew.
+    floor_is_new: bool,
     /// Direction of the walls at a revision.
     direction: DirectionAt,
     redrawn: u32,
@@ -72,6 +77,8 @@ impl HomeMap {
             surveying: None,
             dock: DockPlace::default(),
             revision: 0,
+            floor_revision: 0,
+            floor_is_new: false,
             direction: DirectionAt::default(),
             redrawn: 0,
             pockets: Vec::new(),
@@ -217,8 +224,23 @@ impl HomeMap {
         }
     }
 
+    /// Takes in what is felt of the floor at an observation, if that was new to the map.
+    pub(super) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) -> Option<Sighting> {
+        let newest = self.sightings.last_mut()?;
+        if newest.time_us != time_us {
+            return None;
+        }
+        newest.floor = Some(felt);
+        self.pencil.draw_floor(newest, &mut self.layers);
+        self.floor_is_new = true;
+        Some(*newest)
+    }
+
     /// Begins to bring up to date what changed up to now, tile by tile.
     fn begin_refresh(&mut self) {
+        if core::mem::take(&mut self.floor_is_new) {
+            self.floor_revision = self.floor_revision.wrapping_add(1);
+        }
         self.paint_what_came();
         self.stale_tiles = self.layers.dirty_tiles();
     }
@@ -272,6 +294,7 @@ impl HomeMap {
     /// Goes on with the counters of the home that was there before.
     pub(super) fn count_on(&mut self, before: &Self) {
         self.revision = before.revision.wrapping_add(1);
+        self.floor_revision = before.floor_revision.wrapping_add(1);
         self.redrawn = before.redrawn;
         self.refreshed_us = before.refreshed_us;
         self.surveyed_us = before.surveyed_us;
@@ -339,6 +362,24 @@ impl Map {
     #[must_use]
     pub fn revision(&self) -> u32 {
         self.home.revision
+    }
+
+    /// Grows when something is known of the kinds of floor that was not, up to two seconds late.
+    #[must_use]
+    pub fn floor_revision(&self) -> u32 {
+        self.home.floor_revision
+    }
+
+    /// The kind of floor of a cell, if it was felt.
+    #[must_use]
+    pub fn floor_kind(&self, cell: Cell) -> Option<FloorKind> {
+        self.home.layers.at(cell).floor()
+    }
+
+    /// The cells whose kind of floor is known, tile by tile.
+    pub fn floor_kinds(&self) -> impl Iterator<Item = (Cell, FloorKind)> + '_ {
+        let gathered = self.home.layers.gathered();
+        gathered.filter_map(|(cell, evidence)| Some((cell, evidence.floor()?)))
     }
 
     /// Grows whenever the map was drawn again with other poses of the past: whoever has a plan in it needs another one.

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::Cell;
+use super::{Cell, FloorKind};
 
 /// Cells along the edge of a tile.
 pub(super) const TILE_CELLS: i32 = 64;
@@ -46,6 +46,8 @@ pub(super) struct Evidence {
     pub(super) sigma_cm: u8,
     /// [`Flag`]s.
     pub(super) flags: u8,
+    /// What the motors' loads say: positive for carpet, negative for hard floor. No part of knowledge: nothing drives by it.
+    pub(super) carpet: i8,
 }
 
 /// Something that is so or not.
@@ -70,7 +72,30 @@ const CONTACT_FROM: u8 = 2;
 /// Cliff evidence from which on a cell counts as an edge.
 const CLIFF_FROM: u8 = 2;
 
+/// Evidence from which on a cell counts as carpet, and below the negative of which as hard floor: one pass of the brush's end.
+const FLOOR_FROM: i8 = 3;
+/// Most of that evidence: a rug that was taken away or brought is believed after two passes over it.
+const FLOOR_MAX: i8 = 20;
+
 impl Evidence {
+    /// The kind of floor, if it was felt.
+    pub(super) fn floor(self) -> Option<FloorKind> {
+        match self.carpet {
+            FLOOR_FROM.. => Some(FloorKind::Carpet),
+            carpet if carpet <= -FLOOR_FROM => Some(FloorKind::Hard),
+            _ => None,
+        }
+    }
+
+    /// Takes in what was felt, with a weight.
+    pub(super) fn feel(&mut self, kind: FloorKind, weight: i8) {
+        let step = match kind {
+            FloorKind::Hard => -weight,
+            FloorKind::Carpet => weight,
+        };
+        self.carpet = self.carpet.saturating_add(step).clamp(-FLOOR_MAX, FLOOR_MAX);
+    }
+
     pub(super) fn has(self, flag: Flag) -> bool {
         self.flags & flag as u8 != 0
     }

@@ -1,7 +1,7 @@
 //! What the robot remembers of its surroundings.
 //!
 //! Two parts. *The job*: the swept layer, the way and where something was met; a new job starts it anew. *The home*: what
-//! stands where, gathered over all jobs in [`layers`], from which everything else is derived: knowledge and distances
+//! stands where and where carpets lie, gathered over all jobs in [`layers`], from which everything else is derived: knowledge and distances
 //! (brought up to date every other second), what the body can reach, walls, rooms and doors (on demand).
 //!
 //! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first painted.
@@ -10,6 +10,7 @@
 //! new one, and so does a map that was drawn again with better poses.
 
 mod annotations;
+mod carpet;
 mod derived;
 mod distance;
 mod dock;
@@ -37,6 +38,8 @@ mod walls;
 mod writing_down;
 
 pub use annotations::Annotations;
+pub(crate) use carpet::CarpetSense;
+pub use carpet::FloorKind;
 pub use distance::{DistanceField, FAR_M};
 pub use dock::DockPlace;
 pub use doors::Door;

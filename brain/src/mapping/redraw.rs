@@ -3,9 +3,11 @@
 //! Some ten thousand sightings are drawn, piece by piece over many steps, so that no step takes long; until all of it is there
 //! the map stays as it is.
 
+use super::carpet::FloorFelt;
 use super::derived::Derived;
 use super::home::HomeMap;
 use super::layers::{Flag, Layers};
+use super::sighting::Sighting;
 use super::swept::{Swath, SweptLayer};
 use super::traces::Path;
 use super::{Cell, Map, Mark};
@@ -43,6 +45,12 @@ impl Redrawing {
     /// A cell is not forbidden any more.
     pub(super) fn allow(&mut self, cell: Cell) {
         self.layers.change(cell, |evidence| evidence.clear(Flag::NoGo));
+    }
+
+    /// What was felt at a sighting that is drawn already.
+    fn draw_floor(&mut self, mut sighting: Sighting, home: &HomeMap) {
+        sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
+        home.pencil.draw_floor(&sighting, &mut self.layers);
     }
 
     /// Draws up to `most` sightings, and when none is left derives rasters for a tile. `true` when hardly one is left.
@@ -148,6 +156,18 @@ impl Map {
             .position()
         });
         self.generation += 1;
+    }
+
+    /// Takes in what the motors' loads say of the floor at the observation that was inserted last, if it was at this time.
+    pub(crate) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) {
+        let Some(newest) = self.home.note_floor(time_us, felt) else {
+            return;
+        };
+        if let Some(redrawing) = &mut self.redrawing
+            && redrawing.next >= self.home.sightings.len()
+        {
+            redrawing.draw_floor(newest, &self.home);
+        }
     }
 
     /// From now on nothing of what was seen and swept up to now is drawn again.

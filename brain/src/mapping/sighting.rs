@@ -3,6 +3,7 @@
 //! *Sighting*: an observation as far as the map needs it, with the pose at which it was made. Sightings are kept, so that
 //! the map can be drawn again when the poses turn out to have been others.
 
+use super::carpet::FloorFelt;
 use crate::config::PROXIMITY_MAX;
 use crate::geometry::Pose2;
 use crate::localization::PoseEstimate;
@@ -21,6 +22,8 @@ pub(super) struct Sighting {
     pub(super) levels: [u8; PROXIMITY_MAX],
     /// Bumper halves left and right that were pressed, and cliff sensors left, middle and right that saw no floor.
     pub(super) touched: Touched,
+    /// What the motors' loads say of the floor.
+    pub(super) floor: Option<FloorFelt>,
 }
 
 /// Switches of a sighting.
@@ -103,6 +106,7 @@ impl Sighting {
             sigma_cm: (100.0 * estimate.sigma_m) as u8,
             levels,
             touched: Touched::of(observation),
+            floor: None,
         }
     }
 

@@ -49,6 +49,21 @@ pub struct HomeView {
     /// How sure all of it is, then how sure each room is.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sureness: Vec<SurenessView>,
+    /// Where carpets lie, as far as the robot has felt it; absent where it does not measure what its motors draw: then nobody knows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub carpet: Option<CarpetView>,
+}
+
+/// Where carpets lie, by what wheels and main brush draw on them beside what they draw elsewhere in the home. Nothing is said of
+/// either kind of floor before the robot has met both.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CarpetView {
+    /// Floor that is carpet, square metres.
+    pub area_m2: f64,
+    /// Floor that is none, square metres; the robot has not felt the rest.
+    pub hard_m2: f64,
+    /// What was felt of each cell of the home's window: 0 nothing, 1 hard floor, 2 carpet.
+    pub cells: Rle,
 }
 
 /// How sure what is known of the home or of a room is. Shares are from 0 to 1.

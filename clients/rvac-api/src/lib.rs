@@ -32,7 +32,7 @@ pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
     RunTrack, TrackPose, TrackReading,
 };
-pub use home::{DoorView, HomeView, KeptMap, RoomView, SurenessView, WallView};
+pub use home::{CarpetView, DoorView, HomeView, KeptMap, RoomView, SurenessView, WallView};
 pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
 pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,

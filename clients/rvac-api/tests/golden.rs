@@ -6,11 +6,11 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CleaningPattern, CleaningPower, ClientInput, ComponentHealth, Decision,
-    DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion, FloorView,
-    FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
-    LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView, PlaceShape,
-    PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
+    BatteryReading, BumpMark, CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth,
+    Decision, DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion,
+    FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView,
+    PlaceShape, PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
     RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
     RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
     ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
@@ -517,6 +517,7 @@ fn the_home() {
         places: vec![],
         room_changes: vec![],
         sureness: vec![],
+        carpet: None,
     };
     check(
         &Update::Home(home.clone()),
@@ -563,11 +564,16 @@ fn what_people_say_of_it(home: HomeView) {
                 ..SurenessView::default()
             },
         ],
+        carpet: Some(CarpetView {
+            area_m2: 0.25,
+            hard_m2: 0.5,
+            cells: vec![2, 1, 0, 1],
+        }),
         ..home
     };
     check(
         &Update::Home(told),
-        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]},"name":"Cats"}],"places":[{"number":3,"name":"Bowl","shape":{"spot":[2.5,-0.5]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}],"sureness":[{"sigma_m":0.25,"driven":0.5,"touched":0.75},{"room":1,"sigma_m":0.0,"driven":0.0,"touched":0.0}]}"#,
+        r#"{"e":"home","revision":7,"cell_m":0.5,"x":-2,"y":3,"width":2,"height":1,"cells":[1,1,2,1],"room_cells":[1,1,0,1],"rooms":[{"id":1,"area_m2":12.5,"x":1.0,"y":2.0,"name":"Kitchen"}],"doors":[],"walls":[],"no_go":[{"number":2,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}},{"number":4,"shape":{"zone":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]},"name":"Cats"}],"places":[{"number":3,"name":"Bowl","shape":{"spot":[2.5,-0.5]}}],"room_changes":[{"number":1,"rooms":[1,5],"line":[[0.0,1.0],[2.5,1.0]]},{"number":3,"rooms":[1,4]}],"sureness":[{"sigma_m":0.25,"driven":0.5,"touched":0.75},{"room":1,"sigma_m":0.0,"driven":0.0,"touched":0.0}],"carpet":{"area_m2":0.25,"hard_m2":0.5,"cells":[2,1,0,1]}}"#,
     );
 }
 

@@ -323,6 +323,12 @@ impl Host {
         self.core.brain()
     }
 
+    /// Whether its robot measures what its motors draw.
+    #[must_use]
+    pub fn measures_currents(&self) -> bool {
+        self.core.measures_currents()
+    }
+
     /// Gives the brain a map of the home; `false` before it knows its robot.
     pub(crate) fn take_up_home(&mut self, home: &StoredMap) -> bool {
         self.core.take_up_home(home)

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use brain::mapping::StoredMap;
 use home::{Beacons, BoardGyro, Home, Pose};
 
+use crate::carpet_quality;
 use crate::figures::{Belief, Collector, Floor};
 use crate::known_map::known_map;
 use crate::linux_board::LinuxBoard;
@@ -296,10 +297,15 @@ impl Household {
             return figures;
         };
         let quality = judge(brain.map(), world.home(), self.map_from_plan.inverse());
+        let plan_from_map = self.map_from_plan.inverse();
+        let measures = self.host.as_ref().is_some_and(Host::measures_currents);
+        let carpet = carpet_quality::judge(brain.map(), world, (plan_from_map, measures));
         let swept_m2 = brain.job().swept_m2 - world.truth().swept_m2;
         Figures {
             map_iou: quality.map(|quality| quality.iou),
             wall_error_m: quality.and_then(|quality| quality.wall_error_m),
+            carpet_recall: carpet.recall,
+            carpet_precision: carpet.precision,
             estimate_error: Some(swept_m2 / world.home().reachable_area_m2()),
             ..figures
         }

@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 pub mod baseline;
+mod carpet_quality;
 pub mod faults;
 mod figures;
 mod firmware;

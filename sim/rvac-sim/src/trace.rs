@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use brain::mapping::{CELL_M, CellKnowledge};
+use brain::mapping::{CELL_M, CellKnowledge, FloorKind};
 use home::{Cell, Home, Pose, Truth};
 use serde::{Deserialize, Serialize};
 
@@ -135,16 +135,23 @@ impl Drawing {
     /// What a host knows of its home; `None` = nothing.
     #[must_use]
     pub fn of_map(host: &Host, plan_from_map: Pose) -> Option<Self> {
-        let knowledge = host.brain()?.map().knowledge();
+        let map = host.brain()?.map();
+        let knowledge = map.knowledge();
         if knowledge.values().is_empty() {
             return None;
         }
-        let kinds = knowledge.values().iter().map(|kind| match kind {
-            CellKnowledge::Unknown => NOTHING,
-            CellKnowledge::Free => FLOOR,
-            CellKnowledge::Occupied => SOLID,
-            CellKnowledge::Cliff | CellKnowledge::NoGo => DROP,
-        });
+        let carpet = |index| map.floor_kind(knowledge.cell(index)) == Some(FloorKind::Carpet);
+        let kinds = knowledge
+            .values()
+            .iter()
+            .enumerate()
+            .map(|(index, kind)| match kind {
+                CellKnowledge::Unknown => NOTHING,
+                CellKnowledge::Free if carpet(index) => RUG,
+                CellKnowledge::Free => FLOOR,
+                CellKnowledge::Occupied => SOLID,
+                CellKnowledge::Cliff | CellKnowledge::NoGo => DROP,
+            });
         let corner = knowledge.origin();
         let (x_m, y_m) = plan_from_map.point(f64::from(corner.x) * CELL_M, f64::from(corner.y) * CELL_M);
         Some(Self {

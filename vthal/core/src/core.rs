@@ -252,6 +252,12 @@ impl Core {
         self.mind.as_ref().map(Mind::brain)
     }
 
+    /// Whether the robot measures what its motors draw, and so can feel carpets.
+    #[must_use]
+    pub fn measures_currents(&self) -> bool {
+        self.mind.as_ref().is_some_and(Mind::measures_currents)
+    }
+
     /// Gives the brain the map of a home it has not seen itself, in which it stands on the dock, or at the origin if the map
     /// has no dock. For simulators; to be called while no job runs. `false` before a robot was seen.
     pub fn take_up_home(&mut self, home: &brain::mapping::StoredMap) -> bool {

@@ -1,9 +1,10 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
 use brain::mapping::{Annotations, Door, Room, RoomChange, Sureness, WallSegment};
-use brain::{CELL_M, CellKnowledge, KeptPlace, Map, NoGo, Raster};
+use brain::{CELL_M, Cell, CellKnowledge, FloorKind, KeptPlace, Map, NoGo, Raster};
 use rvac_api::{
-    DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, SurenessView, WallView,
+    CarpetView, DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView,
+    SurenessView, WallView,
 };
 
 use crate::to_api;
@@ -11,15 +12,38 @@ use crate::to_api;
 /// Numbers that the runs of cells may have together: a message of a megabyte at most. A home of 150 square metres has
 /// some 20,000.
 const NUMBERS_MAX: usize = 150_000;
+/// Kinds of floor as clients are told of them.
+const HARD: u8 = 1;
+const CARPET: u8 = 2;
 /// Coarsest cells, in cells of the map.
 const COARSE_MAX: usize = 16;
 /// Rooms, doors and walls that are told at most. Walls come longest first.
 const ITEMS_MAX: usize = 1_000;
 
+/// Whether the robot can feel on which floor it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FeltFloors {
+    /// It measures what its motors draw.
+    Measured,
+    /// It does not, and nothing is told of carpets.
+    NotMeasured,
+}
+
+impl FeltFloors {
+    /// Of a map whose robot is not at hand: whoever has felt floors can.
+    pub(crate) fn in_map(map: &Map) -> Self {
+        match map.floor_kinds().next() {
+            Some(_) => Self::Measured,
+            None => Self::NotMeasured,
+        }
+    }
+}
+
 /// What is known of the home.
-pub(crate) fn home_view(map: &Map) -> HomeView {
+pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
     let rooms = map.rooms();
-    let view = cells(map.knowledge(), rooms.labels());
+    let floors = floors(map, felt);
+    let view = cells(map.knowledge(), rooms.labels(), floors.as_ref());
     HomeView {
         revision: map.revision(),
         rooms: rooms
@@ -55,12 +79,34 @@ fn sureness(map: &Map) -> Vec<SurenessView> {
         .collect()
 }
 
+/// The kinds of floor in the window of what is known: 0 not felt, 1 hard, 2 carpet.
+fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
+    if felt == FeltFloors::NotMeasured {
+        return None;
+    }
+    let knowledge = map.knowledge();
+    let mut floors = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), 0);
+    for (cell, kind) in map.floor_kinds() {
+        if let Some(place) = floors.get_mut(cell) {
+            *place = match kind {
+                FloorKind::Hard => HARD,
+                FloorKind::Carpet => CARPET,
+            };
+        }
+    }
+    Some(floors)
+}
+
 /// The cells alone, as fine as they may be told.
-fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
+fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option<&Raster<u8>>) -> HomeView {
     let mut coarse = 1;
     loop {
-        let view = cells_of(coarse, knowledge, labels);
-        if view.cells.len() + view.room_cells.len() <= NUMBERS_MAX {
+        let view = HomeView {
+            carpet: floors.map(|floors| carpet(coarse, floors)),
+            ..cells_of(coarse, knowledge, labels)
+        };
+        let floor_numbers = view.carpet.as_ref().map_or(0, |carpet| carpet.cells.len());
+        if view.cells.len() + view.room_cells.len() + floor_numbers <= NUMBERS_MAX {
             return view;
         }
         if coarse >= COARSE_MAX {
@@ -68,6 +114,10 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
             return HomeView {
                 cells: Rle::new(),
                 room_cells: Rle::new(),
+                carpet: view.carpet.map(|carpet| CarpetView {
+                    cells: Rle::new(),
+                    ..carpet
+                }),
                 ..view
             };
         }
@@ -75,24 +125,35 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
     }
 }
 
+/// What was felt of the floor, in the window of [`cells_of`].
+fn carpet(coarse: usize, floors: &Raster<u8>) -> CarpetView {
+    let window = Window::of(coarse, floors);
+    let mut kinds = vec![0_u32; window.width * window.height];
+    let (mut hard, mut carpet) = (0_u32, 0_u32);
+    for (index, kind) in floors.values().iter().enumerate() {
+        hard += u32::from(*kind == HARD);
+        carpet += u32::from(*kind == CARPET);
+        if let Some(merged) = kinds.get_mut(window.place(floors.cell(index))) {
+            *merged = (*merged).max(u32::from(*kind));
+        }
+    }
+    let area_m2 = |cells: u32| f64::from(cells) * CELL_M * CELL_M;
+    CarpetView {
+        area_m2: area_m2(carpet),
+        hard_m2: area_m2(hard),
+        cells: runs(&kinds),
+    }
+}
+
 /// Cells that are `coarse` cells of the map wide and high. Each is what weighs most of what it holds.
 fn cells_of(coarse: usize, knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>) -> HomeView {
-    let origin = knowledge.origin();
-    let step = i32::try_from(coarse).unwrap_or(1);
-    let (x, y) = (origin.x.div_euclid(step), origin.y.div_euclid(step));
-    let (ahead, below) = (
-        origin.x.rem_euclid(step) as usize,
-        origin.y.rem_euclid(step) as usize,
-    );
-    let width = (knowledge.width() + ahead).div_ceil(coarse);
-    let height = (knowledge.height() + below).div_ceil(coarse);
+    let window = Window::of(coarse, knowledge);
+    let (width, height) = (window.width, window.height);
     let mut kinds = vec![0_u32; width * height];
     let mut rooms = vec![0_u32; width * height];
     for (index, kind) in knowledge.values().iter().enumerate() {
         let cell = knowledge.cell(index);
-        let column = (cell.x.div_euclid(step) - x) as usize;
-        let row = (cell.y.div_euclid(step) - y) as usize;
-        let place = row * width + column;
+        let place = window.place(cell);
         if let Some(merged) = kinds.get_mut(place)
             && weight(number(*kind)) > weight(*merged)
         {
@@ -105,13 +166,45 @@ fn cells_of(coarse: usize, knowledge: &Raster<CellKnowledge>, labels: &Raster<u1
     }
     HomeView {
         cell_m: CELL_M * coarse as f64,
-        x,
-        y,
+        x: window.x,
+        y: window.y,
         width: u32::try_from(width).unwrap_or(u32::MAX),
         height: u32::try_from(height).unwrap_or(u32::MAX),
         cells: runs(&kinds),
         room_cells: runs(&rooms),
         ..HomeView::default()
+    }
+}
+
+/// A window of cells that are some cells of the map wide and high.
+struct Window {
+    step: i32,
+    x: i32,
+    y: i32,
+    width: usize,
+    height: usize,
+}
+
+impl Window {
+    fn of<T: Clone>(coarse: usize, raster: &Raster<T>) -> Self {
+        let origin = raster.origin();
+        let step = i32::try_from(coarse).unwrap_or(1);
+        let ahead = origin.x.rem_euclid(step) as usize;
+        let below = origin.y.rem_euclid(step) as usize;
+        Self {
+            step,
+            x: origin.x.div_euclid(step),
+            y: origin.y.div_euclid(step),
+            width: (raster.width() + ahead).div_ceil(coarse),
+            height: (raster.height() + below).div_ceil(coarse),
+        }
+    }
+
+    /// Where a cell of the map lies in it.
+    fn place(&self, cell: Cell) -> usize {
+        let column = (cell.x.div_euclid(self.step) - self.x) as usize;
+        let row = (cell.y.div_euclid(self.step) - self.y) as usize;
+        row * self.width + column
     }
 }
 
@@ -239,7 +332,7 @@ mod tests {
             7 => CellKnowledge::Cliff,
             _ => CellKnowledge::Unknown,
         });
-        let view = cells(&known, &no_rooms());
+        let view = cells(&known, &no_rooms(), None);
         assert_eq!((view.x, view.y, view.width, view.height), (-3, 5, 4, 2));
         assert_eq!(view.cells, [1, 2, 2, 1, 0, 4, 3, 1]);
         assert_eq!(view.room_cells, [0, 8]);
@@ -254,7 +347,7 @@ mod tests {
                 CellKnowledge::Free
             }
         });
-        let view = cells(&known, &no_rooms());
+        let view = cells(&known, &no_rooms(), None);
         assert!(view.cells.len() + view.room_cells.len() <= NUMBERS_MAX);
         assert!(view.cell_m > 0.025);
         let total: u32 = view.cells.chunks_exact(2).map(|run| run[1]).sum();

@@ -17,9 +17,9 @@ pub(crate) use floors::FloorNews;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
 use rvac_api::HomeView;
 
-use crate::device::{Description, Shape};
+use crate::device::{Description, Part, Shape};
 use crate::floors::Floors;
-use crate::home_view::home_view;
+use crate::home_view::{FeltFloors, home_view};
 use crate::observe::Observer;
 use crate::quest::Quest;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, RunStart, to_api};
@@ -54,6 +54,7 @@ pub(crate) struct Mind {
     carried: Carried,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
+    measures_currents: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -102,6 +103,7 @@ impl Mind {
                 description.identity.firmware.clone(),
             ),
             robot: to_api::robot(description),
+            measures_currents: description.has(Part::Currents),
         }
     }
 
@@ -163,14 +165,29 @@ impl Mind {
 
     /// Revision of what is known of the home; no two of this daemon's life are the same.
     pub(crate) fn home_revision(&self) -> u32 {
-        self.home_base.wrapping_add(self.brain.map().revision())
+        let map = self.brain.map();
+        self.home_base
+            .wrapping_add(map.revision())
+            .wrapping_add(map.floor_revision())
+    }
+
+    /// Whether the robot measures what its motors draw.
+    pub(crate) fn measures_currents(&self) -> bool {
+        self.measures_currents
     }
 
     /// What is known of the home, for clients.
     pub(crate) fn home_view(&self) -> HomeView {
         HomeView {
             revision: self.home_revision(),
-            ..home_view(self.brain.map())
+            ..home_view(self.brain.map(), self.felt_floors())
+        }
+    }
+
+    fn felt_floors(&self) -> FeltFloors {
+        match self.measures_currents {
+            true => FeltFloors::Measured,
+            false => FeltFloors::NotMeasured,
         }
     }
 

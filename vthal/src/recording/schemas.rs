@@ -10,7 +10,7 @@ pub(crate) const CHANNELS: [(&str, &str, &str); 11] = [
     (
         super::OBSERVATIONS,
         "vthal.Observation",
-        r#"{"type":"object","properties":{"time_us":{"type":"integer"},"left_m":{"type":"number"},"right_m":{"type":"number"},"gyro_rad":{"type":"number"},"contacts":{"type":"array","items":{"type":"boolean"}},"cliffs":{"type":"array","items":{"type":"boolean"}},"wheel_drop":{"type":"boolean"},"proximity":{"type":"array","items":{"type":"number"}},"dock_beams":{"type":"array","items":{"type":"integer"}},"docked":{"type":"boolean"},"battery":{"type":"number"},"charge_flow":{"type":"string"},"inhibits":{"type":"array","items":{"type":"string"}},"link_up":{"type":"boolean"},"speed_share":{"type":"number"},"beacons":{"type":"array","items":{"type":"array","items":{"type":"number"}}},"strengths":{"type":"array","items":{"type":"array","items":{"type":"number"}}}}}"#,
+        r#"{"type":"object","properties":{"time_us":{"type":"integer"},"left_m":{"type":"number"},"right_m":{"type":"number"},"gyro_rad":{"type":"number"},"contacts":{"type":"array","items":{"type":"boolean"}},"cliffs":{"type":"array","items":{"type":"boolean"}},"wheel_drop":{"type":"boolean"},"proximity":{"type":"array","items":{"type":"number"}},"dock_beams":{"type":"array","items":{"type":"integer"}},"docked":{"type":"boolean"},"battery":{"type":"number"},"charge_flow":{"type":"string"},"currents_a":{"type":"array","items":{"type":"number"}},"inhibits":{"type":"array","items":{"type":"string"}},"link_up":{"type":"boolean"},"speed_share":{"type":"number"},"beacons":{"type":"array","items":{"type":"array","items":{"type":"number"}}},"strengths":{"type":"array","items":{"type":"array","items":{"type":"number"}}}}}"#,
     ),
     (
         super::COMMANDS,

@@ -6,7 +6,7 @@ use std::io::Read as _;
 use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
-use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow};
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
 use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
@@ -103,6 +103,11 @@ fn records() -> Vec<Record> {
         dock_beams: vec![0, 3],
         battery_charge: Some(0.94),
         charge_flow: Some(ChargeFlow::Flowing),
+        currents: Some(MotorCurrents {
+            wheel_left_a: 0.15,
+            wheel_right_a: 0.125,
+            brush_main_a: 0.5,
+        }),
         beacons: vec![
             BeaconSignal::Range(BeaconRange {
                 beacon: 2,

@@ -6,19 +6,20 @@
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
 //! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
 //! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
-//! Version 7 adds the names of no-go zones and virtual walls, version 8 the zones and spots that are kept.
+//! Version 7 adds the names of no-go zones and virtual walls, version 8 the zones and spots that are kept. Version 9 keeps the kind
+//! of floor in two bits of each cell; in the oldest maps they may hold how much wheels slipped there, which nothing used.
 
 mod room_words;
 mod words;
 
-use super::{CELLS_MAX, Run, StoredMap};
+use super::{CELLS_MAX, FLOOR_BITS, Run, StoredMap};
 use crate::geometry::Pose2;
 use crate::mapping::dock::Felt;
 use crate::mapping::{Annotations, Cell, DockPlace};
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 8;
+const VERSION: u8 = 9;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 /// Most runs of one layer; a home has some ten thousand.
@@ -56,6 +57,8 @@ pub enum StoredMapError {
         /// Of the layer.
         found: u64,
     },
+    /// A kind of floor that is not known here.
+    Floor,
     /// A no-go zone that no map can have.
     NoGo,
     /// A place that no map can keep.
@@ -93,6 +96,7 @@ impl core::fmt::Display for StoredMapError {
             Self::Cells { expected, found } => {
                 write!(formatter, "a layer has {found} cells instead of {expected}")
             }
+            Self::Floor => formatter.write_str("it has a kind of floor that cannot be"),
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::Place => formatter.write_str("it keeps a place that cannot be"),
@@ -171,7 +175,8 @@ impl Reader<'_> {
         let expected = width.checked_mul(height).filter(|cells| *cells <= CELLS_MAX);
         let expected = expected.ok_or(StoredMapError::TooLarge { width, height })?;
         let next_room = self.number()?.try_into().map_err(|_| StoredMapError::Number)?;
-        let cells = self.layer(expected)?;
+        let mut cells = self.layer(expected)?;
+        take_floors(version, &mut cells)?;
         let rooms = self.layer(expected)?;
         let mut annotations = match version {
             1 => Annotations::default(),
@@ -273,6 +278,19 @@ impl Reader<'_> {
     }
 }
 
+/// Forgets what older versions kept where the kind of floor is now, and refuses kinds that there are not.
+fn take_floors(version: u8, cells: &mut [Run]) -> Result<(), StoredMapError> {
+    if version < 9 {
+        cells.iter_mut().for_each(|run| run.value &= !FLOOR_BITS);
+    }
+    let is_known = |run: &Run| run.value & FLOOR_BITS != FLOOR_BITS;
+    cells
+        .iter()
+        .all(is_known)
+        .then_some(())
+        .ok_or(StoredMapError::Floor)
+}
+
 /// A number that is not 0 and a pose, or 0.
 fn put_pose(bytes: &mut Vec<u8>, numbered: Option<(u8, Pose2)>) {
     let Some((number, pose)) = numbered else {
@@ -312,16 +330,23 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
+    use crate::config::{Body, SensorLayout};
     use crate::geometry::{Point2, Pose2};
     use crate::kept_place::{KeptPlace, PlaceShape};
     use crate::mapping::dock::Felt;
     use crate::mapping::{
-        Annotations, Cell, CellKnowledge, CutLine, DockPlace, PartSide, Raster, RoomChange, RoomJoin,
-        RoomSplit,
+        Annotations, Cell, CellKnowledge, CutLine, DockPlace, FloorKind, Map, PartSide, Raster, RoomChange,
+        RoomJoin, RoomSplit,
     };
     use crate::no_go::{NoGo, RoomName};
     use crate::order::Zone;
     use crate::room_settings::{Pattern, RoomPower, RoomSettings};
+
+    const BODY: Body = Body {
+        radius_m: 0.17,
+        swath_m: 0.26,
+        track_m: 0.24,
+    };
 
     fn map() -> StoredMap {
         let mut raster = Raster::filled(Cell { x: -7, y: 300 }, 9, 5, CellKnowledge::Unknown);
@@ -527,6 +552,39 @@ mod tests {
     }
 
     #[test]
+    fn kinds_of_floor_are_read_since_version_nine_and_what_stood_there_before_is_not() {
+        let floors = |version: u8, felt: u16| {
+            let mut bytes = b"RVACMAP".to_vec();
+            bytes.push(version);
+            // Docks, window of six cells, next room, one run of cells, no rooms; nothing that people have said.
+            let docks: &[u8] = if version < 6 { &[0] } else { &[0, 0] };
+            bytes.extend(docks);
+            bytes.extend([0, 0, 2, 3, 1, 1]);
+            super::put(&mut bytes, u64::from(0x1400 | felt << 8));
+            bytes.extend([6, 0]);
+            bytes.extend(match version {
+                1 => &[][..],
+                2 => &[0; 3],
+                _ => &[0; 9],
+            });
+            bytes.extend(crc32(&bytes).to_le_bytes());
+            StoredMap::decode(&bytes).map(|stored| {
+                let mut map = Map::new(BODY, SensorLayout::default());
+                map.take_up(&stored);
+                map.floor_kind(Cell { x: 1, y: 1 })
+            })
+        };
+        assert_eq!(floors(9, 0), Ok(None));
+        assert_eq!(floors(9, 1), Ok(Some(FloorKind::Hard)));
+        assert_eq!(floors(9, 2), Ok(Some(FloorKind::Carpet)));
+        assert_eq!(floors(9, 3), Err(StoredMapError::Floor));
+        for felt in 0..4 {
+            assert_eq!(floors(1, felt), Ok(None), "slip of {felt}");
+            assert_eq!(floors(2, felt), Ok(None), "slip of {felt}");
+        }
+    }
+
+    #[test]
     fn the_checksum_is_the_usual_one() {
         assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
     }
@@ -568,7 +626,10 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         assert_eq!(StoredMap::decode(b"RVACMOP"), Err(StoredMapError::NotAMap));
-        assert_eq!(StoredMap::decode(b"RVACMAP\x09"), Err(StoredMapError::Version(9)));
+        assert_eq!(
+            StoredMap::decode(b"RVACMAP\x0A"),
+            Err(StoredMapError::Version(10))
+        );
         assert_eq!(refused(&[0, 0, 0]), StoredMapError::Cut);
         let enormous = [0, 0, 0, 0xFF, 0xFF, 0x7F, 0xFF, 0xFF, 0x7F, 1];
         assert!(matches!(refused(&enormous), StoredMapError::TooLarge { .. }));

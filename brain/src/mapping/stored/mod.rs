@@ -12,7 +12,7 @@ pub use codec::StoredMapError;
 use super::annotations::Annotations;
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
 use super::rooms::Rooms;
-use super::{Cell, CellKnowledge, DockPlace, Raster};
+use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
 use crate::geometry::Pose2;
 use crate::gradual::{Pace, at_once};
 
@@ -212,8 +212,29 @@ fn sure(kind: CellKnowledge) -> Evidence {
     evidence
 }
 
-/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 free (older maps kept there how much wheels
-/// slipped, which nothing used), 1 body, 1 no-go, 1 seen, 3 uncertainty.
+/// Bits of the kind of floor in a cell: 0 not felt, 1 hard, 2 carpet.
+const FLOOR_BITS: u16 = 0b11 << 8;
+/// Evidence of a kind of floor that was stored: sure, and not so sure that a rug which was taken away stays for long.
+const FLOOR_REMEMBERED: i8 = 12;
+
+fn floor_number(kind: Option<FloorKind>) -> u16 {
+    match kind {
+        None => 0,
+        Some(FloorKind::Hard) => 1,
+        Some(FloorKind::Carpet) => 2,
+    }
+}
+
+fn floor_kind(number: u8) -> Option<FloorKind> {
+    match number {
+        1 => Some(FloorKind::Hard),
+        2 => Some(FloorKind::Carpet),
+        _ => None,
+    }
+}
+
+/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 kind of floor ([`FLOOR_BITS`]), 1 body, 1 no-go, 1 seen,
+/// 3 uncertainty.
 fn pack(evidence: Evidence) -> u16 {
     // Rounded so that what counts as free or occupied still does.
     let rounding = if evidence.occupancy < 0 {
@@ -227,7 +248,7 @@ fn pack(evidence: Evidence) -> u16 {
         (occupancy as u16 ^ 7, 4),
         (u16::from(evidence.contact / 2).min(3), 2),
         (u16::from(evidence.cliff / 2).min(3), 2),
-        (0, 2),
+        (floor_number(evidence.floor()), 2),
         (u16::from(evidence.has(Flag::Body)), 1),
         (u16::from(evidence.has(Flag::NoGo)), 1),
         (u16::from(evidence.has(Flag::Seen)), 1),
@@ -251,7 +272,11 @@ fn unpack(packed: u16) -> Evidence {
         cliff: 2 * field(6, 2),
         sigma_cm: 5 * field(13, 3),
         flags: 0,
+        carpet: 0,
     };
+    if let Some(kind) = floor_kind(field(8, 2)) {
+        evidence.feel(kind, FLOOR_REMEMBERED);
+    }
     for (shift, flag) in [(10, Flag::Body), (11, Flag::NoGo), (12, Flag::Seen)] {
         if field(shift, 1) == 1 {
             evidence.set(flag);

@@ -13,6 +13,10 @@ pub(crate) const NO_GO: u32 = 5;
 pub(crate) const CHOSEN: u32 = 6;
 /// First kind for floor of a room.
 pub(crate) const ROOM: u32 = 16;
+/// What the robot says of a cell in which it has felt carpet.
+const FELT_CARPET: u32 = 2;
+/// Added to a kind of floor where it has. Chosen rooms are one tint: what a person chooses must stand out.
+pub(crate) const CARPET: u32 = 64;
 /// Tints of rooms.
 pub const ROOM_TINTS: u32 = 6;
 /// Largest window that is drawn, in cells.
@@ -35,34 +39,49 @@ pub fn home_plan(home: &HomeView, chosen: &[u16]) -> SimulatedPlan {
             heading: 0.0,
             t: 0.0,
         },
-        cells: merged((&home.cells, &home.room_cells), chosen, total.min(CELLS_MAX)),
+        cells: merged(home, chosen, total.min(CELLS_MAX)),
         dock: home.dock,
     }
 }
 
-/// Runs of cells with the rooms in them. Neither needs to be as long as it should.
-fn merged((cells, rooms): (&[u32], &[u32]), chosen: &[u16], total: u64) -> Vec<u32> {
-    let mut rooms = Runs::new(rooms);
+/// Runs of cells with rooms and carpets in them. None of the three needs to be as long as it should.
+fn merged(home: &HomeView, chosen: &[u16], total: u64) -> Vec<u32> {
+    let mut rooms = Runs::new(&home.room_cells);
+    let mut felt = Runs::new(home.carpet.as_ref().map_or(&[], |carpet| &carpet.cells));
     let mut merged = Vec::new();
     let mut left = total;
-    for run in cells.chunks_exact(2) {
+    for run in home.cells.chunks_exact(2) {
         let &[kind, length] = run else { continue };
         let mut length = u64::from(length).min(left);
         left -= length;
         while length > 0 {
-            let (room, span) = rooms.take(length);
-            let shown = match kind {
+            let (floor, alike) = felt.ahead(length);
+            let (room, span) = rooms.ahead(alike);
+            felt.pass(span);
+            rooms.pass(span);
+            let bare = match kind {
                 1 if chosen.iter().any(|id| u32::from(*id) == room) => CHOSEN,
                 1 if room > 0 => ROOM + (room - 1) % ROOM_TINTS,
                 1..=3 => kind,
                 4 => NO_GO,
                 _ => 0,
             };
+            let shown = if kind == 1 && bare != CHOSEN && floor == FELT_CARPET {
+                bare + CARPET
+            } else {
+                bare
+            };
             merged.extend([shown, u32::try_from(span).unwrap_or(u32::MAX)]);
             length -= span;
         }
     }
     merged
+}
+
+/// Whether carpet is to be seen in a plan.
+#[must_use]
+pub fn has_carpet(plan: &SimulatedPlan) -> bool {
+    plan.cells.chunks_exact(2).any(|run| run.first() >= Some(&CARPET))
 }
 
 /// Runs that are read piece by piece.
@@ -82,7 +101,7 @@ impl<'a> Runs<'a> {
     }
 
     /// The value of the next cells and for how many of them, at most `most`, it holds.
-    fn take(&mut self, most: u64) -> (u32, u64) {
+    fn ahead(&mut self, most: u64) -> (u32, u64) {
         while self.left == 0 {
             let Some(run) = self.runs.next() else {
                 return (0, most);
@@ -91,9 +110,12 @@ impl<'a> Runs<'a> {
                 (self.value, self.left) = (value, length.into());
             }
         }
-        let span = self.left.min(most);
-        self.left -= span;
-        (self.value, span)
+        (self.value, self.left.min(most))
+    }
+
+    /// Goes on by some of those cells; behind the last run there is nothing to go on in.
+    fn pass(&mut self, span: u64) {
+        self.left = self.left.saturating_sub(span);
     }
 }
 
@@ -172,9 +194,9 @@ pub fn wall_strokes(home: &HomeView) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{home_plan, merged, room_rows};
+    use super::{has_carpet, home_plan, merged, room_rows};
     use crate::words::Language;
-    use rvac_api::{DoorView, HomeView, RoomView};
+    use rvac_api::{CarpetView, DoorView, HomeView, RoomView};
 
     #[test]
     fn known_cells_are_drawn_each_room_in_its_tint() {
@@ -196,12 +218,45 @@ mod tests {
     }
 
     #[test]
+    fn carpet_is_drawn_on_floor_of_every_kind_and_on_nothing_else() {
+        let home = HomeView {
+            width: 6,
+            height: 1,
+            cells: vec![1, 4, 2, 1, 1, 1],
+            room_cells: vec![0, 1, 2, 5],
+            carpet: Some(CarpetView {
+                cells: vec![1, 2, 2, 4],
+                ..CarpetView::default()
+            }),
+            ..HomeView::default()
+        };
+        let plan = home_plan(&home, &[]);
+        assert_eq!(plan.cells, [1, 1, 17, 1, 81, 2, 2, 1, 81, 1]);
+        assert!(has_carpet(&plan));
+        let chosen = home_plan(&home, &[2]);
+        assert_eq!(chosen.cells, [1, 1, 6, 1, 6, 2, 2, 1, 6, 1]);
+        assert!(!has_carpet(&home_plan(&HomeView { carpet: None, ..home }, &[])));
+    }
+
+    #[test]
     fn runs_that_do_not_fit_do_no_harm() {
-        assert_eq!(merged((&[1, u32::MAX], &[]), &[], 4), [1, 4]);
-        assert_eq!(merged((&[1, 3, 7], &[9, 0, 1, 1]), &[], 9), [16, 1, 1, 2]);
+        let drawn = |cells: &[u32], room_cells: &[u32], total: u64| {
+            let home = HomeView {
+                cells: cells.to_vec(),
+                room_cells: room_cells.to_vec(),
+                carpet: Some(CarpetView {
+                    cells: vec![0, 1, 7],
+                    ..CarpetView::default()
+                }),
+                ..HomeView::default()
+            };
+            merged(&home, &[], total)
+        };
+        assert_eq!(drawn(&[1, u32::MAX], &[], 4), [1, 1, 1, 3]);
+        assert_eq!(drawn(&[1, 3, 7], &[9, 0, 1, 1], 9), [16, 1, 1, 2]);
         assert_eq!(
-            merged((&[1, 2, 2, u32::MAX], &[u32::MAX, u32::MAX]), &[], 3),
-            [16 + (u32::MAX - 1) % 6, 2, 2, 1]
+            drawn(&[1, 2, 2, u32::MAX], &[u32::MAX, u32::MAX], 3),
+            [16 + (u32::MAX - 1) % 6, 1, 16 + (u32::MAX - 1) % 6, 1, 2, 1]
         );
         let huge = HomeView {
             width: u32::MAX,

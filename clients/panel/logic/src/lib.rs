@@ -68,7 +68,7 @@ pub use history::{
     Plot, Replay, RunDrawing, RunRow, StopRow, plots, room_here_text, run_drawing, run_figures, run_rows,
     stop_rows,
 };
-pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, home_plan, room_name, room_rows, wall_strokes};
+pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, has_carpet, home_plan, room_name, room_rows, wall_strokes};
 pub use job_settings::{JobSettings, SettingChoice};
 pub use kept_places::{PlaceRow, place_rows};
 pub use latency::LatencyMeter;

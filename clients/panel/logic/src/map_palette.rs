@@ -176,8 +176,14 @@ mod tests {
     fn lines_and_marks_are_told_from_every_floor_and_furniture_from_floor() {
         for (look, palette) in [("light", MapPalette::LIGHT), ("dark", MapPalette::DARK)] {
             let plan = palette.plan;
-            let bare = [plan.floor, plan.rug].into_iter().chain(plan.rooms).map(of_bytes);
-            let tinted = [plan.unsure, plan.no_go, plan.chosen].map(of_bytes);
+            let floors = [plan.floor, plan.rug].into_iter().chain(plan.rooms);
+            let carpets = floors.clone().map(|floor| of_bytes(plan.carpeted(floor)));
+            let bare = floors.map(of_bytes);
+            let tinted: Vec<Colour> = [plan.unsure, plan.no_go, plan.chosen]
+                .map(of_bytes)
+                .into_iter()
+                .chain(carpets)
+                .collect();
             let open = [palette.outside, palette.swept].map(of_shares);
             let grounds: Vec<Colour> = bare.clone().chain(tinted).chain(open).collect();
             let drawn = [

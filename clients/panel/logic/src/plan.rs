@@ -3,7 +3,7 @@
 use rvac_api::{Pose, SimulatedPlan};
 
 use crate::Bounds;
-use crate::home::{CHOSEN, NO_GO, ROOM, ROOM_TINTS};
+use crate::home::{CARPET, CHOSEN, NO_GO, ROOM, ROOM_TINTS};
 
 /// Cells that a plan may have: 4096 by 4096, which every WebGL2 takes as a texture.
 const SIDE_MAX: u32 = 4096;
@@ -35,8 +35,21 @@ pub struct PlanPalette {
 }
 
 impl PlanPalette {
+    /// The colour of floor where carpet lies on it: a sixth nearer to that of furniture.
+    pub(crate) fn carpeted(self, floor: [u8; 3]) -> [u8; 3] {
+        core::array::from_fn(|part| {
+            let [floor, obstacle] = [floor, self.obstacle].map(|colour| u16::from(colour[part]));
+            ((5 * floor + obstacle) / 6) as u8
+        })
+    }
+
     /// Red, green, blue and opacity of a kind of cell; what is outside or unknown is transparent.
     fn pixel(self, kind: u32) -> [u8; 4] {
+        if kind >= CARPET {
+            let [red, green, blue, opacity] = self.pixel(kind - CARPET);
+            let [red, green, blue] = self.carpeted([red, green, blue]);
+            return [red, green, blue, opacity];
+        }
         let [red, green, blue] = match kind {
             UNSURE => self.unsure,
             1 => self.floor,

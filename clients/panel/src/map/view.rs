@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use leptos::html;
 use leptos::prelude::*;
-use panel_logic::{Orbit, scale_bar};
+use panel_logic::{Orbit, has_carpet, scale_bar};
 
 use super::canvas::{MapCanvas, STEP, apply, fit, toggle_relief, zoom};
 use super::edit_bar::EditBar;
@@ -171,6 +171,8 @@ struct Footer {
     plans: bool,
     /// What the robot knows is shown, and with it where that ends.
     unsure: bool,
+    /// Carpet that the robot has felt is shown.
+    carpet: bool,
     has_doors: bool,
     /// Why there is no view in 3D.
     relief_failure: Option<String>,
@@ -187,6 +189,9 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
                 <li><span class="key bump" aria-hidden="true"></span>{words().map.bump}</li>
                 <Show when=move || footer.get().unsure>
                     <li><span class="key unsure" aria-hidden="true"></span>{words().map.unsure}</li>
+                </Show>
+                <Show when=move || footer.get().carpet>
+                    <li><span class="key carpet" aria-hidden="true"></span>{words().map.carpet}</li>
                 </Show>
                 <Show when=move || footer.get().plans>
                     <li><span class="key way" aria-hidden="true"></span>{words().map.planned}</li>
@@ -226,6 +231,8 @@ fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>)
                 scale_px: width,
                 frames,
                 unsure: map.with(|scene| scene.ground() == Ground::Known && scene.plan().is_some()),
+                carpet: map
+                    .with(|scene| scene.ground() == Ground::Known && scene.plan().is_some_and(has_carpet)),
                 plans: map.with(|scene| !scene.way.is_empty()),
                 has_doors: map.with(|scene| scene.doors().next().is_some()),
                 relief_failure: map.with(|scene| scene.relief_failure().map(str::to_owned)),

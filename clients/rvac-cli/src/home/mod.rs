@@ -91,6 +91,13 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
         counted(home.doors.len(), "door"),
         counted(home.walls.len(), "wall"),
     );
+    text += &match &home.carpet {
+        Some(carpet) => format!(
+            "carpet    {:.1} m2, and {:.1} m2 of hard floor; the rest was not felt\n",
+            carpet.area_m2, carpet.hard_m2
+        ),
+        None => "carpet    not known: the robot does not measure what its motors draw\n".to_owned(),
+    };
     text += &match &home.dock {
         Some(dock) => {
             let told = if home.dock_told {

@@ -61,6 +61,7 @@ const CARPET: Surface = Surface {
     drag_n: 1.0,
     slip: 0.02,
     bias_rad_per_m: 0.005,
+    brush_load: Surface::brush_load_of_rug(1.0),
 };
 
 pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {

@@ -12,6 +12,8 @@ const SPOT_M: f64 = 0.008;
 const EDGE_M: f64 = 0.004;
 /// Level of a cliff sensor over a usual floor, emitter on.
 const FLOOR_LEVEL: f64 = 180.0;
+/// Places across the brush at which it feels the floor: each bristle for itself, so that a brush half on a rug is half loaded.
+const BRUSH_SHARES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 /// Share of the light that a black rug gives back.
 const BLACK_SHARE: f64 = 0.05;
 /// Level over a drop or with the emitter off: the light of the room.
@@ -21,6 +23,7 @@ const AMBIENT_LEVEL: f64 = 10.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Underneath {
     half_track_m: f64,
+    half_swath_m: f64,
     /// No drop is nearer to the centre than this, metres.
     cliff_free_m: f64,
     radius_m: f64,
@@ -32,6 +35,8 @@ pub(crate) struct Underneath {
     /// Levels with the emitter off.
     dark: [u8; 4],
     pub(crate) surface: Surface,
+    /// How much more the main brush draws than on hard floor, relative.
+    pub(crate) brush_load: f64,
     pub(crate) left_over_cliff: bool,
     pub(crate) right_over_cliff: bool,
     pub(crate) centre_over_cliff: bool,
@@ -41,6 +46,7 @@ impl Underneath {
     pub(crate) fn new(model: &RobotModel, noise: &Noise, random: &mut Pcg) -> Self {
         Self {
             half_track_m: 0.5 * model.drive.track_m,
+            half_swath_m: 0.5 * model.body.swath_m,
             cliff_free_m: 0.0,
             radius_m: model.body.radius_m,
             noise: noise.infrared_noise,
@@ -48,6 +54,7 @@ impl Underneath {
             lit: [FLOOR_LEVEL as u8; 4],
             dark: [AMBIENT_LEVEL as u8; 4],
             surface: Surface::default(),
+            brush_load: 0.0,
             left_over_cliff: false,
             right_over_cliff: false,
             centre_over_cliff: false,
@@ -75,14 +82,15 @@ impl Underneath {
         self.centre_over_cliff = over((body.x_m, body.y_m), EDGE_M);
     }
 
-    /// Samples the surface under the centre.
+    /// Samples the surface under the centre, and that under the brush.
     pub(crate) fn sample_surface(&mut self, home: &Home, body: &Body) {
         if !home.surfaces.is_hard() {
-            self.surface = home
-                .grid()
-                .index(body.x_m, body.y_m)
-                .map(|index| home.surfaces.at(index))
-                .unwrap_or_default();
+            self.surface = surface(home, (body.x_m, body.y_m));
+            let loads = BRUSH_SHARES.map(|share| {
+                let place = body.point(0.0, share * self.half_swath_m);
+                surface(home, place).brush_load
+            });
+            self.brush_load = loads.iter().sum::<f64>() / loads.len() as f64;
         }
     }
 
@@ -120,6 +128,11 @@ impl Underneath {
             *dark = (AMBIENT_LEVEL * (1.0 + self.noise * random.normal())) as u8;
         }
     }
+}
+
+fn surface(home: &Home, (x_m, y_m): (f64, f64)) -> Surface {
+    let index = home.grid().index(x_m, y_m);
+    index.map(|index| home.surfaces.at(index)).unwrap_or_default()
 }
 
 /// Share of the light that the floor at a place gives back.

@@ -264,7 +264,12 @@ impl World {
 
     fn step_battery(&mut self, actuation: &Actuation, dt_s: f64) {
         let cleaners = &self.model.cleaners;
-        let brush_a = self.brush_drag * cleaners.main_a * actuation.brush_main.abs().min(1.0);
+        let on_floor = if self.is_in_air() {
+            1.0
+        } else {
+            1.0 + self.underneath.brush_load
+        };
+        let brush_a = self.brush_drag * on_floor * cleaners.main_a * actuation.brush_main.abs().min(1.0);
         let sides_a = if actuation.brush_sides {
             cleaners.sides_a
         } else {

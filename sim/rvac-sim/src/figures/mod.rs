@@ -95,6 +95,11 @@ pub struct Figures {
     pub map_iou: Option<f64>,
     /// Mean distance of the walls of its map from true ones, metres.
     pub wall_error_m: Option<f64>,
+    /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or the robot does
+    /// not measure what its motors draw.
+    pub carpet_recall: Option<f64>,
+    /// Share of the carpet in its map that lies on a rug; `null` = it has none.
+    pub carpet_precision: Option<f64>,
     /// Area that the robot believes to have swept less the true one, over the reachable area.
     pub estimate_error: Option<f64>,
     /// The robot stood on its dock at the end.
@@ -339,6 +344,8 @@ impl Collector {
             lost_false_alarm_s: self.honesty.false_alarm_s(),
             map_iou: None,
             wall_error_m: None,
+            carpet_recall: None,
+            carpet_precision: None,
             estimate_error: None,
             docked: self.docked,
             state: self

@@ -21,9 +21,15 @@ pub(super) fn pictures(run: &KeptRun) -> String {
         let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
             format!(", walls {:.1} cm off", 100.0 * wall_m)
         });
+        let carpet = agreement("carpet_recall").map_or_else(String::new, |recall| {
+            let right = agreement("carpet_precision").map_or_else(String::new, |right| {
+                format!(", {:.0} % of what it takes for carpet is", 100.0 * right)
+            });
+            format!(", {:.0} % of the rugs it swept found{right}", 100.0 * recall)
+        });
         write!(
             both,
-            "<figure><figcaption>The robot's map at the end{iou}{wall}</figcaption>{drawn}</figure>"
+            "<figure><figcaption>The robot's map at the end{iou}{wall}{carpet}</figcaption>{drawn}</figure>"
         )
         // Writing into a string cannot fail.
         .ok();

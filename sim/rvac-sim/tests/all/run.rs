@@ -66,6 +66,8 @@ fn a_report_has_all_keys_and_repeats_itself() {
         "lost_unnoticed_aligned_s",
         "lost_false_alarm_s",
         "map_iou",
+        "carpet_recall",
+        "carpet_precision",
         "wall_error_m",
         "estimate_error",
         "time_spent",

@@ -9,8 +9,9 @@ use rvac_protocol::message::State;
 
 use super::{Core, recorder};
 use crate::clients::Clients;
-use crate::device::{Description, Device, Part};
+use crate::device::{Description, Device};
 use crate::mind::Mind;
+use crate::observe::currents_a;
 use crate::outputs::{Delivery, Recipients};
 use crate::swept_sigma::SweptSigma;
 use crate::{ClientId, ExpertAccess, Outputs, Record, to_api};
@@ -419,18 +420,6 @@ fn fill_from_state(table: &mut DeviceTable, state: &State, description: &Descrip
     table.cleaners = [0, 1, 2].map(|bit| state.cleaners & 1 << bit != 0);
     table.dust_box = state.dust_box;
     table.docked = state.docked;
-}
-
-/// Motor currents in amperes, of a robot that measures them.
-pub(super) fn currents_a(state: &State, description: &Description) -> Option<[f32; 3]> {
-    let currents = [
-        state.currents.wheel_left,
-        state.currents.wheel_right,
-        state.currents.brush_main,
-    ];
-    description
-        .has(Part::Currents)
-        .then(|| currents.map(|current| current.as_a() as f32))
 }
 
 fn followers(topic: Topic, update: Update, outputs: &mut Outputs) {

@@ -6,12 +6,12 @@ use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::Core;
 use super::awaited::{Awaited, Change};
-use super::feed::currents_a;
 use super::refusal::Refusal;
 use crate::Outputs;
 use crate::device::CleanerPower;
 use crate::health::{Component, Gauge, Health, Load, StoredHealth};
 use crate::journal::Part;
+use crate::observe::currents_a;
 use crate::outputs::{Delivery, HealthOrder, Recipients};
 use crate::scheduler::Asker;
 

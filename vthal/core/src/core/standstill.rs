@@ -4,10 +4,10 @@ use brain::action::Decision;
 use rvac_api::{Evidence, Standstill, Topic, Update, remedy};
 
 use super::Core;
-use super::feed::currents_a;
 use super::refusal::Refusal;
 use crate::diary::sentence;
 use crate::newest::Newest;
+use crate::observe::currents_a;
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Asker;
 use crate::{Outputs, to_api};

@@ -5,7 +5,7 @@ mod odometer;
 
 pub use odometer::{Odometer, RawTotals, Travel};
 
-use brain::observation::{BeaconSignal, Cliffs, Contacts, Observation};
+use brain::observation::{BeaconSignal, Cliffs, Contacts, MotorCurrents, Observation};
 use rvac_protocol::message::{Battery, Inhibit, Inhibits, State};
 
 use crate::device::{Description, Part};
@@ -108,6 +108,11 @@ impl Observer {
         };
         view.wheel_drop = state.wheel_drops.left || state.wheel_drops.right;
         view.docked = state.docked;
+        view.currents = currents_a(state, description).map(|[left, right, brush]| MotorCurrents {
+            wheel_left_a: left,
+            wheel_right_a: right,
+            brush_main_a: brush,
+        });
         refill(
             &mut view.proximity,
             &state.proximity,
@@ -158,6 +163,18 @@ pub struct LinkView {
     pub up: bool,
     /// Share of the commanded speed that quality allows, 0..1.
     pub speed_share: f64,
+}
+
+/// Currents of left wheel, right wheel and main brush in amperes, of a robot that measures them.
+pub(crate) fn currents_a(state: &State, description: &Description) -> Option<[f32; 3]> {
+    let currents = [
+        state.currents.wheel_left,
+        state.currents.wheel_right,
+        state.currents.brush_main,
+    ];
+    description
+        .has(Part::Currents)
+        .then(|| currents.map(|current| current.as_a() as f32))
 }
 
 /// A robot with one zone reports it on the left; the brain sees both.

@@ -14,7 +14,7 @@ pub use command::GivenCommand;
 pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
 pub use state::BrainState;
 
-use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts};
+use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
 use brain::{Body, BrainConfig, Observation, Speeds};
 use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
@@ -155,6 +155,9 @@ pub struct Seen {
     battery: Option<f32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     charge_flow: Option<FlowName>,
+    /// Left wheel, right wheel, main brush, amperes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    currents_a: Option<[f32; 3]>,
     inhibits: Vec<String>,
     link_up: bool,
     speed_share: f64,
@@ -181,6 +184,9 @@ impl From<&Observation> for Seen {
             docked: seen.docked,
             battery: seen.battery_charge,
             charge_flow: seen.charge_flow.map(FlowName::from),
+            currents_a: seen
+                .currents
+                .map(|all| [all.wheel_left_a, all.wheel_right_a, all.brush_main_a]),
             inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
@@ -213,6 +219,11 @@ impl Seen {
             docked: self.docked,
             battery_charge: self.battery,
             charge_flow: self.charge_flow.map(FlowName::to_brain),
+            currents: self.currents_a.map(|[left, right, brush]| MotorCurrents {
+                wheel_left_a: left,
+                wheel_right_a: right,
+                brush_main_a: brush,
+            }),
             inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
             link_up: self.link_up,
             speed_share: self.speed_share,
@@ -267,7 +278,7 @@ pub struct Given {
 #[cfg(test)]
 mod tests {
     use brain::mapping::CutLine;
-    use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow};
+    use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
     use brain::{
         CleaningOrder, Command, HomePart, KeptPlace, NoGo, Observation, Pattern, PlaceShape, Point2, Pose2,
         RoomName, RoomPower, RoomSettings, Zone,
@@ -286,6 +297,11 @@ mod tests {
             inhibits: vec!["wheel-drop", "unknown-inhibit"],
             battery_charge: Some(0.3),
             charge_flow: Some(ChargeFlow::Missing),
+            currents: Some(MotorCurrents {
+                wheel_left_a: 0.1,
+                wheel_right_a: -1.0 / 3.0,
+                brush_main_a: 0.55,
+            }),
             beacons: vec![
                 BeaconSignal::Range(BeaconRange {
                     beacon: 3,

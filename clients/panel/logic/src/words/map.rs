@@ -37,6 +37,7 @@ screen! {
         not_told_yet: "The robot has not told of that edit yet. Try again in a few seconds.",
             "Robot ei ole sellest muudatusest veel teatanud. Proovi mõne sekundi pärast uuesti.";
         unsure: "Not known", "Teadmata";
+        carpet: "Carpet", "Vaip";
         zone_of[1]: "zone of {0}", "ala {0}";
         spot: "spot", "koht";
         spots[1]: "{0} spots", "{0} kohta";

@@ -55,6 +55,7 @@ impl Drawing<'_> {
                 slip: rug.slip,
                 bias_rad_per_m: rug.bias_deg_per_m * core::f64::consts::PI / 180.0,
                 black: rug.black,
+                brush_load: Surface::brush_load_of_rug(rug.drag_n),
             };
             let kind = self.kind(check, "`rug`", surface)?;
             let corners = self.corners(&rug.polygon);
@@ -172,6 +173,8 @@ impl Drawing<'_> {
                 slip: THRESHOLD_SLIP,
                 bias_rad_per_m: 0.0,
                 black: false,
+                // A smooth strip has no pile.
+                brush_load: 0.0,
             };
             let kind = self.kind(check, "`threshold`", surface)?;
             let surfaces = &mut self.surfaces;
