@@ -76,6 +76,8 @@ enum Home {
     Unknown,
     /// The home it is in.
     Kept,
+    /// The same after a whole job, in which it has felt what lies there.
+    Cleaned,
 }
 
 /// A binary that cargo put beside that of the server.
@@ -106,6 +108,11 @@ impl Stack {
     /// In a home whose map was kept.
     pub(crate) fn start_at_home() -> Self {
         Self::new(Home::Kept, None, &packed_panel())
+    }
+
+    /// In a home whose map was kept after the robot had cleaned all of it.
+    pub(crate) fn start_in_a_cleaned_home() -> Self {
+        Self::new(Home::Cleaned, None, &packed_panel())
     }
 
     /// In a home that the robot does not know, with the robot's real firmware in an emulated chip.
@@ -266,8 +273,10 @@ impl Stack {
             home: description_of_home,
             address: String::new(),
         };
-        if home == Home::Kept {
-            stack.keep_map();
+        match home {
+            Home::Unknown => {}
+            Home::Kept => stack.keep_map("1"),
+            Home::Cleaned => stack.keep_map("20"),
         }
         stack.start_simulator(firmware);
         stack.start_vthal();
@@ -321,8 +330,8 @@ impl Stack {
         self.vthal = Some(Process::start(&mut command).0);
     }
 
-    /// The map that a host has of the simulated home after a minute in it, as if it had been kept.
-    fn keep_map(&self) {
+    /// The map that a host has of the simulated home after so many minutes in it, as if it had been kept.
+    fn keep_map(&self, minutes: &str) {
         let maps = self.folder.join("state/maps");
         std::fs::create_dir_all(&maps).unwrap();
         let mut command = Command::new(binary("rvac-sim"));
@@ -332,7 +341,7 @@ impl Stack {
         command.args([
             "--known-map",
             "--minutes",
-            "1",
+            minutes,
             "--strategy",
             "systematic",
             "--save-map",
