@@ -39,7 +39,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
         <div class="home" id="home-sheet">
             <OnlyLooks store verb=EDITS_HOME />
             <ul class="sentences">
-                {move || sentences().into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}
+                {move || sentences().into_iter().chain(store.carpet.get()).map(|text| view! { <li>{text}</li> }).collect_view()}
             </ul>
             <FloorList store />
             <RoomList store />

@@ -2,7 +2,9 @@
 
 use leptos::prelude::*;
 use mixer::Steered;
-use panel_logic::{DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, room_rows, top_speeds};
+use panel_logic::{
+    DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, carpet_sentence, room_rows, top_speeds,
+};
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, JobOrder, KeptMap,
     LearntPart, LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status,
@@ -71,6 +73,8 @@ pub(crate) struct Store {
     pub(crate) home: RwSignal<Option<String>>,
     /// Rooms that the robot knows.
     pub(crate) rooms: RwSignal<Vec<RoomRow>>,
+    /// What it has felt of the floor, in words.
+    pub(crate) carpet: RwSignal<Option<String>>,
     /// How sure it is.
     pub(crate) estimate: RwSignal<Option<Estimate>>,
     /// What it decided.
@@ -125,6 +129,7 @@ impl Store {
             truth: RwSignal::new(None),
             home: RwSignal::new(None),
             rooms: RwSignal::new(Vec::new()),
+            carpet: RwSignal::new(None),
             estimate: RwSignal::new(None),
             decisions: RwSignal::new(DecisionBook::default()),
             standstill: RwSignal::new(None),
@@ -425,6 +430,7 @@ impl Store {
         if self.rooms.with_untracked(|rooms| *rooms != rows) {
             self.rooms.set(rows);
         }
+        self.carpet.set(carpet_sentence(words(), home));
         self.orders.on_home(home);
         self.map.with_value(|map| map.on_home(home));
         self.take_put_off_steps();

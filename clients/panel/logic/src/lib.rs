@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod carpet;
 mod codes;
 mod connection;
 mod device_rows;
@@ -49,6 +50,7 @@ mod wall_blocks;
 mod words;
 
 pub use camera::{Bounds, Camera, ScreenBox, View};
+pub use carpet::carpet_sentence;
 pub use codes::{
     Explanation, decision_text, explain, failure_text, log_text, question_text, refusal_text, run_text,
     state_title,

@@ -43,6 +43,10 @@ screen! {
         floors_unreadable: "The file cannot be read: choose it again.", "Faili ei saa lugeda: vali see uuesti.";
         floors_file_size[1]: "This is no file with floors: such files have up to {0} MB and are not empty.",
             "See ei ole korruste fail: selline fail ei ole tühi ja selles on kuni {0} MB.";
+        carpet_felt[2]: "By what its motors draw {0} are carpet and {1} hard floor.",
+            "Mootorite voolu järgi on vaipa {0} ja kõva põrandat {1}.";
+        carpet_unknown: "Where carpet lies is not known: this robot does not measure what its motors draw.",
+            "Vaipade asukohta ei teata: see robot ei mõõda oma mootorite voolu.";
         rooms: "Rooms", "Toad";
         room[1]: "Room {0}", "Tuba {0}";
         no_rooms: "No room is known yet: the robot finds them while it cleans.",
