@@ -18,6 +18,13 @@ pub(super) struct Stage {
     pub(super) run: fn(bool) -> Result,
 }
 
+impl Stage {
+    /// Whether it runs in real time, or measures a time, so that nothing else may run beside it.
+    pub(super) fn wants_the_machine(&self) -> bool {
+        matches!(self.name, "headless" | "kill" | "writes" | "browser")
+    }
+}
+
 /// All stages.
 pub(super) const STAGES: [Stage; 17] = [
     Stage {

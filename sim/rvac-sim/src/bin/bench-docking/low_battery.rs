@@ -199,8 +199,13 @@ pub(crate) struct Summary {
     again_below_5_percent: usize,
     again_median: f64,
     again_without_break_median: f64,
-    /// Most that was cleaned again beyond that.
+    /// What was cleaned again beyond that: on the average, and at most.
+    again_more_mean: f64,
     again_more_most: f64,
+    /// The control: pairs of jobs without a break in the same home, one after the other, and those of which the second
+    /// cleaned 5 % or more again beyond the first. So often the comparison alone says that a break was dear.
+    control_pairs: usize,
+    control_above_5_percent: usize,
     swept_median: f64,
     swept_before_median: f64,
     least_charge: f64,
@@ -223,6 +228,7 @@ impl Summary {
             values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
         };
         let more = sorted(|job| job.again - job.again_without_break);
+        let control = control(&put_off);
         Self {
             runs: jobs.len(),
             put_off: put_off.len(),
@@ -232,7 +238,10 @@ impl Summary {
             again_below_5_percent: count(|job| job.again - job.again_without_break < AGAIN_MAX),
             again_median: median(|job| job.again),
             again_without_break_median: median(|job| job.again_without_break),
+            again_more_mean: more.iter().sum::<f64>() / more.len() as f64,
             again_more_most: more.last().copied().unwrap_or(f64::NAN),
+            control_pairs: control.len(),
+            control_above_5_percent: control.iter().filter(|more| **more >= AGAIN_MAX).count(),
             swept_median: median(|job| job.swept),
             swept_before_median: median(|job| job.swept_before),
             least_charge: sorted(|job| job.least_charge)
@@ -244,6 +253,17 @@ impl Summary {
     }
 }
 
+/// How much more a job without a break cleaned again than another one in the same home.
+fn control(jobs: &[&Job]) -> Vec<f64> {
+    let same_home = jobs.windows(2).filter_map(|pair| match pair {
+        [first, second] if first.home == second.home => Some((first, second)),
+        _ => None,
+    });
+    same_home
+        .map(|(first, second)| second.again_without_break - first.again_without_break)
+        .collect()
+}
+
 impl fmt::Display for Summary {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
@@ -253,11 +273,17 @@ impl fmt::Display for Summary {
         )?;
         writeln!(
             formatter,
-            "cleaned again: {:.3} (without a break {:.3}), below 5 % more in {}, at most {:.3} more",
+            "cleaned again: {:.3} (without a break {:.3}), below 5 % more in {}; {:+.3} more on the average, {:.3} at most",
             self.again_median,
             self.again_without_break_median,
             self.again_below_5_percent,
+            self.again_more_mean,
             self.again_more_most
+        )?;
+        writeln!(
+            formatter,
+            "control: of {} pairs of jobs without a break, {} differ by 5 % or more the same way",
+            self.control_pairs, self.control_above_5_percent
         )?;
         writeln!(
             formatter,
