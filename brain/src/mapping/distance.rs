@@ -103,8 +103,9 @@ impl DistanceField {
         let width = self.millimetres.width();
         let far = f64::from(FAR_MM);
         let value = |index: usize| values.get(index).map_or(far, |value| f64::from(*value));
+        let column = i64::from(low.x) - i64::from(self.millimetres.origin().x);
         if let Some(index) = self.millimetres.index(low)
-            && (index + 1) % width != 0
+            && column + 1 < width as i64
         {
             return [
                 value(index),

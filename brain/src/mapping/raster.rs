@@ -93,7 +93,9 @@ impl<T> Raster<T> {
     pub fn index(&self, cell: Cell) -> Option<usize> {
         let column = usize::try_from(i64::from(cell.x) - i64::from(self.origin.x)).ok()?;
         let row = usize::try_from(i64::from(cell.y) - i64::from(self.origin.y)).ok()?;
-        (column < self.width && row < self.height()).then_some(row * self.width + column)
+        // Not compared with the height: that is a division, which a Pi Zero has no instruction for.
+        let index = row.checked_mul(self.width)?.checked_add(column)?;
+        (column < self.width && index < self.values.len()).then_some(index)
     }
 
     /// The cell at a place of [`Self::values`].

@@ -6,6 +6,7 @@
 //! room with which it shares most cells. What people have changed of the rooms is done after that.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::distance::{squared_cells, window};
 use super::doors::{Door, doors};
@@ -46,7 +47,8 @@ pub struct Room {
 /// Rooms and doors of a home.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rooms {
-    found: Raster<u16>,
+    /// Shared with the search that goes on from it.
+    found: Arc<Raster<u16>>,
     /// After the changes of people, if there are any.
     changed: Option<Raster<u16>>,
     rooms: Vec<Room>,
@@ -57,7 +59,7 @@ pub struct Rooms {
 impl Default for Rooms {
     fn default() -> Self {
         Self {
-            found: Raster::filled(Cell::default(), 0, 0, 0),
+            found: Arc::new(Raster::filled(Cell::default(), 0, 0, 0)),
             changed: None,
             rooms: Vec::new(),
             doors: Vec::new(),
@@ -115,7 +117,7 @@ impl Rooms {
     pub(super) fn remembered(found: Raster<u16>, next: u16) -> Self {
         let highest = found.values().iter().copied().max().unwrap_or(0);
         Self {
-            found,
+            found: Arc::new(found),
             next: next.max(highest.saturating_add(1)),
             ..Self::default()
         }
@@ -140,11 +142,9 @@ impl Rooms {
         let space = space(knowledge, pace).await;
         let is_border = |cell| space.get(cell) != Some(&true);
         let squared = squared_cells(all, is_border, pace).await;
-        let mut pools = Pools::new(&squared);
-        pools.fill(&space, pace).await;
-        let labels = pools.labels(&space, pace).await;
+        let labels = labels_of_pools(&squared, &space, pace).await;
         let (names, next) = self.names(&labels, pace).await;
-        let found = renamed(&labels, &names, pace).await;
+        let found = renamed(labels, &names, pace).await;
         let changed = if changes.is_empty() {
             None
         } else {
@@ -154,7 +154,7 @@ impl Rooms {
         let rooms = measured(labels, &squared, pace).await;
         let doors = doors(labels, &squared, pace).await;
         Self {
-            found,
+            found: Arc::new(found),
             changed,
             rooms,
             doors,
@@ -251,22 +251,33 @@ fn touches_border(space: &Raster<bool>, island: &[Cell]) -> bool {
         .any(|cell| neighbours(*cell).iter().any(|next| space.get(*next).is_none()))
 }
 
-/// Pools of the rising water: a forest of cells, each tree one pool.
+/// A pool of the rising water. One that has become part of another one tells of which.
+#[derive(Clone, Copy, Debug)]
+struct Pool {
+    /// The pool that it is part of; its own number while it stands alone.
+    parent: u32,
+    cells: u32,
+    /// Greatest squared depth.
+    deepest: f32,
+}
+
+/// Pools of the rising water: a forest, each tree one pool.
 struct Pools<'relief> {
     squared: &'relief [f32],
-    parent: Vec<u32>,
-    /// Cells and greatest squared depth of the pool at its root.
-    cells: Vec<u32>,
-    deepest: Vec<f32>,
+    /// Number of the pool of each cell, [`DRY`] where there is no water yet.
+    pool_of: Vec<u32>,
+    pools: Vec<Pool>,
 }
+
+/// The pool of a cell that the water has not reached.
+const DRY: u32 = u32::MAX;
 
 impl<'relief> Pools<'relief> {
     fn new(squared: &'relief [f32]) -> Self {
         Self {
             squared,
-            parent: vec![u32::MAX; squared.len()],
-            cells: vec![0; squared.len()],
-            deepest: vec![0.0; squared.len()],
+            pool_of: vec![DRY; squared.len()],
+            pools: Vec::new(),
         }
     }
 
@@ -295,48 +306,73 @@ impl<'relief> Pools<'relief> {
         }
     }
 
-    /// The water reaches a cell: it joins the pools beside it, and perhaps them with each other.
+    /// The water reaches a cell: it falls to the pools beside it, which perhaps become one, or is a pool by itself.
     fn flood(&mut self, index: u32, space: &Raster<bool>) {
         let place = index as usize;
         let level = self.squared.get(place).copied().unwrap_or(0.0);
-        self.set(place, (index, 1, level));
+        let mut joined = None;
         for neighbour in neighbours(space.cell(place)) {
-            let Some(beside) = space.index(neighbour) else {
+            let Some(other) = space.index(neighbour).and_then(|beside| self.pool_at(beside)) else {
                 continue;
             };
-            if self.parent.get(beside).is_some_and(|parent| *parent != u32::MAX) {
-                let (one, other) = (self.root(index), self.root(beside as u32));
-                if one != other && self.become_one((one, other), level) {
-                    self.join(one, other);
-                }
-            }
+            joined = Some(match joined {
+                None => self.take_in(other, level),
+                Some(one) if one != other && self.become_one((one, other), level) => self.join(one, other),
+                Some(one) => one,
+            });
+        }
+        let pool = joined.unwrap_or_else(|| self.begin(level));
+        if let Some(slot) = self.pool_of.get_mut(place) {
+            *slot = pool;
         }
     }
 
-    fn set(&mut self, place: usize, (parent, cells, deepest): (u32, u32, f32)) {
-        if let Some(slot) = self.parent.get_mut(place) {
-            *slot = parent;
-        }
-        if let Some(slot) = self.cells.get_mut(place) {
-            *slot = cells;
-        }
-        if let Some(slot) = self.deepest.get_mut(place) {
-            *slot = deepest;
-        }
-    }
-
-    fn root(&mut self, index: u32) -> u32 {
-        let mut at = index;
-        while let Some(parent) = self.parent.get(at as usize).copied()
-            && parent != at
+    /// The pool, standing alone, that a cell belongs to.
+    fn pool_at(&mut self, place: usize) -> Option<u32> {
+        let pool = self.pool_of.get(place).copied().filter(|pool| *pool != DRY)?;
+        let root = self.root(pool);
+        if root != pool
+            && let Some(slot) = self.pool_of.get_mut(place)
         {
-            let above = self.parent.get(parent as usize).copied().unwrap_or(parent);
-            if let Some(slot) = self.parent.get_mut(at as usize) {
-                *slot = above;
-            }
-            at = above;
+            *slot = root;
         }
-        at
+        Some(root)
+    }
+
+    fn root(&mut self, pool: u32) -> u32 {
+        let parent = |pools: &[Pool], pool: u32| pools.get(pool as usize).map_or(pool, |pool| pool.parent);
+        let mut at = pool;
+        loop {
+            let above = parent(&self.pools, at);
+            if above == at {
+                return at;
+            }
+            let next = parent(&self.pools, above);
+            if let Some(pool) = self.pools.get_mut(at as usize) {
+                pool.parent = next;
+            }
+            at = next;
+        }
+    }
+
+    /// A new pool of one cell.
+    fn begin(&mut self, level: f32) -> u32 {
+        let number = self.pools.len() as u32;
+        self.pools.push(Pool {
+            parent: number,
+            cells: 1,
+            deepest: level,
+        });
+        number
+    }
+
+    /// A pool that stands alone takes in another cell.
+    fn take_in(&mut self, root: u32, level: f32) -> u32 {
+        if let Some(pool) = self.pools.get_mut(root as usize) {
+            pool.cells += 1;
+            pool.deepest = pool.deepest.max(level);
+        }
+        root
     }
 
     fn become_one(&self, (one, other): (u32, u32), level: f32) -> bool {
@@ -345,43 +381,48 @@ impl<'relief> Pools<'relief> {
             return true;
         }
         let is_room = |root: u32| {
-            let cells = self.cells.get(root as usize).copied().unwrap_or(0);
-            let deepest = self.deepest.get(root as usize).copied().unwrap_or(0.0);
-            let wide_enough = f64::from(deepest) >= WIDER * WIDER * f64::from(level);
-            f64::from(cells) * CELL_M * CELL_M >= CORE_M2 && wide_enough
+            let pool = self.pools.get(root as usize);
+            pool.is_some_and(|pool| {
+                let wide_enough = f64::from(pool.deepest) >= WIDER * WIDER * f64::from(level);
+                f64::from(pool.cells) * CELL_M * CELL_M >= CORE_M2 && wide_enough
+            })
         };
         !(is_room(one) && is_room(other))
     }
 
-    fn join(&mut self, one: u32, other: u32) {
-        let cells = |pools: &Self, root: u32| pools.cells.get(root as usize).copied().unwrap_or(0);
-        let deepest = |pools: &Self, root: u32| pools.deepest.get(root as usize).copied().unwrap_or(0.0);
-        let (large, small) = if cells(self, one) >= cells(self, other) {
+    /// Two pools that stand alone become one; gives its number.
+    fn join(&mut self, one: u32, other: u32) -> u32 {
+        let pool = |pools: &Self, root: u32| pools.pools.get(root as usize).copied();
+        let (Some(first), Some(second)) = (pool(self, one), pool(self, other)) else {
+            return one;
+        };
+        let (large, small) = if first.cells >= second.cells {
             (one, other)
         } else {
             (other, one)
         };
-        let whole = cells(self, one) + cells(self, other);
-        let depth = deepest(self, one).max(deepest(self, other));
-        self.set(large as usize, (large, whole, depth));
-        if let Some(slot) = self.parent.get_mut(small as usize) {
-            *slot = large;
+        if let Some(pool) = self.pools.get_mut(small as usize) {
+            pool.parent = large;
         }
+        if let Some(pool) = self.pools.get_mut(large as usize) {
+            pool.cells = first.cells + second.cells;
+            pool.deepest = first.deepest.max(second.deepest);
+        }
+        large
     }
 
     /// A label for each cell of a pool that is large enough for a room; 0 for the others.
     async fn labels(&mut self, space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
         let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
         let mut known: BTreeMap<u32, u16> = BTreeMap::new();
-        for index in 0..self.parent.len() {
+        for index in 0..self.pool_of.len() {
             if index % CELLS == 0 {
                 pace.spend(NAME_WORK * CELLS).await;
             }
-            if self.parent.get(index).is_none_or(|parent| *parent == u32::MAX) {
+            let Some(root) = self.pool_at(index) else {
                 continue;
-            }
-            let root = self.root(index as u32);
-            let cells = self.cells.get(root as usize).copied().unwrap_or(0);
+            };
+            let cells = self.pools.get(root as usize).map_or(0, |pool| pool.cells);
             if f64::from(cells) * CELL_M * CELL_M < ROOM_M2 {
                 continue;
             }
@@ -395,15 +436,21 @@ impl<'relief> Pools<'relief> {
     }
 }
 
-async fn renamed(labels: &Raster<u16>, names: &BTreeMap<u16, u16>, pace: &mut Pace) -> Raster<u16> {
-    let mut renamed = labels.clone();
-    for some in renamed.values_mut().chunks_mut(CELLS) {
+/// A label for each cell of a place that is large enough for a room; 0 for the others.
+async fn labels_of_pools(squared: &[f32], space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
+    let mut pools = Pools::new(squared);
+    pools.fill(space, pace).await;
+    pools.labels(space, pace).await
+}
+
+async fn renamed(mut labels: Raster<u16>, names: &BTreeMap<u16, u16>, pace: &mut Pace) -> Raster<u16> {
+    for some in labels.values_mut().chunks_mut(CELLS) {
         for label in some.iter_mut().filter(|label| **label > 0) {
             *label = names.get(label).copied().unwrap_or(0);
         }
         pace.spend(NAME_WORK * some.len()).await;
     }
-    renamed
+    labels
 }
 
 async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Room> {
