@@ -302,8 +302,10 @@ impl Household {
         let carpet = carpet_quality::judge(brain.map(), world, (plan_from_map, measures));
         let swept_m2 = brain.job().swept_m2 - world.truth().swept_m2;
         Figures {
-            map_iou: quality.map(|quality| quality.iou),
-            wall_error_m: quality.and_then(|quality| quality.wall_error_m),
+            map_iou: quality.map(|quality| quality.placed.iou),
+            map_iou_aligned: quality.map(|quality| quality.aligned.iou),
+            wall_error_m: quality.and_then(|quality| quality.placed.wall_error_m),
+            wall_error_aligned_m: quality.and_then(|quality| quality.aligned.wall_error_m),
             carpet_recall: carpet.recall,
             carpet_precision: carpet.precision,
             estimate_error: Some(swept_m2 / world.home().reachable_area_m2()),

@@ -18,6 +18,7 @@ mod host_wall;
 mod household;
 mod known_map;
 mod linux_board;
+mod map_alignment;
 mod map_quality;
 pub mod page;
 mod plan;

@@ -93,8 +93,12 @@ pub struct Figures {
     /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
     /// the reachable floor, and what it wrongly takes for free. `null` = it has no map.
     pub map_iou: Option<f64>,
+    /// The same when the map is laid over the home as a whole, as its walls fit best.
+    pub map_iou_aligned: Option<f64>,
     /// Mean distance of the walls of its map from true ones, metres.
     pub wall_error_m: Option<f64>,
+    /// The same when the map is laid over the home as a whole.
+    pub wall_error_aligned_m: Option<f64>,
     /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or the robot does
     /// not measure what its motors draw.
     pub carpet_recall: Option<f64>,
@@ -343,7 +347,9 @@ impl Collector {
             lost_unnoticed_aligned_s: left_over.unnoticed_s,
             lost_false_alarm_s: self.honesty.false_alarm_s(),
             map_iou: None,
+            map_iou_aligned: None,
             wall_error_m: None,
+            wall_error_aligned_m: None,
             carpet_recall: None,
             carpet_precision: None,
             estimate_error: None,

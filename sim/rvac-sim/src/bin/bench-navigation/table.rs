@@ -32,7 +32,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 33] = [
+const FIGURES: [Figure; 35] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -56,7 +56,9 @@ const FIGURES: [Figure; 33] = [
     }),
     less("lost_false_alarm_s", |run| Some(run.figures.lost_false_alarm_s)),
     more("map_iou", |run| run.figures.map_iou),
+    more("map_iou_aligned", |run| run.figures.map_iou_aligned),
     less("wall_error_m", |run| run.figures.wall_error_m),
+    less("wall_error_aligned_m", |run| run.figures.wall_error_aligned_m),
     more("carpet_recall", |run| run.figures.carpet_recall),
     more("carpet_precision", |run| run.figures.carpet_precision),
     less("estimate_error", |run| run.figures.estimate_error.map(f64::abs)),
