@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         }
         return stages::attacks_as_json();
     }
-    let outcomes = run_all(&chosen(&names)?, arguments.long)?;
+    let outcomes = run_all(&chosen(&names)?, arguments.long);
     let mut total = Count::default();
     process::print("");
     for outcome in &outcomes {
@@ -80,22 +80,29 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Stage>> {
 }
 
 /// Runs stage after stage. The panel that the browser needs is built beside the stages that measure no time.
-fn run_all(stages: &[&'static Stage], long: bool) -> anyhow::Result<Vec<Outcome>> {
+fn run_all(stages: &[&'static Stage], long: bool) -> Vec<Outcome> {
     let browser_follows = stages.iter().any(|stage| stage.name == "browser");
     let mut ahead = None;
     let mut outcomes = Vec::new();
     for stage in stages {
         if stage.name == "panel" && browser_follows {
-            ahead = Some(Ahead::begin()?);
+            ahead = told(Ahead::begin());
         }
         if stage.wants_the_machine()
             && let Some(panel) = ahead.take()
         {
-            panel.finish()?;
+            told(panel.finish());
         }
         outcomes.push(run_one(stage, long));
     }
-    Ok(outcomes)
+    outcomes
+}
+
+/// What went right. What did not is said, and the stage that needs it fails by itself.
+fn told<T>(result: anyhow::Result<T>) -> Option<T> {
+    result
+        .map_err(|error| process::complain(&format!("the panel is not built meanwhile: {error:#}")))
+        .ok()
 }
 
 fn run_one(stage: &'static Stage, long: bool) -> Outcome {
