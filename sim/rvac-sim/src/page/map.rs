@@ -16,25 +16,41 @@ pub(super) fn pictures(run: &KeptRun) -> String {
         truth(run)
     );
     if let Some(drawn) = drawn(run) {
-        let agreement = |key: &str| run.report[key].as_f64();
-        let iou = agreement("map_iou").map_or_else(String::new, |iou| format!(", IoU {iou:.3}"));
-        let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
-            format!(", walls {:.1} cm off", 100.0 * wall_m)
-        });
-        let carpet = agreement("carpet_recall").map_or_else(String::new, |recall| {
-            let right = agreement("carpet_precision").map_or_else(String::new, |right| {
-                format!(", {:.0} % of what it takes for carpet is", 100.0 * right)
-            });
-            format!(", {:.0} % of the rugs it swept found{right}", 100.0 * recall)
-        });
         write!(
             both,
-            "<figure><figcaption>The robot's map at the end{iou}{wall}{carpet}</figcaption>{drawn}</figure>"
+            "<figure><figcaption>The robot's map at the end{}</figcaption>{drawn}</figure>",
+            verdict(run)
         )
         // Writing into a string cannot fail.
         .ok();
     }
     both
+}
+
+/// How well the map agrees with the home, as placed and laid over it.
+fn verdict(run: &KeptRun) -> String {
+    let agreement = |key: &str| run.report[key].as_f64();
+    let aligned = |key: &str, text: &dyn Fn(f64) -> String| {
+        agreement(key).map_or_else(String::new, |value| {
+            format!(" ({} laid over the home)", text(value))
+        })
+    };
+    let share = |iou: f64| format!("{iou:.3}");
+    let iou = agreement("map_iou").map_or_else(String::new, |iou| {
+        format!(", IoU {}{}", share(iou), aligned("map_iou_aligned", &share))
+    });
+    let length = |wall_m: f64| format!("{:.1} cm", 100.0 * wall_m);
+    let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
+        let again = aligned("wall_error_aligned_m", &length);
+        format!(", walls {}{again} off", length(wall_m))
+    });
+    let carpet = agreement("carpet_recall").map_or_else(String::new, |recall| {
+        let right = agreement("carpet_precision").map_or_else(String::new, |right| {
+            format!(", {:.0} % of what it takes for carpet is", 100.0 * right)
+        });
+        format!(", {:.0} % of the rugs it swept found{right}", 100.0 * recall)
+    });
+    format!("{iou}{wall}{carpet}")
 }
 
 /// The home with the way, bumps and the dock.
