@@ -6,7 +6,7 @@
 use super::plan::CoveragePlan;
 use crate::geometry::{Point2, Pose2};
 use crate::gradual::Pace;
-use crate::mapping::{Cell, CellKnowledge, Raster, centre, wall_direction_rad};
+use crate::mapping::{Cell, CellKnowledge, Raster, wall_direction_rad};
 
 /// Walls that stand this little askew are planned for as if they did not, radians: the cells of the map are those of the plan then.
 const STRAIGHT_RAD: f64 = 0.012;
@@ -67,7 +67,7 @@ impl LaneFrame {
         if *self == Self::OF_MAP {
             return cell;
         }
-        Cell::under(self.point_in_map(centre(cell)))
+        Cell::under(self.point_in_map(cell.middle()))
     }
 
     /// A pose of the map in this frame.

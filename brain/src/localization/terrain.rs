@@ -121,18 +121,11 @@ impl Surroundings for Terrain {
                 if knowledge.get(cell) == Some(&CellKnowledge::Free)
                     && self.distance.cell_m(cell) >= PLACE_CLEAR_M
                 {
-                    places.push(centre(cell));
+                    places.push(cell.middle());
                 }
             }
         }
         places
-    }
-}
-
-fn centre(cell: Cell) -> Point2 {
-    Point2 {
-        x_m: (f64::from(cell.x) + 0.5) * CELL_M,
-        y_m: (f64::from(cell.y) + 0.5) * CELL_M,
     }
 }
 
@@ -146,7 +139,7 @@ fn edge_m(knowledge: &Raster<CellKnowledge>, at: Point2) -> Option<f64> {
         for x in here.x.saturating_sub(EDGE_CELLS)..=here.x.saturating_add(EDGE_CELLS) {
             let cell = Cell { x, y };
             if is_drop(cell) != over_drop {
-                let beyond_m = (centre(cell).distance_m(at) - 0.5 * CELL_M).max(0.0);
+                let beyond_m = (cell.middle().distance_m(at) - 0.5 * CELL_M).max(0.0);
                 nearest_m = Some(nearest_m.map_or(beyond_m, |least: f64| least.min(beyond_m)));
             }
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::reach::neighbours;
-use super::rooms::{CELLS, centre};
+use super::rooms::CELLS;
 use super::{CELL_M, Cell, Raster};
 use crate::geometry::Point2;
 use crate::gradual::Pace;
@@ -75,7 +75,7 @@ fn clusters(cells: Vec<(Cell, f32)>) -> Vec<Vec<(Cell, f32)>> {
 fn door(cells: &[(Cell, f32)]) -> Door {
     let count = cells.len().max(1) as f64;
     let sum = cells.iter().fold((0.0, 0.0), |sum, (cell, _)| {
-        let at = centre(*cell);
+        let at = cell.middle();
         (sum.0 + at.x_m, sum.1 + at.y_m)
     });
     let widest = cells.iter().map(|(_, depth)| *depth).fold(0.0, f32::max);

@@ -61,7 +61,6 @@ use crate::config::{Body, SensorLayout};
 use crate::geometry::{Point2, Pose2};
 use home::HomeMap;
 use redraw::Redrawing;
-pub(crate) use rooms::centre;
 use swept::{Swath, SweptLayer};
 pub(crate) use traces::SeenAt;
 use traces::{Marks, Path};

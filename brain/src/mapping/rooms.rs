@@ -436,7 +436,7 @@ impl<'relief> Pools<'relief> {
     }
 }
 
-/// A label for each cell of a place that is large enough for a room; 0 for the others.
+/// As [`Pools::labels`]. The pools are given back before anything else is looked for: they take most of the memory.
 async fn labels_of_pools(squared: &[f32], space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
     let mut pools = Pools::new(squared);
     pools.fill(space, pace).await;
@@ -474,15 +474,7 @@ async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec
         .map(|(id, (cells, index, _))| Room {
             id,
             area_m2: f64::from(cells) * CELL_M * CELL_M,
-            middle: centre(labels.cell(index)),
+            middle: labels.cell(index).middle(),
         })
         .collect()
-}
-
-/// The middle of a cell.
-pub(crate) fn centre(cell: Cell) -> Point2 {
-    Point2 {
-        x_m: (f64::from(cell.x) + 0.5) * CELL_M,
-        y_m: (f64::from(cell.y) + 0.5) * CELL_M,
-    }
 }

@@ -8,7 +8,6 @@ use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::reach::neighbours;
-use super::rooms::centre;
 use super::{CELL_M, CellKnowledge, Raster};
 use crate::geometry::Point2;
 use crate::gradual::Pace;
@@ -106,7 +105,7 @@ async fn surface(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Vec<Poin
             .into_iter()
             .any(|beside| knowledge.get(beside) == Some(&CellKnowledge::Free));
         if is_beside_floor {
-            surface.push(centre(cell));
+            surface.push(cell.middle());
         }
     }
     let thin = surface.len().div_ceil(CELLS_MAX).max(1);
@@ -168,14 +167,13 @@ mod tests {
     use super::{DirectionAt, folded_rad, wall_direction_rad};
     use crate::geometry::{Point2, Pose2};
     use crate::gradual::{Pace, at_once};
-    use crate::mapping::rooms::centre;
     use crate::mapping::{Cell, CellKnowledge, Raster};
 
     /// A map of what lies inside of a shape, with a border two cells thick.
     fn map(is_inside: impl Fn(Point2) -> bool) -> Raster<CellKnowledge> {
         let mut knowledge = Raster::filled(Cell { x: -160, y: -160 }, 320, 320, CellKnowledge::Unknown);
         for index in 0..knowledge.values().len() {
-            let at = centre(knowledge.cell(index));
+            let at = knowledge.cell(index).middle();
             let beside = [(0.05, 0.0), (-0.05, 0.0), (0.0, 0.05), (0.0, -0.05)].map(|(x_m, y_m)| Point2 {
                 x_m: at.x_m + x_m,
                 y_m: at.y_m + y_m,

@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use super::reach::neighbours;
-use super::rooms::centre;
 use super::{CELL_M, Cell, CellKnowledge, DistanceField, Raster};
 use crate::geometry::Point2;
 
@@ -93,7 +92,7 @@ fn surface(
         if !free.contains(&true) {
             continue;
         }
-        let at = centre(cell);
+        let at = cell.middle();
         if let Some(direction) = outward(distance, at) {
             surface.push(Surface {
                 at,

@@ -1,7 +1,7 @@
 //! How well the carpets in the robot's map agree with the rugs of the home.
 
 use brain::Point2;
-use brain::mapping::{CELL_M, Cell, FloorKind, Map};
+use brain::mapping::{Cell, FloorKind, Map};
 use home::{Pose, World};
 
 /// Agreement of the carpets that were felt with the truth.
@@ -43,10 +43,8 @@ fn precision(map: &Map, world: &World, plan_from_map: Pose) -> Option<f64> {
     let grid = world.home().grid();
     let (mut told, mut right) = (0_u32, 0_u32);
     for (cell, _) in map.floor_kinds().filter(|(_, kind)| *kind == FloorKind::Carpet) {
-        let (x_m, y_m) = plan_from_map.point(
-            (f64::from(cell.x) + 0.5) * CELL_M,
-            (f64::from(cell.y) + 0.5) * CELL_M,
-        );
+        let at = cell.middle();
+        let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
         told += 1;
         right += u32::from(grid.at(x_m, y_m) == home::Cell::Rug);
     }

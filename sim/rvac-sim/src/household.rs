@@ -296,8 +296,8 @@ impl Household {
         let Some(brain) = self.host.as_ref().and_then(Host::brain) else {
             return figures;
         };
-        let quality = judge(brain.map(), world.home(), self.map_from_plan.inverse());
         let plan_from_map = self.map_from_plan.inverse();
+        let quality = judge(brain.map(), world.home(), plan_from_map);
         let measures = self.host.as_ref().is_some_and(Host::measures_currents);
         let carpet = carpet_quality::judge(brain.map(), world, (plan_from_map, measures));
         let swept_m2 = brain.job().swept_m2 - world.truth().swept_m2;

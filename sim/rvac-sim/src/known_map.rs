@@ -24,10 +24,8 @@ pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) 
     let plan_from_map = map_from_plan.inverse();
     for index in 0..width * height {
         let cell = knowledge.cell(index);
-        let (x_m, y_m) = plan_from_map.point(
-            (f64::from(cell.x) + 0.5) * CELL_M,
-            (f64::from(cell.y) + 0.5) * CELL_M,
-        );
+        let at = cell.middle();
+        let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
         if let (Some(value), Some(place)) = (knowledge.values_mut().get_mut(index), grid.index(x_m, y_m)) {
             *value = match grid.cells.get(place) {
                 Some(PlanCell::Floor | PlanCell::Rug) => CellKnowledge::Free,

@@ -3,10 +3,11 @@
 //! A robot cannot know how the plan's axes run: its frame begins where it stood and as it stood, as well as it knew. So the map is
 //! judged twice, in that frame and *aligned*: laid over the plan as a whole, as its walls fit best.
 
-use brain::mapping::{CELL_M, Cell, CellKnowledge, Map};
+use brain::Point2;
+use brain::mapping::{CELL_M, CellKnowledge, Map};
 use home::{Home, Pose};
 
-use crate::map_alignment::aligned;
+use crate::map_alignment::{aligned, wall_error_m};
 
 /// Agreement of a map with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +38,7 @@ pub(crate) fn judge(map: &Map, home: &Home, plan_from_map: Pose) -> Option<MapQu
     })
 }
 
-fn agreement((map, walls): (&Map, &[(f64, f64)]), home: &Home, plan_from_map: Pose) -> Option<Agreement> {
+fn agreement((map, walls): (&Map, &[Point2]), home: &Home, plan_from_map: Pose) -> Option<Agreement> {
     let knowledge = map.knowledge();
     let grid = home.grid();
     let (mut known_free, mut right_free, mut known_reachable) = (0_u32, 0_u32, 0_u32);
@@ -47,8 +48,8 @@ fn agreement((map, walls): (&Map, &[(f64, f64)]), home: &Home, plan_from_map: Po
         .enumerate()
         .filter(|(_, kind)| **kind == CellKnowledge::Free)
     {
-        let (x_m, y_m) = middle(knowledge.cell(number));
-        let (x_m, y_m) = plan_from_map.point(x_m, y_m);
+        let at = knowledge.cell(number).middle();
+        let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
         known_free += 1;
         right_free += u32::from(grid.at(x_m, y_m).is_floor());
         let reachable = grid.index(x_m, y_m).and_then(|place| home.reachable().get(place));
@@ -62,30 +63,14 @@ fn agreement((map, walls): (&Map, &[(f64, f64)]), home: &Home, plan_from_map: Po
     })
 }
 
-/// Mean distance of places of the map from what is solid in the plan; `None` without any.
-pub(crate) fn wall_error_m(walls: &[(f64, f64)], home: &Home, plan_from_map: Pose) -> Option<f64> {
-    let off_m = |(x_m, y_m): &(f64, f64)| {
-        let (x_m, y_m) = plan_from_map.point(*x_m, *y_m);
-        home.clearance_m(x_m, y_m).abs()
-    };
-    (!walls.is_empty()).then(|| walls.iter().map(off_m).sum::<f64>() / walls.len() as f64)
-}
-
 /// Where in the map free floor ends at something solid.
-fn walls(map: &Map) -> Vec<(f64, f64)> {
+fn walls(map: &Map) -> Vec<Point2> {
     let knowledge = map.knowledge();
     let cells = knowledge.values().iter().enumerate();
     cells
         .filter(|(number, kind)| **kind == CellKnowledge::Occupied && borders_free(knowledge, *number))
-        .map(|(number, _)| middle(knowledge.cell(number)))
+        .map(|(number, _)| knowledge.cell(number).middle())
         .collect()
-}
-
-fn middle(cell: Cell) -> (f64, f64) {
-    (
-        (f64::from(cell.x) + 0.5) * CELL_M,
-        (f64::from(cell.y) + 0.5) * CELL_M,
-    )
 }
 
 fn borders_free(knowledge: &brain::Raster<CellKnowledge>, number: usize) -> bool {
@@ -105,16 +90,17 @@ fn borders_free(knowledge: &brain::Raster<CellKnowledge>, number: usize) -> bool
 mod tests {
     use std::path::Path;
 
+    use anyhow::Context;
     use brain::{Body, SensorLayout};
     use home::RobotModel;
 
     use super::*;
     use crate::known_map::known_map;
 
-    fn flat() -> Home {
-        let model = RobotModel::by_name("sr8730").unwrap();
+    fn flat() -> anyhow::Result<Home> {
+        let model = RobotModel::by_name("sr8730")?;
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../homes/two-room-flat.toml");
-        Home::load(&path, &model).unwrap()
+        Ok(Home::load(&path, &model)?)
     }
 
     /// The flat as it is, drawn in this frame.
@@ -130,40 +116,43 @@ mod tests {
     }
 
     #[test]
-    fn a_right_map_in_a_frame_that_is_off_is_wrong_where_it_is_placed_and_right_aligned() {
-        let home = flat();
+    fn a_right_map_in_a_frame_that_is_off_is_wrong_where_it_is_placed_and_right_aligned() -> anyhow::Result<()>
+    {
+        let home = flat()?;
         let map = drawn(&home, Pose::new(0.0, 0.0, 0.0));
         for off in [
             Pose::new(0.25, -0.15, 0.02),
             Pose::new(-0.1, 0.3, -0.03),
             Pose::new(0.0, 0.0, 0.0),
         ] {
-            let MapQuality { placed, aligned } = judge(&map, &home, off).unwrap();
+            let MapQuality { placed, aligned } = judge(&map, &home, off).context("a map of the flat")?;
+            let off_m = |one: Agreement| one.wall_error_m.context("walls of the flat");
             assert!(aligned.iou > 0.985, "{aligned:?} at {off:?}");
             // The middles of the cells that border free floor lie about half a cell within what is solid.
-            assert!(aligned.wall_error_m.unwrap() < 0.013, "{aligned:?} at {off:?}");
+            assert!(off_m(aligned)? < 0.013, "{aligned:?} at {off:?}");
             assert!(placed.iou <= aligned.iou + 0.002, "{placed:?}, {aligned:?}");
             if off.x_m != 0.0 {
-                assert!(
-                    placed.iou < 0.95 && placed.wall_error_m.unwrap() > 0.05,
-                    "{placed:?}"
-                );
+                assert!(placed.iou < 0.95 && off_m(placed)? > 0.05, "{placed:?}");
             }
         }
+        Ok(())
     }
 
     #[test]
-    fn what_is_bent_stays_wrong_when_it_is_laid_over_the_plan() {
-        let home = flat();
+    fn what_is_bent_stays_wrong_when_it_is_laid_over_the_plan() -> anyhow::Result<()> {
+        let home = flat()?;
         let straight = Pose::new(0.0, 0.0, 0.0);
-        let walls: Vec<(f64, f64)> = walls(&drawn(&home, straight));
-        let bent: Vec<(f64, f64)> = walls
-            .iter()
-            .map(|(x_m, y_m)| (*x_m, y_m + 0.02 * x_m * x_m))
+        let bent: Vec<Point2> = walls(&drawn(&home, straight))
+            .into_iter()
+            .map(|place| Point2 {
+                y_m: place.y_m + 0.02 * place.x_m * place.x_m,
+                ..place
+            })
             .collect();
-        let before_m = wall_error_m(&bent, &home, straight).unwrap();
-        let after_m = wall_error_m(&bent, &home, aligned(&bent, &home, straight)).unwrap();
+        let off_m = |pose| wall_error_m(&bent, &home, pose).context("walls of the flat");
+        let (before_m, after_m) = (off_m(straight)?, off_m(aligned(&bent, &home, straight))?);
         assert!(after_m < before_m, "{after_m} m, {before_m} m");
         assert!(after_m > 0.02, "{after_m} m");
+        Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::geometry::Point2;
 use crate::gradual::Pace;
-use crate::mapping::{CELL_M, Cell, Raster};
+use crate::mapping::{Cell, Raster};
 
 /// A robot can set out to free cells this far from where it stands.
 const SET_OUT_M: f64 = 0.4;
@@ -165,11 +165,7 @@ impl Ground {
 
     /// Middle of the cell at an index.
     pub(super) fn point(&self, index: usize) -> Point2 {
-        let cell = self.cell(index);
-        Point2 {
-            x_m: (f64::from(cell.x) + 0.5) * CELL_M,
-            y_m: (f64::from(cell.y) + 0.5) * CELL_M,
-        }
+        self.cell(index).middle()
     }
 
     /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its

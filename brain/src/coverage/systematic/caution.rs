@@ -108,10 +108,7 @@ fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
                 y: middle.y.saturating_add(rise),
             };
             if knowledge.get(cell) == Some(&CellKnowledge::Occupied) {
-                let at = body_from_map.transform(Point2 {
-                    x_m: (f64::from(cell.x) + 0.5) * CELL_M,
-                    y_m: (f64::from(cell.y) + 0.5) * CELL_M,
-                });
+                let at = body_from_map.transform(cell.middle());
                 sides.note(
                     at,
                     at.distance_m(Point2::ORIGIN) - radius_m - 0.5 * CELL_M,

@@ -3,7 +3,7 @@
 use crate::coverage::lane_frame::LaneFrame;
 use crate::geometry::Point2;
 use crate::gradual::Pace;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster, centre};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 
 /// Work of looking at a cell, and of a row of a disc.
 const LOOK_WORK: usize = 3;
@@ -29,7 +29,7 @@ pub(crate) async fn reachable(
             if inner.is_edge(index) {
                 blank(
                     &mut reachable,
-                    (frame.point(centre(knowledge.cell(index))), radius),
+                    (frame.point(knowledge.cell(index).middle()), radius),
                 );
                 pace.spend(FILL_WORK * 2 * radius as usize).await;
             }
@@ -38,7 +38,7 @@ pub(crate) async fn reachable(
     }
     for point in blocked {
         let cell = Cell::under(frame.point(*point));
-        blank(&mut reachable, (centre(cell), radius_m / CELL_M));
+        blank(&mut reachable, (cell.middle(), radius_m / CELL_M));
     }
     reachable
 }
@@ -109,10 +109,13 @@ impl Inner {
             let first = cells.iter().position(|cell| *cell);
             let last = cells.iter().rposition(|cell| *cell);
             for column in [first, last].into_iter().flatten() {
-                let at = frame.point(centre(Cell {
-                    x: self.origin.x.saturating_add(column as i32),
-                    y: self.origin.y.saturating_add(row as i32),
-                }));
+                let at = frame.point(
+                    Cell {
+                        x: self.origin.x.saturating_add(column as i32),
+                        y: self.origin.y.saturating_add(row as i32),
+                    }
+                    .middle(),
+                );
                 low = (low.0.min(at.x_m), low.1.min(at.y_m));
                 high = (high.0.max(at.x_m), high.1.max(at.y_m));
             }
@@ -218,7 +221,7 @@ mod tests {
     use crate::coverage::lane_frame::LaneFrame;
     use crate::geometry::Point2;
     use crate::gradual::{Pace, at_once};
-    use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster, centre};
+    use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 
     fn reachable(knowledge: &Raster<CellKnowledge>, radius_m: f64, blocked: &[Point2]) -> Raster<bool> {
         at_once(super::reachable(
@@ -263,7 +266,7 @@ mod tests {
         ));
         let mut count = 0;
         for index in (0..free.values().len()).filter(|index| free.values()[*index]) {
-            let at = frame.point_in_map(centre(free.cell(index)));
+            let at = frame.point_in_map(free.cell(index).middle());
             let wall_m = at.x_m.min(at.y_m).min(3.0 - at.x_m).min(2.0 - at.y_m);
             // Between the middles of two cells a wall seen askew is thinner by a fraction of a millimetre.
             assert!(wall_m > 0.174, "{at:?}");

@@ -178,13 +178,9 @@ fn ground(home: &Home, radius_m: f64) -> Raster<bool> {
     let cells = |count: usize| (count as f64 * grid.cell_m / CELL_M) as usize;
     let mut ground = Raster::filled(Cell { x: 0, y: 0 }, cells(grid.width), cells(grid.height), false);
     for index in 0..ground.values().len() {
-        let cell = ground.cell(index);
-        let (x_m, y_m) = (
-            (f64::from(cell.x) + 0.5) * CELL_M,
-            (f64::from(cell.y) + 0.5) * CELL_M,
-        );
+        let at = ground.cell(index).middle();
         if let Some(free) = ground.values_mut().get_mut(index) {
-            *free = home.clearance_m(x_m, y_m) >= radius_m;
+            *free = home.clearance_m(at.x_m, at.y_m) >= radius_m;
         }
     }
     ground

@@ -30,20 +30,18 @@ pub(super) fn pictures(run: &KeptRun) -> String {
 /// How well the map agrees with the home, as placed and laid over it.
 fn verdict(run: &KeptRun) -> String {
     let agreement = |key: &str| run.report[key].as_f64();
-    let aligned = |key: &str, text: &dyn Fn(f64) -> String| {
-        agreement(key).map_or_else(String::new, |value| {
+    let both = |placed: &str, aligned: &str, text: fn(f64) -> String| {
+        let aligned = agreement(aligned).map_or_else(String::new, |value| {
             format!(" ({} laid over the home)", text(value))
-        })
+        });
+        agreement(placed).map(|value| format!("{}{aligned}", text(value)))
     };
-    let share = |iou: f64| format!("{iou:.3}");
-    let iou = agreement("map_iou").map_or_else(String::new, |iou| {
-        format!(", IoU {}{}", share(iou), aligned("map_iou_aligned", &share))
+    let iou = both("map_iou", "map_iou_aligned", |iou| format!("{iou:.3}"));
+    let iou = iou.map_or_else(String::new, |iou| format!(", IoU {iou}"));
+    let wall = both("wall_error_m", "wall_error_aligned_m", |wall_m| {
+        format!("{:.1} cm", 100.0 * wall_m)
     });
-    let length = |wall_m: f64| format!("{:.1} cm", 100.0 * wall_m);
-    let wall = agreement("wall_error_m").map_or_else(String::new, |wall_m| {
-        let again = aligned("wall_error_aligned_m", &length);
-        format!(", walls {}{again} off", length(wall_m))
-    });
+    let wall = wall.map_or_else(String::new, |wall| format!(", walls {wall} off"));
     let carpet = agreement("carpet_recall").map_or_else(String::new, |recall| {
         let right = agreement("carpet_precision").map_or_else(String::new, |right| {
             format!(", {:.0} % of what it takes for carpet is", 100.0 * right)
