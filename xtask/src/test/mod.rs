@@ -4,6 +4,7 @@ mod count;
 mod robot;
 mod runner;
 mod stages;
+mod verdicts;
 
 use crate::panel::Ahead;
 use crate::process;
@@ -35,7 +36,7 @@ pub(crate) struct Arguments {
 struct Outcome {
     stage: &'static Stage,
     count: Count,
-    error: Option<anyhow::Error>,
+    errors: Vec<anyhow::Error>,
     took: Duration,
 }
 
@@ -62,6 +63,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         process::print(&row(outcome));
     }
     process::print(&total.to_string());
+    // Said once more: in the middle of a long run nobody sees it.
+    outcomes
+        .iter()
+        .for_each(|outcome| complain_of(outcome.stage, &outcome.errors));
     if total.failed > 0 {
         bail!("{} failed", total.failed);
     }
@@ -88,7 +93,7 @@ fn run_all(stages: &[&'static Stage], long: bool) -> Vec<Outcome> {
         if stage.name == "panel" && browser_follows {
             ahead = told(Ahead::begin());
         }
-        if stage.wants_the_machine()
+        if stage.wants_the_machine
             && let Some(panel) = ahead.take()
         {
             told(panel.finish());
@@ -108,23 +113,27 @@ fn told<T>(result: anyhow::Result<T>) -> Option<T> {
 fn run_one(stage: &'static Stage, long: bool) -> Outcome {
     process::say(&format!("stage {}: {}", stage.name, stage.does));
     let begun = Instant::now();
-    let (count, error) = match (stage.run)(long) {
-        Ok(count) => (count, None),
-        Err(runner::Failed { count, error }) => (count.with_a_failure(), Some(error)),
+    let (count, errors) = match (stage.run)(long) {
+        Ok(count) => (count, Vec::new()),
+        Err(runner::Failed { count, errors }) => (count.with_a_failure(), errors),
     };
-    if let Some(error) = &error {
-        process::complain(&format!("stage {}: {error:#}", stage.name));
-    }
+    complain_of(stage, &errors);
     Outcome {
         stage,
         count,
-        error,
+        errors,
         took: begun.elapsed(),
     }
 }
 
+fn complain_of(stage: &Stage, errors: &[anyhow::Error]) {
+    for error in errors {
+        process::complain(&format!("stage {}: {error:#}", stage.name));
+    }
+}
+
 fn row(outcome: &Outcome) -> String {
-    let verdict = if outcome.error.is_some() { "FAILED" } else { "ok" };
+    let verdict = if outcome.errors.is_empty() { "ok" } else { "FAILED" };
     format!(
         "{:10} {verdict:6} {:7.1} s  {}",
         outcome.stage.name,

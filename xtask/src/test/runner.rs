@@ -1,6 +1,7 @@
 //! Running the commands of a stage: what they print goes on to the terminal and is counted on the way.
 
 use super::count::Count;
+use super::verdicts::Verdicts;
 use crate::process;
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
@@ -10,15 +11,15 @@ use std::process::{Command, Stdio};
 pub(super) struct Failed {
     /// Tests until then.
     pub(super) count: Count,
-    /// Why.
-    pub(super) error: anyhow::Error,
+    /// Why, one for each command that failed.
+    pub(super) errors: Vec<anyhow::Error>,
 }
 
 impl From<anyhow::Error> for Failed {
     fn from(error: anyhow::Error) -> Self {
         Self {
             count: Count::default(),
-            error,
+            errors: vec![error],
         }
     }
 }
@@ -37,22 +38,23 @@ pub(super) fn checks(commands: &mut [Command]) -> Result {
     all(commands.iter_mut().map(check))
 }
 
-/// Joins results: the first error is kept, all counts are added.
+/// Joins results: all errors are kept, all counts are added.
 pub(super) fn all(results: impl Iterator<Item = Result>) -> Result {
     let mut count = Count::default();
-    let mut first = None;
+    let mut errors = Vec::new();
     for result in results {
         match result {
             Ok(more) => count.add(more),
             Err(failed) => {
                 count.add(failed.count.with_a_failure());
-                first = first.or(Some(failed.error));
+                errors.extend(failed.errors);
             }
         }
     }
-    match first {
-        Some(error) => Err(Failed { count, error }),
-        None => Ok(count),
+    if errors.is_empty() {
+        Ok(count)
+    } else {
+        Err(Failed { count, errors })
     }
 }
 
@@ -67,39 +69,40 @@ pub(super) fn tests(command: &mut Command) -> Result {
     let mut child = command
         .spawn()
         .map_err(|error| anyhow::anyhow!("cannot start {name}: {error}"))?;
-    let errors = child
+    let beside = child
         .stderr
         .take()
         .map(|stream| std::thread::spawn(move || pass_on(stream)));
-    let mut count = child.stdout.take().map(pass_on).unwrap_or_default();
-    if let Some(Ok(more)) = errors.map(std::thread::JoinHandle::join) {
-        count.add(more);
+    let mut verdicts = child.stdout.take().map(pass_on).unwrap_or_default();
+    if let Some(Ok(more)) = beside.map(std::thread::JoinHandle::join) {
+        verdicts.add(more);
     }
     let status = child.wait().map_err(|error| anyhow::anyhow!("{name}: {error}"))?;
-    if !status.success() {
-        return Err(Failed {
+    let count = verdicts.count;
+    let failed = |error| {
+        Err(Failed {
             count,
-            error: anyhow::anyhow!("{name} ended with {status}"),
-        });
+            errors: vec![error],
+        })
+    };
+    if !status.success() {
+        return failed(anyhow::anyhow!("{name} ended with {status}{verdicts}"));
     }
     if count.passed == 0 {
-        return Err(Failed {
-            count,
-            error: anyhow::anyhow!("{name} ran no test"),
-        });
+        return failed(anyhow::anyhow!("{name} ran no test"));
     }
     Ok(count)
 }
 
-fn pass_on(stream: impl Read) -> Count {
-    let mut count = Count::default();
+fn pass_on(stream: impl Read) -> Verdicts {
+    let mut verdicts = Verdicts::default();
     for line in BufReader::new(stream)
         .split(b'\n')
         .map_while(std::result::Result::ok)
     {
         let line = String::from_utf8_lossy(&line).into_owned();
-        count.read(&line);
+        verdicts.read(&line);
         eprintln!("{line}");
     }
-    count
+    verdicts
 }

@@ -14,15 +14,10 @@ pub(super) struct Stage {
     pub(super) name: &'static str,
     /// One line for people.
     pub(super) does: &'static str,
+    /// Whether it runs in real time, or measures a time, so that nothing else may run beside it.
+    pub(super) wants_the_machine: bool,
     /// Runs it; the argument asks for the long form.
     pub(super) run: fn(bool) -> Result,
-}
-
-impl Stage {
-    /// Whether it runs in real time, or measures a time, so that nothing else may run beside it.
-    pub(super) fn wants_the_machine(&self) -> bool {
-        matches!(self.name, "headless" | "kill" | "writes" | "browser")
-    }
 }
 
 /// All stages.
@@ -30,86 +25,103 @@ pub(super) const STAGES: [Stage; 17] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
+        wants_the_machine: false,
         run: fmt,
     },
     Stage {
         name: "tidy",
         does: "the rules of the repository hold",
+        wants_the_machine: false,
         run: |_| one(tidy::run()),
     },
     Stage {
         name: "codegen",
         does: "generated files are fresh",
+        wants_the_machine: false,
         run: codegen_check,
     },
     Stage {
         name: "clippy",
         does: "the linter finds nothing",
+        wants_the_machine: false,
         run: clippy,
     },
     Stage {
         name: "firmware",
         does: "the robot's firmware keeps to its budgets; its parts pass their tests",
+        wants_the_machine: false,
         run: robot::of_firmware,
     },
     Stage {
         name: "emulator",
         does: "the emulated chip runs programs as other implementations do",
+        wants_the_machine: false,
         run: robot::of_emulator,
     },
     Stage {
         name: "tests",
         does: "unit and integration tests, C and Raku included",
+        wants_the_machine: false,
         run: workspace_tests,
     },
     Stage {
         name: "attacks",
         does: "each line of the attack table, against a real server on real sockets",
+        wants_the_machine: false,
         run: attacks,
     },
     Stage {
         name: "doctests",
         does: "examples in the documentation compile and run",
+        wants_the_machine: false,
         run: doctests,
     },
     Stage {
         name: "panel",
         does: "tests of the panel's logic",
+        wants_the_machine: false,
         run: panel_tests,
     },
     Stage {
         name: "fuzz",
         does: "the fuzz targets can be built",
+        wants_the_machine: false,
         run: fuzz,
     },
     Stage {
         name: "link",
         does: "corrupted packets cause no wrong actuation",
+        wants_the_machine: false,
         run: link,
     },
     Stage {
         name: "faults",
         does: "simulations with random faults violate nothing",
+        wants_the_machine: false,
         run: faults,
     },
     Stage {
         name: "headless",
         does: "the demo cleans without a browser, with either robot",
+        wants_the_machine: true,
         run: headless,
     },
     Stage {
         name: "kill",
         does: "a robot stands soon after its daemon was killed",
+        wants_the_machine: true,
         run: kill,
     },
     Stage {
         name: "writes",
         does: "nothing acknowledged is lost when what keeps it is killed while it writes",
+        wants_the_machine: true,
         run: writes,
     },
     Stage {
         name: "browser",
         does: "the demo works in a browser",
+        wants_the_machine: true,
         run: browser,
     },
 ];

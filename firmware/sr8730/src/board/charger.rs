@@ -13,7 +13,7 @@ use pic32mx3_hal::timer::{SlowPrescaler, Timer};
 use pic32mx3_hal::{cpu, interrupt};
 use rvac_units::Temperature;
 
-use super::{contacts, converter, off, tick};
+use super::{contacts, converter, interlock, off, tick};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins;
@@ -51,7 +51,7 @@ fn on_period(context: &mut Context<vector::TIMER_3>) {
     Source::Timer3.clear();
     PERIODS.store(PERIODS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
     let pulses = match PULSES.get() {
-        Ok(pulses) if pulses != 0 && !off::any_motor_driven() && !off::clock_has_failed() => pulses,
+        Ok(pulses) if pulses != 0 && !interlock::any_motor_driven() && !off::clock_has_failed() => pulses,
         Ok(_) => return shut(),
         Err(_) => {
             DAMAGED.store(true, Ordering::Relaxed);

@@ -7,7 +7,7 @@ use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
 use super::link::by_edges::brush_pulses;
-use super::off::Motor;
+use super::interlock::Motor;
 use super::wheels::Bridge;
 use crate::logic::renewal::Renewal;
 

@@ -22,6 +22,7 @@ pub mod cleaners;
 pub mod contacts;
 pub mod converter;
 pub mod encoders;
+pub mod interlock;
 pub mod link;
 pub mod off;
 pub mod panel;

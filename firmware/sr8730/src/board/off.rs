@@ -3,7 +3,7 @@
 //! Output compares fall back to their pins' latches, which are low. PHASE and MODE stay: with ENABLE low and MODE
 //! high the wheels brake.
 
-use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use core::sync::atomic::{AtomicBool, Ordering};
 
 use pic32mx3_hal::gpio::Port;
 use pic32mx3_hal::pwm;
@@ -22,10 +22,6 @@ const SWITCHES: [Signal; 4] = [
 
 /// The clock monitor has found the crystal dead; nothing is switched on any more until the next reset.
 static CLOCK_FAILED: AtomicBool = AtomicBool::new(false);
-
-/// Motors that may draw current: bit 0 left wheel, 1 right wheel, 2 main brush, 3 side brushes, 4 suction. The charger's gate
-/// stays shut while any of them does.
-static DRIVEN: AtomicU32 = AtomicU32::new(0);
 
 /// Switches off all motors, the charger, the sound and the infrared emitter. Takes a microsecond.
 pub fn everything() {
@@ -77,44 +73,9 @@ pub fn clock_has_failed() -> bool {
     CLOCK_FAILED.load(Ordering::Relaxed)
 }
 
-/// A motor, for the interlock with the charger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motor {
-    /// Left wheel.
-    WheelLeft = 1,
-    /// Right wheel.
-    WheelRight = 2,
-    /// Main brush.
-    BrushMain = 4,
-    /// Side brushes.
-    BrushSides = 8,
-    /// Suction.
-    Vacuum = 16,
-}
-
-impl Motor {
-    /// Notes whether it may draw current. Called from the main program only.
-    pub(super) fn note(self, driven: bool) {
-        let motors = DRIVEN.load(Ordering::Relaxed);
-        let changed = if driven {
-            motors | self as u32
-        } else {
-            motors & !(self as u32)
-        };
-        DRIVEN.store(changed, Ordering::Relaxed);
-    }
-}
-
-/// Whether any motor may draw current.
-#[inline(always)]
-#[must_use]
-pub(super) fn any_motor_driven() -> bool {
-    DRIVEN.load(Ordering::Relaxed) != 0
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Motor, any_motor_driven, mask, port};
+    use super::{mask, port};
     use crate::generated::pins;
     use pic32mx3_hal::gpio::Port;
 
@@ -125,15 +86,5 @@ mod tests {
             (port(pins::BRUSH_SIDES), mask(pins::BRUSH_SIDES)),
             (Port::A, 1 << 4)
         );
-    }
-
-    #[test]
-    fn the_interlock_forgets_a_motor_only_when_that_one_stops() {
-        Motor::WheelLeft.note(true);
-        Motor::Vacuum.note(true);
-        Motor::WheelLeft.note(false);
-        assert!(any_motor_driven());
-        Motor::Vacuum.note(false);
-        assert!(!any_motor_driven());
     }
 }

@@ -8,7 +8,7 @@ use pic32mx3_hal::gpio::{Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::off::Motor;
+use super::interlock::Motor;
 use crate::logic::bridge::{BridgeLines, BridgeSequence, Turn};
 use crate::logic::renewal::Renewal;
 
@@ -136,7 +136,7 @@ impl WheelMotors for Wheels {
 #[cfg(test)]
 mod tests {
     use super::Bridge;
-    use crate::board::off::Motor;
+    use crate::board::interlock::Motor;
     use core::cell::RefCell;
     use core::convert::Infallible;
     use embedded_hal::digital::{self, OutputPin};

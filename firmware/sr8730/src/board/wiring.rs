@@ -16,7 +16,7 @@ use super::cleaners::{BrushMain, Switched};
 use super::contacts::{Adapter, Bumper, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
 use super::link::{InputParts, SerialLink};
-use super::off::Motor;
+use super::interlock::Motor;
 use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
 use super::receivers::{BeamReceivers, ReceiverPins};
