@@ -6,6 +6,7 @@
 
 use core::task::Poll;
 
+use super::doubled::{Trial, doubles};
 use super::graph::{Graph, Mark};
 use super::optimization::Optimization;
 use super::square::{directed, square};
@@ -27,12 +28,15 @@ pub(super) struct Fit {
     marks: usize,
     /// The last pose at the beginning.
     last: Pose2,
+    /// Walls that stand twice are taken for one.
+    trial: Option<Box<Trial>>,
 }
 
 /// What comes next. Each but the optimization is one pass over the marks, and a step of its own.
 #[derive(Clone, Debug)]
 enum Stage {
     Tidy,
+    JoinDoubles,
     Square,
     Optimize(Box<Optimization>),
     TidyAgain,
@@ -46,6 +50,7 @@ impl Fit {
             became: (0..graph.walls.len()).map(Some).collect(),
             marks: graph.marks.len(),
             last: graph.nodes.last()?.pose,
+            trial: None,
             graph: graph.clone(),
         }))
     }
@@ -55,6 +60,10 @@ impl Fit {
         match &mut self.stage {
             Stage::Tidy => {
                 self.tidy();
+                self.stage = Stage::JoinDoubles;
+            }
+            Stage::JoinDoubles => {
+                self.join_doubles();
                 self.stage = Stage::Square;
             }
             Stage::Square => {
@@ -64,7 +73,7 @@ impl Fit {
             Stage::Optimize(optimization) => {
                 match optimization.go_on(&mut self.graph, &mut Work::of(STEP_WORK)) {
                     Poll::Pending => {}
-                    Poll::Ready(true) => self.stage = Stage::TidyAgain,
+                    Poll::Ready(true) => self.stage = self.judge_doubles(),
                     Poll::Ready(false) => return Ok(None),
                 }
             }
@@ -78,15 +87,48 @@ impl Fit {
 
     fn tidy(&mut self) {
         let places = tidy(&mut self.graph);
+        self.follow(&places);
+    }
+
+    /// Walls are elsewhere now, or gone.
+    fn follow(&mut self, places: &[Option<usize>]) {
         for wall in &mut self.became {
             *wall = wall.and_then(|wall| places.get(wall).copied().flatten());
         }
     }
 
-    fn fitted(self) -> Fitted {
+    /// Takes walls that seem to stand twice for one, on trial.
+    fn join_doubles(&mut self) {
+        let doubles = doubles(&self.graph);
+        if doubles.is_empty() {
+            return;
+        }
+        let trial = Trial::new(&self.graph, &self.became, doubles);
+        let places = trial.join(&mut self.graph);
+        self.follow(&places);
+        self.trial = Some(Box::new(trial));
+    }
+
+    /// What comes after the optimization: if walls were not one after all, it is done again without taking them for one.
+    fn judge_doubles(&mut self) -> Stage {
+        match self.trial.take() {
+            Some(trial) if !trial.holds(&self.graph) => {
+                (self.graph, self.became) = trial.taken_back(&self.graph);
+                Stage::JoinDoubles
+            }
+            trial => {
+                self.trial = trial;
+                Stage::TidyAgain
+            }
+        }
+    }
+
+    fn fitted(mut self) -> Fitted {
+        self.graph.fitted_strain = self.graph.strain();
         let last = self.graph.nodes.last().map_or(self.last, |node| node.pose);
         Fitted {
             moved: last * self.last.inverse(),
+            is_mended: self.trial.is_some(),
             graph: self.graph,
             became: self.became,
             marks: self.marks,
@@ -100,6 +142,8 @@ pub(super) struct Fitted {
     graph: Graph,
     /// How what came since is moved, in the map.
     pub(super) moved: Pose2,
+    /// Walls that stood twice are one now.
+    pub(super) is_mended: bool,
     became: Vec<Option<usize>>,
     marks: usize,
 }
@@ -137,13 +181,13 @@ impl Fitted {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::{Fit, Fitted};
     use crate::localization::survey::graph::tests::{laps, rmse_m};
     use crate::localization::survey::graph::{Graph, Wall};
 
     /// The fit of a graph, and how many steps it took.
-    fn fitted(graph: &Graph) -> (Fitted, u32) {
+    pub(in crate::localization::survey) fn fitted(graph: &Graph) -> (Fitted, u32) {
         let mut fit = Fit::of(graph).unwrap();
         let mut steps = 1;
         loop {

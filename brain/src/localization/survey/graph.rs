@@ -53,6 +53,8 @@ pub(super) struct Wall {
     pub(super) first: usize,
     /// Marks on it.
     pub(super) marks: u32,
+    /// It was taken for another one that it stands close to, and is not.
+    pub(super) is_apart: bool,
 }
 
 /// That a stroke lies on a wall.
@@ -68,6 +70,11 @@ const KERNEL: f64 = 5.0;
 /// Longest believed step of a round, metres or radians.
 const STEP_MAX: f64 = 0.5;
 
+/// What a residual of this variance counts.
+fn weight(variance: f64) -> f64 {
+    1.0 / variance.max(1e-8)
+}
+
 /// Unit vector.
 pub(super) fn direction(rad: f64) -> Point2 {
     let (sin, cos) = libm::sincos(rad);
@@ -75,6 +82,15 @@ pub(super) fn direction(rad: f64) -> Point2 {
 }
 
 impl Wall {
+    /// The point of it so far from the anchor, metres.
+    pub(super) fn at(&self, along_m: f64) -> Point2 {
+        let normal = direction(self.normal_rad);
+        Point2 {
+            x_m: self.anchor.x_m + normal.x_m * self.offset_m - normal.y_m * along_m,
+            y_m: self.anchor.y_m + normal.y_m * self.offset_m + normal.x_m * along_m,
+        }
+    }
+
     /// How far before the wall a point lies, metres, and how far along it from the anchor.
     pub(super) fn place_of(&self, at: Point2) -> (f64, f64) {
         let normal = direction(self.normal_rad);
@@ -97,6 +113,8 @@ pub(super) struct Graph {
     /// Direction of the first quarter; `None` = the home has no right angles, as far as is known.
     pub(super) square_rad: Option<f64>,
     pub(super) turn_errors: TurnErrors,
+    /// What [`Self::strain`] was when all was fitted last.
+    pub(super) fitted_strain: f64,
 }
 
 /// Places of the unknowns.
@@ -165,10 +183,9 @@ impl Graph {
         if let (Some(before), Some(after)) = (self.nodes.get(index), self.nodes.get(index + 1)) {
             let (from, to) = (3 * index, 3 * index + 3);
             let made = before.pose.inverse() * after.pose;
-            let step = self.turn_errors.unbiased(after.step, &after.turns);
+            let off = self.step_off(before, after);
             let [x, y, turn] = TurnErrors::slopes(&after.turns, unknowns.turns);
             let (sin, cos) = libm::sincos(before.pose.heading_rad);
-            let weight = |variance: f64| 1.0 / variance.max(1e-8);
             let along = [
                 (from, -cos),
                 (from + 1, -sin),
@@ -178,7 +195,7 @@ impl Graph {
                 x[0],
                 x[1],
             ];
-            system.add_residual(&along, made.x_m - step.x_m, weight(after.variance.along_m2));
+            system.add_residual(&along, off.x_m, weight(after.variance.along_m2));
             let across = [
                 (from, sin),
                 (from + 1, -cos),
@@ -188,11 +205,36 @@ impl Graph {
                 y[0],
                 y[1],
             ];
-            system.add_residual(&across, made.y_m - step.y_m, weight(after.variance.across_m2));
-            let off_rad = normalize_rad(made.heading_rad - step.heading_rad);
+            system.add_residual(&across, off.y_m, weight(after.variance.across_m2));
             let turned = [(from + 2, -1.0), (to + 2, 1.0), turn[0], turn[1]];
-            system.add_residual(&turned, off_rad, weight(after.variance.turn_rad2));
+            system.add_residual(&turned, off.heading_rad, weight(after.variance.turn_rad2));
         }
+    }
+
+    /// By how much more a step is than odometry says, x, y and heading.
+    fn step_off(&self, before: &Node, after: &Node) -> Pose2 {
+        let made = before.pose.inverse() * after.pose;
+        let step = self.turn_errors.unbiased(after.step, &after.turns);
+        Pose2 {
+            x_m: made.x_m - step.x_m,
+            y_m: made.y_m - step.y_m,
+            heading_rad: normalize_rad(made.heading_rad - step.heading_rad),
+        }
+    }
+
+    /// How far all steps are from what odometry says: the sum of their squared deviations.
+    pub(super) fn strain(&self) -> f64 {
+        let steps = self.nodes.windows(2).filter_map(|nodes| match nodes {
+            [before, after] => Some((self.step_off(before, after), after.variance)),
+            _ => None,
+        });
+        steps
+            .map(|(off, variance)| {
+                off.x_m * off.x_m * weight(variance.along_m2)
+                    + off.y_m * off.y_m * weight(variance.across_m2)
+                    + off.heading_rad * off.heading_rad * weight(variance.turn_rad2)
+            })
+            .sum()
     }
 
     pub(super) fn add_mark(&self, mark: &Mark, unknowns: &Unknowns, system: &mut System) {
@@ -336,6 +378,7 @@ pub(super) mod tests {
                 high_m: 5.0,
                 first: truth.len(),
                 marks: 0,
+                is_apart: false,
             });
             for _ in 0..steps {
                 truth.push(pose);

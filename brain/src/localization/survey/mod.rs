@@ -8,6 +8,7 @@
 #[cfg(test)]
 mod closing;
 mod dock;
+mod doubled;
 mod fit;
 mod graph;
 mod kalman;
@@ -346,6 +347,7 @@ impl Survey {
 
     fn take_up(&mut self, fitted: Fitted) {
         let moved = fitted.moved;
+        let is_mended = fitted.is_mended;
         self.graph = fitted.with_news_of(&self.graph);
         self.belief.pose = moved * self.belief.pose;
         self.marks_fitted = self.marks_fitted.min(self.graph.marks.len());
@@ -355,7 +357,7 @@ impl Survey {
             .iter()
             .zip(&self.drawn)
             .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
-        self.is_hurried &= self.outdated;
+        self.is_hurried = (self.is_hurried || is_mended) && self.outdated;
     }
 
     /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.

@@ -140,6 +140,7 @@ mod tests {
             high_m: 0.25,
             first: node,
             marks: 1,
+            is_apart: false,
         });
         graph.marks.push(Mark {
             node,

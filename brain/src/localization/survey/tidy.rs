@@ -1,22 +1,27 @@
 //! The graph put in order: what does not fit is torn off, walls that are one are joined, and those that nothing lies on are
 //! dropped.
 
-use super::graph::{Graph, Mark, Wall, direction};
-use crate::geometry::{Point2, normalize_rad};
+use super::graph::{Graph, Mark, Wall};
+use crate::geometry::normalize_rad;
 
 /// Walls nearer to each other than this are one, metres, if the gap between their ends is no longer than that.
 const MERGE_M: f64 = 0.05;
 const MERGE_GAP_M: f64 = 0.5;
 /// Walls that are one look the same way, radians: 7 degrees.
-const MERGE_RAD: f64 = 0.125;
+pub(super) const MERGE_RAD: f64 = 0.125;
 /// A mark this far off its wall was never on it, metres.
-const TORN_OFF_M: f64 = 0.12;
+pub(super) const TORN_OFF_M: f64 = 0.12;
 
 /// Puts the graph in order. Gives for each wall the one that it became; `None` = it is gone.
 pub(super) fn tidy(graph: &mut Graph) -> Vec<Option<usize>> {
     tear_off(graph);
     measure(graph);
     let joined = joined(&graph.walls);
+    join(graph, &joined)
+}
+
+/// Each wall becomes the one that `joined` gives for it. Gives for each wall where that one is now; `None` = it is gone.
+pub(super) fn join(graph: &mut Graph, joined: &[usize]) -> Vec<Option<usize>> {
     let is_changed = joined.iter().enumerate().any(|(index, whole)| index != *whole);
     if is_changed {
         for mark in &mut graph.marks {
@@ -84,14 +89,7 @@ fn are_one(one: &Wall, other: &Wall) -> bool {
     if turned_rad.abs() > MERGE_RAD || one.quarter != other.quarter {
         return false;
     }
-    let end = |along_m: f64| {
-        let tangent = direction(other.normal_rad + core::f64::consts::FRAC_PI_2);
-        let normal = direction(other.normal_rad);
-        one.place_of(Point2 {
-            x_m: other.anchor.x_m + normal.x_m * other.offset_m + tangent.x_m * along_m,
-            y_m: other.anchor.y_m + normal.y_m * other.offset_m + tangent.y_m * along_m,
-        })
-    };
+    let end = |along_m: f64| one.place_of(other.at(along_m));
     let ends = [end(other.low_m), end(other.high_m)];
     let is_near = ends.iter().all(|(off_m, _)| off_m.abs() <= MERGE_M);
     let low_m = ends[0].1.min(ends[1].1);

@@ -79,6 +79,7 @@ impl Survey {
             high_m: stroke.half_m,
             first: self.here,
             marks: 0,
+            is_apart: false,
         }
     }
 
