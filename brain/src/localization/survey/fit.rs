@@ -68,7 +68,10 @@ impl Fit {
             }
             Stage::Square => {
                 square(&mut self.graph);
-                self.stage = Stage::Optimize(Box::default());
+                self.stage = Stage::Optimize(Box::new(match self.trial {
+                    Some(_) => Optimization::from_far(),
+                    None => Optimization::default(),
+                }));
             }
             Stage::Optimize(optimization) => {
                 match optimization.go_on(&mut self.graph, &mut Work::of(STEP_WORK)) {

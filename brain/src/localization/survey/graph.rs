@@ -66,7 +66,7 @@ pub(super) struct Mark {
 }
 
 /// Deviations within which a mark counts fully: Cauchy's constant, squared.
-const KERNEL: f64 = 5.0;
+pub(super) const KERNEL: f64 = 5.0;
 /// Longest believed step of a round, metres or radians.
 const STEP_MAX: f64 = 0.5;
 
@@ -237,7 +237,8 @@ impl Graph {
             .sum()
     }
 
-    pub(super) fn add_mark(&self, mark: &Mark, unknowns: &Unknowns, system: &mut System) {
+    /// Adds that a stroke lies on a wall. One that is off by more than `kernel` squared deviations counts little.
+    pub(super) fn add_mark(&self, mark: &Mark, kernel: f64, unknowns: &Unknowns, system: &mut System) {
         let (Some(node), Some(wall), Some(place)) = (
             self.nodes.get(mark.node),
             self.walls.get(mark.wall),
@@ -253,7 +254,7 @@ impl Graph {
             stroke.sigma_rad * stroke.sigma_rad,
         );
         let misfit = off_m * off_m / variance_m2 + off_rad * off_rad / variance_rad2;
-        let weight = 1.0 / (1.0 + misfit / KERNEL);
+        let weight = 1.0 / (1.0 + misfit / kernel);
         let normal = direction(wall.normal_rad);
         let arm = node.pose.transform(stroke.middle);
         let (arm_x, arm_y) = (arm.x_m - node.pose.x_m, arm.y_m - node.pose.y_m);

@@ -2,7 +2,7 @@
 
 use core::task::Poll;
 
-use super::graph::{Graph, Unknowns};
+use super::graph::{Graph, KERNEL, Unknowns};
 use super::linear::{Solving, System};
 use super::work::Work;
 
@@ -14,9 +14,15 @@ const STEP_WORK: usize = 250;
 const MARK_WORK: usize = 250;
 const MOVE_WORK: usize = 15;
 
+/// Rounds in which marks count that are far off, and what counts fully then, in squared deviations: half a metre.
+const WIDE_ROUNDS: usize = 3;
+const WIDE_KERNEL: f64 = 500.0;
+
 /// The rounds.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Optimization {
+    /// So many of them come first in which marks count that are far off.
+    wide: usize,
     rounds: usize,
     round: Round,
 }
@@ -39,6 +45,22 @@ enum Round {
 }
 
 impl Optimization {
+    /// One that pulls marks over, which lie on walls that they are far from.
+    pub(super) fn from_far() -> Self {
+        Self {
+            wide: WIDE_ROUNDS,
+            ..Self::default()
+        }
+    }
+
+    fn kernel(&self) -> f64 {
+        if self.rounds < self.wide {
+            WIDE_KERNEL
+        } else {
+            KERNEL
+        }
+    }
+
     /// Goes on while work is left, with the same graph each time. Gives whether there is a best place for all.
     pub(super) fn go_on(&mut self, graph: &mut Graph, work: &mut Work) -> Poll<bool> {
         while work.is_left() {
@@ -56,7 +78,7 @@ impl Optimization {
                     unknowns,
                     system,
                     next,
-                } => self.round = gather(unknowns, (system, next), graph, work),
+                } => self.round = gather(unknowns, (system, next), (graph, self.kernel()), work),
                 Round::Solve {
                     unknowns,
                     mut solving,
@@ -68,9 +90,10 @@ impl Optimization {
                         graph.apply(&unknowns, &change);
                         graph.turn_errors.scale_sigma = Some(solution.last_sigma);
                         work.spend(MOVE_WORK * graph.nodes.len());
-                        self.rounds += 1;
                         let is_still = change.iter().all(|step| step.abs() < STILL);
-                        if is_still || self.rounds == ROUNDS {
+                        let is_wide = self.rounds < self.wide;
+                        self.rounds += 1;
+                        if !is_wide && (is_still || self.rounds == self.wide + ROUNDS) {
                             return Poll::Ready(true);
                         }
                     }
@@ -85,7 +108,7 @@ impl Optimization {
 fn gather(
     unknowns: Unknowns,
     (mut system, mut next): (System, usize),
-    graph: &Graph,
+    (graph, kernel): (&Graph, f64),
     work: &mut Work,
 ) -> Round {
     let steps = graph.nodes.len().saturating_sub(1);
@@ -94,7 +117,7 @@ fn gather(
             graph.add_step(next, &unknowns, &mut system);
             work.spend(STEP_WORK);
         } else if let Some(mark) = graph.marks.get(next - steps) {
-            graph.add_mark(mark, &unknowns, &mut system);
+            graph.add_mark(mark, kernel, &unknowns, &mut system);
             work.spend(MARK_WORK);
         } else if next - steps - graph.marks.len() < graph.docked.len() {
             graph.add_stand(next - steps - graph.marks.len(), &mut system);
