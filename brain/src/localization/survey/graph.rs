@@ -238,7 +238,7 @@ impl Graph {
     }
 
     /// Adds that a stroke lies on a wall. One that is off by more than `kernel` squared deviations counts little.
-    pub(super) fn add_mark(&self, mark: &Mark, kernel: f64, unknowns: &Unknowns, system: &mut System) {
+    pub(super) fn add_mark(&self, (mark, kernel): (&Mark, f64), unknowns: &Unknowns, system: &mut System) {
         let (Some(node), Some(wall), Some(place)) = (
             self.nodes.get(mark.node),
             self.walls.get(mark.wall),

@@ -117,7 +117,7 @@ fn gather(
             graph.add_step(next, &unknowns, &mut system);
             work.spend(STEP_WORK);
         } else if let Some(mark) = graph.marks.get(next - steps) {
-            graph.add_mark(mark, kernel, &unknowns, &mut system);
+            graph.add_mark((mark, kernel), &unknowns, &mut system);
             work.spend(MARK_WORK);
         } else if next - steps - graph.marks.len() < graph.docked.len() {
             graph.add_stand(next - steps - graph.marks.len(), &mut system);
