@@ -30,10 +30,11 @@ impl Count {
     }
 
     /// Takes in one line of a test runner: cargo test ends each program with `test result: ok. 3 passed; 0 failed; ...`,
-    /// nextest ends all with `Summary [ 1.2s] 3 tests run: 2 passed, 1 failed, 0 skipped`.
+    /// nextest ends all with `Summary [ 1.2s] 3 tests run: 2 passed, 1 failed, 0 skipped`, and shows what a failed test printed further to
+    /// the right.
     pub(super) fn read(&mut self, line: &str) {
-        let line = line.trim_start();
-        if line.starts_with("test result:") || line.starts_with("Summary [") {
+        let is_closing = line.starts_with("test result:") || line.trim_start().starts_with("Summary [");
+        if is_closing {
             self.passed += before(line, " passed");
             self.failed += before(line, " failed") + before(line, " timed out");
         }
@@ -82,5 +83,9 @@ mod tests {
             (5, 0)
         );
         assert_eq!(read("this test passed"), (0, 0));
+        assert_eq!(
+            read("    test result: FAILED. 0 passed; 1 failed; 0 ignored"),
+            (0, 0)
+        );
     }
 }

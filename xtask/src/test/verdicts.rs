@@ -37,12 +37,12 @@ impl fmt::Display for Verdicts {
 }
 
 /// `cargo test` writes `test NAME ... FAILED`; nextest `FAIL [   0.1s] (3/9) PROGRAM NAME`, or `TIMEOUT` or a signal's name
-/// in place of FAIL, each of them once more in its summary.
+/// in place of FAIL, each of them once more in its summary, and further to the right what the failed test printed.
 fn name_of_failed(line: &str) -> Option<&str> {
-    let line = line.trim();
     if let Some(rest) = line.strip_prefix("test ") {
-        return rest.strip_suffix(" ... FAILED");
+        return rest.trim_end().strip_suffix(" ... FAILED");
     }
+    let line = line.trim();
     let (verdict, rest) = line.split_once(" [")?;
     let failed = verdict == "FAIL" || verdict == "TIMEOUT" || verdict.starts_with("SIG");
     let (_, rest) = rest.split_once(']')?;
@@ -75,6 +75,7 @@ mod tests {
         let nextest = [
             "        PASS [   0.012s] (1/4) brain a::b",
             "        FAIL [   0.019s] (2/4) brain a::c",
+            "    test a::c ... FAILED",
             "     TIMEOUT [  60.001s] (3/4) vthal::all d",
             "     SIGABRT [   0.200s] (4/4) cordlib e",
             "     Summary [  60.204s] 4 tests run: 1 passed, 2 failed, 1 timed out, 0 skipped",

@@ -6,8 +6,8 @@ use pic32mx3_hal::gpio::{Level, Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::link::by_edges::brush_pulses;
 use super::interlock::Motor;
+use super::link::by_edges::brush_pulses;
 use super::wheels::Bridge;
 use crate::logic::renewal::Renewal;
 
