@@ -22,6 +22,8 @@ const HAND_LEASE_MS: u64 = 500;
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
 const UNDOCKED_MS: u32 = 3_000;
+/// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after 65,536.
+const ANSWER_MS: u64 = 1_000;
 /// S4: three resets within this time latch.
 const RESET_WINDOW_MS: u64 = 60_000;
 
@@ -144,7 +146,7 @@ impl Permission {
         true
     }
 
-    pub(crate) fn said(&mut self, _now_ms: u64, byte: u8) {
+    pub(crate) fn said(&mut self, now_ms: u64, byte: u8) {
         let session = self.session;
         match self
             .from_robot
@@ -156,7 +158,9 @@ impl Permission {
                 self.newest_motion = None;
                 self.arming.number = None;
             }
-            Some(Said::Refused(number)) if self.arming.number == Some(number) => {
+            Some(Said::Refused(number))
+                if self.arming.number == Some(number) && now_ms <= self.arming.since_ms + ANSWER_MS =>
+            {
                 self.arming = Arming {
                     number: Some(number),
                     ..self.before

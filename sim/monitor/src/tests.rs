@@ -159,6 +159,15 @@ fn a_repeated_or_refused_arm_is_no_arm() {
     assert_eq!(scene.pass_driven(21, FORWARD), [Rule::NotArmed]);
 }
 
+/// A run of 25 minutes: the robot refused to drive against what its bumper touched, in a packet with the number of the `arm`.
+#[test]
+fn a_refusal_with_the_number_of_an_arm_of_long_ago_is_of_another_packet() {
+    let mut scene = Scene::armed();
+    assert_eq!(scene.pass_driven(2_000, FORWARD), []);
+    scene.robot(r#"{"a":1,"err":"inhibited"}"#);
+    assert_eq!(scene.pass_driven(30, FORWARD), []);
+}
+
 #[test]
 fn what_is_old_stale_or_wrongly_sealed_covers_nothing() {
     for json in [
