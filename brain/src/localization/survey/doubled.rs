@@ -6,8 +6,7 @@
 //! of both is found out by taking them for one and fitting all anew ([`super::fit`]).
 
 use super::graph::{Graph, Mark, Wall};
-use super::tidy::{MERGE_RAD, TORN_OFF_M, join};
-use crate::geometry::normalize_rad;
+use super::tidy::{TORN_OFF_M, join, look_alike};
 use std::collections::BTreeMap;
 
 /// Walls are compared in pieces of this length along them, metres.
@@ -92,8 +91,7 @@ fn marks_of_walls(graph: &Graph) -> Vec<Vec<&Mark>> {
 
 /// Whether a look at the marks is worth it.
 fn is_close_before(front: &Wall, back: &Wall) -> bool {
-    let turned_rad = normalize_rad(front.normal_rad - back.normal_rad);
-    if front.is_apart || back.is_apart || turned_rad.abs() > MERGE_RAD || front.quarter != back.quarter {
+    if front.is_apart || back.is_apart || !look_alike(front, back) {
         return false;
     }
     let (low, high) = (
@@ -189,14 +187,9 @@ impl Trial {
         join(graph, &joined)
     }
 
-    /// Whether all of them are one, after a fit.
-    pub(super) fn holds(&self, fitted: &Graph) -> bool {
-        self.refuted(fitted).is_empty()
-    }
-
     /// The graph as it was, with those apart that are not one.
-    pub(super) fn taken_back(mut self, fitted: &Graph) -> (Graph, Vec<Option<usize>>) {
-        for double in self.refuted(fitted) {
+    pub(super) fn taken_back(mut self, refuted: &[Double]) -> (Graph, Vec<Option<usize>>) {
+        for double in refuted {
             if let Some(wall) = self.graph.walls.get_mut(double.again) {
                 wall.is_apart = true;
             }
@@ -204,8 +197,8 @@ impl Trial {
         (self.graph, self.became)
     }
 
-    /// Those that are not one. No mark comes or goes while a graph is fitted, so that both graphs have the same.
-    fn refuted(&self, fitted: &Graph) -> Vec<Double> {
+    /// Those that are not one, after a fit. No mark comes or goes while a graph is fitted, so that both graphs have the same.
+    pub(super) fn refuted(&self, fitted: &Graph) -> Vec<Double> {
         let is_again = |mark: &Mark| self.doubles.iter().any(|double| double.again == mark.wall);
         let (mut joined, mut torn) = (0_u32, 0_u32);
         for (was, is) in self.graph.marks.iter().zip(&fitted.marks) {
@@ -241,7 +234,7 @@ mod tests {
     use super::super::graph::tests::{laps, rmse_m};
     use super::super::kalman::StepVariance;
     use super::super::optimization::optimized;
-    use super::{Double, Graph, doubles};
+    use super::{Double, Graph, Mark, doubles};
     use crate::geometry::{Point2, Pose2};
     use crate::localization::survey::fit::tests::fitted;
 
@@ -283,6 +276,17 @@ mod tests {
         (graph, truth)
     }
 
+    /// These marks are of something that stands so far before the first wall, along which the robot drives with that to its right.
+    fn see_before(graph: &mut Graph, off_m: f64, is_of_it: impl Fn(&Mark) -> bool) {
+        let mut before = graph.walls[0];
+        before.anchor.y_m += off_m;
+        graph.walls.push(before);
+        for mark in graph.marks.iter_mut().filter(|mark| is_of_it(mark)) {
+            mark.wall = WALLS;
+            mark.stroke.middle.y_m += off_m;
+        }
+    }
+
     fn drift(x_m: f64, y_m: f64) -> Point2 {
         Point2 { x_m, y_m }
     }
@@ -312,17 +316,7 @@ mod tests {
             let (mut since, truth) = room(seed);
             let before_m = rmse_m(&since, &truth);
             // A sofa of two metres along the first wall was pulled out by 25 cm before the second lap.
-            let mut moved = since.walls[0];
-            moved.anchor.y_m += 0.25;
-            since.walls.push(moved);
-            for mark in since
-                .marks
-                .iter_mut()
-                .filter(|mark| (LAP + 3..LAP + 7).contains(&mark.node))
-            {
-                mark.wall = WALLS;
-                mark.stroke.middle.y_m += 0.25;
-            }
+            see_before(&mut since, 0.25, |mark| (LAP + 3..LAP + 7).contains(&mark.node));
             assert_eq!(
                 doubles(&since),
                 [Double {
@@ -346,32 +340,12 @@ mod tests {
     #[test]
     fn walls_one_before_the_other_are_two_when_the_robot_passed_between_or_beside() {
         let (mut since, _) = room(1);
-        let mut screen = since.walls[0];
         // The robot was 30 cm before the first wall: half a metre before it there may be a screen.
-        screen.anchor.y_m += 0.5;
-        since.walls.push(screen);
-        for mark in since
-            .marks
-            .iter_mut()
-            .filter(|mark| mark.node >= LAP && mark.wall == 0)
-        {
-            mark.wall = WALLS;
-            mark.stroke.middle.y_m += 0.5;
-        }
+        see_before(&mut since, 0.5, |mark| mark.node >= LAP && mark.wall == 0);
         assert_eq!(doubles(&since), []);
         let (mut since, _) = room(1);
         // A cupboard along its second half, which hides the wall behind.
-        let mut cupboard = since.walls[0];
-        cupboard.anchor.y_m += 0.3;
-        since.walls.push(cupboard);
-        for mark in since
-            .marks
-            .iter_mut()
-            .filter(|mark| mark.wall == 0 && mark.node % LAP >= 5)
-        {
-            mark.wall = WALLS;
-            mark.stroke.middle.y_m += 0.3;
-        }
+        see_before(&mut since, 0.3, |mark| mark.wall == 0 && mark.node % LAP >= 5);
         assert_eq!(doubles(&since), []);
     }
 }

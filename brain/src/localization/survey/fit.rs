@@ -114,16 +114,16 @@ impl Fit {
 
     /// What comes after the optimization: if walls were not one after all, it is done again without taking them for one.
     fn judge_doubles(&mut self) -> Stage {
-        match self.trial.take() {
-            Some(trial) if !trial.holds(&self.graph) => {
-                (self.graph, self.became) = trial.taken_back(&self.graph);
-                Stage::JoinDoubles
-            }
-            trial => {
-                self.trial = trial;
-                Stage::TidyAgain
-            }
+        let Some(trial) = self.trial.take() else {
+            return Stage::TidyAgain;
+        };
+        let refuted = trial.refuted(&self.graph);
+        if refuted.is_empty() {
+            self.trial = Some(trial);
+            return Stage::TidyAgain;
         }
+        (self.graph, self.became) = trial.taken_back(&refuted);
+        Stage::JoinDoubles
     }
 
     fn fitted(mut self) -> Fitted {

@@ -8,7 +8,7 @@ use crate::geometry::normalize_rad;
 const MERGE_M: f64 = 0.05;
 const MERGE_GAP_M: f64 = 0.5;
 /// Walls that are one look the same way, radians: 7 degrees.
-pub(super) const MERGE_RAD: f64 = 0.125;
+const MERGE_RAD: f64 = 0.125;
 /// A mark this far off its wall was never on it, metres.
 pub(super) const TORN_OFF_M: f64 = 0.12;
 
@@ -84,9 +84,14 @@ fn drop_bare(graph: &mut Graph) -> Vec<Option<usize>> {
     places
 }
 
-fn are_one(one: &Wall, other: &Wall) -> bool {
+/// Whether two walls face the same way.
+pub(super) fn look_alike(one: &Wall, other: &Wall) -> bool {
     let turned_rad = normalize_rad(one.normal_rad - other.normal_rad);
-    if turned_rad.abs() > MERGE_RAD || one.quarter != other.quarter {
+    turned_rad.abs() <= MERGE_RAD && one.quarter == other.quarter
+}
+
+fn are_one(one: &Wall, other: &Wall) -> bool {
+    if !look_alike(one, other) {
         return false;
     }
     let end = |along_m: f64| one.place_of(other.at(along_m));
