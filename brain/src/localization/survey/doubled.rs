@@ -197,8 +197,12 @@ impl Trial {
         (self.graph, self.became)
     }
 
-    /// Those that are not one, after a fit. No mark comes or goes while a graph is fitted, so that both graphs have the same.
-    pub(super) fn refuted(&self, fitted: &Graph) -> Vec<Double> {
+    /// Those that are not one, after a fit: all of them when nothing fits with them as one. No mark comes or goes while a graph is
+    /// fitted, so that both graphs have the same.
+    pub(super) fn refuted(&self, fitted: Option<&Graph>) -> Vec<Double> {
+        let Some(fitted) = fitted else {
+            return self.doubles.clone();
+        };
         let is_again = |mark: &Mark| self.doubles.iter().any(|double| double.again == mark.wall);
         let (mut joined, mut torn) = (0_u32, 0_u32);
         for (was, is) in self.graph.marks.iter().zip(&fitted.marks) {
@@ -230,7 +234,7 @@ impl Trial {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::graph::tests::{laps, rmse_m};
     use super::super::kalman::StepVariance;
     use super::super::optimization::optimized;
@@ -252,7 +256,11 @@ mod tests {
 
     /// Two laps through a room between which the robot was elsewhere: it believes to be off by `drift` in the second one, of which
     /// it has walls of its own. Gives where it was, too.
-    fn seen_twice(drift: Point2, sigma_m: f64, seed: u64) -> (Graph, Vec<Pose2>) {
+    pub(in crate::localization::survey) fn seen_twice(
+        drift: Point2,
+        sigma_m: f64,
+        seed: u64,
+    ) -> (Graph, Vec<Pose2>) {
         let (mut graph, truth) = room(seed);
         for wall in 0..WALLS {
             let mut again = graph.walls[wall];

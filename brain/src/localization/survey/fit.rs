@@ -76,8 +76,10 @@ impl Fit {
             Stage::Optimize(optimization) => {
                 match optimization.go_on(&mut self.graph, &mut Work::of(STEP_WORK)) {
                     Poll::Pending => {}
-                    Poll::Ready(true) => self.stage = self.judge_doubles(),
-                    Poll::Ready(false) => return Ok(None),
+                    Poll::Ready(is_solved) => match self.judge_doubles(is_solved) {
+                        Some(next) => self.stage = next,
+                        None => return Ok(None),
+                    },
                 }
             }
             Stage::TidyAgain => {
@@ -112,18 +114,19 @@ impl Fit {
         self.trial = Some(Box::new(trial));
     }
 
-    /// What comes after the optimization: if walls were not one after all, it is done again without taking them for one.
-    fn judge_doubles(&mut self) -> Stage {
+    /// What comes after the optimization: if walls were not one after all, or nothing fits with them as one, it is done again without
+    /// taking them for one. `None` when nothing fits anyway.
+    fn judge_doubles(&mut self, is_solved: bool) -> Option<Stage> {
         let Some(trial) = self.trial.take() else {
-            return Stage::TidyAgain;
+            return is_solved.then_some(Stage::TidyAgain);
         };
-        let refuted = trial.refuted(&self.graph);
+        let refuted = trial.refuted(is_solved.then_some(&self.graph));
         if refuted.is_empty() {
             self.trial = Some(trial);
-            return Stage::TidyAgain;
+            return Some(Stage::TidyAgain);
         }
         (self.graph, self.became) = trial.taken_back(&refuted);
-        Stage::JoinDoubles
+        Some(Stage::JoinDoubles)
     }
 
     fn fitted(mut self) -> Fitted {
@@ -185,7 +188,9 @@ impl Fitted {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::{Fit, Fitted};
+    use super::{Fit, Fitted, Stage};
+    use crate::geometry::Point2;
+    use crate::localization::survey::doubled::tests::seen_twice;
     use crate::localization::survey::graph::tests::{laps, rmse_m};
     use crate::localization::survey::graph::{Graph, Wall};
 
@@ -248,5 +253,20 @@ pub(super) mod tests {
         assert_eq!(news, [3, 1], "the mark on the wall that is gone is gone");
         let count: u32 = graph.walls.iter().map(|wall| wall.marks).sum();
         assert_eq!(count as usize, graph.marks.len());
+    }
+
+    #[test]
+    fn walls_with_which_nothing_fits_as_one_are_not_tried_again() {
+        let drift = Point2 { x_m: 0.25, y_m: -0.2 };
+        let (graph, _) = seen_twice(drift, 0.25, 1);
+        let mut fit = Fit::of(&graph).unwrap();
+        fit.tidy();
+        fit.join_doubles();
+        assert!(fit.trial.is_some());
+        assert!(matches!(fit.judge_doubles(false), Some(Stage::JoinDoubles)));
+        assert_eq!(fit.graph.walls.len(), graph.walls.len(), "as it was before");
+        fit.join_doubles();
+        assert!(fit.trial.is_none(), "they are apart");
+        assert!(fit.judge_doubles(false).is_none(), "then nothing fits at all");
     }
 }
