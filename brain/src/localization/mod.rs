@@ -167,10 +167,12 @@ impl Localization {
             self.drift.sigma_m.max(START_SIGMA_M),
             self.drift.sigma_rad.max(START_SIGMA_RAD),
         );
-        self.tracked = Some(Box::new(Tracked {
-            tracker,
-            terrain: Terrain::of(map),
-        }));
+        self.follow_in(Terrain::of(map), tracker);
+    }
+
+    fn follow_in(&mut self, terrain: Terrain, tracker: Tracker) {
+        self.survey = None;
+        self.tracked = Some(Box::new(Tracked { tracker, terrain }));
     }
 
     /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
@@ -206,12 +208,18 @@ impl Localization {
 
     /// The robot was put down somewhere.
     fn recover(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        let pose = self.pose();
-        self.track(map, config, seed);
-        match &mut self.tracked {
-            Some(tracked) => tracked.tracker.lose(pose),
-            None => self.survey(config),
+        if Terrain::is_trustworthy(map) {
+            return self.lose_in(Terrain::of(map), config, seed);
         }
+        self.survey(config);
+        self.drift.sigma_m = SIGMA_MAX;
+    }
+
+    /// The robot is somewhere in this terrain.
+    fn lose_in(&mut self, terrain: Terrain, config: &BrainConfig, seed: u64) {
+        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
+        tracker.lose(self.pose());
+        self.follow_in(terrain, tracker);
         self.drift.sigma_m = SIGMA_MAX;
     }
 

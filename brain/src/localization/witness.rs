@@ -79,12 +79,13 @@ impl Witness {
         }
     }
 
-    /// Keeps the map as it is now, now and then and when it was drawn again, while nothing speaks against it.
+    /// Keeps the map as it is now, now and then and when it was drawn again, while nothing speaks against it. One in which the robot
+    /// could not look for itself is no witness: a survey that it ended would leave the robot with nothing.
     pub(super) fn keep(&mut self, map: &Map, time_us: u64) {
         let is_due = time_us >= self.kept_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
         if is_due && self.denied <= DOUBTED_ABOVE {
             (self.kept_us, self.redrawn) = (time_us, map.redrawn());
-            self.terrain = Some(Box::new(Terrain::of(map)));
+            self.terrain = Terrain::is_trustworthy(map).then(|| Box::new(Terrain::of(map)));
         }
     }
 
@@ -111,11 +112,8 @@ impl Localization {
             .as_ref()
             .map_or_else(Vec::new, |survey| survey.keyframes());
         keyframes.retain(|keyframe| keyframe.time_us <= since_us);
-        self.recover(map, config, time_us);
-        if let Some(tracked) = &mut self.tracked {
-            tracked.terrain = *terrain;
-            self.withdrawal = Some(Withdrawal { since_us, keyframes });
-        }
+        self.lose_in(*terrain, config, time_us);
+        self.withdrawal = Some(Withdrawal { since_us, keyframes });
     }
 
     /// What of the map is to be taken back.
@@ -291,14 +289,14 @@ mod tests {
         assert!(noticed >= 1, "{noticed} of three");
     }
 
-    /// What is known of the flat when so many steps of the first robot were drawn.
-    fn drawn(map: &mut Map, truth: &mut Truth<'_>, steps: u32) -> usize {
+    /// What is known of the flat when so many steps of the first robot were drawn, which is as sure of its place as `sigma_m` says.
+    fn drawn(map: &mut Map, (truth, sigma_m): (&mut Truth<'_>, f64), steps: u32) -> usize {
         for _ in 0..steps {
             let view = truth.step().clone();
             let estimate = PoseEstimate {
                 pose: truth.pose,
                 odom: truth.pose,
-                sigma_m: 0.02,
+                sigma_m,
                 ..PoseEstimate::default()
             };
             map.insert(&estimate, &view);
@@ -317,12 +315,24 @@ mod tests {
     }
 
     #[test]
+    fn a_map_in_which_the_robot_could_not_find_itself_is_no_witness() {
+        let home = flat();
+        for (sigma_m, is_witness) in [(0.02, true), (0.4, false)] {
+            let mut map = Map::new(config().body, config().sensors);
+            drawn(&mut map, (&mut Truth::new(&home, START), sigma_m), 6_000);
+            let mut witness = Witness::default();
+            witness.keep(&map, LEARN_US);
+            assert_eq!(witness.terrain.is_some(), is_witness, "{sigma_m} m");
+        }
+    }
+
+    #[test]
     fn what_is_withdrawn_was_never_seen() {
         let home = flat();
         let mut truth = Truth::new(&home, START);
         let mut map = Map::new(config().body, config().sensors);
-        let before = drawn(&mut map, &mut truth, 1_000);
-        let later = drawn(&mut map, &mut truth, 6_000);
+        let before = drawn(&mut map, (&mut truth, 0.02), 1_000);
+        let later = drawn(&mut map, (&mut truth, 0.02), 6_000);
         assert!(later > before + before / 10, "{before} cells, then {later}");
         let keyframe = Keyframe {
             time_us: 0,

@@ -10,9 +10,10 @@ use crate::geometry::{Pose2, normalize_rad};
 /// How well two stands on the dock agree, metres and radians: the contacts are some centimetres wide, and close on a robot that is
 /// askew by some degrees. 2 cm and 2 degrees for each of the two.
 const SIGMAS: [f64; 3] = [0.028, 0.028, 0.05];
-/// Misfit at which a stand counts a quarter, squared deviations: 10 deviations, so 0.28 m. Geman and McClure's kernel: a survey that
-/// is off by some decimetres when it comes home is closed, and a dock that somebody has moved by metres hardly pulls.
-const KERNEL: f64 = 100.0;
+/// Misfit at which a stand counts a quarter, squared deviations: 25 deviations, so 0.7 m. Geman and McClure's kernel: a survey that
+/// is off by half a metre when it comes home is closed, and a dock that somebody has moved by metres hardly pulls. One that was moved by
+/// decimetres pulls, but against all walls around it, by which the robot knows where it is then.
+const KERNEL: f64 = 625.0;
 /// A dock farther than so many deviations of belief and stand from where it was is left to the fit.
 const GATE: f64 = 4.0;
 /// The robot comes back to its dock when it was away for this way, metres: contacts that part and close again tell nothing new.
