@@ -32,7 +32,7 @@ pub use model::{
     Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,
     ReceiverMount, RobotModel, WheelMotor, robot_names,
 };
-pub use noise::Noise;
+pub use noise::{Noise, NoiseError};
 pub use pcg::Pcg;
 pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};

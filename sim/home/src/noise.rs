@@ -1,5 +1,9 @@
 //! How far the simulated parts are from perfect.
 
+mod named;
+
+pub use named::NoiseError;
+
 /// Size of every imperfection. The four named classes are the ones every benchmark names; all sizes are one standard
 /// deviation unless a field says otherwise.
 ///
@@ -91,18 +95,6 @@ impl Noise {
             infrared_noise: 3.0 * Self::NOMINAL.infrared_noise,
             rug_drift: 3.0,
             ..Self::NOMINAL.scaled(2.0)
-        }
-    }
-
-    /// The class with this name: `ideal`, `good`, `nominal` or `bad`.
-    #[must_use]
-    pub fn by_name(name: &str) -> Option<Self> {
-        match name {
-            "ideal" => Some(Self::ideal()),
-            "good" => Some(Self::good()),
-            "nominal" => Some(Self::nominal()),
-            "bad" => Some(Self::bad()),
-            _ => None,
         }
     }
 

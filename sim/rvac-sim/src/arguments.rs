@@ -42,7 +42,7 @@ pub(crate) struct SceneArguments {
     /// Robot by name.
     #[arg(long, default_value = "sr8730")]
     robot: String,
-    /// Noise class: ideal, good, nominal or bad.
+    /// Noise class: ideal, good, nominal or bad; parts of it can differ, as in `nominal,gyro=0,wheel-scale=2`.
     #[arg(long, default_value = "nominal")]
     noise: String,
     /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.

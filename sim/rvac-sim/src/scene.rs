@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use home::generate::GeneratedHome;
 use home::traps::{Trap, TrapKind};
-use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
+use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, NoiseError, Pose, RobotModel, World};
 use pic32::board::{GyroFitted, Record};
 use robot::RobotSettings;
 
@@ -44,8 +44,7 @@ impl Scene {
     /// One sentence that names what is wrong and what to do; nothing was written.
     pub fn load(settings: &SceneSettings) -> Result<Self, SceneError> {
         let model = RobotModel::by_name(&settings.robot)?;
-        let noise =
-            Noise::by_name(&settings.noise).ok_or_else(|| SceneError::Noise(settings.noise.clone()))?;
+        let noise = settings.noise.parse()?;
         let firmware =
             Firmware::load(settings.firmware.as_deref(), &settings.record)?.with_gyro(settings.gyro);
         if !firmware.suits(&model.name) {
@@ -151,9 +150,9 @@ pub enum SceneError {
     /// No such trap.
     #[error("`{0}` is no trap; known are {names}, each with a seed, for example trap:sofa/3", names = trap_names())]
     Trap(String),
-    /// No such noise class.
-    #[error("there is no noise class `{0}`; known are ideal, good, nominal and bad")]
-    Noise(String),
+    /// No such noise.
+    #[error(transparent)]
+    Noise(#[from] NoiseError),
 }
 
 fn trap_names() -> String {

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use anyhow::Context;
 use brain::command::StrategyName;
 use clap::Parser;
-use home::{Home, Noise, RobotModel};
+use home::{Home, RobotModel};
 use pic32::board::Record;
 use progress::Progress;
 use rvac_sim::run::{RunSettings, household, run};
@@ -38,7 +38,7 @@ struct Arguments {
     /// The robot has a perfect map of the home, which `systematic` needs.
     #[arg(long)]
     known_map: bool,
-    /// Noise class: ideal, good, nominal or bad.
+    /// Noise class: ideal, good, nominal or bad; parts of it can differ, as in `nominal,gyro=0,wheel-scale=2`.
     #[arg(long, default_value = "nominal")]
     noise: String,
     /// How many seeds, from 1 on.
@@ -126,8 +126,7 @@ fn main() -> anyhow::Result<ExitCode> {
 fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::Result<Comparison> {
     let strategy = StrategyName::from_name(&arguments.strategy)
         .with_context(|| format!("no strategy is called {}", arguments.strategy))?;
-    let noise = Noise::by_name(&arguments.noise)
-        .with_context(|| format!("there is no noise class `{}`", arguments.noise))?;
+    let noise = arguments.noise.parse()?;
     let model = RobotModel::by_name("sr8730")?;
     let home = Arc::new(Home::load(path, &model)?);
     let built_in = Scene::new(home, model, noise);

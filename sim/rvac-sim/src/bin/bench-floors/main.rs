@@ -80,8 +80,7 @@ impl Arguments {
             other => anyhow::bail!("`{other}` is no set of homes: give tune or report"),
         };
         let model = RobotModel::by_name("sr8730")?;
-        let noise =
-            Noise::by_name(&self.noise).with_context(|| format!("`{}` is no class of noise", self.noise))?;
+        let noise: Noise = self.noise.parse()?;
         let numbers: Vec<u32> = PUBLISHED
             .filter(|number| number % 2 == rest)
             .take(self.first)

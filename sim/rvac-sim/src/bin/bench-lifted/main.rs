@@ -81,8 +81,7 @@ fn main() -> anyhow::Result<()> {
 impl Arguments {
     fn homes(&self) -> anyhow::Result<Vec<Scene>> {
         let model = RobotModel::by_name("sr8730")?;
-        let noise =
-            Noise::by_name(&self.noise).with_context(|| format!("`{}` is no class of noise", self.noise))?;
+        let noise: Noise = self.noise.parse()?;
         let rest = match self.homes.as_str() {
             "tune" => 1,
             "report" => 0,

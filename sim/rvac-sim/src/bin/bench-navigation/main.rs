@@ -20,7 +20,7 @@ use std::thread;
 use anyhow::Context;
 use clap::Parser;
 use home::traps::{Trap, TrapKind};
-use home::{Noise, RobotModel};
+use home::RobotModel;
 
 use crew::{SharedProgress, in_order};
 use ground::{BoardGyro, Ground, Setup};
@@ -47,7 +47,7 @@ struct Arguments {
     /// Seeds of each home: 1 to this.
     #[arg(long, default_value_t = 2)]
     seeds: u64,
-    /// Noise class: ideal, good, nominal or bad.
+    /// Noise class: ideal, good, nominal or bad; parts of it can differ, as in `nominal,gyro=0,wheel-scale=2`.
     #[arg(long, default_value = "nominal")]
     noise: String,
     /// What is compared, separated by commas: `bounce`, `known-map` (systematic with a perfect map),
@@ -81,8 +81,7 @@ impl Arguments {
     fn setup(&self) -> anyhow::Result<Setup> {
         Ok(Setup {
             model: RobotModel::by_name(&self.robot)?,
-            noise: Noise::by_name(&self.noise)
-                .with_context(|| format!("there is no noise class `{}`", self.noise))?,
+            noise: self.noise.parse()?,
             board_gyro: if self.board_gyro {
                 BoardGyro::Fitted
             } else {
