@@ -9,6 +9,7 @@ mod beacons;
 mod calibration;
 mod confidence;
 mod docked;
+mod elsewhere;
 mod estimate;
 mod floors;
 #[cfg(test)]
@@ -204,23 +205,6 @@ impl Localization {
             self.learnt_us = time_us;
             terrain.grow(map);
         }
-    }
-
-    /// The robot was put down somewhere.
-    fn recover(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        if Terrain::is_trustworthy(map) {
-            return self.lose_in(Terrain::of(map), config, seed);
-        }
-        self.survey(config);
-        self.drift.sigma_m = SIGMA_MAX;
-    }
-
-    /// The robot is somewhere in this terrain.
-    fn lose_in(&mut self, terrain: Terrain, config: &BrainConfig, seed: u64) {
-        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
-        tracker.lose(self.pose());
-        self.follow_in(terrain, tracker);
-        self.drift.sigma_m = SIGMA_MAX;
     }
 
     /// Poses of the past that turned out to have been others, when the map should be drawn again for them.

@@ -19,8 +19,8 @@ use std::thread;
 
 use anyhow::Context;
 use clap::Parser;
-use home::traps::{Trap, TrapKind};
 use home::RobotModel;
+use home::traps::{Trap, TrapKind};
 
 use crew::{SharedProgress, in_order};
 use ground::{BoardGyro, Ground, Setup};
