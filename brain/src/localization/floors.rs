@@ -10,9 +10,10 @@
 use core::task::Poll;
 
 use super::odometry::Odometry;
+use super::places::is_alone;
 use super::search::{Candidate, Search};
 use super::terrain::Terrain;
-use super::tracker::{Moved, Tracker, is_alone};
+use super::tracker::{Moved, Tracker};
 use super::{Advance, SENSORS_MIN};
 use crate::checkpoint::TrackingCheckpoint;
 use crate::config::BrainConfig;

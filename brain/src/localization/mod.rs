@@ -19,6 +19,7 @@ mod known_home;
 mod learnt;
 mod odometry;
 mod particles;
+mod places;
 mod rest;
 mod retreat;
 mod search;

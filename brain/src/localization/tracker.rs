@@ -3,12 +3,15 @@
 //! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
 //! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
 
+mod doubt;
+
 use super::beacons::Heard;
 use super::calibration::BiasTold;
 use super::confidence::{Confidence, Verdict};
 use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
 use super::odometry::Odometry;
 use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
+use super::places::{is_alone, is_among, near_if_as_good};
 use super::search::{Candidate, Search};
 use super::stand::Stand;
 use super::strengths::{Hearing, StrengthMap, Strengths};
@@ -61,15 +64,9 @@ const SEARCHED: Spread = Spread {
     sigma_m: 0.06,
     sigma_rad: 0.03,
 };
-/// Another place that fits nearly as well as the best one, this share of it, makes a find ambiguous.
-const RIVAL_SHARE: f64 = 0.93;
-/// The trail of a find must fit this well.
-const FIND_SCORE: f64 = 0.45;
 /// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
 /// in what is known only, and a wrong find leads out of it soon.
 pub(super) const PROBATION_BEAMS: u32 = 200;
-/// A cluster is at a searched place when it is this near, metres.
-const AT_PLACE_M: f64 = 0.4;
 
 /// What the robot moved in a step, and what it believes.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +103,8 @@ pub(super) struct Tracker {
     hanging_s: f64,
     confidence: Confidence,
     lost: bool,
+    /// It is lost because the map explains too little, and not because somebody had it in the hands.
+    has_drifted: bool,
     weighings: u32,
     /// Ranges to beacons since the last weighing.
     heard: Vec<Heard>,
@@ -141,6 +140,7 @@ impl Tracker {
             hanging_s: 0.0,
             confidence: Confidence::default(),
             lost: false,
+            has_drifted: false,
             weighings: 0,
             heard: Vec::new(),
             told: None,
@@ -207,6 +207,7 @@ impl Tracker {
         self.searching = None;
         self.since_found = Fit::default();
         self.lost = true;
+        self.has_drifted = false;
     }
 
     /// Proximity sensors that it compares with the map.
@@ -322,7 +323,7 @@ impl Tracker {
         if self.lost {
             let map = &Whole(map);
             self.filter.weigh(map, observation, &felt);
-            Some(self.search(map))
+            Some(self.search(map, pose))
         } else {
             self.filter.weigh(map, observation, &felt);
             Some(self.judge(map))
@@ -352,8 +353,10 @@ impl Tracker {
             self.confidence.take(fit);
         }
         let verdict = self.confidence.verdict();
-        if verdict == Verdict::Wrong || estimate.sigma_m > LOST_SIGMA_M {
-            self.lose(estimate.pose);
+        if estimate.sigma_m > LOST_SIGMA_M {
+            self.lose_by_drift(estimate.pose);
+        } else if verdict == Verdict::Wrong {
+            self.doubt(map, estimate.pose);
         } else if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
             let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
             self.filter.widen(estimate.pose, doubt);
@@ -365,7 +368,8 @@ impl Tracker {
         }
     }
 
-    fn search(&mut self, map: &impl Surroundings) -> PoseEstimate {
+    /// Looks for a robot that is at `carried` if it was where it believed to be.
+    fn search(&mut self, map: &impl Surroundings, carried: Pose2) -> PoseEstimate {
         let (estimate, share) = self.filter.cluster();
         self.confidence.take(self.filter.fit(map, estimate.pose));
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
@@ -381,6 +385,11 @@ impl Tracker {
         }
         if let Some(places) = self.searching.as_ref().and_then(|search| search.places()) {
             self.searching = None;
+            let places = if self.has_drifted {
+                near_if_as_good(places, carried)
+            } else {
+                places
+            };
             if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;
@@ -476,24 +485,4 @@ impl<M: Surroundings> Surroundings for Whole<'_, M> {
     fn places(&self) -> Vec<Point2> {
         self.0.places()
     }
-}
-
-/// Whether `pose` is at the best of the places, and no other fits nearly as well.
-pub(super) fn is_alone(places: &[Candidate], pose: Pose2) -> bool {
-    let Some((best, others)) = places.split_first() else {
-        return false;
-    };
-    best.score >= FIND_SCORE
-        && is_at(best, pose)
-        && others
-            .iter()
-            .all(|other| is_at(other, pose) || other.score < RIVAL_SHARE * best.score)
-}
-
-fn is_among(places: &[Candidate], pose: Pose2) -> bool {
-    places.iter().any(|place| is_at(place, pose))
-}
-
-fn is_at(place: &Candidate, pose: Pose2) -> bool {
-    place.pose.position().distance_m(pose.position()) <= AT_PLACE_M
 }
