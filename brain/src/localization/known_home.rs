@@ -176,7 +176,7 @@ pub(super) const START: Pose2 = Pose2 {
     heading_rad: 0.3,
 };
 
-fn placed(map: &Map, at: Pose2) -> Localization {
+pub(super) fn placed(map: &Map, at: Pose2) -> Localization {
     let mut localization = Localization::new(TRACK_M, 0.5);
     localization.place_at(at);
     localization.track(map, &config(), 5);

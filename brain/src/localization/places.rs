@@ -10,7 +10,7 @@ const FIND_SCORE: f64 = 0.45;
 /// A cluster is at a searched place when it is this near, metres.
 const AT_PLACE_M: f64 = 0.4;
 /// Drift leads no farther than this before the map explains too little, metres.
-const DRIFT_M: f64 = 1.0;
+const DRIFT_M: f64 = 0.5;
 
 /// Whether `pose` is at the best of the places, and no other fits nearly as well.
 pub(super) fn is_alone(places: &[Candidate], pose: Pose2) -> bool {

@@ -44,3 +44,61 @@ impl Tracker {
         self.has_drifted = true;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::geometry::Pose2;
+    use crate::localization::Localization;
+    use crate::localization::known_home::{START, Truth, flat, placed, take};
+    use crate::localization::particles::Fit;
+
+    /// Drives for so many seconds; gives for how many steps the robot took itself for lost.
+    fn drive(truth: &mut Truth<'_>, localization: &mut Localization, seconds: u32) -> u32 {
+        let mut lost = 0;
+        for _ in 0..50 * seconds {
+            let view = truth.step().clone();
+            take(localization, &view);
+            lost += u32::from(localization.estimate().lost);
+        }
+        lost
+    }
+
+    /// A robot that believes to be `off` the place where it is, and comes among things that its map lacks after a minute: how long
+    /// it takes itself for lost in the half minute after, in steps, and how far off it is in the end.
+    fn lost_and_off_m(off: Pose2) -> (u32, f64) {
+        let map = flat();
+        let mut truth = Truth::new(&map, START);
+        let mut localization = placed(&map, off * START);
+        drive(&mut truth, &mut localization, 60);
+        let tracker = &mut localization
+            .tracked
+            .as_mut()
+            .expect("a map to compare with")
+            .tracker;
+        let unexplained = Fit { told: 200, agreed: 0 };
+        tracker.confidence.take(unexplained);
+        let lost = drive(&mut truth, &mut localization, 30);
+        (lost, truth.off_m(&localization))
+    }
+
+    fn shifted(x_m: f64, y_m: f64) -> Pose2 {
+        Pose2 {
+            x_m,
+            y_m,
+            heading_rad: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_robot_that_is_right_is_not_lost_for_what_its_map_does_not_explain() {
+        let (lost, off_m) = lost_and_off_m(Pose2::IDENTITY);
+        assert_eq!(lost, 0);
+        assert!(off_m < 0.06, "{off_m} m");
+    }
+
+    #[test]
+    fn a_robot_that_is_elsewhere_takes_itself_for_lost() {
+        let (lost, _) = lost_and_off_m(shifted(2.0, 1.4));
+        assert!(lost > 0);
+    }
+}
