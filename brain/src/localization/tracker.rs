@@ -357,10 +357,14 @@ impl Tracker {
             self.lose_by_drift(estimate.pose);
         } else if verdict == Verdict::Wrong {
             self.doubt(map, estimate.pose);
-        } else if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
-            let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
-            self.filter.widen(estimate.pose, doubt);
-            self.weighings = 0;
+        } else {
+            // What a look around would say is of a doubt that is over.
+            self.searching = None;
+            if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
+                let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
+                self.filter.widen(estimate.pose, doubt);
+                self.weighings = 0;
+            }
         }
         PoseEstimate {
             lost: self.lost,
