@@ -33,7 +33,7 @@ pub(super) fn is_among(places: &[Candidate], pose: Pose2) -> bool {
 /// best of all: rooms look alike, and it is more likely to be still in the one that it believed in.
 pub(super) fn near_if_as_good(places: Vec<Candidate>, carried: Pose2) -> Vec<Candidate> {
     let least = RIVAL_SHARE * places.first().map_or(0.0, |best| best.score);
-    let is_near = |place: &Candidate| place.pose.position().distance_m(carried.position()) <= DRIFT_M;
+    let is_near = |place: &Candidate| is_within_drift(place, carried);
     if places.iter().any(|place| is_near(place) && place.score >= least) {
         places.into_iter().filter(is_near).collect()
     } else {
@@ -44,7 +44,11 @@ pub(super) fn near_if_as_good(places: Vec<Candidate>, carried: Pose2) -> Vec<Can
 /// The best of the places if it is one where a robot at `pose` can have drifted to, and fits.
 pub(super) fn found_near(places: &[Candidate], pose: Pose2) -> Option<Pose2> {
     let best = places.first().filter(|best| best.score >= FIND_SCORE)?;
-    (best.pose.position().distance_m(pose.position()) <= DRIFT_M).then_some(best.pose)
+    is_within_drift(best, pose).then_some(best.pose)
+}
+
+fn is_within_drift(place: &Candidate, pose: Pose2) -> bool {
+    place.pose.position().distance_m(pose.position()) <= DRIFT_M
 }
 
 fn is_at(place: &Candidate, pose: Pose2) -> bool {

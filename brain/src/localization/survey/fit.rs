@@ -259,7 +259,7 @@ pub(super) mod tests {
     fn walls_with_which_nothing_fits_as_one_are_not_tried_again() {
         let drift = Point2 { x_m: 0.25, y_m: -0.2 };
         let (graph, _) = seen_twice(drift, 0.25, 1);
-        let mut fit = Fit::of(&graph).unwrap();
+        let mut fit = Fit::of(&graph).expect("a graph with nodes");
         fit.tidy();
         fit.join_doubles();
         assert!(fit.trial.is_some());

@@ -3,12 +3,11 @@
 //! A map that a robot has drawn lacks many a leg, and is bent by some centimetres. Among things that it lacks it explains as little
 //! as in a wrong place, but the way there, of some metres, fits nowhere better.
 
-use super::{SEARCH_FROM_M, SEARCHED, Tracker, Whole};
+use super::{SEARCH_FROM_M, SEARCHED, Tracker};
 use crate::geometry::Pose2;
 use crate::localization::confidence::Confidence;
 use crate::localization::particles::Surroundings;
 use crate::localization::places::{found_near, near_if_as_good};
-use crate::localization::search::Search;
 
 /// Guesses that are this near to where the trail fits stay as they are, metres and radians.
 const STAY_M: f64 = 0.15;
@@ -20,7 +19,7 @@ impl Tracker {
     pub(super) fn doubt(&mut self, map: &impl Surroundings, pose: Pose2) {
         let may_stay = !self.is_rival && self.probation == 0 && self.trail.length_m() >= SEARCH_FROM_M;
         if self.searching.is_none() && may_stay {
-            self.searching = Search::of(&Whole(map), &self.trail, self.radius_m).map(Box::new);
+            self.searching = self.second_look(map).map(Box::new);
         }
         let Some(search) = &self.searching else {
             return self.lose_by_drift(pose);

@@ -103,16 +103,17 @@ mod tests {
     use super::{Noise, NoiseError};
 
     #[test]
-    fn a_class_is_named_alone_or_with_parts_that_differ_from_it() {
+    fn a_class_is_named_alone_or_with_parts_that_differ_from_it() -> Result<(), NoiseError> {
         assert_eq!("bad".parse(), Ok(Noise::bad()));
-        let noise: Noise = "nominal,gyro=0, wheel-scale=2".parse().unwrap();
+        let noise: Noise = "nominal,gyro=0, wheel-scale=2".parse()?;
         let nominal = Noise::nominal();
         assert_eq!(noise.gyro_scale, 0.0);
         assert_eq!(noise.gyro_walk_rad_per_sqrt_s, 0.0);
         assert_eq!(noise.encoder_scale, 2.0 * nominal.encoder_scale);
         assert_eq!(noise.slip_m_per_sqrt_m, nominal.slip_m_per_sqrt_m);
         assert_eq!(noise.infrared_noise, nominal.infrared_noise);
-        assert_eq!("bad,rugs=0".parse::<Noise>().unwrap().rug_drift, 0.0);
+        assert_eq!("bad,rugs=0".parse::<Noise>()?.rug_drift, 0.0);
+        Ok(())
     }
 
     #[test]
