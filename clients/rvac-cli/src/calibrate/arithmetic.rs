@@ -1,6 +1,11 @@
 //! From raw readings to values. Whole numbers in, whole numbers out, in the units of the catalog.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+/// Ways in mm by which the way of a count can be told: on a shorter one the start and the end, which a person reads to some
+/// millimetres, are more than a hundredth of it; nobody pushes a robot a longer one in a straight line.
+const PUSHED_MM: RangeInclusive<i64> = 500..=20_000;
 
 /// Why readings give no value.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -18,6 +23,12 @@ pub(crate) enum NoValue {
         /// What to do.
         advice: &'static str,
     },
+    /// A way that is not one of a push along a measure.
+    #[error(
+        "{0} mm is no way to measure by: push it {least} to {most} mm, and type those",
+        least = PUSHED_MM.start(), most = PUSHED_MM.end()
+    )]
+    Way(i64),
     /// Some sensors answered and some did not.
     #[error(
         "the levels rose by {least} to {greatest}, which is neither yes nor no: keep it still over a light floor"
@@ -59,6 +70,9 @@ pub(crate) fn travelled(before: (i32, i32), after: (i32, i32)) -> (i64, i64) {
 
 /// Way of one count in nm after a push of `way_mm`. Signs of the wheels do not matter yet.
 pub(crate) fn count_way_nm((left, right): (i64, i64), way_mm: i64) -> Result<i64, NoValue> {
+    if !PUSHED_MM.contains(&way_mm) {
+        return Err(NoValue::Way(way_mm));
+    }
     let (left, right) = (left.abs(), right.abs());
     let sum = left + right;
     if left.min(right) < 10 {
@@ -224,9 +238,13 @@ mod tests {
     };
 
     #[test]
-    fn a_metre_of_pushing_gives_the_way_of_a_count() {
+    fn a_push_along_a_measure_gives_the_way_of_a_count() {
         assert_eq!(count_way_nm((2000, -2000), 1000), Ok(500_000));
         assert_eq!(count_way_nm((1990, 2010), 1000), Ok(500_000));
+        assert_eq!(count_way_nm((6100, 6100), 3050), Ok(500_000));
+        for way_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
+            assert_eq!(count_way_nm((2000, 2000), way_mm), Err(NoValue::Way(way_mm)));
+        }
         assert!(matches!(count_way_nm((0, 2000), 1000), Err(NoValue::Still(_))));
         assert!(matches!(
             count_way_nm((1000, 2000), 1000),

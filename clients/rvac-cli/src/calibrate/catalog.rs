@@ -28,6 +28,24 @@ pub(crate) struct Item {
     pub(crate) measure: String,
 }
 
+impl Item {
+    /// A value of it as people read it: a plain number has no unit.
+    pub(crate) fn shown(&self, value: i64) -> String {
+        match self.unit.as_str() {
+            "1" => value.to_string(),
+            unit => format!("{value} {unit}"),
+        }
+    }
+
+    /// What a person is asked who types it.
+    pub(crate) fn asked(&self) -> String {
+        match self.unit.as_str() {
+            "1" => "The value, a whole number?".to_owned(),
+            unit => format!("The value, in {unit}?"),
+        }
+    }
+}
+
 #[derive(Debug, Deserialize)]
 struct Robot {
     #[serde(default)]
@@ -102,7 +120,9 @@ mod tests {
     fn the_robots_own_tables_are_read() {
         let catalog = Catalog::of("sr8730").expect("known");
         let item = catalog.find("wheel-count-way").expect("listed");
-        assert_eq!(item.unit, "nm");
+        assert_eq!(item.shown(500_000), "500000 nm");
+        let order = catalog.find("wheel-left-order").expect("listed");
+        assert_eq!(order.shown(1), "1");
         for (signal, channel) in [
             ("button-ladder", 0),
             ("charger-voltage", 2),

@@ -45,8 +45,8 @@ fn list(options: &CalibrateOptions) -> anyhow::Result<ExitCode> {
     let measured = Measurements::open(&options.file, &catalog)?;
     for item in &catalog.items {
         let state = match (measured.get(&item.name), item.assumed) {
-            (Some(value), _) => format!("{value} {}", item.unit),
-            (None, Some(assumed)) => format!("not measured, taken as {assumed} {}", item.unit),
+            (Some(value), _) => item.shown(value),
+            (None, Some(assumed)) => format!("not measured, taken as {}", item.shown(assumed)),
             (None, None) => "not measured".to_owned(),
         };
         Dialog::say(&format!("{:<24} {state}; for {}", item.name, item.needed_for))?;
@@ -81,7 +81,7 @@ fn walk(robot: &mut Robot, device: &str, options: &CalibrateOptions) -> anyhow::
         }
         if let Some(value) = settle(robot, (&catalog, &measured), item)? {
             measured.keep(&catalog, &item.name, value)?;
-            Dialog::say(&format!("  kept: {} = {value} {}", item.name, item.unit))?;
+            Dialog::say(&format!("  kept: {} = {}", item.name, item.shown(value)))?;
         }
     }
     Dialog::say(&format!("\nAll is in {}.", options.file.display()))?;
@@ -113,7 +113,7 @@ fn settle(
         };
         let question = match bench.measure(item).and_then(|value| plausible(item, value)) {
             Ok(value) => {
-                let question = format!("  {} = {value} {}. Keep it?", item.name, item.unit);
+                let question = format!("  {} = {}. Keep it?", item.name, item.shown(value));
                 match Dialog::choose(robot, &question)? {
                     Wish::Yes => return Ok(Some(value)),
                     Wish::Skip => return Ok(None),
@@ -135,5 +135,5 @@ fn plausible(item: &Item, value: i64) -> anyhow::Result<i64> {
     (low..=high)
         .contains(&value)
         .then_some(value)
-        .with_context(|| format!("{value} {} cannot be true: it lies in {low} to {high}", item.unit))
+        .with_context(|| format!("{} cannot be true: it lies in {low} to {high}", item.shown(value)))
 }

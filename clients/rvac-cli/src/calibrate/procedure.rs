@@ -30,7 +30,7 @@ pub(crate) enum Side {
 /// The closed set of ways to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Procedure {
-    /// Pushed a metre by hand.
+    /// Pushed a way by hand that the person reads off a measure.
     Push,
     /// Turned ten times by hand.
     Spin,
@@ -127,8 +127,11 @@ impl Bench<'_> {
     pub(crate) fn measure(&mut self, item: &Item) -> anyhow::Result<i64> {
         match Procedure::of(&item.name) {
             Procedure::Push => {
-                let moved = self.moved_by_hand("Push it one metre straight ahead, then press Enter.")?;
-                Ok(count_way_nm(moved, 1_000)?)
+                let moved = self.moved_by_hand(
+                    "Push it straight ahead along a measure, three metres if there is room, then press Enter.",
+                )?;
+                let way_mm = Dialog::number(self.robot, "How far did it go, in millimetres?")?;
+                Ok(count_way_nm(moved, way_mm)?)
             }
             Procedure::Spin => {
                 let way_nm = self.needed("wheel-count-way")?;
@@ -163,7 +166,7 @@ impl Bench<'_> {
                 let volts = Dialog::number(self.robot, "What does the multimeter show, in millivolts?")?;
                 Ok(scale_uv(volts, mean_milli(&self.line(signal, READINGS)?)?)?)
             }
-            Procedure::Typed => Dialog::number(self.robot, &format!("The value, in {}?", item.unit)),
+            Procedure::Typed => Dialog::number(self.robot, &item.asked()),
         }
     }
 

@@ -12,8 +12,10 @@ use pic32::board::{Calibration, GyroLayout};
 use serde_json::{Value, json};
 use workshop::{Terminal, Workshop};
 
-/// Free floor of the flat, a metre and more before the robot, in the frame of the plan.
+/// Free floor of the flat, two metres before the robot, in the frame of the plan.
 const FREE_FLOOR: [f64; 3] = [-0.5, 0.06, std::f64::consts::PI];
+/// How far the owner pushes the robot.
+const PUSHED_MM: f64 = 1_900.0;
 /// Longer than a value of the buttons takes.
 const HOLD_MS: u32 = 8_000;
 
@@ -60,8 +62,10 @@ impl Owner {
     }
 
     fn obey_wish(&mut self, line: &str) {
-        if line.starts_with("Push it one metre") {
-            self.do_then_enter(json!({"c": "push", "way": 1.0}));
+        if line.starts_with("Push it straight ahead") {
+            self.do_then_enter(json!({"c": "push", "way": PUSHED_MM / 1e3}));
+        } else if line.starts_with("How far did it go") {
+            self.screen.answer(&PUSHED_MM.to_string());
         } else if line.starts_with("Turn it ten times") {
             self.do_then_enter(json!({"c": "turn", "turns": 10}));
         } else if line.starts_with("Turn the wheel forward") {
