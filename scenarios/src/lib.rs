@@ -17,8 +17,16 @@ pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
 /// When it cannot be loaded.
 #[must_use]
 pub fn scene(home: &str, noise: &str) -> Scene {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../homes/{home}.toml"));
-    scene_of(path, noise)
+    scene_of(project_home(home), noise)
+}
+
+/// One of the project's homes with a simulated Relax, as it is sold: it measures no currents and has no gyro.
+///
+/// # Panics
+/// When it cannot be loaded.
+#[must_use]
+pub fn relax(home: &str) -> Scene {
+    scene_with("relax", project_home(home), "nominal")
 }
 
 /// The generated home of this number with nominal noise.
@@ -57,10 +65,18 @@ pub fn scene_in(file: PathBuf) -> Scene {
     scene_of(file, "nominal")
 }
 
+fn project_home(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../homes/{name}.toml"))
+}
+
 fn scene_of(home: PathBuf, noise: &str) -> Scene {
+    scene_with("sr8730", home, noise)
+}
+
+fn scene_with(robot: &str, home: PathBuf, noise: &str) -> Scene {
     Scene::load(&SceneSettings {
         home,
-        robot: "sr8730".to_owned(),
+        robot: robot.to_owned(),
         noise: noise.to_owned(),
         firmware: None,
         record: Record::Complete,

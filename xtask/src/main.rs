@@ -35,7 +35,7 @@ enum Command {
     Test(test::Arguments),
     /// Builds the firmware of a robot and tells what it takes.
     Firmware(firmware::Arguments),
-    /// Measures the link, the relay, the simulator or the size of cordlib.
+    /// Measures one part of the project and prints its figures: the link, the daemon, the simulator, the firmware, how the robot cleans.
     Bench(bench::Arguments),
     /// Checks the rules of the repository.
     Tidy,

@@ -4,6 +4,7 @@
 mod access;
 mod actions;
 mod app;
+mod changes;
 mod device_view;
 mod dock_view;
 mod drive;

@@ -14,6 +14,7 @@ use rvac_api::{
 use rvac_api::Update as Message;
 
 use crate::access::{EDITS_MIXES, Entrance, Newcomer};
+use crate::changes::set_if_changed;
 use crate::drive::Seat;
 use crate::floor_files::FloorDesk;
 use crate::history::HistoryDesk;
@@ -427,10 +428,8 @@ impl Store {
 
     fn on_home(self, home: &HomeView) {
         let rows = room_rows(words(), home);
-        if self.rooms.with_untracked(|rooms| *rooms != rows) {
-            self.rooms.set(rows);
-        }
-        self.carpet.set(carpet_sentence(words(), home));
+        set_if_changed(self.rooms, rows);
+        set_if_changed(self.carpet, carpet_sentence(words(), home));
         self.orders.on_home(home);
         self.map.with_value(|map| map.on_home(home));
         self.take_put_off_steps();

@@ -1,12 +1,10 @@
 //! Where carpets lie, as a whole system feels it on a virtual clock by what the motors draw.
 
-use std::path::PathBuf;
-
 use brain::command::StrategyName;
 use brain::mapping::FloorKind;
 use rvac_sim::run::{household, start_cleaning};
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings};
-use scenarios::{scene, settings};
+use rvac_sim::{Host, Household, Scene};
+use scenarios::{relax, scene, settings};
 
 const MINUTE_MS: u64 = 60_000;
 /// Least share of the rug that is found, and of what is found that lies on it. They were 0.87 and 0.89 when this was written.
@@ -42,17 +40,7 @@ fn where_there_is_none_none_is_found() {
 
 #[test]
 fn a_robot_that_measures_no_currents_says_that_it_does_not_know() {
-    let home = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../homes/two-room-flat.toml");
-    let relax = Scene::load(&SceneSettings {
-        home,
-        robot: "relax".to_owned(),
-        noise: "nominal".to_owned(),
-        firmware: None,
-        record: Record::Complete,
-        gyro: GyroFitted::default(),
-    })
-    .expect("the home suits the robot");
-    let household = after_minutes(&relax, 4);
+    let household = after_minutes(&relax("two-room-flat"), 4);
     assert!(household.host().is_some_and(|host| !host.measures_currents()));
     assert_eq!(carpet_cells(&household), 0);
     assert_eq!(

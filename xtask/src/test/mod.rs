@@ -63,10 +63,12 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         process::print(&row(outcome));
     }
     process::print(&total.to_string());
-    // Said once more: in the middle of a long run nobody sees it.
-    outcomes
-        .iter()
-        .for_each(|outcome| complain_of(outcome.stage, &outcome.errors));
+    if outcomes.len() > 1 {
+        // Said once more: in the middle of a long run nobody sees it.
+        outcomes
+            .iter()
+            .for_each(|outcome| complain_of(outcome.stage, &outcome.errors));
+    }
     if total.failed > 0 {
         bail!("{} failed", total.failed);
     }

@@ -7,6 +7,7 @@ use rvac_api::{ClientInput, Pose, Status};
 
 use super::{choice, gamepads};
 
+use crate::changes::set_if_changed;
 use crate::language::words;
 
 /// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
@@ -89,9 +90,7 @@ impl Seat {
         self.meter
             .update_value(|meter| meter.on_mixed(&steered.mixed, began_ms));
         let is_live = steered.mixed.state == MixState::Live;
-        if self.is_live.get_untracked() != is_live {
-            self.is_live.set(is_live);
-        }
+        set_if_changed(self.is_live, is_live);
         steered
     }
 
@@ -106,9 +105,7 @@ impl Seat {
     fn look(self) -> f64 {
         let now = now_ms();
         let pads = gamepads::read();
-        if self.pads.with_untracked(|names| *names != pads.names) {
-            self.pads.set(pads.names);
-        }
+        set_if_changed(self.pads, pads.names);
         self.driver.update_value(|driver| {
             if driver.readings().pads != pads.readings {
                 self.note_input(pads.time_ms.unwrap_or(now));
@@ -149,9 +146,7 @@ impl Seat {
     pub(crate) fn on_pose(self, pose: Pose) {
         self.meter.update_value(|meter| meter.on_pose(now_ms(), pose));
         let text = self.meter.with_value(|meter| meter.text(words()));
-        if self.latency.with_untracked(|shown| *shown != text) {
-            self.latency.set(text);
-        }
+        set_if_changed(self.latency, text);
     }
 
     /// The device in the hand is tilted so, forward and left.
@@ -167,9 +162,7 @@ impl Seat {
         self.driver
             .update_value(|driver| driver.hear_inputs(now_us, inputs));
         let passed_on = self.lending.with_value(|lending| lending.passed_on(inputs));
-        if self.passed_on.with_untracked(|known| *known != passed_on) {
-            self.passed_on.set(passed_on);
-        }
+        set_if_changed(self.passed_on, passed_on);
     }
 
     /// What the robot does; a hand that holds a gamepad feels the bumper.

@@ -10,6 +10,7 @@ use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 use super::MapHandle;
 use super::scene::Ground;
 use crate::access::EDITS_HOME;
+use crate::changes::set_if_changed;
 use crate::language::words;
 use crate::store::Store;
 
@@ -58,21 +59,13 @@ impl Orders {
 
     pub(crate) fn on_home(self, home: &HomeView) {
         let rows = no_go_rows(words(), home);
-        if self.no_go.with_untracked(|known| *known != rows) {
-            self.no_go.set(rows);
-        }
+        set_if_changed(self.no_go, rows);
         let places = place_rows(words(), home);
-        if self.places.with_untracked(|known| *known != places) {
-            self.places.set(places);
-        }
+        set_if_changed(self.places, places);
         let dock = dock_text(words(), home);
-        if self.dock.get_untracked() != dock {
-            self.dock.set(dock);
-        }
+        set_if_changed(self.dock, dock);
         let changes = room_change_rows(words(), home);
-        if self.room_changes.with_untracked(|known| *known != changes) {
-            self.room_changes.set(changes);
-        }
+        set_if_changed(self.room_changes, changes);
         let mut choice = self.choice.get_untracked();
         if choice.retain_known(home) {
             self.choice.set(choice);

@@ -13,6 +13,7 @@ use super::reshape_view::ReshapeView;
 use super::scene::{CameraMode, Ground, Scene};
 use super::sketch_view::SketchView;
 use super::view_memory::{keep_view, kept_view};
+use crate::changes::set_if_changed;
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
@@ -237,22 +238,14 @@ fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>)
                 has_doors: map.with(|scene| scene.doors().next().is_some()),
                 relief_failure: map.with(|scene| scene.relief_failure().map(str::to_owned)),
             };
-            if footer.with_untracked(|now| *now != next) {
-                footer.set(next);
-            }
+            set_if_changed(footer, next);
             let shown = map.with(|scene| scene.ground());
-            if ground.get_untracked() != shown {
-                ground.set(shown);
-            }
+            set_if_changed(ground, shown);
             let seen_from = map.with(|scene| scene.camera.orbit());
-            if orbit.get_untracked() != seen_from {
-                orbit.set(seen_from);
-            }
+            set_if_changed(orbit, seen_from);
             keep_view(seen_from);
             let current = map.with(|scene| scene.mode);
-            if mode.get_untracked() != current {
-                mode.set(current);
-            }
+            set_if_changed(mode, current);
         });
     };
     if let Ok(timer) = set_interval_with_handle(update, Duration::from_millis(250)) {

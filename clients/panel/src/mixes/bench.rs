@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use mixer::{KeyCode, LineStages, Mixed, MixedOutput, Mixer, Name, Profile, Readings, Source};
 use panel_logic::{CalibrationRun, Field, Group, Learning, MixDraft};
 
+use crate::changes::set_if_changed;
 use crate::drive::Seat;
 use crate::language::words;
 
@@ -178,12 +179,8 @@ impl Bench {
             return;
         }
         let mixed = mixed.flatten();
-        if self.live.with_untracked(|live| *live != mixed) {
-            self.live.set(mixed);
-        }
-        if self.readings.with_untracked(|shown| shown != readings) {
-            self.readings.set(readings.clone());
-        }
+        set_if_changed(self.live, mixed);
+        set_if_changed(self.readings, readings.clone());
     }
 
     fn learn(self, readings: &Readings) {
