@@ -6,6 +6,7 @@
 
 mod draw;
 mod furnisher;
+mod half;
 mod layout;
 mod recipes;
 mod shape;
@@ -19,6 +20,7 @@ use core::ops::RangeInclusive;
 use crate::{Home, HomeError, RobotModel};
 use draw::Draw;
 use furnisher::Furnisher;
+pub use half::Half;
 use layout::{Extent, draw_rooms};
 use shape::{Frame, Rect, Side};
 use things::{Piece, Room, RoomKind, Things, Visitor, Walker};

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use clap::Parser;
-use home::generate::{GeneratedHome, PUBLISHED};
+use home::generate::{GeneratedHome, Half};
 use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
@@ -26,7 +26,7 @@ use table::Table;
 /// Measures docking in generated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes: `tune` or `report` (odd and even numbers of the published set), or `small` (two homes of the project).
+    /// Homes: `tuning` or `report` (odd and even numbers of the published set), or `small` (two homes of the project).
     #[arg(long, default_value = "report")]
     homes: String,
     /// Runs of each situation, spread over the homes.
@@ -94,17 +94,16 @@ const SMALL: [&str; 2] = ["homes/furnished-room.toml", "homes/two-room-flat.toml
 
 impl Arguments {
     fn homes(&self) -> anyhow::Result<Vec<Place>> {
-        let numbers = |rest: u32| {
-            PUBLISHED
-                .filter(move |number| number % 2 == rest)
-                .map(Place::Generated)
-        };
-        Ok(match self.homes.as_str() {
-            "tune" => numbers(1).collect(),
-            "report" => numbers(0).collect(),
-            "small" => SMALL.into_iter().map(Place::File).collect(),
-            other => anyhow::bail!("`{other}` is no set of homes: give tune, report or small"),
-        })
+        if self.homes == "small" {
+            return Ok(SMALL.into_iter().map(Place::File).collect());
+        }
+        let half = Half::named(&self.homes).with_context(|| {
+            format!(
+                "`{}` is no set of homes: give tuning, report or small",
+                self.homes
+            )
+        })?;
+        Ok(half.numbers().map(Place::Generated).collect())
     }
 
     /// The seeds that fall to a home.

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use clap::Parser;
-use home::generate::{GeneratedHome, PUBLISHED};
+use home::generate::{GeneratedHome, Half};
 use home::{Noise, RobotModel};
 use rvac_sim::Scene;
 
@@ -28,7 +28,7 @@ use trial::{Floor, Kept, Trial};
 /// Measures the recognition of floors in generated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes: `tune` or `report` (odd and even numbers of the published set).
+    /// Homes: `tuning` or `report` (odd and even numbers of the published set).
     #[arg(long, default_value = "report")]
     homes: String,
     /// Homes of the set that are used, from its first one on.
@@ -74,17 +74,11 @@ fn main() -> anyhow::Result<()> {
 
 impl Arguments {
     fn floors(&self) -> anyhow::Result<Vec<Floor>> {
-        let rest = match self.homes.as_str() {
-            "tune" => 1,
-            "report" => 0,
-            other => anyhow::bail!("`{other}` is no set of homes: give tune or report"),
-        };
+        let half = Half::named(&self.homes)
+            .with_context(|| format!("`{}` is no set of homes: give tuning or report", self.homes))?;
         let model = RobotModel::by_name("sr8730")?;
         let noise: Noise = self.noise.parse()?;
-        let numbers: Vec<u32> = PUBLISHED
-            .filter(|number| number % 2 == rest)
-            .take(self.first)
-            .collect();
+        let numbers: Vec<u32> = half.numbers().take(self.first).collect();
         let progress = Progress::new("learning");
         let mut floors = Vec::new();
         for number in &numbers {

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use clap::Parser;
-use home::generate::{GeneratedHome, PUBLISHED};
+use home::generate::{GeneratedHome, Half};
 use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
@@ -26,7 +26,7 @@ use trial::{Radio, Trial, Work};
 /// Measures how a lifted robot finds itself in generated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes: `tune` or `report` (odd and even numbers of the published set), or a home's file.
+    /// Homes: `tuning` or `report` (odd and even numbers of the published set), or a home's file.
     #[arg(long, default_value = "report")]
     homes: String,
     /// Homes of the set that are used, from its first one on.
@@ -82,16 +82,11 @@ impl Arguments {
     fn homes(&self) -> anyhow::Result<Vec<Scene>> {
         let model = RobotModel::by_name("sr8730")?;
         let noise: Noise = self.noise.parse()?;
-        let rest = match self.homes.as_str() {
-            "tune" => 1,
-            "report" => 0,
-            file => {
-                let home = Home::load(Path::new(file), &model)?;
-                return Ok(vec![Scene::new(Arc::new(home), model, noise)]);
-            }
+        let Some(half) = Half::named(&self.homes) else {
+            let home = Home::load(Path::new(&self.homes), &model)?;
+            return Ok(vec![Scene::new(Arc::new(home), model, noise)]);
         };
-        PUBLISHED
-            .filter(|number| number % 2 == rest)
+        half.numbers()
             .take(self.first)
             .map(|number| {
                 let home = GeneratedHome::number(number).home(&model)?;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::Context;
-use home::generate::{GeneratedHome, PUBLISHED};
+use home::generate::{GeneratedHome, Half, PUBLISHED};
 use home::traps::Trap;
 use home::{Home, RobotModel};
 
@@ -30,17 +30,12 @@ impl Place {
     }
 
     fn set(text: &str) -> anyhow::Result<Vec<Self>> {
-        let numbered = |keep: fn(&u32) -> bool| -> Vec<Self> {
-            let numbers = PUBLISHED.filter(keep);
-            numbers
-                .map(|number| Self::Generated(GeneratedHome::number(number)))
-                .collect()
-        };
-        match text {
-            "published" => return Ok(numbered(|_| true)),
-            "tuning" => return Ok(numbered(|number| number % 2 == 1)),
-            "report" => return Ok(numbered(|number| number % 2 == 0)),
-            _ => {}
+        let generated = |number| Self::Generated(GeneratedHome::number(number));
+        if text == "published" {
+            return Ok(PUBLISHED.map(generated).collect());
+        }
+        if let Some(half) = Half::named(text) {
+            return Ok(half.numbers().map(generated).collect());
         }
         if let Some(name) = text.strip_prefix("trap:") {
             let trap = Trap::parse(name).with_context(|| format!("`{name}` is no trap"))?;
