@@ -7,25 +7,20 @@
 
 pub mod parts;
 
-use cordlib::board::{Board, Emitters, Received, WheelDrive};
+use cordlib::board::{Board, Received};
 use cordlib::{Cord, Parameters};
-use parts::{Bridges, Floor, Memory, Time, Wire};
+pub use parts::LIMITS;
+use parts::{Memory, board};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Cliffs, Command, Description, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor,
-    MotorCommand, Move, MoveEnd, Refusal, Report, Sequence, State,
+    BinaryKinds, Command, Description, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
+    MoveEnd, Refusal, Report, Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Throttle, Tick};
 
-pub const LIMITS: Limits = Limits {
-    speed_max: Speed(350_000),
-    turn_max: AngularSpeed(1_500_000),
-    track: Length(230_000),
-    count_nm: 500_000,
-    radius: Length(175_000),
-    swath: Length(300_000),
-};
+/// What the line to the host takes at a time: less than a packet.
+const LINE_BYTES: usize = 23;
 
 /// What the mechanics do besides following the duty.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,45 +70,6 @@ impl Phases {
     }
 }
 
-fn board() -> Board<Memory> {
-    Board {
-        clock: Time(0),
-        link: Wire {
-            to_robot: std::collections::VecDeque::new(),
-            to_host: Vec::new(),
-            room: 23,
-        },
-        wheels: Bridges {
-            left: WheelDrive::Brake,
-            right: WheelDrive::Brake,
-        },
-        reset: parts::Record::default(),
-        watchdog: parts::Fed::default(),
-        encoders: parts::Counters::default(),
-        bumpers: parts::Switches::default(),
-        cliffs: Floor {
-            missing: Cliffs::default(),
-            stuck_left: None,
-            emitters: Emitters::On,
-        },
-        wheel_drops: parts::Drops::default(),
-        proximity: parts::Sight,
-        gyro: parts::Needle::default(),
-        currents: parts::Shunts::default(),
-        brush_main: parts::Brush::default(),
-        brush_sides: parts::Brush::default(),
-        vacuum: parts::Brush::default(),
-        charger: parts::Pack::default(),
-        dock_contacts: parts::Contacts::default(),
-        dock_beams: parts::Beams,
-        dust_box: parts::DustBoxSwitch,
-        beeper: parts::Speaker::default(),
-        lights: parts::Lamps::default(),
-        buttons: parts::Keys::default(),
-        probe: parts::Pins::default(),
-    }
-}
-
 fn parameters() -> Parameters {
     let mut parameters = Parameters::for_machine("rig", "0.1.0", LIMITS);
     parameters.wheel.dead_band = Throttle::saturating_from_millionths(120_000);
@@ -129,7 +85,7 @@ impl Rig {
 
     /// As [`Self::switched_on`], with something different about the board.
     pub fn switched_on_with(start: u32, prepare: impl FnOnce(&mut Board<Memory>)) -> Self {
-        let mut board = board();
+        let mut board = board(LINE_BYTES);
         board.clock.0 = start;
         prepare(&mut board);
         Self::with(board, parameters(), start)
@@ -137,7 +93,7 @@ impl Rig {
 
     /// As [`Self::switched_on`], with something different about the parameters.
     pub fn switched_on_as(start: u32, prepare: impl FnOnce(&mut Parameters)) -> Self {
-        let mut board = board();
+        let mut board = board(LINE_BYTES);
         board.clock.0 = start;
         let mut parameters = parameters();
         prepare(&mut parameters);

@@ -4,16 +4,26 @@ use std::cell::Cell;
 use std::collections::VecDeque;
 
 use cordlib::board::{
-    Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
-    CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
-    HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
+    Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
+    CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
+    Encoders, HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
     WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{
-    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, PROBE_CHANNELS, PROBE_PORTS,
-    PROXIMITY_SENSORS, Refusal, ResetCause, WheelDrops,
+    Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS,
+    PROBE_PORTS, PROXIMITY_SENSORS, Refusal, ResetCause, WheelDrops,
 };
-use rvac_units::{Frequency, Ratio, Throttle, Tick};
+use rvac_units::{AngularSpeed, Frequency, Length, Ratio, Speed, Throttle, Tick};
+
+/// What the machine of these tests can do.
+pub const LIMITS: Limits = Limits {
+    speed_max: Speed(350_000),
+    turn_max: AngularSpeed(1_500_000),
+    track: Length(230_000),
+    count_nm: 500_000,
+    radius: Length(175_000),
+    swath: Length(300_000),
+};
 
 thread_local! {
     /// Calls into the board until one panics.
@@ -66,6 +76,46 @@ impl Parts for Memory {
     type Lights = Lamps;
     type Buttons = Keys;
     type Probe = Pins;
+}
+
+/// A board at rest whose line to the host takes so many bytes at a time.
+pub fn board(room: usize) -> Board<Memory> {
+    Board {
+        clock: Time(0),
+        link: Wire {
+            to_robot: VecDeque::new(),
+            to_host: Vec::new(),
+            room,
+        },
+        wheels: Bridges {
+            left: WheelDrive::Brake,
+            right: WheelDrive::Brake,
+        },
+        reset: Record::default(),
+        watchdog: Fed::default(),
+        encoders: Counters::default(),
+        bumpers: Switches::default(),
+        cliffs: Floor {
+            missing: Cliffs::default(),
+            stuck_left: None,
+            emitters: Emitters::On,
+        },
+        wheel_drops: Drops::default(),
+        proximity: Sight,
+        gyro: Needle::default(),
+        currents: Shunts::default(),
+        brush_main: Brush::default(),
+        brush_sides: Brush::default(),
+        vacuum: Brush::default(),
+        charger: Pack::default(),
+        dock_contacts: Contacts::default(),
+        dock_beams: Beams,
+        dust_box: DustBoxSwitch,
+        beeper: Speaker::default(),
+        lights: Lamps::default(),
+        buttons: Keys::default(),
+        probe: Pins::default(),
+    }
 }
 
 #[derive(Debug, Default)]
