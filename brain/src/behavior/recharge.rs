@@ -117,7 +117,8 @@ impl Behavior {
         self.enter(Mode::Working, reason, mind);
     }
 
-    /// The running job is at its end. One that has cleaned goes home if the map tells where that is.
+    /// The running job is at its end. One that has cleaned goes home if the map tells where that is, or the dock's beams were heard
+    /// on the way: who began somewhere else has never stood on it.
     pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(
@@ -130,7 +131,8 @@ impl Behavior {
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
-        if has_cleaned && situation.map.dock().is_some() {
+        let has_home = situation.map.dock().is_some() || situation.beams.knows_a_dock();
+        if has_cleaned && has_home {
             self.turn_home(reason, mind);
         } else {
             self.give_up_home(reason, mind);

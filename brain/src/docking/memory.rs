@@ -92,6 +92,11 @@ impl BeamMemory {
         });
     }
 
+    /// Whether a beam was heard somewhere that the robot could go back to.
+    pub(crate) fn knows_a_dock(&self) -> bool {
+        !self.places.is_empty()
+    }
+
     /// What is heard now.
     pub(super) fn hearing(&self) -> &Hearing {
         &self.hearing

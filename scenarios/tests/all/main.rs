@@ -7,6 +7,7 @@ mod edges;
 mod floors;
 mod health;
 mod history;
+mod homecoming;
 mod host_death;
 mod learnt;
 mod leftovers;
