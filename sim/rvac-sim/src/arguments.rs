@@ -161,6 +161,9 @@ pub(crate) struct RunArguments {
     /// Tell what the host took of this machine's processor, too; it differs from run to run.
     #[arg(long)]
     pub(crate) host_cost: bool,
+    /// Tell on standard error what the robot decided and why, with the seconds since its start.
+    #[arg(long)]
+    pub(crate) explain: bool,
     /// Give the host a perfect map of the home at the start.
     #[arg(long)]
     pub(crate) known_map: bool,

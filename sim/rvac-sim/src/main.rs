@@ -17,6 +17,7 @@ use clap::Parser;
 use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
+use rvac_api::LogEntry;
 use rvac_sim::baseline::add_missing;
 use rvac_sim::faults::{Campaign, Summary, trials};
 use rvac_sim::page;
@@ -78,6 +79,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     if let Some(host) = household.host_mut().filter(|_| arguments.host_cost) {
         host.measure_cost();
     }
+    if let Some(host) = household.host_mut().filter(|_| arguments.explain) {
+        host.keep_log();
+    }
     let report = run_until(&mut household, (&settings, arguments.end()), |share| {
         progress.show(share);
     });
@@ -88,6 +92,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         host_cost: household.host().and_then(Host::cost),
         ..report
     };
+    explain(household.host().map_or(&[], Host::log))?;
     if let Some(folder) = &arguments.keep {
         let kept = KeptRun {
             origin: arguments.origin(),
@@ -107,6 +112,15 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         writeln!(io::stderr(), "violation: {violation}")?;
     }
     Ok(verdict(u64::from(report.monitor_violations)))
+}
+
+/// Tells what was logged; nothing was if nobody asked.
+fn explain(log: &[LogEntry]) -> anyhow::Result<()> {
+    let mut out = io::stderr().lock();
+    for entry in log {
+        writeln!(out, "{:>8.1} {:8} {}", entry.t, entry.part, entry.text)?;
+    }
+    Ok(())
 }
 
 fn read_map(path: &Path) -> anyhow::Result<StoredMap> {

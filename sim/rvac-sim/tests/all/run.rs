@@ -21,6 +21,36 @@ fn report(seed: &str) -> Value {
 }
 
 #[test]
+fn it_tells_what_the_robot_decided_and_why() {
+    let words = [
+        "run",
+        "--home",
+        "homes/two-room-flat.toml",
+        "--minutes",
+        "1",
+        "--json",
+    ];
+    let silent = rvac_sim(&words);
+    let explained = rvac_sim(&[words.as_slice(), &["--explain"]].concat());
+    let told = String::from_utf8(explained.stderr).unwrap();
+    let starts = told
+        .lines()
+        .find(|line| line.contains("state-cleaning (command)"));
+    assert!(starts.is_some_and(|line| line.contains("brain")), "{told}");
+    assert!(
+        !String::from_utf8(silent.stderr)
+            .unwrap()
+            .contains("state-cleaning")
+    );
+    let figures = |stdout: &[u8]| -> Value {
+        let mut figures: Value = serde_json::from_slice(stdout).unwrap();
+        figures["wall_seconds"].take();
+        figures
+    };
+    assert_eq!(figures(&silent.stdout), figures(&explained.stdout));
+}
+
+#[test]
 fn a_report_has_all_keys_and_repeats_itself() {
     let mut first = report("7");
     let mut second = report("7");
