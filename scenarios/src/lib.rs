@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use brain::command::StrategyName;
+use home::Pose;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
 
@@ -27,6 +28,12 @@ pub fn scene(home: &str, noise: &str) -> Scene {
 #[must_use]
 pub fn relax(home: &str) -> Scene {
     scene_with("relax", project_home(home), "nominal")
+}
+
+/// A place beside the dock of a home, from which the robot neither touches it nor looks at it.
+#[must_use]
+pub fn off_the_dock(scene: &Scene) -> Pose {
+    scene.home().start().then(Pose::new(-0.6, 0.0, 2.0))
 }
 
 /// The generated home of this number with nominal noise.

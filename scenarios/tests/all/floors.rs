@@ -8,7 +8,7 @@ use robot::RobotSettings;
 use rvac_api::{FloorsView, RequestBody};
 use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{off_the_dock, scene, settings};
 use vthal_core::{CoreConfig, KeptFloor};
 
 /// The floors 1 and 2.
@@ -60,10 +60,8 @@ fn off_m(household: &Household, name: &str) -> f64 {
     Pose::new(believed.x, believed.y, believed.heading).distance_m(truth)
 }
 
-/// A place off the dock.
 fn middle_of(name: &str) -> Pose {
-    let start = scene(name, "nominal").home().start();
-    start.then(Pose::new(-0.6, 0.0, 2.0))
+    off_the_dock(&scene(name, "nominal"))
 }
 
 #[test]

@@ -2,32 +2,23 @@
 
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use home::{DockBeams, Pose};
-use robot::RobotSettings;
-use rvac_sim::run::start_cleaning;
+use home::DockBeams;
+use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household};
-use scenarios::scene;
-use vthal_core::CoreConfig;
+use scenarios::{off_the_dock, scene, settings};
 
 /// Longest job and way home, seconds.
 const DONE_S: u64 = 60 * 60;
 
-/// A robot that is put down half a metre off its dock, askew.
+/// A robot that is put down off its dock before it has seen anything.
 fn put_down(seed: u64) -> Household {
     let scene = scene("furnished-room", "nominal");
-    let place = scene.home().start().then(Pose::new(-0.6, 0.0, 2.0));
-    let settings = RobotSettings {
-        seed,
-        ..RobotSettings::default()
-    };
-    let config = CoreConfig {
-        sensors: scene.sensors(),
-        ..Host::config(seed, StrategyName::Systematic)
-    };
-    Household::new(
-        scene.robot_at(Some(place), seed, &settings),
-        Host::start(0, config),
-    )
+    let mut household = household(&scene, &settings(seed, 0));
+    household
+        .robot_mut()
+        .world_mut()
+        .put_down_at(off_the_dock(&scene));
+    household
 }
 
 /// Cleans until the robot rests; its state then.

@@ -8,6 +8,7 @@
 
 pub mod baseline;
 mod carpet_quality;
+mod explanation;
 pub mod faults;
 mod figures;
 mod firmware;
@@ -30,6 +31,7 @@ mod sensors;
 pub mod serve;
 pub mod trace;
 
+pub use explanation::explain;
 pub use figures::{Figures, LostStretch, TimeSpent};
 pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;

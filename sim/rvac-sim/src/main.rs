@@ -17,14 +17,13 @@ use clap::Parser;
 use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
-use rvac_api::LogEntry;
 use rvac_sim::baseline::add_missing;
 use rvac_sim::faults::{Campaign, Summary, trials};
 use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError};
+use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError, explain};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -92,7 +91,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         host_cost: household.host().and_then(Host::cost),
         ..report
     };
-    explain(household.host().map_or(&[], Host::log))?;
+    explain(household.host().map_or(&[], Host::log), &mut io::stderr().lock())?;
     if let Some(folder) = &arguments.keep {
         let kept = KeptRun {
             origin: arguments.origin(),
@@ -112,15 +111,6 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         writeln!(io::stderr(), "violation: {violation}")?;
     }
     Ok(verdict(u64::from(report.monitor_violations)))
-}
-
-/// Tells what was logged; nothing was if nobody asked.
-fn explain(log: &[LogEntry]) -> anyhow::Result<()> {
-    let mut out = io::stderr().lock();
-    for entry in log {
-        writeln!(out, "{:>8.1} {:8} {}", entry.t, entry.part, entry.text)?;
-    }
-    Ok(())
 }
 
 fn read_map(path: &Path) -> anyhow::Result<StoredMap> {

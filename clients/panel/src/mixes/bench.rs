@@ -180,7 +180,9 @@ impl Bench {
         }
         let mixed = mixed.flatten();
         set_if_changed(self.live, mixed);
-        set_if_changed(self.readings, readings.clone());
+        if self.readings.with_untracked(|shown| shown != readings) {
+            self.readings.set(readings.clone());
+        }
     }
 
     fn learn(self, readings: &Readings) {

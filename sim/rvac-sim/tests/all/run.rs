@@ -1,6 +1,7 @@
 //! The batch commands as processes.
 
 use crate::echo;
+use std::borrow::Cow;
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -17,7 +18,15 @@ fn report(seed: &str) -> Value {
     let home = "homes/two-room-flat.toml";
     let output = rvac_sim(&["run", "--home", home, "--seed", seed, "--minutes", "2", "--json"]);
     assert!(output.status.success(), "{output:?}");
+    parsed(&output)
+}
+
+fn parsed(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn told(output: &Output) -> Cow<'_, str> {
+    String::from_utf8_lossy(&output.stderr)
 }
 
 #[test]
@@ -32,22 +41,15 @@ fn it_tells_what_the_robot_decided_and_why() {
     ];
     let silent = rvac_sim(&words);
     let explained = rvac_sim(&[words.as_slice(), &["--explain"]].concat());
-    let told = String::from_utf8(explained.stderr).unwrap();
-    let starts = told
-        .lines()
-        .find(|line| line.contains("state-cleaning (command)"));
-    assert!(starts.is_some_and(|line| line.contains("brain")), "{told}");
-    assert!(
-        !String::from_utf8(silent.stderr)
-            .unwrap()
-            .contains("state-cleaning")
-    );
-    let figures = |stdout: &[u8]| -> Value {
-        let mut figures: Value = serde_json::from_slice(stdout).unwrap();
+    let starts = "brain    state-cleaning (command)";
+    assert!(told(&explained).contains(starts), "{}", told(&explained));
+    assert!(!told(&silent).contains(starts));
+    let figures = |output| {
+        let mut figures = parsed(output);
         figures["wall_seconds"].take();
         figures
     };
-    assert_eq!(figures(&silent.stdout), figures(&explained.stdout));
+    assert_eq!(figures(&silent), figures(&explained));
 }
 
 #[test]
@@ -124,7 +126,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
 fn what_the_host_took_of_the_processor_is_told_on_demand() {
     let home = "homes/two-room-flat.toml";
     let output = rvac_sim(&["run", "--home", home, "--minutes", "1", "--host-cost", "--json"]);
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = parsed(&output);
     let processor_s = report["host_cost"]["processor_s"].as_f64();
     assert!(processor_s.is_some_and(|seconds| seconds > 0.0), "{report}");
 }

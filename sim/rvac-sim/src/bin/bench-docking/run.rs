@@ -8,7 +8,7 @@ use home::{DockBeams, Pcg, wrap_angle};
 use robot::RobotSettings;
 use rvac_api::{LogEntry, RequestBody};
 use rvac_sim::run::{core_config, start_cleaning};
-use rvac_sim::{Host, Household, Scene};
+use rvac_sim::{Host, Household, Scene, explain};
 use serde::Serialize;
 
 use crate::place;
@@ -197,10 +197,7 @@ impl Run {
             self.time_s,
             self.distance_m
         )?;
-        for entry in &self.log {
-            writeln!(out, "  {:>7.1} {}", entry.t, entry.text)?;
-        }
-        Ok(())
+        Ok(explain(&self.log, &mut out)?)
     }
 }
 
