@@ -17,7 +17,7 @@ use crate::task::Situation;
 const OFF_START_M: f64 = 0.06;
 
 /// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper. With the whole deviation three
-/// known homes were swept to 0.98 instead of 0.97, in 2.7 to 3.1 times the time (`measurements.md`).
+/// known homes were swept to 0.98 instead of 0.97, in 2.7 to 3.1 times the time (`measurements/systematic-known.md`).
 const SIGMA_MAX_M: f64 = 0.015;
 
 /// All that a plan depends on.
