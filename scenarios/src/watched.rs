@@ -11,7 +11,7 @@ use rvac_sim::{Host, Household, Scene};
 use vthal_core::{CoreConfig, Record, Recording};
 
 /// A job that nobody ends may take so long, seconds.
-pub const JOB_S: u64 = 40 * 60;
+pub const JOB_S: u64 = 30 * 60;
 /// A host knows its robot after so many seconds.
 const CONNECT_S: u64 = 3;
 /// What docking tells of the way is drawn within so long, seconds.
