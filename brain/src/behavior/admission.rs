@@ -1,12 +1,13 @@
 //! Which commands are obeyed in which situation, and what obeying them means.
 
+use super::JobKind;
 use super::machine::{Behavior, Mode};
 use super::manual::ManualDrive;
-use super::{JobKind, Reason};
-use crate::command::{Command, StrategyName};
 use crate::mapping::Map;
-use crate::order::CleaningOrder;
-use crate::task::Mind;
+use crate::model::command::{Command, StrategyName};
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
 
 impl Behavior {
     /// Whether `command` may be obeyed now, in a home that is as the map says.
@@ -31,7 +32,7 @@ impl Behavior {
                 self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
             }
             Command::CleanParts { order } => {
-                order.fits(map)?;
+                map.admit_order(order)?;
                 self.admit_job(JobKind::Clean(StrategyName::Systematic), order)
             }
             Command::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),

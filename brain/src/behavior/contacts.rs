@@ -3,10 +3,10 @@
 //! Contacts close on a dock that has no power, on dust, and in the field of a switch that hangs. Who stands there believes to be
 //! charged and wakes up empty.
 
-use super::Reason;
 use super::machine::{Behavior, Mode};
-use crate::observation::ChargeFlow;
-use crate::task::Mind;
+use crate::model::observation::ChargeFlow;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
 
 /// Current must flow within this time, if it can be expected at all. The firmware looks at dock and pack for some seconds
 /// before it lets it flow, and tells it in a report that comes once a second.

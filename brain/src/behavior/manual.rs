@@ -1,9 +1,9 @@
 //! A person drives (S23).
 
-use super::Reason;
 use super::machine::{Behavior, Mode};
-use crate::action::Motion;
-use crate::task::Mind;
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
 
 /// The newest wish of the person who drives.
 #[derive(Clone, Copy, Debug, PartialEq)]

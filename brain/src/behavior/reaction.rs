@@ -1,9 +1,10 @@
 //! What perceptions change, the gravest first.
 
+use super::JobKind;
 use super::job::Job;
 use super::machine::{Behavior, Mode};
-use super::{JobKind, Reason};
-use crate::task::{Mind, Situation};
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Situation};
 
 /// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
 const SHORT_OUTAGE_US: u64 = 5_000_000;

@@ -6,15 +6,16 @@
 
 use core::task::Poll;
 
+use super::JobCheckpoint;
+use super::JobKind;
 use super::job::Job;
 use super::machine::{Behavior, Mode};
-use super::{JobKind, Reason};
-use crate::checkpoint::JobCheckpoint;
-use crate::command::StrategyName;
 use crate::docking;
-use crate::energy::{Activity, EnergyModel, EnergyWatch, Leftover};
-use crate::order::CleaningOrder;
-use crate::task::{Mind, Situation};
+use crate::model::command::StrategyName;
+use crate::model::energy::{Activity, EnergyModel, EnergyWatch, Leftover};
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Situation};
 
 /// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
 const LOOK_BELOW: f32 = 0.5;

@@ -3,10 +3,10 @@
 //! A map that is still bent can shut a robot in: a wall that was drawn from a wrong place closes a door. On the dock the robot knows its
 //! place, the map is drawn again with that, and what was shut in is mostly open then.
 
-use super::Reason;
 use super::job::Job;
 use super::machine::Behavior;
-use crate::task::Situation;
+use crate::model::reason::Reason;
+use crate::navigation::Situation;
 
 /// More than this share of the floor that it knows is much. (One of 75 first runs of generated homes gave up 0.27 of it; from the
 /// dock it went on to 0.97.)
@@ -65,18 +65,18 @@ impl Behavior {
 mod tests {
     use super::super::machine::Mode;
     use super::{Behavior, Job, Reason};
-    use crate::action::Motion;
     use crate::behavior::{BehaviorState, JobFigures, JobKind};
-    use crate::command::StrategyName;
-    use crate::config::BrainConfig;
-    use crate::coverage::SweptShare;
-    use crate::docking::BeamMemory;
-    use crate::geometry::Pose2;
-    use crate::localization::{Advance, Localization};
-    use crate::mapping::{Cell, CellKnowledge, Map, Raster, StoredMap};
-    use crate::observation::Observation;
-    use crate::random::Random;
-    use crate::task::{Mind, Plan, Situation, Task};
+    use crate::mapping::{BeamMemory, Cell, CellKnowledge, Map, Raster, StoredMap};
+    use crate::model::action::Motion;
+    use crate::model::advance::Advance;
+    use crate::model::command::StrategyName;
+    use crate::model::config::BrainConfig;
+    use crate::model::geometry::Pose2;
+    use crate::model::observation::Observation;
+    use crate::model::pose_estimate::PoseEstimate;
+    use crate::model::random::Random;
+    use crate::model::swept_share::SweptShare;
+    use crate::navigation::{Mind, Plan, Situation, Task};
 
     /// A job that has swept this share and gets no further.
     #[derive(Debug)]
@@ -103,7 +103,6 @@ mod tests {
         behavior: Behavior,
         mind: Mind,
         map: Map,
-        localization: Localization,
         observation: Observation,
     }
 
@@ -126,7 +125,6 @@ mod tests {
                     journal: Vec::new(),
                 },
                 map,
-                localization: Localization::new(config.body.track_m, 0.5),
                 observation: Observation::default(),
             }
         }
@@ -134,10 +132,21 @@ mod tests {
         /// One step of the job, or of the wait for charge; gives the state after it.
         fn step(&mut self, step: fn(&mut Behavior, &Situation<'_>, &mut Mind)) -> (BehaviorState, Reason) {
             let (config, beams) = (BrainConfig::of_tests(), BeamMemory::default());
-            let seen = (&self.localization, &self.map, &beams);
             let situation = Situation {
+                observation: &self.observation,
+                advance: Advance::default(),
+                pose: Pose2::IDENTITY,
+                estimate: PoseEstimate::default(),
+                map: &self.map,
+                is_tracked: false,
+                gyro_scale_sigma: None,
+                gyro_bias_sigma_rad_per_s: None,
+                way_back_m: 0.15,
+                beams: &beams,
+                config: &config,
                 knows_heading: true,
-                ..Situation::new(&self.observation, Advance::default(), seen, &config)
+                touching: false,
+                at_cliff: false,
             };
             step(&mut self.behavior, &situation, &mut self.mind);
             (self.behavior.state(), self.behavior.reason)

@@ -2,10 +2,11 @@
 
 use super::job::Job;
 use super::machine::{Behavior, JobStart, Mode};
-use super::{JobFigures, JobKind, Reason};
-use crate::action::{Arm, Motion, Tone};
-use crate::order::CleaningOrder;
-use crate::task::Mind;
+use super::{JobFigures, JobKind};
+use crate::model::action::{Arm, Motion, Tone};
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
 
 /// Pause between two tries to arm.
 const ARM_AGAIN_US: u64 = 500_000;

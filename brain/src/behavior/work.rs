@@ -1,19 +1,20 @@
 //! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
 
+use super::JobKind;
 use super::gyro_rest::RestPace;
 use super::job::{Detour, Job, Purpose};
 use super::machine::{Behavior, Mode};
-use super::{JobKind, Reason};
-use crate::action::Motion;
-use crate::command::StrategyName;
-use crate::coverage::SweptShare;
-use crate::geometry::Point2;
-use crate::localization::Advance;
 use crate::mapping::Map;
-use crate::no_go::NoGo;
-use crate::order::CleaningOrder;
+use crate::model::action::Motion;
+use crate::model::advance::Advance;
+use crate::model::command::StrategyName;
+use crate::model::geometry::Point2;
+use crate::model::no_go::NoGo;
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::{Mind, Plan, Situation};
 use crate::recovery::{self, Grip, Traction, Whereabouts};
-use crate::task::{Mind, Plan, Situation};
 
 /// The firmware may be out of reach of `arm` for this long before the job is put off.
 const STARVE_US: u64 = 3_000_000;

@@ -5,10 +5,10 @@
 //! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
 //! bias that walls have told and a later rest denies would stay otherwise.
 
-use super::Advance;
 use super::particles::GyroBelief;
 use super::rest::Rested;
-use crate::learnt::GyroLearnt;
+use crate::model::advance::Advance;
+use crate::model::learnt::GyroLearnt;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
@@ -277,7 +277,7 @@ impl Calibration {
 #[cfg(test)]
 mod tests {
     use super::{BiasTold, Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
-    use crate::learnt::GyroLearnt;
+    use crate::model::learnt::GyroLearnt;
 
     fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
         BiasTold {

@@ -3,13 +3,13 @@
 //! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
 //! tells where the dock is.
 
-use super::estimate::Drift;
+use super::TrackingCheckpoint;
+use super::drift::Drift;
 use super::tracker::PROBATION_BEAMS;
 use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
-use crate::checkpoint::TrackingCheckpoint;
-use crate::config::BrainConfig;
-use crate::geometry::Pose2;
 use crate::mapping::{DockPlace, Map};
+use crate::model::config::BrainConfig;
+use crate::model::geometry::Pose2;
 
 /// How well a pose is known that a person has pointed out, metres and radians.
 const TOLD_SIGMA_M: f64 = 0.3;

@@ -3,8 +3,8 @@
 use super::terrain::Terrain;
 use super::tracker::Tracker;
 use super::{Localization, SIGMA_MAX};
-use crate::config::BrainConfig;
 use crate::mapping::Map;
+use crate::model::config::BrainConfig;
 
 impl Localization {
     /// The robot was put down somewhere.

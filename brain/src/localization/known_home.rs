@@ -1,13 +1,13 @@
 //! A robot with bad wheels and a bad gyro drives about in a flat whose map it has.
 
 use super::Localization;
-use crate::config::{
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
+use crate::model::config::{
     Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
 };
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
-use crate::observation::{Contacts, Observation};
-use crate::random::Random;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::{Contacts, Observation};
+use crate::model::random::Random;
 
 const RADIUS_M: f64 = 0.175;
 pub(super) const TRACK_M: f64 = 0.23;

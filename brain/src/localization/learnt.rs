@@ -2,7 +2,7 @@
 
 use super::Localization;
 use super::calibration::Calibration;
-use crate::learnt::GyroLearnt;
+use crate::model::learnt::GyroLearnt;
 
 impl Localization {
     /// What is known of the gyro; `None` while that is not worth keeping.

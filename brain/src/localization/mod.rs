@@ -9,8 +9,8 @@ mod beacons;
 mod calibration;
 mod confidence;
 mod docked;
+mod drift;
 mod elsewhere;
-mod estimate;
 mod floors;
 #[cfg(test)]
 mod known_floors;
@@ -28,14 +28,13 @@ mod strengths;
 mod survey;
 mod terrain;
 mod tracker;
+mod tracking_checkpoint;
 mod trail;
 mod witness;
 
 use beacons::Beacons;
-pub use estimate::PoseEstimate;
-use estimate::{Drift, WHEEL_TURN_SCALE};
+use drift::{Drift, WHEEL_TURN_SCALE};
 pub use floors::{Finding, FloorFinder, FloorPlace};
-pub use odometry::Advance;
 use odometry::Odometry;
 use particles::GyroBelief;
 use retreat::Retreat;
@@ -43,14 +42,16 @@ use strengths::Strengths;
 use survey::{Survey, TurnCounting};
 use terrain::Terrain;
 use tracker::{Moved, Tracker};
+pub use tracking_checkpoint::TrackingCheckpoint;
 pub(crate) use witness::Withdrawal;
 use witness::Witness;
 
-use crate::checkpoint::TrackingCheckpoint;
-use crate::config::BrainConfig;
-use crate::geometry::{Pose2, normalize_rad};
 use crate::mapping::{Keyframe, Map};
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::config::BrainConfig;
+use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 
 /// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
@@ -494,8 +495,8 @@ impl Localization {
 #[cfg(test)]
 mod tests {
     use super::Localization;
-    use crate::geometry::Pose2;
-    use crate::observation::Observation;
+    use crate::model::geometry::Pose2;
+    use crate::model::observation::Observation;
 
     #[test]
     fn a_placed_robot_goes_on_from_there() {

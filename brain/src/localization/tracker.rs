@@ -8,7 +8,7 @@ mod doubt;
 use super::beacons::Heard;
 use super::calibration::BiasTold;
 use super::confidence::{Confidence, Verdict};
-use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
+use super::drift::{WHEEL_TURN_SCALE, turn_variance};
 use super::odometry::Odometry;
 use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::places::{is_alone, is_among, near_if_as_good};
@@ -16,12 +16,13 @@ use super::search::{Candidate, Search};
 use super::stand::Stand;
 use super::strengths::{Hearing, StrengthMap, Strengths};
 use super::trail::Trail;
-use super::{Advance, PoseEstimate};
+use crate::model::advance::Advance;
+use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
 
-use crate::config::SensorLayout;
-use crate::geometry::{Point2, Pose2};
-use crate::observation::{Cliffs, Contacts, Observation};
+use crate::model::config::SensorLayout;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{Cliffs, Contacts, Observation};
 
 /// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
 const WEIGH_M: f64 = 0.05;

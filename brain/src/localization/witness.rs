@@ -4,14 +4,15 @@
 //! mends. What is seen or touched in the midst of floor on which nothing stood, and a body in the midst of what was solid, for
 //! metres of way, mean that the robot is elsewhere: somebody has moved it without lifting it, or its wheels turned on something.
 
-use super::estimate::PoseEstimate;
 use super::particles::Surroundings;
 use super::terrain::Terrain;
-use super::{Advance, LEARN_US, Localization};
-use crate::config::BrainConfig;
-use crate::geometry::Point2;
+use super::{LEARN_US, Localization};
 use crate::mapping::{Keyframe, Map};
-use crate::observation::{Contacts, Observation};
+use crate::model::advance::Advance;
+use crate::model::config::BrainConfig;
+use crate::model::geometry::Point2;
+use crate::model::observation::{Contacts, Observation};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Way between two looks, metres.
 const LOOK_M: f64 = 0.1;
@@ -182,11 +183,12 @@ fn is_in_midst(terrain: &Terrain, at: Point2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{LEARN_US, PoseEstimate, Witness};
-    use crate::geometry::{Point2, Pose2};
+    use crate::localization::Localization;
     use crate::localization::known_home::{START, TRACK_M, Truth, config, flat};
     use crate::localization::terrain::Terrain;
-    use crate::localization::{Advance, Localization};
     use crate::mapping::{Cell, CellKnowledge, Keyframe, Map, Raster, StoredMap};
+    use crate::model::advance::Advance;
+    use crate::model::geometry::{Point2, Pose2};
 
     /// Looks of a robot that drives about in the flat and believes to be as far off the truth as `believed_off` says.
     fn denied(home: &Map, believed_off: Pose2, steps: u32) -> f64 {

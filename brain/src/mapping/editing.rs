@@ -6,11 +6,11 @@ use super::annotations::NAMES_MAX;
 use super::home::{Entry, HomeMap};
 use super::layers::{CellBox, Flag};
 use super::{Annotations, Cell, CellKnowledge, Map, Raster};
-use crate::behavior::Reason;
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::no_go::{NoGo, RoomName};
-use crate::order::{FAR_M, Zone};
-use crate::room_settings::RoomSettings;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::no_go::{NoGo, RoomName};
+use crate::model::reason::Reason;
+use crate::model::room_settings::RoomSettings;
+use crate::model::zone::{FAR_M, Zone};
 
 impl Map {
     /// What people have said of the home.

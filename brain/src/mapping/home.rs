@@ -14,11 +14,11 @@ use super::sighting::Sighting;
 use super::wall_direction::{DirectionAt, wall_direction_rad};
 use super::walls::{WallSegment, walls};
 use super::{CELL_M, Cell, Map, Raster, StoredMap};
-use crate::config::{Body, SensorLayout};
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Gradual, Pace, at_once};
-use crate::localization::PoseEstimate;
-use crate::observation::Observation;
+use crate::model::config::{Body, SensorLayout};
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Derived rasters are brought up to date after this time, microseconds.
 const REFRESH_US: u64 = 2_000_000;

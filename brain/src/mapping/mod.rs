@@ -10,15 +10,18 @@
 //! new one, and so does a map that was drawn again with better poses.
 
 mod annotations;
+mod beam_memory;
 mod carpet;
 mod derived;
 mod distance;
 mod dock;
+mod dock_beams;
 mod doors;
 mod draw;
 mod editing;
 mod home;
 mod layers;
+mod order_resolution;
 mod place_editing;
 mod raster;
 mod reach;
@@ -38,17 +41,19 @@ mod walls;
 mod writing_down;
 
 pub use annotations::Annotations;
+pub(crate) use beam_memory::{BeamMemory, BeamPlace};
 pub(crate) use carpet::CarpetSense;
 pub use carpet::FloorKind;
 pub use distance::{DistanceField, FAR_M};
 pub use dock::DockPlace;
+pub(crate) use dock_beams::{Hearing, Lobe};
 pub use doors::Door;
 pub use layers::CellKnowledge;
 pub use raster::Raster;
 pub use reach::reachable;
 pub use redraw::Keyframe;
 pub use room_changes::{RoomChange, RoomChanges, RoomJoin, RoomSplit};
-pub use room_cut::{CutLine, PartSide};
+pub use room_cut::PartSide;
 pub use rooms::{Room, Rooms};
 pub use stored::{StoredMap, StoredMapError};
 pub use sureness::Sureness;
@@ -57,8 +62,8 @@ pub use taking_up::{ReadyHome, TakingUp};
 pub use traces::{Mark, MarkKind, PathPoint};
 pub use walls::WallSegment;
 
-use crate::config::{Body, SensorLayout};
-use crate::geometry::{Point2, Pose2};
+use crate::model::config::{Body, SensorLayout};
+use crate::model::geometry::{Point2, Pose2};
 use home::HomeMap;
 use redraw::Redrawing;
 use swept::{Swath, SweptLayer};

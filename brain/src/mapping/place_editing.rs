@@ -2,10 +2,10 @@
 
 use super::Map;
 use super::annotations::PLACES_MAX;
-use crate::behavior::Reason;
-use crate::kept_place::{KeptPlace, PlaceShape};
-use crate::no_go::RoomName;
-use crate::order::CleaningOrder;
+use crate::model::kept_place::{KeptPlace, PlaceShape};
+use crate::model::no_go::RoomName;
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
 
 impl Map {
     /// Whether a place can be kept: the map must know floor there. With a number it comes back under the one that it had.
@@ -26,7 +26,7 @@ impl Map {
             return Err(Reason::NoSuchPlace);
         }
         known.may_be_called(None, place.name())?;
-        CleaningOrder::new(vec![place.part()], 1)?.fits(self)
+        self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)
     }
 
     /// Keeps a place under its name.
@@ -76,7 +76,7 @@ impl Map {
     fn reshaped(&self, number: u16, shape: &PlaceShape) -> Result<KeptPlace, Reason> {
         let known = self.annotations().place(number).ok_or(Reason::NoSuchPlace)?;
         let place = known.clone().with_shape(shape)?;
-        CleaningOrder::new(vec![place.part()], 1)?.fits(self)?;
+        self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)?;
         Ok(place)
     }
 

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use super::distance::{squared_cells, window};
 use super::{CELL_M, Cell, CellKnowledge, Map, Raster};
-use crate::geometry::Point2;
-use crate::gradual::{Pace, at_once};
+use crate::model::geometry::Point2;
+use crate::model::gradual::{Pace, at_once};
 
 /// The start is looked for in this many cells around a point that the body itself cannot be on.
 const START_CELLS: i32 = 12;

@@ -11,7 +11,7 @@ use super::sighting::Sighting;
 use super::swept::{Swath, SweptLayer};
 use super::traces::Path;
 use super::{Cell, Map, Mark};
-use crate::geometry::Pose2;
+use crate::model::geometry::Pose2;
 
 /// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
 const SIGHTINGS_A_STEP: usize = 40;

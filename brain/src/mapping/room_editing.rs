@@ -1,10 +1,11 @@
 //! People change the rooms: one is split, two are joined, a change is taken back.
 
 use super::room_changes::{RoomChange, RoomJoin, RoomSplit};
-use super::room_cut::{CutLine, PartSide, cut};
+use super::room_cut::{PartSide, cut};
 use super::{Map, Room};
-use crate::behavior::Reason;
-use crate::no_go::in_micrometres;
+use crate::model::cut_line::CutLine;
+use crate::model::no_go::in_micrometres;
+use crate::model::reason::Reason;
 
 impl Map {
     /// Whether a line can cut a room in two; without a room, the one in which the line is longest.

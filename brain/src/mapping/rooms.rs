@@ -13,8 +13,8 @@ use super::doors::{Door, doors};
 use super::reach::neighbours;
 use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
-use crate::geometry::Point2;
-use crate::gradual::{Pace, at_once};
+use crate::model::geometry::Point2;
+use crate::model::gradual::{Pace, at_once};
 
 /// Half of the widest passage that still divides two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;

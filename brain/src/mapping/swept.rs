@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{Point2, Pose2};
+use crate::model::geometry::{Point2, Pose2};
 
 /// Edge of a cell in metres.
 pub const CELL_M: f64 = 0.025;
@@ -378,7 +378,7 @@ impl Swath {
 #[cfg(test)]
 mod tests {
     use super::{Cell, Swath, SweptLayer, SweptRun};
-    use crate::geometry::Pose2;
+    use crate::model::geometry::Pose2;
     use core::f64::consts::{FRAC_PI_2, PI};
 
     const SWATH_M: f64 = 0.30;
@@ -480,7 +480,7 @@ mod tests {
 
     #[test]
     fn runs_are_the_cells_in_order_joined_where_they_touch() {
-        let mut random = crate::random::Random::new(4);
+        let mut random = crate::model::random::Random::new(4);
         let mut layer = SweptLayer::default();
         for _ in 0..400 {
             layer.paint_run(SweptRun {

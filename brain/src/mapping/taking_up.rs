@@ -6,8 +6,8 @@ use core::task::Poll;
 
 use super::home::HomeMap;
 use super::{Map, StoredMap};
-use crate::config::BrainConfig;
-use crate::gradual::{Gradual, Pace, at_once};
+use crate::model::config::BrainConfig;
+use crate::model::gradual::{Gradual, Pace, at_once};
 
 /// A stored home that is being taken up.
 #[derive(Debug)]

@@ -5,7 +5,7 @@
 use super::layers::Layers;
 use super::rooms::Rooms;
 use super::{Annotations, DockPlace, Map, StoredMap};
-use crate::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, Pace, at_once};
 
 /// A copy of what is written down. It shares the cells with the map as long as that does not change them.
 struct Draft {

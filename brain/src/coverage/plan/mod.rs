@@ -7,29 +7,26 @@
 //!
 //! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
 
-mod bits;
+mod bit_grid;
 mod contour;
-mod ground;
-mod heading;
 mod lanes;
-mod queue;
-mod route;
-mod smooth;
 mod stretches;
+mod timing;
 mod tour;
-mod way;
 
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Pace, at_once};
 use crate::mapping::{CELL_M, Cell, Raster};
-use crate::room_settings::Pattern;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Pace, at_once};
+use crate::model::room_settings::Pattern;
+pub use crate::navigation::Piece;
+use crate::navigation::configuration_space::Ground;
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::router::Router;
+use crate::navigation::smoothing;
 use contour::{RingFloor, ring_way};
-use ground::Ground;
 use lanes::Picker;
-use route::Router;
-pub use smooth::Piece;
+use timing::piece_s;
 use tour::Tour;
-pub(crate) use way::{Goal, plan_way};
 
 /// What a plan depends on besides the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +78,21 @@ impl CoveragePlan {
         } else {
             1.0
         }
+    }
+
+    /// A plan that was made in `frame`, in the frame of the map.
+    #[must_use]
+    pub(crate) fn in_map(mut self, frame: &LaneFrame) -> Self {
+        if *frame == LaneFrame::OF_MAP {
+            return self;
+        }
+        for corner in &mut self.corners {
+            *corner = frame.point_in_map(*corner);
+        }
+        for piece in &mut self.pieces {
+            piece.start = frame.in_map() * piece.start;
+        }
+        self
     }
 }
 
@@ -182,9 +194,9 @@ pub(crate) async fn plan_area(
     corners.pop();
     let of_rings = corners.len();
     corners.extend(tour.corners(pace).await);
-    let pieces = smooth::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
+    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
     CoveragePlan {
-        time_s: pieces.iter().map(|piece| piece.time_s(settings)).sum(),
+        time_s: pieces.iter().map(|piece| piece_s(piece, settings)).sum(),
         corners,
         pieces,
         lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
@@ -213,4 +225,38 @@ pub(crate) async fn floor_in_reach(
 pub(crate) fn reach_cells(settings: &PlanSettings) -> usize {
     let half_m = 0.5 * settings.swath_m - settings.sigma_m;
     (libm::floor(half_m / CELL_M - 0.25).clamp(1.0, 40.0)) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CoveragePlan;
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::navigation::Piece;
+    use crate::navigation::lane_frame::LaneFrame;
+
+    #[test]
+    fn a_plan_is_turned_into_the_frame_of_the_map() {
+        let frame = LaneFrame::along(0.6);
+        let at = Point2 { x_m: 1.3, y_m: -4.2 };
+        let pose = Pose2 {
+            x_m: at.x_m,
+            y_m: at.y_m,
+            heading_rad: 3.0,
+        };
+        let piece = Piece {
+            start: frame.pose(pose),
+            length_m: 0.5,
+            turn_rad: 0.2,
+        };
+        let plan = CoveragePlan {
+            corners: vec![frame.point(at)],
+            pieces: vec![piece],
+            ..CoveragePlan::default()
+        };
+        let there = plan.in_map(&frame);
+        assert!(there.corners[0].distance_m(at) < 1e-12);
+        let start = there.pieces[0].start;
+        assert!(start.position().distance_m(at) < 1e-12 && (start.heading_rad - 3.0).abs() < 1e-12);
+        assert_eq!((there.pieces[0].length_m, there.pieces[0].turn_rad), (0.5, 0.2));
+    }
 }

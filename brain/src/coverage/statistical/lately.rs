@@ -5,9 +5,9 @@
 
 use std::collections::VecDeque;
 
-use crate::geometry::{Point2, Pose2, TurnSide};
 use crate::mapping::{CELL_M, Cell, Map};
-use crate::task::{Mind, Situation};
+use crate::model::geometry::{Point2, Pose2, TurnSide};
+use crate::navigation::{Mind, Situation};
 
 /// What is older than this is not looked for any more, seconds.
 pub(super) const LATELY_S: u32 = 600;
@@ -105,9 +105,9 @@ fn ahead(way_m: f64) -> Point2 {
 #[cfg(test)]
 mod tests {
     use super::{LATELY_S, Lately, Met, is_new};
-    use crate::config::{Body, SensorLayout};
-    use crate::geometry::{Point2, Pose2};
     use crate::mapping::{Brushes, Map};
+    use crate::model::config::{Body, SensorLayout};
+    use crate::model::geometry::{Point2, Pose2};
 
     const BODY: Body = Body {
         radius_m: 0.155,

@@ -10,13 +10,12 @@ mod novelty;
 
 use super::Bounce;
 use super::spiral::Spiral;
-use super::systematic::SweptShare;
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::Point2;
-use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
 use crate::mapping::Map;
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::geometry::Point2;
+use crate::model::reason::Reason;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::{Leg, Mind, Plan, Situation, Task, Turn, WallFollower, WallStep};
 pub(super) use lately::Lately;
 use lately::{LATELY_S, is_new};
 use novelty::Novelty;

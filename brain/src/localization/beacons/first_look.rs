@@ -4,13 +4,13 @@
 //! beacons. It is tried every few metres until the answer is sure; a way that does not bend enough to tell a beacon from
 //! its mirror image has to be longer.
 
-use super::super::PoseEstimate;
 use super::envelope::{Envelope, Factor};
 use super::follower::{BEND_SIGMA, Follower, SCALE_SIGMA, STRETCH_SIGMA, Start, WHEELS};
 use super::guess::{Ranged, guess};
 use super::hop::Hop;
 use super::weight;
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Way before the first try, and between two, metres.
 const FIRST_M: f64 = 8.0;
@@ -146,7 +146,7 @@ impl FirstLook {
     }
 
     /// Number of the hop, and the range.
-    fn ranges(&self) -> impl Iterator<Item = (usize, &crate::observation::BeaconRange)> {
+    fn ranges(&self) -> impl Iterator<Item = (usize, &crate::model::observation::BeaconRange)> {
         self.hops
             .iter()
             .enumerate()

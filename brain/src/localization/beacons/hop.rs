@@ -1,9 +1,9 @@
 //! Motion and ranges, gathered into hops.
 
-use super::super::Advance;
 use super::BEACONS_MAX;
-use crate::geometry::{Point2, Pose2};
-use crate::observation::{BeaconRange, BeaconSignal, Observation};
+use crate::model::advance::Advance;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{BeaconRange, BeaconSignal, Observation};
 
 /// A hop ends after this way, metres, or this turn, radians.
 const HOP_M: f64 = 0.15;

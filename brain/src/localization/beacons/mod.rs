@@ -14,9 +14,10 @@ mod follower;
 mod guess;
 mod hop;
 
-use super::{Advance, PoseEstimate};
-use crate::geometry::{Point2, Pose2};
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 use first_look::FirstLook;
 use follower::Follower;
 use hop::Gathering;

@@ -3,9 +3,9 @@
 //! the pose, and as sure as the guesses agree.
 
 use super::ParticleFilter;
-use crate::localization::Advance;
 use crate::localization::calibration::{BIAS_DRIFT_RAD2_PER_S3, BiasTold};
-use crate::random::Random;
+use crate::model::advance::Advance;
+use crate::model::random::Random;
 
 /// How the scale wanders, relative per square root of a radian that was turned: no gyro has the same scale at all rates, and guesses that
 /// agreed too soon go on learning.
@@ -151,8 +151,8 @@ pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) ->
 #[cfg(test)]
 mod tests {
     use super::{BiasTold, GyroBelief, GyroCount, GyroGuess, belief};
-    use crate::localization::Advance;
-    use crate::random::Random;
+    use crate::model::advance::Advance;
+    use crate::model::random::Random;
 
     const BELIEF: GyroBelief = GyroBelief {
         scale: 0.01,

@@ -2,8 +2,8 @@
 
 use super::Surroundings;
 use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Surface, Surfaces, UNMAPPED, bell};
-use crate::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
-use crate::geometry::Point2;
+use crate::model::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
+use crate::model::geometry::Point2;
 
 /// Levels below this are noise of the conversion, 0..1.
 const LEVEL_MIN: f64 = 0.02;

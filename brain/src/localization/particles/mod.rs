@@ -10,14 +10,14 @@ mod infrared;
 mod surface;
 mod touch;
 
-use crate::config::SensorLayout;
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::observation::{Cliffs, Contacts, Observation};
-use crate::random::Random;
+use crate::model::config::SensorLayout;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::random::Random;
 
-use super::PoseEstimate;
 use super::beacons::Heard;
 use super::calibration::BiasTold;
+use crate::model::pose_estimate::PoseEstimate;
 use gyro::GyroGuess;
 pub(super) use gyro::{GyroBelief, GyroCount};
 pub(super) use infrared::Fit;

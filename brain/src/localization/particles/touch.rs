@@ -2,9 +2,9 @@
 
 use super::infrared::Place;
 use super::{Manner, Surroundings};
-use crate::config::SensorLayout;
-use crate::geometry::Point2;
-use crate::observation::{Cliffs, Contacts};
+use crate::model::config::SensorLayout;
+use crate::model::geometry::Point2;
+use crate::model::observation::{Cliffs, Contacts};
 
 /// The body may be this deep in what the map has as solid before it counts: half a cell and the bumper's travel, metres.
 const INSIDE_FREE_M: f64 = 0.015;

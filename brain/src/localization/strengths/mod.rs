@@ -17,9 +17,9 @@ use std::sync::Arc;
 pub(super) use hearing::Hearing;
 pub(super) use map::StrengthMap;
 
-use super::Advance;
-use crate::geometry::Point2;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::geometry::Point2;
+use crate::model::observation::Observation;
 use gathering::Gathering;
 
 /// Beacons that are remembered.

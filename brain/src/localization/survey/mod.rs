@@ -29,11 +29,11 @@ use kalman::{Belief, StepVariance};
 use turns::{TurnErrors, Turns};
 use visit::{Visit, VisitLog};
 
-use super::Advance;
-use crate::config::ProximityLayout;
-use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::mapping::Keyframe;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::Observation;
 
 /// Slip along the way, square metres per metre, and what each step adds: that of a bad robot. One that is taken for too good
 /// holds on to a wrong wall.
@@ -393,8 +393,8 @@ mod tests {
     use super::graph::Node;
     use super::turns::Turns;
     use super::{Pending, StepVariance};
-    use crate::geometry::Pose2;
-    use crate::localization::Advance;
+    use crate::model::advance::Advance;
+    use crate::model::geometry::Pose2;
 
     /// A step of a turn on the spot, a straight way and an arc, by a gyro that counts so much too much. It began at `odom`.
     fn counted(error: f64, odom: Pose2) -> Node {

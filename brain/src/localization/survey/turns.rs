@@ -4,7 +4,7 @@
 
 use super::TurnCounting;
 use super::linear::System;
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// A spell lasts so long, microseconds.
 const SPELL_US: u64 = 60_000_000;
@@ -181,10 +181,10 @@ impl TurnErrors {
 #[cfg(test)]
 mod tests {
     use super::{Spell, TurnCounting, TurnErrors};
-    use crate::geometry::{Pose2, normalize_rad};
     use crate::localization::survey::graph::Graph;
     use crate::localization::survey::graph::tests::laps;
     use crate::localization::survey::optimization::optimized;
+    use crate::model::geometry::{Pose2, normalize_rad};
     use core::f64::consts::FRAC_PI_2;
 
     const COUNTING: TurnCounting = TurnCounting {

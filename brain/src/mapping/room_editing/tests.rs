@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 
-use crate::mapping::{CELL_M, Cell, CellKnowledge, CutLine, Map, Raster, RoomChange, StoredMap};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, RoomChange, StoredMap};
+use crate::model::cut_line::CutLine;
 use crate::{Body, Point2, Reason, RoomName, SensorLayout};
 
 const BODY: Body = Body {

@@ -15,12 +15,12 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::ground::Ground;
-use super::route::Router;
 use super::{Course, Departure};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
 use crate::mapping::Cell;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::Ground;
+use crate::navigation::router::Router;
 use order::Drive;
 use runs::{Run, Sweeper};
 

@@ -6,10 +6,11 @@ use super::RingWay;
 use super::runs::{Run, Sweeper};
 use super::shape::corners;
 use crate::coverage::plan::Departure;
-use crate::coverage::plan::heading::{heading_rad, way_s};
-use crate::coverage::plan::route::{Router, Spread};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use crate::coverage::plan::timing::way_s;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
+use crate::navigation::heading::heading_rad;
+use crate::navigation::router::{Router, Spread};
 
 /// Nearest places to enter a run that are compared.
 const NEAR_ENTRIES: usize = 16;
