@@ -10,6 +10,7 @@
 mod bit_grid;
 mod contour;
 mod lanes;
+mod settings;
 mod stretches;
 mod timing;
 mod tour;
@@ -25,24 +26,9 @@ use crate::navigation::router::Router;
 use crate::navigation::smoothing;
 use contour::{RingFloor, ring_way};
 use lanes::Picker;
-use timing::piece_s;
+pub use settings::PlanSettings;
+pub(crate) use settings::{Departure, reach_cells};
 use tour::Tour;
-
-/// What a plan depends on besides the ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlanSettings {
-    /// Width that one pass cleans, in metres.
-    pub swath_m: f64,
-    /// Standard deviation of the pose estimate in metres: lanes overlap by twice as much.
-    pub sigma_m: f64,
-    /// Speed on lanes and links, m/s.
-    pub cruise_m_per_s: f64,
-    /// Turn rate, rad/s.
-    pub turn_rad_per_s: f64,
-    /// Leftovers beside the way are swept while passing. In a home that is still being found out the plan is soon another one,
-    /// and the lanes of the first round show more of it (three seeds of home 7: 95 % after 2.45 instead of 2.6 T0).
-    pub takes_along: bool,
-}
 
 /// A way to drive.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -124,13 +110,6 @@ pub fn plan_pattern(
     at_once(plan_area(reachable, (course, swept), from, &mut Pace::at_once()))
 }
 
-/// Where a plan begins, and what it depends on besides the ground.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Departure {
-    pub(crate) start: Pose2,
-    pub(crate) settings: PlanSettings,
-}
-
 /// How floor is swept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Course {
@@ -196,7 +175,7 @@ pub(crate) async fn plan_area(
     corners.extend(tour.corners(pace).await);
     let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
     CoveragePlan {
-        time_s: pieces.iter().map(|piece| piece_s(piece, settings)).sum(),
+        time_s: pieces.iter().map(|piece| settings.time_s(piece)).sum(),
         corners,
         pieces,
         lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
@@ -219,12 +198,6 @@ pub(crate) async fn floor_in_reach(
         floor.values_mut().copy_from_slice(&ground.open);
     }
     floor
-}
-
-/// Cells to either side of a lane's own that it counts as swept.
-pub(crate) fn reach_cells(settings: &PlanSettings) -> usize {
-    let half_m = 0.5 * settings.swath_m - settings.sigma_m;
-    (libm::floor(half_m / CELL_M - 0.25).clamp(1.0, 40.0)) as usize
 }
 
 #[cfg(test)]

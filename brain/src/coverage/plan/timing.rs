@@ -1,14 +1,8 @@
 //! What driving and turning on a way take.
 
 use super::PlanSettings;
-use crate::navigation::Piece;
 use crate::navigation::configuration_space::Ground;
 use crate::navigation::heading::{heading_rad, turn_rad};
-
-/// Time of a piece at cruise speed, or as long as the turn takes.
-pub(super) fn piece_s(piece: &Piece, settings: &PlanSettings) -> f64 {
-    (piece.length_m / settings.cruise_m_per_s).max(piece.turn_rad.abs() / settings.turn_rad_per_s)
-}
 
 /// Time of a way over cells that starts in one direction and ends against the direction of leaving its other end.
 pub(super) fn way_s(
