@@ -8,7 +8,7 @@ mod situation;
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
 use crate::coverage::{JobEstimate, estimate};
-use crate::localization::Localization;
+use crate::localization::{Localization, MapCorrection};
 use crate::mapping::{BeamMemory, Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::model::action::Actions;
 use crate::model::command::{Command, StrategyName};
@@ -110,10 +110,8 @@ impl Brain {
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
-        self.localization.refine(observation, advance);
-        if let Some(keyframes) = self.localization.take_redraw(observation.time_us) {
-            self.map.redraw(&keyframes);
-        }
+        let correction = self.localization.refine(observation, advance);
+        self.correct_map(correction);
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
         self.beams.take(observation, &estimate);
@@ -124,12 +122,10 @@ impl Brain {
             self.map.insert(&estimate, observation);
         }
         self.localization.look(observation, advance, &self.config);
-        self.localization
+        let correction = self
+            .localization
             .learn(&self.map, &self.config, observation.time_us);
-        if let Some(withdrawal) = self.localization.take_withdrawal() {
-            self.map.withdraw(withdrawal.since_us, &withdrawal.keyframes);
-            self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
-        }
+        self.correct_map(correction);
         self.note_encounters(observation, &estimate);
         for command in commands {
             self.edit_map(command, observation.docked);
@@ -167,6 +163,18 @@ impl Brain {
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
+        }
+    }
+
+    /// Does with the map what the robot's place asks for.
+    fn correct_map(&mut self, correction: Option<MapCorrection>) {
+        match correction {
+            Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
+            Some(MapCorrection::Withdraw { since_us, keyframes }) => {
+                self.map.withdraw(since_us, &keyframes);
+                self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
+            }
+            None => {}
         }
     }
 

@@ -15,9 +15,8 @@ mod navigation;
 mod recovery;
 
 pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
-pub use brain::Brain;
-pub use brain::checkpoint;
 pub use brain::checkpoint::{Checkpoint, CheckpointWork};
+pub use brain::{Brain, checkpoint};
 pub use coverage::JobEstimate;
 pub use localization::{Finding, FloorFinder, FloorPlace, TrackingCheckpoint};
 pub use mapping::{

@@ -1,8 +1,16 @@
 //! The modes, and how a step runs through them.
 
+mod admission;
+mod contacts;
+mod manual;
+mod reaction;
+mod recharge;
+mod second_look;
+mod start;
+mod work;
+
 use super::facts::Facts;
 use super::job::Job;
-use super::manual::ManualDrive;
 use super::{BehaviorState, JobFigures, JobKind, Status};
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::command::Command;
@@ -12,6 +20,7 @@ use crate::model::geometry::Point2;
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
 use crate::navigation::{BACK_AT_CLIFF_M_PER_S, Mind, Situation};
+use manual::ManualDrive;
 
 /// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
 const HALT_US: u64 = 500_000;

@@ -1,7 +1,7 @@
 //! What a job will take, before it begins.
 
+use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
-use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M};
 use super::wanted::Wanted;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;

@@ -3,8 +3,10 @@
 mod astray;
 mod bounce;
 mod estimate;
+mod margins;
 mod perimeter;
 pub mod plan;
+mod recent_coverage;
 mod spiral;
 mod spot;
 mod statistical;

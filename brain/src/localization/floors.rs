@@ -9,13 +9,12 @@
 
 use core::task::Poll;
 
-use super::SENSORS_MIN;
 use super::TrackingCheckpoint;
 use super::odometry::Odometry;
 use super::places::is_alone;
 use super::search::{Candidate, Search};
 use super::terrain::Terrain;
-use super::tracker::{Moved, Tracker};
+use super::tracker::{Moved, SENSORS_MIN, Tracker};
 use crate::mapping::StoredMap;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;

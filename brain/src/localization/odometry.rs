@@ -1,27 +1,13 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
-use super::calibration::{BiasTold, Calibration};
+use super::calibration::Calibration;
+use super::gyro_belief::BiasTold;
 use super::rest::RestWatch;
+use super::totals::Totals;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
 use crate::model::learnt::GyroLearnt;
 use crate::model::observation::Observation;
-
-/// Totals of the last observation.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Totals {
-    pub(super) time_us: u64,
-    pub(super) left_m: f64,
-    pub(super) right_m: f64,
-    pub(super) gyro_rad: Option<f64>,
-}
-
-impl Totals {
-    /// Whether no wheel has turned between the two.
-    pub(super) fn wheels_agree_with(self, other: Self) -> bool {
-        self.left_m == other.left_m && self.right_m == other.right_m
-    }
-}
 
 #[derive(Clone, Debug)]
 pub(super) struct Odometry {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::reach::neighbours;
-use super::rooms::CELLS;
+use super::cell::neighbours;
+use super::raster::CELLS;
 use super::{CELL_M, Cell, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::Pace;

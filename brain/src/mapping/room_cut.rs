@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, Cell, Raster};
 use crate::model::cut_line::CutLine;
 use crate::model::geometry::Point2;

@@ -7,7 +7,7 @@
 use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::Pace;

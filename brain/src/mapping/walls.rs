@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, Cell, CellKnowledge, DistanceField, Raster};
 use crate::model::geometry::Point2;
 

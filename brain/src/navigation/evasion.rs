@@ -1,7 +1,6 @@
 //! Getting away from what was met: back off until it is released, then turn away.
 
-use super::Situation;
-use super::{BackOff, Leg, Turn};
+use super::{BackOff, Leg, Situation, Turn};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 

@@ -1,8 +1,7 @@
 //! A few legs one after the other, for escapes and for leaving the dock.
 
 use super::leg::RESERVE_M;
-use super::{BackOff, Leg, Turn};
-use super::{EdgeTrace, Situation};
+use super::{BackOff, EdgeTrace, Leg, Situation, Turn};
 use crate::model::action::Motion;
 
 /// Speed of a swing.

@@ -6,7 +6,7 @@
 
 mod pocket;
 
-use super::statistical::Lately;
+use super::recent_coverage::Lately;
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;

@@ -1,7 +1,7 @@
 //! How much of the floor that the robot comes over is new.
 
-use super::lately::{LATELY_S, is_new};
 use super::law::{KNOWN_S, Tally};
+use crate::coverage::recent_coverage::{LATELY_S, is_new};
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
 

@@ -23,6 +23,7 @@ mod standoff;
 mod trail;
 
 use super::astray::Astray;
+use super::margins::KEEP_OFF_M;
 use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
 use crate::mapping::{CellKnowledge, Map, Raster};
@@ -47,10 +48,6 @@ use shyness::Shyness;
 use squeeze::Squeeze;
 use standoff::Standoff;
 
-/// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
-pub(super) const KEEP_OFF_M: f64 = 0.01;
-/// Lanes overlap by twice this at least, whatever the estimate says of itself.
-pub(super) const SIGMA_MIN_M: f64 = 0.01;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
 /// Way back from what is seen ahead.

@@ -4,7 +4,8 @@ use core::task::Poll;
 
 use super::frontier::hopeful;
 use super::since::without_what_came;
-use super::{SIGMA_MIN_M, squeeze};
+use super::squeeze;
+use crate::coverage::margins::SIGMA_MIN_M;
 use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
 use crate::coverage::wanted::Wanted;
 use crate::mapping::{CellKnowledge, Raster};

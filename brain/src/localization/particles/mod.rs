@@ -16,10 +16,11 @@ use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::random::Random;
 
 use super::beacons::Heard;
-use super::calibration::BiasTold;
+use super::gyro_belief::BiasTold;
+pub(super) use crate::localization::gyro_belief::GyroBelief;
 use crate::model::pose_estimate::PoseEstimate;
+pub(super) use gyro::GyroCount;
 use gyro::GyroGuess;
-pub(super) use gyro::{GyroBelief, GyroCount};
 pub(super) use infrared::Fit;
 use infrared::{Beams, Place};
 use surface::Surfaces;

@@ -2,10 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use super::annotations::NAMES_MAX;
-use super::home::{Entry, HomeMap};
-use super::layers::{CellBox, Flag};
-use super::{Annotations, Cell, CellKnowledge, Map, Raster};
+use super::Map;
+use crate::mapping::annotations::NAMES_MAX;
+use crate::mapping::home::Entry;
+use crate::mapping::layers::{CellBox, Flag};
+use crate::mapping::zone_cells::{cells_between, cells_of};
+use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::reason::Reason;
@@ -273,70 +275,4 @@ impl Map {
                 matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
             })
     }
-}
-
-impl HomeMap {
-    /// Forbids the cells of all no-go zones within the tiles that there are.
-    pub(super) fn paint_no_go(&mut self) {
-        let Some(window) = self.bounds() else { return };
-        let areas = self.annotations.no_go.values().map(NoGo::area);
-        let cells: Vec<Cell> = areas.flat_map(|area| cells_of(area, window)).collect();
-        for cell in cells {
-            self.flag(cell, Flag::NoGo, Entry::Forbidden);
-        }
-        self.painted = Some(window);
-    }
-
-    /// Forbids also what has come into the map since, if anything is forbidden.
-    pub(super) fn paint_what_came(&mut self) {
-        if !self.annotations.no_go.is_empty() && self.painted != self.bounds() {
-            self.paint_no_go();
-        }
-    }
-
-    /// What would be known if nobody had forbidden anything: a wall that a person draws does not divide a room.
-    pub(super) fn knowledge_beneath(&self) -> Option<Raster<CellKnowledge>> {
-        if self.annotations.no_go.is_empty() && self.pockets.is_empty() {
-            return None;
-        }
-        let mut beneath = self.knowledge().clone();
-        for index in 0..beneath.values().len() {
-            let cell = beneath.cell(index);
-            if let Some(kind) = beneath.values_mut().get_mut(index)
-                && *kind == CellKnowledge::NoGo
-            {
-                *kind = self.knowledge_without(cell, &[Flag::NoGo, Flag::Pocket]);
-            }
-        }
-        Some(beneath)
-    }
-}
-
-/// Cells whose middles lie in a zone and that lie in `window`, row after row.
-fn cells_of(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + '_ {
-    cells_between(around(zone), window).filter(|cell| zone.contains(cell.middle()))
-}
-
-/// Cells of a rectangle that lie in `window`, row after row.
-fn cells_between((low, high): (Point2, Point2), window: CellBox) -> impl Iterator<Item = Cell> {
-    let (low, high) = (Cell::under(low), Cell::under(high));
-    let columns = low.x.max(window.low.x)..=high.x.min(window.high.x);
-    let rows = low.y.max(window.low.y)..=high.y.min(window.high.y);
-    rows.flat_map(move |y| columns.clone().map(move |x| Cell { x, y }))
-}
-
-/// Lowest and highest corner of the rectangle around a zone.
-fn around(zone: &Zone) -> (Point2, Point2) {
-    let first = zone.corners().first().copied().unwrap_or_default();
-    zone.corners().iter().fold((first, first), |(low, high), corner| {
-        let low = Point2 {
-            x_m: low.x_m.min(corner.x_m),
-            y_m: low.y_m.min(corner.y_m),
-        };
-        let high = Point2 {
-            x_m: high.x_m.max(corner.x_m),
-            y_m: high.y_m.max(corner.y_m),
-        };
-        (low, high)
-    })
 }

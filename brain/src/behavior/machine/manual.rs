@@ -1,13 +1,13 @@
 //! A person drives (S23).
 
-use super::machine::{Behavior, Mode};
+use super::{Behavior, Mode};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::Mind;
 
 /// The newest wish of the person who drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ManualDrive {
+pub(in crate::behavior) struct ManualDrive {
     pub(super) speed_m_per_s: f64,
     pub(super) turn_rad_per_s: f64,
     pub(super) valid_until_us: u64,

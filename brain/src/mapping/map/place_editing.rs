@@ -1,7 +1,7 @@
 //! People keep zones and spots of the map under names.
 
 use super::Map;
-use super::annotations::PLACES_MAX;
+use crate::mapping::annotations::PLACES_MAX;
 use crate::model::kept_place::{KeptPlace, PlaceShape};
 use crate::model::no_go::RoomName;
 use crate::model::order::CleaningOrder;

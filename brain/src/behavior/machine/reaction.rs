@@ -1,8 +1,8 @@
 //! What perceptions change, the gravest first.
 
-use super::JobKind;
-use super::job::Job;
-use super::machine::{Behavior, Mode};
+use super::{Behavior, Mode};
+use crate::behavior::JobKind;
+use crate::behavior::job::Job;
 use crate::model::reason::Reason;
 use crate::navigation::{Mind, Situation};
 

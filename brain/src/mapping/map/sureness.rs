@@ -4,8 +4,9 @@
 
 use std::collections::BTreeMap;
 
-use super::layers::{CellKnowledge, Evidence, Flag, is_touched_only};
-use super::{Cell, Map};
+use super::Map;
+use crate::mapping::Cell;
+use crate::mapping::layers::{CellKnowledge, Evidence, Flag, is_touched_only};
 
 /// How sure what is known is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

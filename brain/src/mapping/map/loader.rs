@@ -4,8 +4,9 @@
 
 use core::task::Poll;
 
-use super::home::HomeMap;
-use super::{Map, StoredMap};
+use super::Map;
+use crate::mapping::StoredMap;
+use crate::mapping::home::HomeMap;
 use crate::model::config::BrainConfig;
 use crate::model::gradual::{Gradual, Pace, at_once};
 

@@ -1,8 +1,9 @@
 //! People change the rooms: one is split, two are joined, a change is taken back.
 
-use super::room_changes::{RoomChange, RoomJoin, RoomSplit};
-use super::room_cut::{PartSide, cut};
-use super::{Map, Room};
+use super::Map;
+use crate::mapping::Room;
+use crate::mapping::room_changes::{RoomChange, RoomJoin, RoomSplit};
+use crate::mapping::room_cut::{PartSide, cut};
 use crate::model::cut_line::CutLine;
 use crate::model::no_go::in_micrometres;
 use crate::model::reason::Reason;

@@ -1,8 +1,8 @@
 //! Which commands are obeyed in which situation, and what obeying them means.
 
-use super::JobKind;
-use super::machine::{Behavior, Mode};
 use super::manual::ManualDrive;
+use super::{Behavior, Mode};
+use crate::behavior::JobKind;
 use crate::mapping::Map;
 use crate::model::command::{Command, StrategyName};
 use crate::model::order::CleaningOrder;

@@ -2,14 +2,13 @@
 //!
 //! A cleaning job that ends for the pack's sake is *put off*: a job that looks for the dock takes its place, and on the dock
 //! it comes back and waits until the pack is charged. A lost dock leaves it with a person. A job that looks again from the dock
-//! ([`super::second_look`]) is put off in the same way.
+//! ([`crate::behavior::second_look`]) is put off in the same way.
 
 use core::task::Poll;
 
-use super::JobCheckpoint;
-use super::JobKind;
-use super::job::Job;
-use super::machine::{Behavior, Mode};
+use super::{Behavior, Mode};
+use crate::behavior::job::Job;
+use crate::behavior::{JobCheckpoint, JobKind};
 use crate::docking;
 use crate::model::command::StrategyName;
 use crate::model::energy::{Activity, EnergyModel, EnergyWatch, Leftover};

@@ -3,31 +3,22 @@
 //! Some ten thousand sightings are drawn, piece by piece over many steps, so that no step takes long; until all of it is there
 //! the map stays as it is.
 
-use super::carpet::FloorFelt;
-use super::derived::Derived;
-use super::home::HomeMap;
-use super::layers::{Flag, Layers};
-use super::sighting::Sighting;
-use super::swept::{Swath, SweptLayer};
-use super::traces::Path;
-use super::{Cell, Map, Mark};
+use super::Map;
+use crate::mapping::carpet::FloorFelt;
+use crate::mapping::derived::Derived;
+use crate::mapping::home::HomeMap;
+use crate::mapping::keyframe::Keyframe;
+use crate::mapping::layers::{Flag, Layers};
+use crate::mapping::sighting::Sighting;
+use crate::mapping::swept::{Swath, SweptLayer};
+use crate::mapping::traces::Path;
+use crate::mapping::{Cell, Mark};
 use crate::model::geometry::Pose2;
 
 /// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
 const SIGHTINGS_A_STEP: usize = 40;
 /// So few tiles may be left for the last step, because the robot draws on meanwhile.
 const TILES_LEFT: usize = 2;
-
-/// A pose of the past that turned out to have been another one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Keyframe {
-    /// Time of the observation at which the robot was there, in microseconds.
-    pub time_us: u64,
-    /// Where it was by odometry, [`crate::PoseEstimate::odom`].
-    pub was: Pose2,
-    /// Where it was, as far as is known now.
-    pub is: Pose2,
-}
 
 /// A map that is being drawn again.
 #[derive(Clone, Debug)]
@@ -180,7 +171,7 @@ impl Map {
     }
 
     /// Notes a place where something was met, at `time_us` and at the place `odom` by odometry.
-    pub(crate) fn mark(&mut self, mark: Mark, seen: super::traces::SeenAt) {
+    pub(crate) fn mark(&mut self, mark: Mark, seen: crate::mapping::traces::SeenAt) {
         self.marks.add(mark, Some(seen));
     }
 }

@@ -3,10 +3,10 @@
 //! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
 //! tells where the dock is.
 
-use super::TrackingCheckpoint;
-use super::drift::Drift;
-use super::tracker::PROBATION_BEAMS;
 use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
+use crate::localization::TrackingCheckpoint;
+use crate::localization::drift::Drift;
+use crate::localization::tracker::PROBATION_BEAMS;
 use crate::mapping::{DockPlace, Map};
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;

@@ -1,8 +1,8 @@
 //! A robot that turns out to be somewhere else in its home looks for itself in the map.
 
-use super::terrain::Terrain;
-use super::tracker::Tracker;
 use super::{Localization, SIGMA_MAX};
+use crate::localization::terrain::Terrain;
+use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
 use crate::model::config::BrainConfig;
 

@@ -1,8 +1,8 @@
 //! How a job begins: it announces itself, arms, and waits for the firmware to agree (S24).
 
-use super::job::Job;
-use super::machine::{Behavior, JobStart, Mode};
-use super::{JobFigures, JobKind};
+use super::{Behavior, JobStart, Mode};
+use crate::behavior::job::Job;
+use crate::behavior::{JobFigures, JobKind};
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;

@@ -1,9 +1,9 @@
 //! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
 
-use super::JobKind;
-use super::gyro_rest::RestPace;
-use super::job::{Detour, Job, Purpose};
-use super::machine::{Behavior, Mode};
+use super::{Behavior, Mode};
+use crate::behavior::JobKind;
+use crate::behavior::gyro_rest::RestPace;
+use crate::behavior::job::{Detour, Job, Purpose};
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;

@@ -4,10 +4,11 @@
 //! mends. What is seen or touched in the midst of floor on which nothing stood, and a body in the midst of what was solid, for
 //! metres of way, mean that the robot is elsewhere: somebody has moved it without lifting it, or its wheels turned on something.
 
-use super::particles::Surroundings;
-use super::terrain::Terrain;
 use super::{LEARN_US, Localization};
-use crate::mapping::{Keyframe, Map};
+use crate::localization::MapCorrection;
+use crate::localization::particles::Surroundings;
+use crate::localization::terrain::Terrain;
+use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Point2;
@@ -32,15 +33,6 @@ const DENIED_ABOVE: f64 = 0.2;
 const DOUBTED_ABOVE: f64 = 0.1;
 /// What was drawn so long before that is withdrawn, too, microseconds: not each place tells at once.
 const BEFORE_US: u64 = 20_000_000;
-
-/// What was drawn of a home by a robot that was not where it believed to be.
-#[derive(Clone, Debug)]
-pub(crate) struct Withdrawal {
-    /// All that was seen from this time on, microseconds.
-    pub(crate) since_us: u64,
-    /// Where the robot was before.
-    pub(crate) keyframes: Vec<Keyframe>,
-}
 
 /// The map of some minutes ago, and how often what was seen since denies it.
 #[derive(Clone, Debug, Default)]
@@ -104,9 +96,15 @@ impl Witness {
 impl Localization {
     /// A survey that the robot's own map denies is over: the robot looks for itself in that map, and takes back what it has drawn
     /// since.
-    pub(super) fn hear_witness(&mut self, map: &Map, config: &BrainConfig, time_us: u64) {
+    pub(super) fn hear_witness(
+        &mut self,
+        map: &Map,
+        config: &BrainConfig,
+        time_us: u64,
+    ) -> Option<MapCorrection> {
         let Some((terrain, since_us)) = self.witness.take_denied() else {
-            return self.witness.keep(map, time_us);
+            self.witness.keep(map, time_us);
+            return None;
         };
         let mut keyframes = self
             .survey
@@ -114,12 +112,7 @@ impl Localization {
             .map_or_else(Vec::new, |survey| survey.keyframes());
         keyframes.retain(|keyframe| keyframe.time_us <= since_us);
         self.lose_in(*terrain, config, time_us);
-        self.withdrawal = Some(Withdrawal { since_us, keyframes });
-    }
-
-    /// What of the map is to be taken back.
-    pub(crate) fn take_withdrawal(&mut self) -> Option<Withdrawal> {
-        self.withdrawal.take()
+        Some(MapCorrection::Withdraw { since_us, keyframes })
     }
 
     /// Takes in what is seen where the robot believes to be, for a robot on its first run.
@@ -183,9 +176,9 @@ fn is_in_midst(terrain: &Terrain, at: Point2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{LEARN_US, PoseEstimate, Witness};
-    use crate::localization::Localization;
     use crate::localization::known_home::{START, TRACK_M, Truth, config, flat};
     use crate::localization::terrain::Terrain;
+    use crate::localization::{Localization, MapCorrection};
     use crate::mapping::{Cell, CellKnowledge, Keyframe, Map, Raster, StoredMap};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
@@ -265,7 +258,12 @@ mod tests {
         let advance = localization.update(&view);
         localization.refine(&view, advance);
         localization.look(&view, advance, &config());
-        localization.learn(home, &config(), view.time_us);
+        let correction = localization.learn(home, &config(), view.time_us);
+        assert_eq!(
+            matches!(correction, Some(MapCorrection::Withdraw { .. })),
+            localization.estimate().lost,
+            "{correction:?}"
+        );
         localization.estimate().lost
     }
 
@@ -282,8 +280,6 @@ mod tests {
             localization.learn(&home, &config(), LEARN_US);
             let lost = (0..50 * 240).any(|_| step(&mut localization, &mut truth, &home));
             assert!(!lost || begins != START, "it is where it believes to be");
-            let withdrawal = localization.take_withdrawal();
-            assert_eq!(withdrawal.is_some(), lost, "{withdrawal:?}");
             assert_eq!(localization.explained().is_some(), lost, "compares with the map");
             noticed += u32::from(lost);
         }

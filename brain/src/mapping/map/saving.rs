@@ -2,9 +2,10 @@
 //!
 //! Some hundred thousand cells, which take a small board a quarter of a second, so it can be done in steps while the robot drives.
 
-use super::layers::Layers;
-use super::rooms::Rooms;
-use super::{Annotations, DockPlace, Map, StoredMap};
+use super::Map;
+use crate::mapping::layers::Layers;
+use crate::mapping::rooms::Rooms;
+use crate::mapping::{Annotations, DockPlace, StoredMap};
 use crate::model::gradual::{Gradual, Pace, at_once};
 
 /// A copy of what is written down. It shares the cells with the map as long as that does not change them.

@@ -3,7 +3,7 @@
 //! Contacts close on a dock that has no power, on dust, and in the field of a switch that hangs. Who stands there believes to be
 //! charged and wakes up empty.
 
-use super::machine::{Behavior, Mode};
+use super::{Behavior, Mode};
 use crate::model::observation::ChargeFlow;
 use crate::model::reason::Reason;
 use crate::navigation::Mind;
@@ -65,6 +65,8 @@ impl Behavior {
     }
 
     fn is_leaving(&self) -> bool {
-        self.job.as_ref().is_some_and(super::job::Job::is_departing)
+        self.job
+            .as_ref()
+            .is_some_and(crate::behavior::job::Job::is_departing)
     }
 }

@@ -1,6 +1,7 @@
 //! What an order means in this map: which floor its parts are, and what is set for their rooms.
 
-use super::{Annotations, Cell, CellKnowledge, Map, Rooms};
+use super::Map;
+use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
 use crate::model::order::{CleaningOrder, DISC_M, HomePart};
 use crate::model::reason::Reason;
 use crate::model::room_settings::{Pattern, RoomSettings};

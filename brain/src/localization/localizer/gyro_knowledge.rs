@@ -1,7 +1,7 @@
 //! What has been learnt of the gyro, which outlives every map.
 
 use super::Localization;
-use super::calibration::Calibration;
+use crate::localization::calibration::Calibration;
 use crate::model::learnt::GyroLearnt;
 
 impl Localization {
