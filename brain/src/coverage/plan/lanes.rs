@@ -7,8 +7,8 @@
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::PlanSettings;
 use super::bit_grid::BitGrid;
+use super::settings::PlanSettings;
 use super::stretches::{Stretch, Stretches};
 use crate::mapping::CELL_M;
 use crate::model::gradual::Pace;

@@ -9,6 +9,7 @@
 
 mod bit_grid;
 mod contour;
+mod course;
 mod lanes;
 mod settings;
 mod stretches;
@@ -25,6 +26,7 @@ use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::router::Router;
 use crate::navigation::smoothing;
 use contour::{RingFloor, ring_way};
+pub(crate) use course::Course;
 use lanes::Picker;
 pub use settings::PlanSettings;
 pub(crate) use settings::{Departure, reach_cells};
@@ -108,26 +110,6 @@ pub fn plan_pattern(
     };
     let course = |_| Some(Course::from(pattern));
     at_once(plan_area(reachable, (course, swept), from, &mut Pace::at_once()))
-}
-
-/// How floor is swept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Course {
-    /// By lanes.
-    Lines,
-    /// By rings, those along its border first.
-    Inwards,
-    /// By rings, those in its middle first.
-    Outwards,
-}
-
-impl From<Pattern> for Course {
-    fn from(pattern: Pattern) -> Self {
-        match pattern {
-            Pattern::Lines => Self::Lines,
-            Pattern::Contour => Self::Inwards,
-        }
-    }
 }
 
 /// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.

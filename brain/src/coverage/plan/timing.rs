@@ -1,6 +1,6 @@
 //! What driving and turning on a way take.
 
-use super::PlanSettings;
+use super::settings::PlanSettings;
 use crate::navigation::configuration_space::Ground;
 use crate::navigation::heading::{heading_rad, turn_rad};
 

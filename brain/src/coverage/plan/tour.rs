@@ -4,8 +4,8 @@
 //! is entered at. Costs are seconds, turning included; the way back costs the same, so a part of a tour can be turned
 //! round without changing what lies inside.
 
-use super::PlanSettings;
 use super::lanes::Lane;
+use super::settings::PlanSettings;
 use super::timing::way_s;
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};

@@ -1,6 +1,6 @@
 //! A first guess of a beacon's place, from ranges along a way that is roughly known.
 
-use super::weight;
+use super::weight::weight;
 use crate::model::geometry::Point2;
 
 /// Directions from the nearest place on the way in which the beacon is tried.

@@ -1,7 +1,7 @@
 //! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
 
-use super::Surroundings;
 use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Surface, Surfaces, UNMAPPED, bell};
+use super::surroundings::Surroundings;
 use crate::model::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
 use crate::model::geometry::Point2;
 

@@ -1,7 +1,8 @@
 //! How likely contacts, cliffs and the mere presence of the body are at a place of the map.
 
+use super::filter_mode::Manner;
 use super::infrared::Place;
-use super::{Manner, Surroundings};
+use super::surroundings::Surroundings;
 use crate::model::config::SensorLayout;
 use crate::model::geometry::Point2;
 use crate::model::observation::{Cliffs, Contacts};

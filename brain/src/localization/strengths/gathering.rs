@@ -1,6 +1,6 @@
 //! Strengths, gathered on short ways: packets fade one by one, their mean does not.
 
-use super::{BEACONS_MAX, Level};
+use super::level::{BEACONS_MAX, Level};
 use crate::model::advance::Advance;
 use crate::model::observation::{BeaconSignal, Observation};
 

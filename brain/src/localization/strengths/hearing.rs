@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Level, StrengthMap};
+use super::level::Level;
+use super::map::StrengthMap;
 use crate::model::geometry::{Point2, Pose2};
 
 /// Deviation of a mean from what was learnt around the same place, decibels: fading that is left, where the antenna points, and what

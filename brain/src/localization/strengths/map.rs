@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Level;
+use super::level::Level;
 use crate::model::geometry::Point2;
 
 /// Edge of a piece of floor, metres.

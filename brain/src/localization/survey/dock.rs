@@ -1,9 +1,10 @@
 //! The robot on its dock: it stands there as it stood there before, whatever it has driven meanwhile.
 
+use super::Survey;
 use super::graph::Graph;
 use super::linear::System;
+use super::turns::TurnCounting;
 use super::visit::Visit;
-use super::{Survey, TurnCounting};
 use crate::model::geometry::{Pose2, normalize_rad};
 
 /// How well two stands on the dock agree, metres and radians: the contacts are some centimetres wide, and close on a robot that is

@@ -26,6 +26,7 @@ use dock::DockWatch;
 use fit::{Fit, Fitted};
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
+pub(super) use turns::TurnCounting;
 use turns::{TurnErrors, Turns};
 use visit::{Visit, VisitLog};
 
@@ -94,16 +95,6 @@ pub(super) struct Survey {
     has_new_scale: bool,
     /// It is in a fit: the map is drawn again at once, for the work may be over.
     is_hurried: bool,
-}
-
-/// How well turns are counted.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TurnCounting {
-    /// What was found wrong with the scale and is put right, relative, and its deviation.
-    pub(super) scale: f64,
-    pub(super) scale_sigma: f64,
-    /// Deviation of the bias, radians per second.
-    pub(super) bias_sigma_rad_per_s: f64,
 }
 
 /// What the robot moved since the last node.
