@@ -17,7 +17,10 @@ use crate::{ClientId, Outputs};
 const VALID_FOR_US: u64 = 250_000;
 impl Core {
     pub(super) fn link_view(&self, now_us: u64) -> LinkView {
-        let up = self.device.as_ref().is_some_and(Supervisor::is_attached) && self.facts.is_fresh(now_us);
+        let attached = self.device.as_ref().filter(|device| device.is_attached());
+        let up = attached
+            .and_then(Supervisor::fresh_us)
+            .is_some_and(|fresh_us| self.facts.is_fresh(now_us, fresh_us));
         let verdict = self
             .device
             .as_ref()

@@ -1,21 +1,20 @@
 //! What holds for every make of robot: commands are checked against the description, drive commands end with their time,
 //! an emergency stop latches above all of them, and what the robot lacks in reflexes the host supplies.
 
+mod reports;
+
 use super::dead_man::{DeadMan, Setpoint, VALID_FOR_MAX_US, WheelOrder};
-use super::reflex::{HostReflexes, speed_limit_m_per_s};
+use super::reflex::{HostReflexes, fresh_us};
 use super::wheel_watch::WheelWatch;
 use super::{
-    CleanerDrive, CommandError, DeadManKind, Description, Device, DeviceCommand, DeviceEvent, DeviceIo,
-    Drive, Inhibit, LeaveDock, Level, LinkQuality, Make, Report, StopSite,
+    CleanerDrive, CommandError, Description, Device, DeviceCommand, DeviceIo, Drive, LeaveDock, Level,
+    LinkQuality, Make,
 };
 use crate::Direction;
 
 /// Pause between repetitions of the command to brushes and suction: three fall into their lease on the wire of our own
 /// firmware.
 const CLEANER_REPEAT_US: u64 = 300_000;
-
-/// Telemetry has had the time to know of a stop after this long.
-const STOP_REPEAT_US: u64 = 200_000;
 
 /// A robot that has rested for so long is let go, so that it can sleep and charge.
 const RELEASE_AFTER_US: u64 = 5_000_000;
@@ -110,6 +109,13 @@ impl Supervisor {
         self.duties.stop_sent_us.is_some()
     }
 
+    /// Microseconds for which a report tells of the present; nothing while it is not described.
+    #[must_use]
+    pub fn fresh_us(&self) -> Option<u64> {
+        self.description()
+            .map(|description| fresh_us(description.reflexes))
+    }
+
     /// Quality of the link.
     #[must_use]
     pub fn link_quality(&self) -> LinkQuality {
@@ -168,9 +174,6 @@ impl Supervisor {
     /// Why not; nothing was sent then.
     pub fn command(&mut self, command: DeviceCommand, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         self.duties.now_us = io.now_us;
-        if !matches!(command, DeviceCommand::Rest) {
-            self.duties.resting_since_us = None;
-        }
         match command {
             DeviceCommand::EmergencyStop => {
                 self.emergency_stop(io);
@@ -264,6 +267,7 @@ impl Supervisor {
 
     /// Asks the robot for its wheels and motors, unless it has given them already.
     fn take_control(&mut self, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
+        self.duties.resting_since_us = None;
         if self.duties.in_control {
             return Ok(());
         }
@@ -341,102 +345,4 @@ impl Supervisor {
         let reflexes = duties.reflexes.as_ref();
         reflexes.is_some_and(|reflexes| reflexes.is_lifted(duties.now_us))
     }
-
-    /// What of the events since `before` concerns every make.
-    fn note(&mut self, before: usize, io: &mut DeviceIo<'_>) {
-        let mut heard = Heard::default();
-        for event in io.events.iter_mut().skip(before) {
-            match event {
-                DeviceEvent::Described(description) => self.described(description),
-                DeviceEvent::Report(report) => self.take_report(report, &mut heard),
-                DeviceEvent::Opened(_) | DeviceEvent::Closed => {
-                    self.duties.forget_commands();
-                    self.duties.in_control = false;
-                    self.watch.rebase();
-                }
-                DeviceEvent::ControlLost(_) => self.duties.in_control = false,
-                _ => {}
-            }
-        }
-        self.answer(heard, io);
-    }
-
-    fn described(&mut self, description: &mut Description) {
-        let speed_max_m_per_s = &mut description.drive.speed_max_m_per_s;
-        *speed_max_m_per_s = speed_max_m_per_s.min(speed_limit_m_per_s(description.reflexes));
-        self.duties.reflexes = HostReflexes::of(description);
-        self.duties.description = Some(description.clone());
-    }
-
-    /// Adds to a report what the robot itself does not tell.
-    fn take_report(&mut self, report: &mut Report, heard: &mut Heard) {
-        let now_us = self.duties.now_us;
-        let described = self.duties.description.as_ref();
-        let stop = described.map_or(StopSite::Device, |description| description.stop);
-        if let Some(description) = described {
-            self.watch.take(now_us, report, description.odometry);
-        }
-        if let Some(reflexes) = &mut self.duties.reflexes {
-            heard.is_held |= reflexes.take(now_us, report);
-        }
-        heard.turns |= self.watch.turned();
-        match stop {
-            StopSite::Device => heard.knows_no_stop |= !report.inhibits.contains(Inhibit::Stopped),
-            StopSite::Host => {
-                heard.knows_no_stop |= self.watch.turned();
-                if self.duties.stop_sent_us.is_some() {
-                    report.inhibits.insert(Inhibit::Stopped);
-                }
-            }
-        }
-    }
-
-    /// Does at once what the reports ask for.
-    fn answer(&mut self, heard: Heard, io: &mut DeviceIo<'_>) {
-        if heard.is_held {
-            self.duties.dead_man.repeat_now();
-            // As in `renew`.
-            self.renew_wheels(io).ok();
-            if self.is_lifted() {
-                self.set_cleaners(CleanerDrive::Off, io).ok();
-            }
-        }
-        if heard.knows_no_stop {
-            self.repeat_lost_stop(io);
-        }
-        if heard.turns {
-            self.repeat_lost_stand(io);
-        }
-    }
-
-    /// A stop is not acknowledged: telemetry that does not know of it means that it was lost on the wire.
-    fn repeat_lost_stop(&mut self, io: &mut DeviceIo<'_>) {
-        let sent_us = self.duties.stop_sent_us;
-        if sent_us.is_some_and(|sent_us| io.now_us >= sent_us + STOP_REPEAT_US) {
-            self.duties.stop_sent_us = Some(io.now_us);
-            self.device.stop(io);
-        }
-    }
-
-    /// A robot that would drive for ever, and still turns its wheels though its command has ended, has not heard of that.
-    fn repeat_lost_stand(&mut self, io: &mut DeviceIo<'_>) {
-        let kind = self.description().map(|description| description.drive.dead_man);
-        let keeps_driving = matches!(kind, Some(DeadManKind::None | DeadManKind::Distance));
-        let ended = self.duties.in_control && self.duties.dead_man.setpoint().is_none();
-        let stood_us = self.duties.stood_us;
-        if keeps_driving && ended && stood_us.is_none_or(|stood_us| io.now_us >= stood_us + STOP_REPEAT_US) {
-            self.stand(io).ok();
-        }
-    }
-}
-
-/// What the reports of one chunk of bytes ask for.
-#[derive(Clone, Copy, Debug, Default)]
-struct Heard {
-    /// A report knows nothing of the emergency stop, if there was one.
-    knows_no_stop: bool,
-    /// A wheel turns.
-    turns: bool,
-    /// A reflex of the host holds something new.
-    is_held: bool,
 }
