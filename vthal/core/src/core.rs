@@ -241,8 +241,8 @@ impl Core {
             .observer
             .observation()
             .inhibits
-            .iter()
-            .map(|&name| name.to_owned())
+            .names()
+            .map(str::to_owned)
             .collect();
         status.room = room_here(mind.brain());
         status.driver = self.arbiter.driver().map(|client| self.clients.name(client));

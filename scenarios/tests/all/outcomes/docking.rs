@@ -26,8 +26,7 @@ fn send_home(watched: &mut Watched) {
 fn ways_home() {
     let mut table = Table::of_outcomes("ways-home", "sent home from somewhere");
     for seed in [1, 2] {
-        let mut watched =
-            Watched::somewhere(&scene("two-room-flat", "nominal"), seed).knowing_home();
+        let mut watched = Watched::somewhere(&scene("two-room-flat", "nominal"), seed).knowing_home();
         send_home(&mut watched);
         table.row(&format!("two-room-flat nominal, map, seed {seed}"), &watched);
 
@@ -87,11 +86,11 @@ fn carried_elsewhere() {
 
 #[test]
 fn one_charge_is_not_enough() {
-    let mut table = Table::of_outcomes("recharge", "systematic with a low battery, a pack that fills 20 times as fast");
-    for (what, is_known, charge) in [
-        ("first run", false, 0.25),
-        ("known home", true, 0.22),
-    ] {
+    let mut table = Table::of_outcomes(
+        "recharge",
+        "systematic with a low battery, a pack that fills 20 times as fast",
+    );
+    for (what, is_known, charge) in [("first run", false, 0.25), ("known home", true, 0.22)] {
         let mut watched = Watched::new(&scene("two-room-flat", "nominal"), 3);
         if is_known {
             watched = watched.knowing_home();

@@ -1,11 +1,9 @@
 //! Jobs of parts of a home, with places that are forbidden; jobs that people interrupt, and a daemon that dies.
 
-use brain::command::StrategyName;
 use brain::Point2;
+use brain::command::StrategyName;
 use brain::mapping::Room;
-use rvac_api::{
-    CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody, RoomNaming, RoomSplitting,
-};
+use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody, RoomNaming, RoomSplitting};
 use rvac_sim::Host;
 use scenarios::{JOB_S, Table, Watched, generated_with, scene, usual};
 use vthal_core::{Checkpoints, CoreConfig};
@@ -36,7 +34,10 @@ fn ask(watched: &mut Watched, request: RequestBody) {
 
 #[test]
 fn parts_of_a_home_with_forbidden_places() {
-    let mut table = Table::of_outcomes("orders", "parts of two-room-flat nominal with a perfect map, seed 7");
+    let mut table = Table::of_outcomes(
+        "orders",
+        "parts of two-room-flat nominal with a perfect map, seed 7",
+    );
 
     let (mut watched, rooms) = in_rooms(7);
     let far = rooms[1];
@@ -152,7 +153,10 @@ fn goes_on(host: &Host, before: CoreConfig) -> CoreConfig {
 
 #[test]
 fn a_daemon_that_dies() {
-    let mut table = Table::of_outcomes("restarts", "the daemon dies twice and goes on from its checkpoint, seed 9");
+    let mut table = Table::of_outcomes(
+        "restarts",
+        "the daemon dies twice and goes on from its checkpoint, seed 9",
+    );
     for (what, is_known) in [("first run", false), ("known home", true)] {
         let scene = scene("two-room-flat", "nominal");
         let config = CoreConfig {

@@ -1,12 +1,12 @@
 //! What clients ask.
 
-use brain::{Command, StrategyName};
+use brain::{Command, Inhibit, StrategyName};
 use rvac_api::{Failure, LogLevel, Request, RequestBody, RunAsker, Topic, Update};
 
 use super::refusal::Refusal;
 use super::{Core, manual};
 use crate::arbiter::{Denied, Source, Stick};
-use crate::device::{CleanerPower, CommandError, DeviceCommand, DeviceIo, Inhibit, Supervisor, Tone};
+use crate::device::{CleanerPower, CommandError, DeviceCommand, DeviceIo, Supervisor, Tone};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Asker;
