@@ -29,7 +29,7 @@ use crate::arbiter::Arbiter;
 use crate::buttons::Buttons;
 use crate::client_inputs::ClientInputs;
 use crate::clients::Clients;
-use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo, FirmwareEvent};
+use crate::device::{CleanerPower, DeviceCommand, DeviceEvent, DeviceIo, Supervisor};
 use crate::diary::Diary;
 use crate::evidence::Evidence;
 use crate::floors::Floors;
@@ -38,7 +38,6 @@ use crate::journal::{Journal, Part};
 use crate::mind::{Mind, Recorder};
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Scheduler;
-use crate::tap::Tap;
 use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, Record, Recording, RunEnd, to_api};
 use checkpoints::CheckpointClock;
 use feed::Feed;
@@ -73,13 +72,16 @@ pub struct Core {
     felt: Evidence,
     standstills: Standstills,
     /// The robot's link, while it is open.
-    device: Option<Device>,
+    device: Option<Supervisor>,
+    /// The robot whose link was lost: what its wheels have counted goes on when it is back.
+    lost_device: Option<Supervisor>,
     mind: Option<Mind>,
     facts: LinkFacts,
     feed: Feed,
     checkpoints: CheckpointClock,
-    tap: Tap,
-    events: Vec<FirmwareEvent>,
+    /// Scratch, so that packets cost no list of their own.
+    packets: Vec<(crate::Direction, String)>,
+    events: Vec<DeviceEvent>,
     stepped_us: u64,
     /// When a step of making a home ready was done last.
     prepared_us: u64,
@@ -129,11 +131,12 @@ impl Core {
             felt: Evidence::default(),
             standstills: Standstills::default(),
             device: None,
+            lost_device: None,
             mind: None,
             facts: LinkFacts::default(),
             feed: Feed::default(),
             checkpoints: CheckpointClock::default(),
-            tap: Tap::default(),
+            packets: Vec::new(),
             events: Vec::new(),
             stepped_us: 0,
             prepared_us: 0,
@@ -197,7 +200,7 @@ impl Core {
     /// When the core wants [`Input::Wake`], in microseconds; `None` when only other inputs matter.
     #[must_use]
     pub fn next_wake_us(&self) -> Option<u64> {
-        let device = self.device.as_ref().map(Device::next_wake_us);
+        let device = self.device.as_ref().map(Supervisor::next_wake_us);
         let step = self.mind.as_ref().map(|_| self.stepped_us + STEP_MAX_US);
         let feed = self.feed.next_wake_us(&self.clients);
         let is_preparing = self.mind.as_ref().is_some_and(Mind::is_preparing);
@@ -238,8 +241,8 @@ impl Core {
             .observer
             .observation()
             .inhibits
-            .iter()
-            .map(|&name| name.to_owned())
+            .names()
+            .map(str::to_owned)
             .collect();
         status.room = room_here(mind.brain());
         status.driver = self.arbiter.driver().map(|client| self.clients.name(client));
@@ -275,13 +278,21 @@ impl Core {
     /// known because no robot is there.
     #[must_use]
     pub fn stands_still(&self) -> bool {
-        !self.device.as_ref().is_some_and(Device::is_attached) || self.facts.still_reports() > 0
+        let device = self.device.as_ref().filter(|device| device.is_attached());
+        device.is_none_or(|device| device.still_reports() > 0)
     }
 
     fn link_opened(&mut self, now_us: u64, outputs: &mut Outputs) {
-        self.device = Some(Device::new(now_us));
+        let known = self.device.take().or_else(|| self.lost_device.take());
+        let device = self
+            .device
+            .insert(known.unwrap_or_else(|| Supervisor::new(&self.config.make)));
+        device.open(&mut DeviceIo {
+            now_us,
+            link: &mut outputs.link,
+            events: &mut self.events,
+        });
         self.facts.opened(now_us);
-        self.tap = Tap::default();
         self.log(
             now_us,
             (LogLevel::Info, Part::Link, "serial device open".to_owned()),
@@ -290,7 +301,7 @@ impl Core {
     }
 
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
-        self.device = None;
+        self.lost_device = self.device.take().or_else(|| self.lost_device.take());
         self.facts.closed();
         self.buttons.forget();
         let text = match reason {
@@ -314,15 +325,22 @@ impl Core {
                 },
             );
         }
-        self.firmware_events(now_us, &mut events, outputs);
+        self.device_events(now_us, &mut events, outputs);
         self.events = events;
     }
 
     fn shutdown(&mut self, now_us: u64, outputs: &mut Outputs) {
         self.ended = true;
         self.arbiter.preempt();
-        self.facts.forget_stillness();
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
+        if let Some(device) = &mut self.device {
+            device.forget_stillness();
+            device.release(&mut DeviceIo {
+                now_us,
+                link: &mut outputs.link,
+                events: &mut self.events,
+            });
+        }
         self.log(
             now_us,
             (LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned()),
@@ -360,7 +378,7 @@ impl Core {
                 events: &mut events,
             });
         }
-        self.firmware_events(now_us, &mut events, outputs);
+        self.device_events(now_us, &mut events, outputs);
         self.events = events;
         let recording = self.config.recording;
         if let Some(mind) = &mut self.mind
@@ -415,11 +433,7 @@ impl Core {
 
     fn tap_received(&mut self, now_us: u64, bytes: &[u8], outputs: &mut Outputs) {
         if self.wants_packets() {
-            let session = self.device.as_ref().map_or(0, Device::session_number);
-            let mut packets = core::mem::take(&mut self.tap.packets);
-            self.tap.take_received(session, bytes, &mut packets);
-            self.tell_packets(now_us, &mut packets, outputs);
-            self.tap.packets = packets;
+            self.tap(now_us, (crate::Direction::FromRobot, bytes), outputs);
         }
     }
 
@@ -430,16 +444,19 @@ impl Core {
         }
         self.facts.count_out(sent);
         if self.wants_packets() {
-            let session = self.device.as_ref().map_or(0, Device::session_number);
-            let mut packets = core::mem::take(&mut self.tap.packets);
-            self.tap.take_sent(
-                session,
-                outputs.link.get(link_before..).unwrap_or_default(),
-                &mut packets,
-            );
-            self.tell_packets(now_us, &mut packets, outputs);
-            self.tap.packets = packets;
+            let link = core::mem::take(&mut outputs.link);
+            let bytes = link.get(link_before..).unwrap_or_default();
+            self.tap(now_us, (crate::Direction::ToRobot, bytes), outputs);
+            outputs.link = link;
         }
+    }
+
+    fn tap(&mut self, now_us: u64, (direction, bytes): (crate::Direction, &[u8]), outputs: &mut Outputs) {
+        let Some(device) = &mut self.device else { return };
+        let mut packets = core::mem::take(&mut self.packets);
+        device.tap(direction, bytes, &mut packets);
+        self.tell_packets(now_us, &mut packets, outputs);
+        self.packets = packets;
     }
 
     fn tell_packets(

@@ -180,7 +180,7 @@ fn signs(observation: &Observation) -> impl Iterator<Item = &'static str> + '_ {
     let spoke = named
         .into_iter()
         .filter_map(|(speaks, name)| speaks.then_some(name));
-    spoke.chain(observation.inhibits.iter().copied())
+    spoke.chain(observation.inhibits.names())
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use brain::{BehaviorState, Command};
 use rvac_api::{Gesture, LogLevel, RunAsker, Topic, Update};
-use rvac_units::Tick;
 
 use super::Core;
 use crate::arbiter::Source;
@@ -39,9 +38,14 @@ impl Core {
     }
 
     /// Somebody holds what only somebody beside the robot can hold.
-    pub(super) fn held(&mut self, now_us: u64, (gesture, tick): (Gesture, Tick), outputs: &mut Outputs) {
+    pub(super) fn held(
+        &mut self,
+        now_us: u64,
+        (gesture, uptime_ms): (Gesture, Option<u32>),
+        outputs: &mut Outputs,
+    ) {
         let text = match gesture {
-            Gesture::RecoveryHold if tick.0 > RECOVERY_MS => {
+            Gesture::RecoveryHold if uptime_ms.is_none_or(|ms| ms > RECOVERY_MS) => {
                 let text = "START and DOCK are held: to forget all devices, hold them within ten minutes after switching the \
                             robot on";
                 return self.log(now_us, (LogLevel::Warn, Part::Firmware, text.to_owned()), outputs);

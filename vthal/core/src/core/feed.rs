@@ -5,11 +5,10 @@ use rvac_api::{
     API_VERSION, DeviceTable, Estimate, FloorsView, LinkReading, PlannedWay, Pose, Status, Topic, Update,
     Versions,
 };
-use rvac_protocol::message::State;
 
 use super::{Core, recorder};
 use crate::clients::Clients;
-use crate::device::{Description, Device};
+use crate::device::{Description, Report, Supervisor};
 use crate::mind::Mind;
 use crate::observe::currents_a;
 use crate::outputs::{Delivery, Recipients};
@@ -348,7 +347,7 @@ impl Core {
     }
 
     pub(super) fn description(&self) -> Option<&Description> {
-        self.device.as_ref().and_then(Device::description)
+        self.device.as_ref().and_then(Supervisor::description)
     }
 
     fn versions(&self) -> Versions {
@@ -357,11 +356,7 @@ impl Core {
             vthal: self.config.version.clone(),
             brain: self.config.version.clone(),
             firmware: description.map(|robot| robot.identity.firmware.clone()),
-            cordlib: self
-                .facts
-                .info
-                .as_ref()
-                .map(|info| info.cordlib_version.as_str().to_owned()),
+            cordlib: self.facts.slow.as_ref().and_then(|slow| slow.library.clone()),
             protocol: description.map(|robot| robot.identity.protocol),
         }
     }
@@ -372,54 +367,58 @@ impl Core {
             versions: self.versions(),
             battery: self
                 .facts
-                .info
+                .slow
                 .as_ref()
-                .and_then(|info| info.battery.as_ref())
+                .and_then(|slow| slow.battery.as_ref())
                 .map(to_api::battery),
-            main_loop_hz: self.facts.info.as_ref().map(|info| info.main_steps_hz),
+            main_loop_hz: self.facts.slow.as_ref().and_then(|slow| slow.main_loop_hz),
             bytes_out_per_s,
             bytes_in_per_s,
             link: self.link_reading(now_us),
             ..DeviceTable::default()
         };
-        if let (Some(state), Some(description)) = (&self.facts.state, self.description()) {
-            fill_from_state(&mut table, state, description);
-            let [left, right] = self.facts.count_rates_hz;
-            table.wheel_left_m_per_s = left * description.count_m;
-            table.wheel_right_m_per_s = right * description.count_m;
+        if let (Some(report), Some(description)) = (&self.facts.report, self.description()) {
+            fill_from_report(&mut table, report, description);
+            table.wheel_left_m_per_s = self.facts.wheel_speeds.left_m_per_s;
+            table.wheel_right_m_per_s = self.facts.wheel_speeds.right_m_per_s;
         }
         table
     }
 
     fn link_reading(&self, now_us: u64) -> LinkReading {
-        let quality = self.device.as_ref().map(Device::quality).unwrap_or_default();
+        let quality = self
+            .device
+            .as_ref()
+            .map(Supervisor::link_quality)
+            .unwrap_or_default();
         LinkReading {
             up: self.link_view(now_us).up,
             age_ms: self.facts.age_ms(now_us).unwrap_or(u32::MAX),
-            bad_share: f64::from(quality.bad) / f64::from(quality.packets.max(1)),
-            round_trip_ms: quality.round_trip_ms.map(f64::from),
+            bad_share: quality.bad_share,
+            round_trip_ms: quality.round_trip_ms,
             resets: self.facts.resets(),
-            reset_cause: self.facts.reset_cause().map(|cause| cause.name().to_owned()),
+            reset_cause: self.facts.reset_cause().map(str::to_owned),
             reconnects: self.facts.reconnects(),
-            binary: self.device.as_ref().is_some_and(Device::is_binary),
+            binary: quality.is_binary,
         }
     }
 }
 
-fn fill_from_state(table: &mut DeviceTable, state: &State, description: &Description) {
-    table.bumpers = [state.bumpers.left, state.bumpers.right];
-    table.cliffs = [state.cliffs.left, state.cliffs.middle, state.cliffs.right];
-    table.wheel_drops = [state.wheel_drops.left, state.wheel_drops.right];
-    table.proximity = state
+fn fill_from_report(table: &mut DeviceTable, report: &Report, description: &Description) {
+    table.bumpers = [report.contacts.left, report.contacts.right];
+    table.cliffs = [report.cliffs.left, report.cliffs.middle, report.cliffs.right];
+    table.wheel_drops = [report.wheel_drops.left, report.wheel_drops.right];
+    table.proximity = report
         .proximity
         .iter()
         .take(usize::from(description.sensors.proximity))
-        .map(|raw| f32::from(*raw) / 255.0)
+        .copied()
         .collect();
-    table.currents_a = currents_a(state, description);
-    table.cleaners = [0, 1, 2].map(|bit| state.cleaners & 1 << bit != 0);
-    table.dust_box = state.dust_box;
-    table.docked = state.docked;
+    table.currents_a = currents_a(report);
+    let running = report.cleaners;
+    table.cleaners = [running.brush_main, running.brush_sides, running.vacuum];
+    table.dust_box = report.dust_box;
+    table.docked = report.docked;
 }
 
 fn followers(topic: Topic, update: Update, outputs: &mut Outputs) {

@@ -1,61 +1,73 @@
-//! What the firmware told, and what the core makes of it.
+//! What the device told, and what the core makes of it.
 
 use rvac_api::LogLevel;
-use rvac_protocol::message::{Edge, EdgeKind, Info, RobotHello, State};
 
-use super::link_facts::Greeting;
 use super::{Core, recorder};
-use crate::device::{Description, FirmwareEvent};
+use crate::device::{Description, DeviceEvent, Greeting, Report, SlowFacts};
 use crate::journal::Part;
 use crate::mind::Mind;
-use crate::{Outputs, RunEnd, cut_short, to_api};
+use crate::{Outputs, RunEnd, cut_short};
 
 impl Core {
-    pub(super) fn firmware_events(
+    pub(super) fn device_events(
         &mut self,
         now_us: u64,
-        events: &mut Vec<FirmwareEvent>,
+        events: &mut Vec<DeviceEvent>,
         outputs: &mut Outputs,
     ) {
         for event in events.drain(..) {
-            self.firmware_event(now_us, event, outputs);
+            self.device_event(now_us, event, outputs);
         }
     }
 
-    fn firmware_event(&mut self, now_us: u64, event: FirmwareEvent, outputs: &mut Outputs) {
+    fn device_event(&mut self, now_us: u64, event: DeviceEvent, outputs: &mut Outputs) {
         let line = match event {
-            FirmwareEvent::State(state) => return self.take_state(now_us, &state, outputs),
-            FirmwareEvent::Info(info) => return self.take_info(info),
-            FirmwareEvent::Opened(hello) => self.greeted(&hello),
-            FirmwareEvent::Described(description) => self.described(now_us, &description, outputs),
-            FirmwareEvent::Edge(edge) => match self.take_edge(now_us, &edge, outputs) {
-                Some(text) => (LogLevel::Info, Part::Firmware, text),
-                None => return,
-            },
-            FirmwareEvent::Log { level, text } => {
-                (to_api::log_level(level), Part::Firmware, text.as_str().to_owned())
+            DeviceEvent::Report(report) => return self.take_report(now_us, report, outputs),
+            DeviceEvent::Slow(facts) => return self.take_slow_facts(facts),
+            DeviceEvent::Opened(greeting) => self.greeted(&greeting),
+            DeviceEvent::Described(description) => self.described(now_us, &description, outputs),
+            DeviceEvent::Button { button, pressed } => {
+                self.button_turned(now_us, (button, pressed), outputs);
+                if !pressed {
+                    return;
+                }
+                let text = format!("button {button} was pressed");
+                (LogLevel::Info, Part::Firmware, text)
             }
-            FirmwareEvent::Refused { sequence, refusal } => {
-                let number = sequence.map_or_else(String::new, |sequence| format!(" {}", sequence.0));
-                let text = format!("the robot refused command{number}: {}", refusal.name());
+            DeviceEvent::MotorStopped(motor) => {
+                let text = format!("{motor} was switched off for its load");
+                (LogLevel::Info, Part::Firmware, text)
+            }
+            DeviceEvent::Docked(docked) => {
+                let text = if docked { "on the dock" } else { "off the dock" };
+                (LogLevel::Info, Part::Firmware, text.to_owned())
+            }
+            DeviceEvent::Log { level, text } => (level, Part::Firmware, text),
+            DeviceEvent::Refused { number, reason } => {
+                let number = number.map_or_else(String::new, |number| format!(" {number}"));
+                let text = format!("the robot refused command{number}: {reason}");
                 (LogLevel::Warn, Part::Firmware, text)
             }
-            FirmwareEvent::Unanswered(sequence) => (
+            DeviceEvent::Unanswered(number) => (
                 LogLevel::Warn,
                 Part::Link,
-                format!("the robot did not answer command {}", sequence.0),
+                format!("the robot did not answer command {number}"),
             ),
-            FirmwareEvent::EdgesLost(count) => {
+            DeviceEvent::ControlLost(reason) => {
+                let text = format!("the robot took its wheels back: {reason}");
+                (LogLevel::Warn, Part::Firmware, text)
+            }
+            DeviceEvent::EventsLost(count) => {
                 self.buttons.forget();
                 let text = format!("{count} events of the robot were lost");
                 (LogLevel::Warn, Part::Link, text)
             }
-            FirmwareEvent::Closed => {
+            DeviceEvent::Closed => {
                 self.buttons.forget();
                 let text = "session with the robot ended".to_owned();
                 (LogLevel::Warn, Part::Link, text)
             }
-            FirmwareEvent::Incompatible {
+            DeviceEvent::Incompatible {
                 version_min,
                 version_max,
             } => {
@@ -69,21 +81,20 @@ impl Core {
         self.log(now_us, line, outputs);
     }
 
-    fn greeted(&mut self, hello: &RobotHello) -> (LogLevel, Part, String) {
+    fn greeted(&mut self, greeting: &Greeting) -> (LogLevel, Part, String) {
         self.buttons.forget();
-        match self.facts.greeted(hello) {
-            Greeting::Continues => {
-                let text = format!("session with {} {}", hello.device, hello.firmware);
-                (LogLevel::Info, Part::Link, text)
-            }
-            Greeting::Reset(cause) => {
-                if let Some(mind) = &mut self.mind {
-                    mind.observer.rebase();
-                }
-                let text = format!("{} was reset ({}); new session", hello.device, cause.name());
-                (LogLevel::Warn, Part::Link, text)
-            }
+        self.facts.greeted(greeting);
+        let Greeting { device, firmware, .. } = greeting;
+        if !greeting.was_reset {
+            let text = format!("session with {device} {firmware}");
+            return (LogLevel::Info, Part::Link, text);
         }
+        if let Some(mind) = &mut self.mind {
+            mind.observer.rebase();
+        }
+        let cause = greeting.reset_cause.unwrap_or("for no known cause");
+        let text = format!("{device} was reset ({cause}); new session");
+        (LogLevel::Warn, Part::Link, text)
     }
 
     fn described(
@@ -134,40 +145,22 @@ impl Core {
         )
     }
 
-    fn take_state(&mut self, now_us: u64, state: &State, outputs: &mut Outputs) {
-        self.facts.take_state(now_us, state);
-        if let Some(gesture) = self.buttons.take_report(now_us, state.buttons) {
-            self.held(now_us, (gesture, state.tick), outputs);
+    fn take_report(&mut self, now_us: u64, report: Report, outputs: &mut Outputs) {
+        self.facts.take_report(now_us, report);
+        if let Some(gesture) = self.buttons.take_report(now_us, report.buttons) {
+            self.held(now_us, (gesture, report.uptime_ms), outputs);
         }
         let description = self.device.as_ref().and_then(|device| device.description());
         if let (Some(mind), Some(description)) = (&mut self.mind, description) {
-            mind.observer.take_state(now_us, state, description);
+            mind.observer.take_report(now_us, &report, description);
             self.think(now_us, outputs);
         }
     }
 
-    fn take_info(&mut self, info: Info) {
+    fn take_slow_facts(&mut self, facts: SlowFacts) {
         if let Some(mind) = &mut self.mind {
-            mind.observer.take_battery(info.battery.as_ref());
+            mind.observer.take_battery(facts.battery.as_ref());
         }
-        self.facts.info = Some(info);
-    }
-
-    fn take_edge(&mut self, now_us: u64, edge: &Edge, outputs: &mut Outputs) -> Option<String> {
-        match edge.kind {
-            EdgeKind::Button { button, pressed } => {
-                self.button_turned(now_us, (button, pressed), outputs);
-                pressed.then(|| format!("button {button} was pressed"))
-            }
-            EdgeKind::Stall(motor) => Some(format!("{} was switched off for its load", motor.name())),
-            EdgeKind::Docked(true) => Some("on the dock".to_owned()),
-            EdgeKind::Docked(false) => Some("off the dock".to_owned()),
-            // Levels of these come with each report, and the brain decides upon levels.
-            EdgeKind::Bump(_)
-            | EdgeKind::Cliff(_)
-            | EdgeKind::Lift(_)
-            | EdgeKind::MoveFinished(_)
-            | EdgeKind::Inhibits(_) => None,
-        }
+        self.facts.slow = Some(facts);
     }
 }

@@ -70,19 +70,19 @@ impl Core {
     }
 
     fn load(&self, now_us: u64) -> Option<Load> {
-        let (mind, description) = (self.mind.as_ref()?, self.description()?);
+        let mind = self.mind.as_ref().filter(|_| self.description().is_some())?;
         if mind.brain().status().state != BehaviorState::Cleaning {
             return None;
         }
-        let state = self.facts.state.as_ref()?;
-        let [left_a, right_a, brush_a] = currents_a(state, description)?;
-        let speeds = self
-            .facts
-            .count_rates_hz
-            .map(|rate_hz| rate_hz * description.count_m);
-        let [slower, faster] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
+        let report = self.facts.report.as_ref()?;
+        let [left_a, right_a, brush_a] = currents_a(report)?;
+        let (left, right) = (
+            self.facts.wheel_speeds.left_m_per_s,
+            self.facts.wheel_speeds.right_m_per_s,
+        );
+        let [slower, faster] = [left.min(right), left.max(right)];
         let is_straight = slower >= STRAIGHT_MIN_M_PER_S && faster - slower <= STRAIGHT_DIFFERENCE * faster;
-        let brush_runs = state.cleaners & 1 != 0 && self.cleaner_power() == CleanerPower::FULL;
+        let brush_runs = report.cleaners.brush_main && self.cleaner_power() == CleanerPower::FULL;
         is_straight.then_some(Load {
             time_us: now_us,
             wheels_a: Some([left_a, right_a]),

@@ -1,17 +1,16 @@
 //! What clients ask.
 
-use brain::{Command, StrategyName};
+use brain::{Command, Inhibit, StrategyName};
 use rvac_api::{Failure, LogLevel, Request, RequestBody, RunAsker, Topic, Update};
-use rvac_protocol::message::Inhibit;
 
 use super::refusal::Refusal;
 use super::{Core, manual};
 use crate::arbiter::{Denied, Source, Stick};
-use crate::device::{CleanerPower, Device, DeviceCommand, DeviceIo};
+use crate::device::{CleanerPower, CommandError, DeviceCommand, DeviceIo, Supervisor, Tone};
 use crate::journal::Part;
 use crate::outputs::{Delivery, Recipients};
 use crate::scheduler::Asker;
-use crate::{ClientId, ExpertAccess, MixOrder, MixTask, Outputs, tap};
+use crate::{ClientId, ExpertAccess, MixOrder, MixTask, Outputs};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
 const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
@@ -248,7 +247,7 @@ impl Core {
         if self.ended {
             return Err("ending");
         }
-        let attached = self.device.as_ref().is_some_and(Device::is_attached);
+        let attached = self.device.as_ref().is_some_and(Supervisor::is_attached);
         if attached && self.mind.is_some() {
             Ok(())
         } else {
@@ -324,17 +323,17 @@ impl Core {
     fn is_braking(&self) -> bool {
         let knows = self
             .facts
-            .state
+            .report
             .as_ref()
-            .is_some_and(|state| state.inhibits.contains(Inhibit::Stopped));
-        self.device.as_ref().is_some_and(Device::is_latched) && !knows
+            .is_some_and(|report| report.inhibits.contains(Inhibit::Stopped));
+        self.device.as_ref().is_some_and(Supervisor::is_latched) && !knows
     }
 
     fn check_range(&self, stick: &Stick) -> Result<(), Refused> {
         let description = self
             .device
             .as_ref()
-            .and_then(Device::description)
+            .and_then(Supervisor::description)
             .ok_or("no-robot")?;
         // Written so that NaN is refused too.
         let in_range = stick.speed_m_per_s.abs() <= description.drive.speed_max_m_per_s
@@ -380,10 +379,10 @@ impl Core {
         for (pitch_hz, duration_ms) in LOCATE_TONES {
             self.device_command(
                 now_us,
-                DeviceCommand::Tone {
+                DeviceCommand::Tone(Tone {
                     pitch_hz,
                     duration_ms,
-                },
+                }),
                 outputs,
             );
         }
@@ -392,7 +391,7 @@ impl Core {
 
     fn clear(&mut self, now_us: u64, reason: &str, outputs: &mut Outputs) -> Result<(), Refused> {
         self.require_robot()?;
-        let latched = Inhibit::from_name(reason.as_bytes()).filter(|inhibit| inhibit.is_latched());
+        let latched = Inhibit::from_name(reason).filter(|inhibit| inhibit.is_latched());
         if let Some(inhibit) = latched {
             self.device_command(now_us, DeviceCommand::Clear(inhibit), outputs);
         }
@@ -413,16 +412,19 @@ impl Core {
         if self.config.expert == ExpertAccess::Denied {
             return Err("expert-off");
         }
-        let command = tap::command_from_text(packet).ok_or("raw-syntax")?;
-        let text = format!("{} sends raw {packet}", self.clients.name(client));
-        self.log(now_us, (LogLevel::Warn, Part::Client, text), outputs);
         let device = self.device.as_mut().ok_or("no-robot")?;
         let mut io = DeviceIo {
             now_us,
             link: &mut outputs.link,
             events: &mut self.events,
         };
-        device.send_raw(command, &mut io).map_err(|_| "not-sent")
+        let sent = device.raw(packet, &mut io);
+        if sent == Err(CommandError::Syntax) {
+            return Err("raw-syntax");
+        }
+        let text = format!("{} sends raw {packet}", self.clients.name(client));
+        self.log(now_us, (LogLevel::Warn, Part::Client, text), outputs);
+        sent.map_err(|_| "not-sent")
     }
 
     fn hello(

@@ -43,8 +43,7 @@ impl Core {
         let (Some(mind), Some(description)) = (&self.mind, self.description()) else {
             return;
         };
-        let state = self.facts.state.as_ref();
-        let currents_a = state.and_then(|state| currents_a(state, description));
+        let currents_a = self.facts.report.as_ref().and_then(currents_a);
         let track_m = description.drive.track_m;
         self.felt.take(mind.observer.observation(), currents_a, track_m);
     }

@@ -1,14 +1,13 @@
 //! One step of the brain, and what it asks for.
 
-use brain::action::{Decision, Tone};
+use brain::action::Decision;
 use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{LogLevel, Topic, Update};
-use rvac_protocol::quality::Verdict;
 
 use super::standstill::is_standstill;
 use super::{Core, recorder, refusal};
-use crate::device::{CleanerDrive, Device, DeviceCommand, LeaveDock};
+use crate::device::{CleanerDrive, DeviceCommand, LeaveDock, Supervisor, Tone, Verdict};
 use crate::journal::Part;
 use crate::observe::LinkView;
 use crate::outputs::{Delivery, Recipients};
@@ -18,11 +17,14 @@ use crate::{ClientId, Outputs};
 const VALID_FOR_US: u64 = 250_000;
 impl Core {
     pub(super) fn link_view(&self, now_us: u64) -> LinkView {
-        let up = self.device.as_ref().is_some_and(Device::is_attached) && self.facts.is_fresh(now_us);
+        let attached = self.device.as_ref().filter(|device| device.is_attached());
+        let up = attached
+            .and_then(Supervisor::fresh_us)
+            .is_some_and(|fresh_us| self.facts.is_fresh(now_us, fresh_us));
         let verdict = self
             .device
             .as_ref()
-            .map(|device| device.quality().verdict)
+            .map(|device| device.link_quality().verdict)
             .unwrap_or_default();
         let speed_share = match verdict {
             Verdict::Good => 1.0,
@@ -86,19 +88,12 @@ impl Core {
             };
             self.device_command(now_us, DeviceCommand::Arm { leave_dock }, outputs);
         }
-        for Tone {
-            pitch_hz,
-            duration_ms,
-        } in actions.tones
-        {
-            self.device_command(
-                now_us,
-                DeviceCommand::Tone {
-                    pitch_hz,
-                    duration_ms,
-                },
-                outputs,
-            );
+        for tone in actions.tones {
+            let tone = Tone {
+                pitch_hz: tone.pitch_hz,
+                duration_ms: tone.duration_ms,
+            };
+            self.device_command(now_us, DeviceCommand::Tone(tone), outputs);
         }
         let motion = match actions.motion {
             Motion::Rest => DeviceCommand::Rest,
