@@ -12,6 +12,7 @@ mod licences;
 mod metadata;
 mod rust_text;
 mod specification;
+mod vocabulary;
 mod words;
 
 use crate::process;
@@ -33,7 +34,7 @@ struct Rule {
     check: fn(&Files) -> anyhow::Result<Finding>,
 }
 
-const RULES: [Rule; 11] = [
+const RULES: [Rule; 13] = [
     Rule {
         wants: "crates depend only on crates they may know",
         check: directions::check,
@@ -57,6 +58,14 @@ const RULES: [Rule; 11] = [
     Rule {
         wants: "no unfinished business",
         check: words::check,
+    },
+    Rule {
+        wants: "no retired word of the glossary is used",
+        check: vocabulary::retired,
+    },
+    Rule {
+        wants: "within a crate one name means one type",
+        check: vocabulary::homonyms,
     },
     Rule {
         wants: "the specification names every word of the wire",
