@@ -12,30 +12,25 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-mod arbiter;
-mod buttons;
 mod checkpoint;
-mod client_inputs;
-mod clients;
 mod config;
 mod core;
+mod desk;
 pub mod device;
 mod diary;
-mod evidence;
 mod floors;
 pub mod health;
 mod history;
 mod home_view;
 mod input;
-mod journal;
 pub mod learnt;
 mod mind;
 mod newest;
 pub mod observe;
 mod outputs;
 mod quest;
+mod refusal;
 pub mod schedule;
-mod scheduler;
 mod stored_version;
 mod swept_sigma;
 mod tap;

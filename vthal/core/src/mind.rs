@@ -9,8 +9,8 @@ mod next_run;
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
 use brain::{
-    Actions, BehaviorState, Body, Brain, Checkpoint, Command, LearntPart, MapCursor, ReadyHome, Reason,
-    Speeds,
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, Learnt, LearntPart, MapCursor, ReadyHome,
+    Reason, Speeds,
 };
 use floors::Carried;
 pub(crate) use floors::FloorNews;
@@ -22,7 +22,7 @@ use crate::floors::Floors;
 use crate::home_view::{FeltFloors, home_view};
 use crate::observe::Observer;
 use crate::quest::Quest;
-use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, RunStart, to_api};
+use crate::{CoreConfig, FloorHome, Outputs, Record, Recording, RunCause, RunEnd, RunStart, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -66,10 +66,17 @@ struct Run {
 /// What a step gives: actions, and records if they are wanted.
 pub(crate) struct Recorder<'a> {
     /// `None` = no recording.
-    pub(crate) records: Option<&'a mut Vec<Record>>,
+    records: Option<&'a mut Vec<Record>>,
 }
 
-impl Recorder<'_> {
+impl<'a> Recorder<'a> {
+    /// Writes to these outputs if runs are recorded.
+    pub(crate) fn new(recording: Recording, outputs: &'a mut Outputs) -> Self {
+        Self {
+            records: (recording == Recording::On).then_some(&mut outputs.records),
+        }
+    }
+
     fn write(&mut self, record: impl FnOnce() -> Record) {
         if let Some(records) = &mut self.records {
             records.push(record());
@@ -78,11 +85,17 @@ impl Recorder<'_> {
 }
 
 impl Mind {
-    pub(crate) fn new(description: &Description, settings: &CoreConfig, floors: &Floors) -> Self {
+    /// A brain that begins with what a robot of this description has learnt.
+    pub(crate) fn new(
+        description: &Description,
+        learnt: Learnt,
+        settings: &CoreConfig,
+        floors: &Floors,
+    ) -> Self {
         let config = brain_config(description, settings);
         let seed = settings.seed;
         let mut brain = Brain::new(config, seed);
-        brain.begin_with(settings.learnt.of(&description.identity.device));
+        brain.begin_with(learnt);
         Self {
             brain,
             config,

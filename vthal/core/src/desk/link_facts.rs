@@ -20,16 +20,16 @@ struct ByteRate {
 
 /// What is known of the link.
 #[derive(Debug, Default)]
-pub(super) struct LinkFacts {
+pub(crate) struct LinkFacts {
     opened: u32,
     is_open: bool,
     hello: Option<RobotHello>,
     resets: u32,
-    pub(super) state: Option<State>,
+    pub(crate) state: Option<State>,
     state_us: Option<u64>,
-    pub(super) info: Option<Info>,
+    pub(crate) info: Option<Info>,
     /// Counts per second of the left and the right wheel.
-    pub(super) count_rates_hz: [f64; 2],
+    pub(crate) count_rates_hz: [f64; 2],
     still_reports: u32,
     bytes_in: ByteRate,
     bytes_out: ByteRate,
@@ -39,7 +39,7 @@ pub(super) struct LinkFacts {
 
 /// Whether the robot was reset between two greetings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Greeting {
+pub(crate) enum Greeting {
     /// First robot, or the same one goes on.
     Continues,
     /// Its clock and its totals began anew.
@@ -47,33 +47,33 @@ pub(super) enum Greeting {
 }
 
 impl LinkFacts {
-    pub(super) fn opened(&mut self, now_us: u64) {
+    pub(crate) fn opened(&mut self, now_us: u64) {
         self.opened += 1;
         self.is_open = true;
         self.state_us = None;
         self.rate_since_us = now_us;
     }
 
-    pub(super) fn closed(&mut self) {
+    pub(crate) fn closed(&mut self) {
         self.is_open = false;
         self.state_us = None;
         self.count_rates_hz = [0.0; 2];
     }
 
     /// Times the device was lost and found again.
-    pub(super) fn reconnects(&self) -> u32 {
+    pub(crate) fn reconnects(&self) -> u32 {
         self.opened.saturating_sub(1)
     }
 
-    pub(super) fn resets(&self) -> u32 {
+    pub(crate) fn resets(&self) -> u32 {
         self.resets
     }
 
-    pub(super) fn reset_cause(&self) -> Option<ResetCause> {
+    pub(crate) fn reset_cause(&self) -> Option<ResetCause> {
         self.hello.as_ref().map(|hello| hello.reset_cause)
     }
 
-    pub(super) fn greeted(&mut self, hello: &RobotHello) -> Greeting {
+    pub(crate) fn greeted(&mut self, hello: &RobotHello) -> Greeting {
         let clock_went_back = |old: Tick| !hello.tick.reached(old);
         let reset = self.hello.as_ref().is_some_and(|old| {
             old.boot_count != hello.boot_count
@@ -91,7 +91,7 @@ impl LinkFacts {
         Greeting::Reset(hello.reset_cause)
     }
 
-    pub(super) fn take_state(&mut self, now_us: u64, state: &State) {
+    pub(crate) fn take_state(&mut self, now_us: u64, state: &State) {
         if let Some(old) = &self.state {
             let left = state.count_left.wrapping_sub(old.count_left);
             let right = state.count_right.wrapping_sub(old.count_right);
@@ -112,36 +112,36 @@ impl LinkFacts {
     }
 
     /// Reports in a row that say "still".
-    pub(super) fn still_reports(&self) -> u32 {
+    pub(crate) fn still_reports(&self) -> u32 {
         self.still_reports
     }
 
     /// Only reports from now on count for [`LinkFacts::still_reports`].
-    pub(super) fn forget_stillness(&mut self) {
+    pub(crate) fn forget_stillness(&mut self) {
         self.still_reports = 0;
         self.state = None;
     }
 
     /// Age of the newest telemetry in ms; `None` if there is none since the device was opened.
-    pub(super) fn age_ms(&self, now_us: u64) -> Option<u32> {
+    pub(crate) fn age_ms(&self, now_us: u64) -> Option<u32> {
         let age_us = now_us.saturating_sub(self.state_us?);
         Some(u32::try_from(age_us / 1000).unwrap_or(u32::MAX))
     }
 
-    pub(super) fn is_fresh(&self, now_us: u64) -> bool {
+    pub(crate) fn is_fresh(&self, now_us: u64) -> bool {
         self.state_us
             .is_some_and(|state_us| now_us.saturating_sub(state_us) <= FRESH_US)
     }
 
-    pub(super) fn count_in(&mut self, bytes: usize) {
+    pub(crate) fn count_in(&mut self, bytes: usize) {
         self.bytes_in.counted += bytes as u64;
     }
 
-    pub(super) fn count_out(&mut self, bytes: usize) {
+    pub(crate) fn count_out(&mut self, bytes: usize) {
         self.bytes_out.counted += bytes as u64;
     }
 
-    pub(super) fn pass_time(&mut self, now_us: u64) {
+    pub(crate) fn pass_time(&mut self, now_us: u64) {
         let window_us = now_us.saturating_sub(self.rate_since_us);
         if window_us >= RATE_WINDOW_US {
             for rate in [&mut self.bytes_in, &mut self.bytes_out] {
@@ -153,12 +153,12 @@ impl LinkFacts {
     }
 
     /// Bytes per second from and to the robot.
-    pub(super) fn bytes_per_s(&self) -> (f64, f64) {
+    pub(crate) fn bytes_per_s(&self) -> (f64, f64) {
         (self.bytes_in.per_s, self.bytes_out.per_s)
     }
 
     /// Whether this differs from the error before; repetitions are not worth a line each.
-    pub(super) fn is_new_error(&mut self, error: CommandError) -> bool {
+    pub(crate) fn is_new_error(&mut self, error: CommandError) -> bool {
         self.last_error.replace(error) != Some(error)
     }
 }

@@ -11,7 +11,7 @@ const SAMPLES: usize = 50;
 
 /// The newest samples.
 #[derive(Debug, Default)]
-pub(crate) struct Evidence {
+pub(crate) struct Sensations {
     samples: VecDeque<Sample>,
     open: Option<Open>,
 }
@@ -69,7 +69,7 @@ impl Standing {
     }
 }
 
-impl Evidence {
+impl Sensations {
     /// Takes in a step: what the brain saw, and currents as far as the robot measures them.
     pub(crate) fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>, track_m: f64) {
         let now = Standing::of(observation);
@@ -188,12 +188,12 @@ mod tests {
     use brain::Observation;
     use brain::observation::Contacts;
 
-    use super::Evidence;
+    use super::Sensations;
 
     const TRACK_M: f64 = 0.25;
 
     /// Drives straight ahead with 0.2 m/s and 50 reports a second.
-    fn drive(evidence: &mut Evidence, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
+    fn drive(evidence: &mut Sensations, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
         for step in steps {
             let way_m = 0.004 * step as f64;
             let mut observation = Observation {
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn ten_seconds_are_kept_with_speeds_and_no_more() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         drive(&mut evidence, 0..2_001, |_| {});
         let felt = evidence.before(40_000_000, TRACK_M);
         assert_eq!(felt.len(), 50);
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_contact_of_one_report_is_not_lost_and_what_just_came_is_told_at_once() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         let touch = |observation: &mut Observation| {
             let touches = matches!(observation.time_us, 2_020_000 | 4_040_000);
             observation.contacts = Contacts {
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn what_is_older_than_ten_seconds_does_not_explain_anything() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         drive(&mut evidence, 0..101, |_| {});
         assert!(evidence.before(60_000_000, TRACK_M).is_empty());
     }
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn a_turn_is_told_by_the_gyro_or_else_by_the_wheels() {
         let turned = |gyro: bool| {
-            let mut evidence = Evidence::default();
+            let mut evidence = Sensations::default();
             for step in 0..30_u64 {
                 let turn_rad = 0.02 * step as f64;
                 let observation = Observation {
