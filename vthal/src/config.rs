@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use crate::imu::{Axis, ImuSettings, Roots};
 use crate::radio::{BEACONS_MAX, BeaconName, RadioForm, RadioSettings};
+use crate::service::MAKE;
 
 /// A valid configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -283,7 +284,7 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
     let serial = flags.serial.or(file.link.serial);
     let socket = flags.socket.or(file.socket.path);
     let state = flags.state.or(file.state.dir);
-    let baud = source.in_range(file.link.baud, 230_400, 1_200..=4_000_000)?;
+    let baud = source.in_range(file.link.baud, MAKE.opening.baud, 1_200..=4_000_000)?;
     Ok(Config {
         serial: serial.ok_or(missing("serial device", "--serial PATH", "link.serial"))?,
         baud: flags.baud.unwrap_or(baud),

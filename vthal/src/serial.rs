@@ -9,6 +9,7 @@ use rustix::fs::{FlockOperation, Mode, OFlags, flock};
 use serial2_tokio::{SerialPort, Settings};
 use tokio::sync::mpsc::{Receiver, Sender};
 use vthal_core::LinkLoss;
+use vthal_core::device::Opening;
 
 use crate::event::{Event, SerialEvent};
 
@@ -30,13 +31,22 @@ pub(crate) struct SerialSettings {
     pub baud: u32,
 }
 
+/// The line to the robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct RobotLine {
+    /// The device.
+    pub settings: SerialSettings,
+    /// What the make of the robot asks for before the first byte.
+    pub opening: Opening,
+}
+
 /// Serves the device until the daemon's event queue closes: opens it, passes bytes both ways, and begins again when it is
 /// lost. Each outage is reported once.
-pub(crate) async fn serve(settings: SerialSettings, events: Sender<Event>, mut to_robot: Receiver<Vec<u8>>) {
+pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<Vec<u8>>) {
     let mut pause = PAUSE_MIN;
     let mut told = false;
     loop {
-        let event = match open(&settings) {
+        let event = match open_to_robot(&robot).await {
             Ok(line) => {
                 told = false;
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
@@ -63,6 +73,31 @@ pub(crate) async fn serve(settings: SerialSettings, events: Sender<Event>, mut t
         tokio::time::sleep(pause).await;
         pause = (pause * 2).min(PAUSE_MAX);
     }
+}
+
+/// Opens the device and wakes the robot at its other end, if it needs that.
+async fn open_to_robot(robot: &RobotLine) -> Result<Line, OpenError> {
+    let line = open(&robot.settings)?;
+    wake(&line.port, robot.opening)
+        .await
+        .map_err(|error| OpenError::Open {
+            path: robot.settings.path.clone(),
+            error,
+        })?;
+    Ok(line)
+}
+
+async fn wake(port: &SerialPort, opening: Opening) -> io::Result<()> {
+    if opening.wake_pulse_ms > 0 {
+        // An asserted line is low at the plug.
+        port.set_rts(true)?;
+        tokio::time::sleep(Duration::from_millis(opening.wake_pulse_ms.into())).await;
+        port.set_rts(false)?;
+    }
+    if opening.settle_ms > 0 {
+        tokio::time::sleep(Duration::from_millis(opening.settle_ms.into())).await;
+    }
+    Ok(())
 }
 
 /// Bytes for a robot that was lost must not reach the next one.

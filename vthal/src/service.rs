@@ -7,6 +7,7 @@ use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
+use vthal_core::device::{Make, cordlib};
 use vthal_core::{Checkpoint, Checkpoints, Core, CoreConfig, ExpertAccess, Recording, cut_short};
 
 use crate::checkpoint_file::{self, BootTime, Found};
@@ -24,10 +25,13 @@ use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
-use crate::serial::{self, SerialSettings};
+use crate::serial::{self, RobotLine, SerialSettings};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
 use crate::{checkpoint_thread, imu, logging, radio, run_thread};
+
+/// Make of the robot that this daemon serves.
+pub(crate) const MAKE: Make = cordlib::MAKE;
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
@@ -114,9 +118,12 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     };
     watch_signals(&event_sender)?;
     spawn_local(socket::serve(listener, event_sender.clone()));
-    let serial = SerialSettings {
-        path: config.serial.clone(),
-        baud: config.baud,
+    let robot = RobotLine {
+        settings: SerialSettings {
+            path: config.serial.clone(),
+            baud: config.baud,
+        },
+        opening: MAKE.opening,
     };
     if let Some(imu) = &config.imu {
         imu::start(imu.clone(), event_sender.clone())?;
@@ -124,7 +131,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     if let Some(radio) = &config.radio {
         spawn_local(radio::serve(radio.clone(), event_sender.clone()));
     }
-    spawn_local(serial::serve(serial, event_sender, robot_queue));
+    spawn_local(serial::serve(robot, event_sender, robot_queue));
     tracing::info!(
         part = "vthal",
         "version {} listens on {}",
@@ -160,6 +167,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
     };
     let (resume, next_run) = left_over(kept);
     Ok(CoreConfig {
+        make: MAKE,
         schedules: found.book,
         health,
         learnt,

@@ -4,6 +4,7 @@ use brain::SensorLayout;
 use brain::command::StrategyName;
 
 use crate::Checkpoint;
+use crate::device::{Make, cordlib};
 use crate::floors::KeptFloor;
 use crate::health::Health;
 use crate::learnt::Learnings;
@@ -12,6 +13,8 @@ use crate::schedule::{Book, Zone};
 /// Settings of the core, fixed for its life.
 #[derive(Clone, Debug)]
 pub struct CoreConfig {
+    /// Make of the robot at the other end of the line.
+    pub make: Make,
     /// Seed of the brain; each run derives its own from it.
     pub seed: u64,
     /// Strategy when a request names none; `None` = what suits the robot.
@@ -52,6 +55,7 @@ pub struct CoreConfig {
 impl Default for CoreConfig {
     fn default() -> Self {
         Self {
+            make: cordlib::MAKE,
             seed: 1,
             strategy: None,
             expert: ExpertAccess::Denied,

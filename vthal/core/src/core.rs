@@ -121,7 +121,7 @@ impl Core {
         match input {
             Input::LinkOpened => {
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                self.link.opened(&mut teller);
+                self.link.opened(&self.config.make, &mut teller);
             }
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
             Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
@@ -341,10 +341,10 @@ impl Core {
         self.ended = true;
         self.schedules.end();
         self.driver.preempt();
-        self.link.forget_stillness();
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
-        self.teller(now_us, outputs)
-            .log(LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned());
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.link.release(&mut teller);
+        teller.log(LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned());
         if let Some(mind) = &mut self.mind {
             let over = self.history.shut_down(now_us, mind.brain());
             self.history.keep(over, mind.floor(), outputs);

@@ -5,7 +5,7 @@
 //! [`Input::Wake`]. It knows no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
 //! same code.
 //!
-//! The parts, in the way of a telemetry report: [`device`] (the device model, its dead man and the wire session),
+//! The parts, in the way of a telemetry report: [`device`] (the device model, what holds for every make, and the makes),
 //! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
 //! beside it the `arbiter` (who may command), `buttons` (what a person means who presses them), `client_inputs` (sticks that clients tell), [`schedule`] (what starts by itself), `history` (what is kept of runs), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
 //! (what survives a crash).
@@ -33,7 +33,6 @@ mod refusal;
 pub mod schedule;
 mod stored_version;
 mod swept_sigma;
-mod tap;
 mod to_api;
 
 pub use checkpoint::Checkpoint;

@@ -17,7 +17,7 @@ pub(crate) use floors::FloorNews;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
 use rvac_api::HomeView;
 
-use crate::device::{Description, Part, Shape};
+use crate::device::{Description, Part};
 use crate::floors::Floors;
 use crate::home_view::{FeltFloors, home_view};
 use crate::observe::Observer;
@@ -483,9 +483,8 @@ fn is_centred(command: &Command) -> bool {
 }
 
 fn brain_config(description: &Description, settings: &CoreConfig) -> BrainConfig {
-    let Shape::Circle { radius_m } = description.shape;
     let body = Body {
-        radius_m,
+        radius_m: description.shape.circumscribed_radius_m(),
         swath_m: description.swath_m,
         track_m: description.drive.track_m,
     };

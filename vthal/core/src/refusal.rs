@@ -122,7 +122,8 @@ fn metres(low: i32, high: i32) -> String {
 mod tests {
     use brain::Reason;
     use rvac_api::explain;
-    use rvac_protocol::message::Inhibit;
+
+    use crate::device::Inhibit;
 
     #[test]
     fn everything_that_stops_the_robot_or_refuses_is_explained() {

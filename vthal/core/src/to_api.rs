@@ -5,9 +5,8 @@ use rvac_api::{
     BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
     RobotDescription,
 };
-use rvac_protocol::message::{Battery, ChargeState, ChargerStatus, LogLevel};
 
-use crate::device::{Description, Shape};
+use crate::device::{Battery, ChargeState, Charger, Description};
 use crate::swept_sigma::SweptSigma;
 
 /// A pose of the map frame at `time_us`.
@@ -27,10 +26,9 @@ pub(crate) fn seconds(time_us: u64) -> f64 {
 
 /// A robot's description.
 pub(crate) fn robot(description: &Description) -> RobotDescription {
-    let Shape::Circle { radius_m } = description.shape;
     RobotDescription {
         device: description.identity.device.clone(),
-        radius_m,
+        radius_m: description.shape.circumscribed_radius_m(),
         swath_m: description.swath_m,
         speed_max_m_per_s: description.drive.speed_max_m_per_s,
         turn_max_rad_per_s: description.drive.turn_max_rad_per_s,
@@ -114,20 +112,20 @@ pub(crate) fn way(brain: &Brain) -> PlannedWay {
 /// Battery readings.
 pub(crate) fn battery(battery: &Battery) -> BatteryReading {
     BatteryReading {
-        charge: battery.charge.as_f64(),
-        voltage_v: battery.voltage.as_v(),
-        current_a: battery.current.as_a(),
-        temperature_c: battery.temperature.map(rvac_units::Temperature::as_celsius),
+        charge: battery.charge,
+        voltage_v: battery.voltage_v,
+        current_a: battery.current_a,
+        temperature_c: battery.temperature_c,
         state: charge_state(battery.state).to_owned(),
         charger: battery.charger.map(charger),
     }
 }
 
-fn charger(status: ChargerStatus) -> ChargerReading {
+fn charger(charger: Charger) -> ChargerReading {
     ChargerReading {
-        phase: status.phase.name().to_owned(),
-        end: status.end.map(|end| end.name().to_owned()),
-        fault: status.fault.map(|fault| fault.name().to_owned()),
+        phase: charger.phase.to_owned(),
+        end: charger.end.map(str::to_owned),
+        fault: charger.fault.map(str::to_owned),
     }
 }
 
@@ -137,16 +135,6 @@ fn charge_state(state: ChargeState) -> &'static str {
         ChargeState::Charging => "charging",
         ChargeState::Full => "full",
         ChargeState::Fault => "fault",
-    }
-}
-
-/// Level of a firmware's log line.
-pub(crate) fn log_level(level: LogLevel) -> rvac_api::LogLevel {
-    match level {
-        LogLevel::Debug => rvac_api::LogLevel::Debug,
-        LogLevel::Info => rvac_api::LogLevel::Info,
-        LogLevel::Warn => rvac_api::LogLevel::Warn,
-        LogLevel::Error => rvac_api::LogLevel::Error,
     }
 }
 

@@ -1,73 +1,84 @@
-//! What the robot told, and who hears of it.
+//! What the device told, and who hears of it.
 
 use brain::Command;
 use rvac_api::{LogLevel, RunAsker};
-use rvac_protocol::message::{Edge, EdgeKind, RobotHello, State};
 
 use super::Core;
 use crate::desk::arbiter::Source;
 use crate::desk::button_desk::{ButtonEdge, Doing};
 use crate::desk::journal::Part;
-use crate::desk::link_facts::Greeting;
-use crate::device::{Description, FirmwareEvent};
+use crate::device::{Description, DeviceEvent, Greeting, Report};
 use crate::mind::{Mind, Recorder};
-use crate::{Checkpoint, Outputs, RunEnd, cut_short, to_api};
+use crate::{Checkpoint, Outputs, RunEnd, cut_short};
 
 /// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
 /// changed for that very press. A press so soon after a change means the state before.
 const AFTER_CHANGE_US: u64 = 500_000;
 
 impl Core {
-    pub(super) fn take_events(&mut self, now_us: u64, mut events: Vec<FirmwareEvent>, outputs: &mut Outputs) {
+    pub(super) fn take_events(&mut self, now_us: u64, mut events: Vec<DeviceEvent>, outputs: &mut Outputs) {
         for event in events.drain(..) {
             self.take_event(now_us, event, outputs);
         }
         self.link.reuse(events);
     }
 
-    fn take_event(&mut self, now_us: u64, event: FirmwareEvent, outputs: &mut Outputs) {
+    fn take_event(&mut self, now_us: u64, event: DeviceEvent, outputs: &mut Outputs) {
         let (level, part, text) = match event {
-            FirmwareEvent::State(state) => return self.take_state(now_us, &state, outputs),
-            FirmwareEvent::Info(info) => {
+            DeviceEvent::Report(report) => return self.take_report(now_us, report, outputs),
+            DeviceEvent::Slow(facts) => {
                 if let Some(mind) = &mut self.mind {
-                    mind.observer.take_battery(info.battery.as_ref());
+                    mind.observer.take_battery(facts.battery.as_ref());
                 }
-                return self.link.take_info(info);
+                return self.link.take_slow_facts(facts);
             }
-            FirmwareEvent::Opened(hello) => self.greeted(&hello),
-            FirmwareEvent::Described(description) => {
+            DeviceEvent::Opened(greeting) => self.greeted(&greeting),
+            DeviceEvent::Described(description) => {
                 self.described(now_us, &description, outputs);
                 let text = format!("{} has described itself", description.identity.device);
                 (LogLevel::Info, Part::Link, text)
             }
-            FirmwareEvent::Edge(edge) => match self.take_edge(now_us, &edge, outputs) {
-                Some(text) => (LogLevel::Info, Part::Firmware, text),
-                None => return,
-            },
-            FirmwareEvent::Log { level, text } => {
-                (to_api::log_level(level), Part::Firmware, text.as_str().to_owned())
+            DeviceEvent::Button { button, pressed } => {
+                self.button_turned(now_us, ButtonEdge { button, pressed }, outputs);
+                if !pressed {
+                    return;
+                }
+                let text = format!("button {button} was pressed");
+                (LogLevel::Info, Part::Firmware, text)
             }
-            FirmwareEvent::Refused { sequence, refusal } => {
-                let number = sequence.map_or_else(String::new, |sequence| format!(" {}", sequence.0));
-                let text = format!("the robot refused command{number}: {}", refusal.name());
+            DeviceEvent::MotorStopped(motor) => {
+                let text = format!("{motor} was switched off for its load");
+                (LogLevel::Info, Part::Firmware, text)
+            }
+            DeviceEvent::Docked(docked) => {
+                let text = if docked { "on the dock" } else { "off the dock" };
+                (LogLevel::Info, Part::Firmware, text.to_owned())
+            }
+            DeviceEvent::Log { level, text } => (level, Part::Firmware, text),
+            DeviceEvent::Refused { number, reason } => {
+                let number = number.map_or_else(String::new, |number| format!(" {number}"));
+                let text = format!("the robot refused command{number}: {reason}");
                 (LogLevel::Warn, Part::Firmware, text)
             }
-            FirmwareEvent::Unanswered(sequence) => (
-                LogLevel::Warn,
-                Part::Link,
-                format!("the robot did not answer command {}", sequence.0),
-            ),
-            FirmwareEvent::EdgesLost(count) => {
+            DeviceEvent::Unanswered(number) => {
+                let text = format!("the robot did not answer command {number}");
+                (LogLevel::Warn, Part::Link, text)
+            }
+            DeviceEvent::ControlLost(reason) => {
+                let text = format!("the robot took its wheels back: {reason}");
+                (LogLevel::Warn, Part::Firmware, text)
+            }
+            DeviceEvent::EventsLost(count) => {
                 self.buttons.forget();
                 let text = format!("{count} events of the robot were lost");
                 (LogLevel::Warn, Part::Link, text)
             }
-            FirmwareEvent::Closed => {
+            DeviceEvent::Closed => {
                 self.buttons.forget();
                 let text = "session with the robot ended".to_owned();
                 (LogLevel::Warn, Part::Link, text)
             }
-            FirmwareEvent::Incompatible {
+            DeviceEvent::Incompatible {
                 version_min,
                 version_max,
             } => {
@@ -81,21 +92,20 @@ impl Core {
         self.teller(now_us, outputs).log(level, part, text);
     }
 
-    fn greeted(&mut self, hello: &RobotHello) -> (LogLevel, Part, String) {
+    fn greeted(&mut self, greeting: &Greeting) -> (LogLevel, Part, String) {
         self.buttons.forget();
-        match self.link.greeted(hello) {
-            Greeting::Continues => {
-                let text = format!("session with {} {}", hello.device, hello.firmware);
-                (LogLevel::Info, Part::Link, text)
-            }
-            Greeting::Reset(cause) => {
-                if let Some(mind) = &mut self.mind {
-                    mind.observer.rebase();
-                }
-                let text = format!("{} was reset ({}); new session", hello.device, cause.name());
-                (LogLevel::Warn, Part::Link, text)
-            }
+        self.link.greeted(greeting);
+        let Greeting { device, firmware, .. } = greeting;
+        if !greeting.was_reset {
+            let text = format!("session with {device} {firmware}");
+            return (LogLevel::Info, Part::Link, text);
         }
+        if let Some(mind) = &mut self.mind {
+            mind.observer.rebase();
+        }
+        let cause = greeting.reset_cause.unwrap_or("for no known cause");
+        let text = format!("{device} was reset ({cause}); new session");
+        (LogLevel::Warn, Part::Link, text)
     }
 
     /// Another robot than the one before begins with a brain of its own.
@@ -142,31 +152,13 @@ impl Core {
         }
     }
 
-    fn take_state(&mut self, now_us: u64, state: &State, outputs: &mut Outputs) {
-        self.link.take_state(now_us, state);
+    fn take_report(&mut self, now_us: u64, report: Report, outputs: &mut Outputs) {
+        self.link.take_report(now_us, report);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
-        self.buttons.reported(state.buttons, state.tick, &mut teller);
+        self.buttons.reported(&report, &mut teller);
         if let (Some(mind), Some(description)) = (&mut self.mind, self.link.description()) {
-            mind.observer.take_state(now_us, state, description);
+            mind.observer.take_report(now_us, &report, description);
             self.think(now_us, outputs);
-        }
-    }
-
-    fn take_edge(&mut self, now_us: u64, edge: &Edge, outputs: &mut Outputs) -> Option<String> {
-        match edge.kind {
-            EdgeKind::Button { button, pressed } => {
-                self.button_turned(now_us, ButtonEdge { button, pressed }, outputs);
-                pressed.then(|| format!("button {button} was pressed"))
-            }
-            EdgeKind::Stall(motor) => Some(format!("{} was switched off for its load", motor.name())),
-            EdgeKind::Docked(true) => Some("on the dock".to_owned()),
-            EdgeKind::Docked(false) => Some("off the dock".to_owned()),
-            // Levels of these come with each report, and the brain decides upon levels.
-            EdgeKind::Bump(_)
-            | EdgeKind::Cliff(_)
-            | EdgeKind::Lift(_)
-            | EdgeKind::MoveFinished(_)
-            | EdgeKind::Inhibits(_) => None,
         }
     }
 

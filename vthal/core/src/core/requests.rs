@@ -2,7 +2,6 @@
 
 use brain::Command;
 use rvac_api::{LogLevel, Request, RunAsker, Topic, Update};
-use rvac_protocol::message::Inhibit;
 
 use super::Core;
 use super::desk_request::{DeskRequest, HandRequest, JobRequest, RobotRequest, SessionRequest};
@@ -17,10 +16,10 @@ use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::readiness::Readiness;
 use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleRequest;
-use crate::device::{CleanerPower, DeviceCommand};
+use crate::device::{CleanerPower, DeviceCommand, Inhibit, Tone};
 use crate::mind::{Mind, Recorder};
 use crate::refusal::{Refusal, Refused};
-use crate::{ClientId, ExpertAccess, MixOrder, Outputs, RunEnd, tap};
+use crate::{ClientId, ExpertAccess, MixOrder, Outputs, RunEnd};
 
 /// Tones of `locate`: pitch in Hz and length in ms.
 const LOCATE_TONES: [(u32, u16); 3] = [(1760, 200), (1320, 200), (1760, 400)];
@@ -298,11 +297,11 @@ impl Core {
             RobotRequest::Locate => {
                 self.require_robot()?;
                 for (pitch_hz, duration_ms) in LOCATE_TONES {
-                    let tone = DeviceCommand::Tone {
+                    let tone = Tone {
                         pitch_hz,
                         duration_ms,
                     };
-                    self.device_command(now_us, tone, outputs);
+                    self.device_command(now_us, DeviceCommand::Tone(tone), outputs);
                 }
             }
             RobotRequest::Clear(reason) => self.clear(now_us, &reason, outputs)?,
@@ -313,7 +312,7 @@ impl Core {
 
     fn clear(&mut self, now_us: u64, reason: &str, outputs: &mut Outputs) -> Result<(), Refused> {
         self.require_robot()?;
-        let latched = Inhibit::from_name(reason.as_bytes()).filter(|inhibit| inhibit.is_latched());
+        let latched = Inhibit::from_name(reason).filter(|inhibit| inhibit.is_latched());
         if let Some(inhibit) = latched {
             self.device_command(now_us, DeviceCommand::Clear(inhibit), outputs);
         }
@@ -334,11 +333,9 @@ impl Core {
         if self.config.expert == ExpertAccess::Denied {
             return Err("expert-off");
         }
-        let command = tap::command_from_text(packet).ok_or("raw-syntax")?;
         let mut teller = self.audience.teller(self.now(now_us), outputs);
-        let text = format!("{} sends raw {packet}", teller.name(client));
-        teller.log(LogLevel::Warn, Part::Client, text);
-        self.link.send_raw(command, &mut teller)
+        let expert = teller.name(client);
+        self.link.send_raw(packet, &expert, &mut teller)
     }
 
     fn edit_home(

@@ -1,6 +1,6 @@
 //! One step of the brain, and what it asks for.
 
-use brain::action::{Decision, Tone};
+use brain::action::Decision;
 use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{Evidence, LogLevel};
 
@@ -9,7 +9,7 @@ use crate::desk::health::Drive;
 use crate::desk::journal::Part;
 use crate::desk::room_power::cleaner_power;
 use crate::desk::standstills::{Stand, is_standstill};
-use crate::device::{CleanerDrive, CleanerPower, DeviceCommand, LeaveDock};
+use crate::device::{CleanerDrive, CleanerPower, DeviceCommand, LeaveDock, Tone};
 use crate::history::Moment;
 use crate::mind::{FloorNews, Mind, Recorder};
 use crate::{ClientId, Outputs};
@@ -64,11 +64,10 @@ impl Core {
         if mind.brain().status().state != BehaviorState::Cleaning {
             return;
         }
-        if let Some(state) = self.link.state() {
+        if let Some(report) = self.link.report() {
             let drive = Drive {
-                state,
-                description,
-                count_rates_hz: self.link.count_rates_hz(),
+                report,
+                wheel_speeds: self.link.wheel_speeds(),
                 power: self.cleaner_power(),
             };
             let mut teller = self.audience.teller(self.now(now_us), outputs);
@@ -138,15 +137,11 @@ impl Core {
             self.device_command(now_us, DeviceCommand::Arm { leave_dock }, outputs);
         }
         for tone in actions.tones {
-            let Tone {
-                pitch_hz,
-                duration_ms,
-            } = tone;
-            let command = DeviceCommand::Tone {
-                pitch_hz,
-                duration_ms,
+            let tone = Tone {
+                pitch_hz: tone.pitch_hz,
+                duration_ms: tone.duration_ms,
             };
-            self.device_command(now_us, command, outputs);
+            self.device_command(now_us, DeviceCommand::Tone(tone), outputs);
         }
         let motion = match actions.motion {
             Motion::Rest => DeviceCommand::Rest,

@@ -2,11 +2,11 @@
 
 use brain::{BehaviorState, Command, Status, StrategyName};
 use rvac_api::{Gesture, LogLevel, Topic, Update};
-use rvac_units::Tick;
 
 use super::audience::Teller;
 use super::buttons::{Buttons, START};
 use super::journal::Part;
+use crate::device::Report;
 use crate::{ClientId, to_api};
 
 /// Devices can be forgotten by the buttons for so long after the robot was switched on or reset, so that no game with them does it.
@@ -77,9 +77,9 @@ impl ButtonDesk {
     }
 
     /// A report says which are down.
-    pub(crate) fn reported(&mut self, down: u8, tick: Tick, teller: &mut Teller<'_>) {
-        if let Some(gesture) = self.buttons.take_report(teller.now_us, down) {
-            held(gesture, tick, teller);
+    pub(crate) fn reported(&mut self, report: &Report, teller: &mut Teller<'_>) {
+        if let Some(gesture) = self.buttons.take_report(teller.now_us, report.buttons) {
+            held(gesture, report.uptime_ms, teller);
         }
     }
 
@@ -125,9 +125,9 @@ impl ButtonDesk {
 }
 
 /// Somebody holds what only somebody beside the robot can hold.
-fn held(gesture: Gesture, tick: Tick, teller: &mut Teller<'_>) {
+fn held(gesture: Gesture, uptime_ms: Option<u32>, teller: &mut Teller<'_>) {
     let text = match gesture {
-        Gesture::RecoveryHold if tick.0 > RECOVERY_MS => {
+        Gesture::RecoveryHold if uptime_ms.is_none_or(|ms| ms > RECOVERY_MS) => {
             let text = "START and DOCK are held: to forget all devices, hold them within ten minutes after switching the \
                         robot on";
             return teller.log(LogLevel::Warn, Part::Firmware, text.to_owned());

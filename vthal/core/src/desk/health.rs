@@ -2,14 +2,13 @@
 //! cleaned a part.
 
 use rvac_api::{ComponentHealth, LogLevel, Update};
-use rvac_protocol::message::State;
 
 use super::audience::{Asking, Teller};
 use super::awaited::Awaited;
 use super::journal::Part;
 use super::reply::Reply;
 use crate::Outputs;
-use crate::device::{CleanerPower, Description};
+use crate::device::{CleanerPower, Report, WheelSpeeds};
 use crate::health::{Component, Gauge, Health, Load, StoredHealth};
 use crate::observe::currents_a;
 use crate::outputs::HealthOrder;
@@ -31,10 +30,8 @@ pub(crate) enum HealthRequest {
 /// What the loads are computed from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drive<'a> {
-    pub(crate) state: &'a State,
-    pub(crate) description: &'a Description,
-    /// Counts per second of the left and the right wheel.
-    pub(crate) count_rates_hz: [f64; 2],
+    pub(crate) report: &'a Report,
+    pub(crate) wheel_speeds: WheelSpeeds,
     /// How hard the cleaners run.
     pub(crate) power: CleanerPower,
 }
@@ -42,13 +39,14 @@ pub(crate) struct Drive<'a> {
 impl Drive<'_> {
     /// What the motors draw now, if it can be compared with other moments.
     fn load(&self, now_us: u64) -> Option<Load> {
-        let [left_a, right_a, brush_a] = currents_a(self.state, self.description)?;
-        let speeds = self
-            .count_rates_hz
-            .map(|rate_hz| rate_hz * self.description.count_m);
-        let [slower, faster] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
+        let [left_a, right_a, brush_a] = currents_a(self.report)?;
+        let WheelSpeeds {
+            left_m_per_s,
+            right_m_per_s,
+        } = self.wheel_speeds;
+        let [slower, faster] = [left_m_per_s.min(right_m_per_s), left_m_per_s.max(right_m_per_s)];
         let is_straight = slower >= STRAIGHT_MIN_M_PER_S && faster - slower <= STRAIGHT_DIFFERENCE * faster;
-        let brush_runs = self.state.cleaners & 1 != 0 && self.power == CleanerPower::FULL;
+        let brush_runs = self.report.cleaners.brush_main && self.power == CleanerPower::FULL;
         is_straight.then_some(Load {
             time_us: now_us,
             wheels_a: Some([left_a, right_a]),

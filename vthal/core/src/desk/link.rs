@@ -1,40 +1,48 @@
 //! The robot on the serial device: bytes to and from it, what it told last, and how good the link is.
 
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
-use rvac_protocol::message::{Command, Info, Inhibit, RobotHello, State};
-use rvac_protocol::quality::Verdict;
 
 use super::audience::Teller;
 use super::driver::Brakes;
 use super::journal::Part;
-use super::link_facts::{Greeting, LinkFacts};
-
-use crate::device::{Description, Device, DeviceCommand, DeviceIo, FirmwareEvent};
+use super::link_facts::LinkFacts;
+use crate::device::{
+    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, Inhibit, Make, Report,
+    SlowFacts, Supervisor, Verdict, WheelSpeeds,
+};
 use crate::observe::{LinkView, currents_a};
 use crate::refusal::Refused;
-use crate::tap::Tap;
-use crate::{LinkLoss, Record, to_api};
+use crate::{Direction, LinkLoss, Record, to_api};
 
 /// The link and the robot at its other end.
 #[derive(Debug, Default)]
 pub(crate) struct LinkDesk {
     /// The robot's link, while it is open.
-    device: Option<Device>,
+    device: Option<Supervisor>,
+    /// The robot whose link was lost: what its wheels have counted goes on when it is back.
+    lost_device: Option<Supervisor>,
     facts: LinkFacts,
-    tap: Tap,
-    events: Vec<FirmwareEvent>,
+    events: Vec<DeviceEvent>,
+    /// Scratch, so that packets cost no list of their own.
+    packets: Vec<(Direction, String)>,
 }
 
 impl LinkDesk {
-    pub(crate) fn opened(&mut self, teller: &mut Teller<'_>) {
-        self.device = Some(Device::new(teller.now_us));
+    /// The line to a robot of this make is open.
+    pub(crate) fn opened(&mut self, make: &Make, teller: &mut Teller<'_>) {
+        let known = self.device.take().or_else(|| self.lost_device.take());
+        let device = self.device.insert(known.unwrap_or_else(|| Supervisor::new(make)));
+        device.open(&mut DeviceIo {
+            now_us: teller.now_us,
+            link: &mut teller.outputs.link,
+            events: &mut self.events,
+        });
         self.facts.opened(teller.now_us);
-        self.tap = Tap::default();
         teller.log(LogLevel::Info, Part::Link, "serial device open".to_owned());
     }
 
     pub(crate) fn closed(&mut self, reason: &LinkLoss, teller: &mut Teller<'_>) {
-        self.device = None;
+        self.lost_device = self.device.take().or_else(|| self.lost_device.take());
         self.facts.closed();
         let text = match reason {
             LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
@@ -43,8 +51,20 @@ impl LinkDesk {
         teller.log(LogLevel::Warn, Part::Link, text);
     }
 
+    /// The daemon ends: the robot, which was told to stop, is let go.
+    pub(crate) fn release(&mut self, teller: &mut Teller<'_>) {
+        if let Some(device) = &mut self.device {
+            device.forget_stillness();
+            device.release(&mut DeviceIo {
+                now_us: teller.now_us,
+                link: &mut teller.outputs.link,
+                events: &mut self.events,
+            });
+        }
+    }
+
     /// Takes bytes from the robot; gives what it told.
-    pub(crate) fn receive(&mut self, bytes: &[u8], teller: &mut Teller<'_>) -> Vec<FirmwareEvent> {
+    pub(crate) fn receive(&mut self, bytes: &[u8], teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.count_in(bytes.len());
         self.tap_received(bytes, teller);
         let mut events = core::mem::take(&mut self.events);
@@ -60,7 +80,7 @@ impl LinkDesk {
     }
 
     /// Lets time pass; gives what the robot told.
-    pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<FirmwareEvent> {
+    pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.pass_time(teller.now_us);
         let mut events = core::mem::take(&mut self.events);
         if let Some(device) = &mut self.device
@@ -77,8 +97,10 @@ impl LinkDesk {
     }
 
     /// Takes the list of events back, so that the next ones cost no memory of their own.
-    pub(crate) fn reuse(&mut self, events: Vec<FirmwareEvent>) {
-        self.events = events;
+    pub(crate) fn reuse(&mut self, events: Vec<DeviceEvent>) {
+        if self.events.is_empty() {
+            self.events = events;
+        }
     }
 
     /// Tells the robot something. A new reason why it cannot be told goes to the log.
@@ -97,77 +119,84 @@ impl LinkDesk {
         }
     }
 
-    /// Sends a command of the wire as it is. For experts.
+    /// Sends what the expert of this name typed.
     ///
     /// # Errors
     /// Nothing was sent.
-    pub(crate) fn send_raw(&mut self, command: Command, teller: &mut Teller<'_>) -> Result<(), Refused> {
+    pub(crate) fn send_raw(
+        &mut self,
+        packet: &str,
+        expert: &str,
+        teller: &mut Teller<'_>,
+    ) -> Result<(), Refused> {
         let device = self.device.as_mut().ok_or("no-robot")?;
         let mut io = DeviceIo {
             now_us: teller.now_us,
             link: &mut teller.outputs.link,
             events: &mut self.events,
         };
-        device.send_raw(command, &mut io).map_err(|_| "not-sent")
+        let sent = device.raw(packet, &mut io);
+        if sent == Err(CommandError::Syntax) {
+            return Err("raw-syntax");
+        }
+        let text = format!("{expert} sends raw {packet}");
+        teller.log(LogLevel::Warn, Part::Client, text);
+        sent.map_err(|_| "not-sent")
     }
 
     pub(crate) fn next_wake_us(&self) -> Option<u64> {
-        self.device.as_ref().map(Device::next_wake_us)
+        self.device.as_ref().map(Supervisor::next_wake_us)
     }
 
     /// Whether a robot is there that takes commands.
     pub(crate) fn is_attached(&self) -> bool {
-        self.device.as_ref().is_some_and(Device::is_attached)
+        self.device.as_ref().is_some_and(Supervisor::is_attached)
     }
 
     /// Whether nothing moves as far as the newest reports tell, or nothing is known because no robot is there.
     pub(crate) fn stands_still(&self) -> bool {
-        !self.is_attached() || self.facts.still_reports() > 0
+        let device = self.device.as_ref().filter(|device| device.is_attached());
+        device.is_none_or(|device| device.still_reports() > 0)
     }
 
-    /// Only reports from now on count for [`Self::stands_still`].
-    pub(crate) fn forget_stillness(&mut self) {
-        self.facts.forget_stillness();
+    pub(crate) fn greeted(&mut self, greeting: &Greeting) {
+        self.facts.greeted(greeting);
     }
 
-    pub(crate) fn greeted(&mut self, hello: &RobotHello) -> Greeting {
-        self.facts.greeted(hello)
+    pub(crate) fn take_report(&mut self, now_us: u64, report: Report) {
+        self.facts.take_report(now_us, report);
     }
 
-    pub(crate) fn take_state(&mut self, now_us: u64, state: &State) {
-        self.facts.take_state(now_us, state);
-    }
-
-    pub(crate) fn take_info(&mut self, info: Info) {
-        self.facts.info = Some(info);
+    pub(crate) fn take_slow_facts(&mut self, facts: SlowFacts) {
+        self.facts.slow = Some(facts);
     }
 
     /// What the robot is, once it has told.
     pub(crate) fn description(&self) -> Option<&Description> {
-        self.device.as_ref().and_then(Device::description)
+        self.device.as_ref().and_then(Supervisor::description)
     }
 
     /// The newest report.
-    pub(crate) fn state(&self) -> Option<&State> {
-        self.facts.state.as_ref()
+    pub(crate) fn report(&self) -> Option<&Report> {
+        self.facts.report.as_ref()
     }
 
-    /// Counts per second of the left and the right wheel.
-    pub(crate) fn count_rates_hz(&self) -> [f64; 2] {
-        self.facts.count_rates_hz
+    /// Speeds of the wheels.
+    pub(crate) fn wheel_speeds(&self) -> WheelSpeeds {
+        self.facts.wheel_speeds
     }
 
     /// What the motors draw, of a robot that measures it.
     pub(crate) fn currents_a(&self) -> Option<[f32; 3]> {
-        currents_a(self.state()?, self.description()?)
+        currents_a(self.report()?)
     }
 
     /// Whether the robot has heard of the last stop.
     pub(crate) fn brakes(&self) -> Brakes {
         let knows = self
-            .state()
-            .is_some_and(|state| state.inhibits.contains(Inhibit::Stopped));
-        if self.device.as_ref().is_some_and(Device::is_latched) && !knows {
+            .report()
+            .is_some_and(|report| report.inhibits.contains(Inhibit::Stopped));
+        if self.device.as_ref().is_some_and(Supervisor::is_latched) && !knows {
             Brakes::Braking
         } else {
             Brakes::Free
@@ -180,7 +209,7 @@ impl LinkDesk {
         let verdict = self
             .device
             .as_ref()
-            .map(|device| device.quality().verdict)
+            .map(|device| device.link_quality().verdict)
             .unwrap_or_default();
         let speed_share = match verdict {
             Verdict::Good => 1.0,
@@ -193,12 +222,11 @@ impl LinkDesk {
     /// Versions of all that is at work, with a daemon of this one.
     pub(crate) fn versions(&self, daemon: &str) -> Versions {
         let description = self.description();
-        let info = self.facts.info.as_ref();
         Versions {
             vthal: daemon.to_owned(),
             brain: daemon.to_owned(),
             firmware: description.map(|robot| robot.identity.firmware.clone()),
-            cordlib: info.map(|info| info.cordlib_version.as_str().to_owned()),
+            cordlib: self.facts.slow.as_ref().and_then(|slow| slow.library.clone()),
             protocol: description.map(|robot| robot.identity.protocol),
         }
     }
@@ -206,50 +234,45 @@ impl LinkDesk {
     /// What clients are told of the robot's parts.
     pub(crate) fn table(&self, now_us: u64, daemon: &str) -> DeviceTable {
         let (bytes_in_per_s, bytes_out_per_s) = self.facts.bytes_per_s();
-        let info = self.facts.info.as_ref();
+        let slow = self.facts.slow.as_ref();
         let mut table = DeviceTable {
             versions: self.versions(daemon),
-            battery: info.and_then(|info| info.battery.as_ref()).map(to_api::battery),
-            main_loop_hz: info.map(|info| info.main_steps_hz),
+            battery: slow.and_then(|slow| slow.battery.as_ref()).map(to_api::battery),
+            main_loop_hz: slow.and_then(|slow| slow.main_loop_hz),
             bytes_out_per_s,
             bytes_in_per_s,
             link: self.reading(now_us),
             ..DeviceTable::default()
         };
-        if let (Some(state), Some(description)) = (self.state(), self.description()) {
-            fill_from_state(&mut table, state, description);
-            let [left, right] = self.facts.count_rates_hz;
-            table.wheel_left_m_per_s = left * description.count_m;
-            table.wheel_right_m_per_s = right * description.count_m;
+        if let (Some(report), Some(description)) = (self.report(), self.description()) {
+            fill_from_report(&mut table, report, description);
+            table.wheel_left_m_per_s = self.facts.wheel_speeds.left_m_per_s;
+            table.wheel_right_m_per_s = self.facts.wheel_speeds.right_m_per_s;
         }
         table
     }
 
     fn reading(&self, now_us: u64) -> LinkReading {
-        let quality = self.device.as_ref().map(Device::quality).unwrap_or_default();
+        let quality = self
+            .device
+            .as_ref()
+            .map(Supervisor::link_quality)
+            .unwrap_or_default();
         LinkReading {
             up: self.view(now_us).up,
             age_ms: self.facts.age_ms(now_us).unwrap_or(u32::MAX),
-            bad_share: f64::from(quality.bad) / f64::from(quality.packets.max(1)),
-            round_trip_ms: quality.round_trip_ms.map(f64::from),
+            bad_share: quality.bad_share,
+            round_trip_ms: quality.round_trip_ms,
             resets: self.facts.resets(),
-            reset_cause: self.facts.reset_cause().map(|cause| cause.name().to_owned()),
+            reset_cause: self.facts.reset_cause().map(str::to_owned),
             reconnects: self.facts.reconnects(),
-            binary: self.device.as_ref().is_some_and(Device::is_binary),
+            binary: quality.is_binary,
         }
-    }
-
-    fn session_number(&self) -> u16 {
-        self.device.as_ref().map_or(0, Device::session_number)
     }
 
     fn tap_received(&mut self, bytes: &[u8], teller: &mut Teller<'_>) {
         if wants_packets(teller) {
-            let session = self.session_number();
-            let mut packets = core::mem::take(&mut self.tap.packets);
-            self.tap.take_received(session, bytes, &mut packets);
-            tell_packets(&mut packets, teller);
-            self.tap.packets = packets;
+            self.tap(Direction::FromRobot, bytes, teller);
         }
     }
 
@@ -261,12 +284,17 @@ impl LinkDesk {
         }
         self.facts.count_out(sent);
         if wants_packets(teller) {
-            let session = self.session_number();
-            let mut packets = core::mem::take(&mut self.tap.packets);
-            let bytes = teller.outputs.link.get(link_before..).unwrap_or_default();
-            self.tap.take_sent(session, bytes, &mut packets);
-            tell_packets(&mut packets, teller);
-            self.tap.packets = packets;
+            let link = core::mem::take(&mut teller.outputs.link);
+            let bytes = link.get(link_before..).unwrap_or_default();
+            self.tap(Direction::ToRobot, bytes, teller);
+            teller.outputs.link = link;
+        }
+    }
+
+    fn tap(&mut self, direction: Direction, bytes: &[u8], teller: &mut Teller<'_>) {
+        if let Some(device) = &mut self.device {
+            device.tap(direction, bytes, &mut self.packets);
+            tell_packets(&mut self.packets, teller);
         }
     }
 }
@@ -275,7 +303,7 @@ fn wants_packets(teller: &Teller<'_>) -> bool {
     teller.records_run() || teller.has_followers(Topic::Packets)
 }
 
-fn tell_packets(packets: &mut Vec<(crate::Direction, String)>, teller: &mut Teller<'_>) {
+fn tell_packets(packets: &mut Vec<(Direction, String)>, teller: &mut Teller<'_>) {
     let time_us = teller.now_us;
     let is_followed = teller.has_followers(Topic::Packets);
     for (direction, text) in packets.drain(..) {
@@ -295,18 +323,19 @@ fn tell_packets(packets: &mut Vec<(crate::Direction, String)>, teller: &mut Tell
     }
 }
 
-fn fill_from_state(table: &mut DeviceTable, state: &State, description: &Description) {
-    table.bumpers = [state.bumpers.left, state.bumpers.right];
-    table.cliffs = [state.cliffs.left, state.cliffs.middle, state.cliffs.right];
-    table.wheel_drops = [state.wheel_drops.left, state.wheel_drops.right];
-    table.proximity = state
+fn fill_from_report(table: &mut DeviceTable, report: &Report, description: &Description) {
+    table.bumpers = [report.contacts.left, report.contacts.right];
+    table.cliffs = [report.cliffs.left, report.cliffs.middle, report.cliffs.right];
+    table.wheel_drops = [report.wheel_drops.left, report.wheel_drops.right];
+    table.proximity = report
         .proximity
         .iter()
         .take(usize::from(description.sensors.proximity))
-        .map(|raw| f32::from(*raw) / 255.0)
+        .copied()
         .collect();
-    table.currents_a = currents_a(state, description);
-    table.cleaners = [0, 1, 2].map(|bit| state.cleaners & 1 << bit != 0);
-    table.dust_box = state.dust_box;
-    table.docked = state.docked;
+    table.currents_a = currents_a(report);
+    let running = report.cleaners;
+    table.cleaners = [running.brush_main, running.brush_sides, running.vacuum];
+    table.dust_box = report.dust_box;
+    table.docked = report.docked;
 }

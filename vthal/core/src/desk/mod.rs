@@ -22,7 +22,7 @@ pub(crate) mod jobs;
 pub(crate) mod journal;
 pub(crate) mod learnt;
 pub(crate) mod link;
-pub(crate) mod link_facts;
+mod link_facts;
 pub(crate) mod readiness;
 mod refusal_log;
 pub(crate) mod reply;

@@ -4,16 +4,16 @@
 //! robot would keep its last command for ever. While it is valid it is repeated often enough for robots that stop by
 //! themselves.
 
+use super::Drive;
+
 /// Longest time a drive command may be valid.
 pub(crate) const VALID_FOR_MAX_US: u64 = 1_000_000;
 
 /// A command to the wheels that is still valid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Setpoint {
-    /// Forward speed, m/s.
-    pub speed_m_per_s: f64,
-    /// Turn rate, rad/s.
-    pub turn_rad_per_s: f64,
+    /// What the wheels do.
+    pub drive: Drive,
     /// When it ends.
     pub valid_until_us: u64,
 }
@@ -22,7 +22,7 @@ impl Setpoint {
     /// Standing still under control.
     #[must_use]
     pub(crate) fn is_zero(&self) -> bool {
-        self.speed_m_per_s == 0.0 && self.turn_rad_per_s == 0.0
+        self.drive == Drive::STAND
     }
 }
 
@@ -41,7 +41,7 @@ pub(crate) enum WheelOrder {
 const REPEAT_US: u64 = 30_000;
 
 /// Watches over the newest drive command.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct DeadMan {
     setpoint: Option<Setpoint>,
     /// When the setpoint was last sent; `None` if it has not been sent yet.
@@ -49,20 +49,31 @@ pub(crate) struct DeadMan {
 }
 
 impl DeadMan {
+    /// Nothing is commanded.
+    pub(crate) const fn new() -> Self {
+        Self {
+            setpoint: None,
+            sent_us: None,
+        }
+    }
+
     /// Takes a new command. One that only prolongs the present one is sent when a repetition is due, any other at once.
     pub(crate) fn set(&mut self, setpoint: Setpoint) {
-        let same_motion = self.setpoint.is_some_and(|old| {
-            old.speed_m_per_s == setpoint.speed_m_per_s && old.turn_rad_per_s == setpoint.turn_rad_per_s
-        });
+        let same_motion = self.setpoint.is_some_and(|old| old.drive == setpoint.drive);
         if !same_motion {
             self.sent_us = None;
         }
         self.setpoint = Some(setpoint);
     }
 
+    /// What is permitted has changed: the command is sent again at once.
+    pub(crate) const fn repeat_now(&mut self) {
+        self.sent_us = None;
+    }
+
     /// Forgets the command without a word to the wheels.
     pub(crate) fn forget(&mut self) {
-        *self = Self::default();
+        *self = Self::new();
     }
 
     /// What is commanded, if anything.
@@ -103,17 +114,20 @@ impl DeadMan {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Drive;
     use super::{DeadMan, Setpoint, WheelOrder};
 
     const FORWARD: Setpoint = Setpoint {
-        speed_m_per_s: 0.2,
-        turn_rad_per_s: 0.0,
+        drive: Drive {
+            speed_m_per_s: 0.2,
+            turn_rad_per_s: 0.0,
+        },
         valid_until_us: 250_000,
     };
 
     #[test]
     fn a_command_that_is_not_renewed_ends_in_standing_once() {
-        let mut dead_man = DeadMan::default();
+        let mut dead_man = DeadMan::new();
         dead_man.set(FORWARD);
         assert_eq!(dead_man.poll(0), WheelOrder::Send(FORWARD));
         assert_eq!(dead_man.poll(29_999), WheelOrder::Keep);
@@ -127,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_change_goes_out_at_once_and_a_renewal_waits() {
-        let mut dead_man = DeadMan::default();
+        let mut dead_man = DeadMan::new();
         dead_man.set(FORWARD);
         dead_man.poll(0);
         dead_man.set(Setpoint {
@@ -136,9 +150,11 @@ mod tests {
         });
         assert_eq!(dead_man.poll(10_000), WheelOrder::Keep);
         let turning = Setpoint {
-            turn_rad_per_s: 0.5,
+            drive: Drive {
+                turn_rad_per_s: 0.5,
+                ..FORWARD.drive
+            },
             valid_until_us: 270_000,
-            ..FORWARD
         };
         dead_man.set(turning);
         assert_eq!(dead_man.poll(20_000), WheelOrder::Send(turning));

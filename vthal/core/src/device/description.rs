@@ -1,5 +1,7 @@
 //! What a device is and can do, as data.
 
+use super::Shape;
+
 /// What a device is and can do. Clients are generated from it; what is not in it does not exist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
@@ -13,10 +15,12 @@ pub struct Description {
     pub swath_m: f64,
     /// Wheels.
     pub drive: DriveLimits,
-    /// Way of the rim per encoder count in metres.
-    pub count_m: f64,
+    /// What the totals of the wheels are worth.
+    pub odometry: Odometry,
     /// Who reacts to what.
     pub reflexes: Reflexes,
+    /// Who keeps the robot stopped after an emergency stop.
+    pub stop: StopSite,
     /// How many sensors of each kind.
     pub sensors: SensorCounts,
     /// Optional parts that it has, in a fixed order.
@@ -43,16 +47,6 @@ pub enum Level {
     Task,
 }
 
-/// Outline seen from above.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    /// A disc around the wheel axis.
-    Circle {
-        /// Radius in metres.
-        radius_m: f64,
-    },
-}
-
 /// What the wheels can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveLimits {
@@ -66,7 +60,8 @@ pub struct DriveLimits {
     pub dead_man: DeadManKind,
 }
 
-/// How a device stops by itself when no command comes.
+/// How a device stops by itself when no command comes. Where it does not by time, the host also sees to it that a command
+/// to stand that got lost is given again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeadManKind {
     /// Never: it keeps the last command for ever.
@@ -77,8 +72,17 @@ pub enum DeadManKind {
     PerCommand,
 }
 
+/// What the totals of the wheels are worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Odometry {
+    /// Way of the rim in metres by which a total changes at least.
+    pub resolution_m: f64,
+    /// Whether the totals tell forward from backward. Where they do not the host takes the direction from its commands.
+    pub sign_reliable: bool,
+}
+
 /// Who reacts to a contact, a cliff and lifting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflexes {
     /// Bumper.
     pub bump: ReflexSite,
@@ -89,12 +93,26 @@ pub struct Reflexes {
 }
 
 /// Where a reflex lives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReflexSite {
     /// In the device, within milliseconds.
     Device,
+    /// In the host, as soon as a report tells of it.
+    Host {
+        /// Longest time from what happens to the wheels' answer, seconds.
+        latency_s: f64,
+    },
     /// Nowhere: the device has no such sensor.
     Absent,
+}
+
+/// Who keeps a robot stopped after an emergency stop, until it is armed again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopSite {
+    /// The device, and it says so in its reports.
+    Device,
+    /// The host.
+    Host,
 }
 
 /// Numbers of sensors.

@@ -1,128 +1,40 @@
-//! The device model: one shape for robots of every make. Planner and clients see [`Description`], [`DeviceCommand`] and
-//! [`CommandError`], never the words of a wire.
+//! The device model: one shape for robots of every make. Planner and clients see [`Description`], [`DeviceCommand`],
+//! [`DeviceEvent`] and [`CommandError`], never the words of a wire.
 //!
-//! A make of robot is one file beside `own_firmware.rs` that turns commands into its own bytes and its own reports
-//! into events. What must hold for every make lives above the makes, in [`Device`]: a drive command that is not
-//! renewed ends, whatever the robot itself does.
+//! A make of robot is one folder that implements [`Device`], as `cordlib/` does for robots that run our own firmware: it
+//! turns commands into its own bytes and its own reports into events. What must hold for every make lives above the
+//! makes, in [`Supervisor`]: a drive command that is not renewed ends, an emergency stop latches, and a robot without
+//! reflexes gets them from the host.
 
-mod attached;
+mod command;
+pub mod cordlib;
 mod dead_man;
 mod description;
-mod own_firmware;
+mod event;
+mod inhibit;
+mod make;
+mod reflex;
+mod report;
+mod shape;
+mod supervisor;
+mod wheel_watch;
+mod wrapping_total;
 
-pub use attached::{Device, DeviceIo};
-pub use own_firmware::FirmwareEvent;
-
-pub use description::{
-    DeadManKind, Description, DriveLimits, Identity, Level, Part, ReflexSite, Reflexes, SensorCounts, Shape,
+pub use command::{
+    CleanerDrive, CleanerPower, CommandError, DeviceCommand, LeaveDock, Light, LightPattern, Tone,
 };
+pub use description::{
+    DeadManKind, Description, DriveLimits, Identity, Level, Odometry, Part, ReflexSite, Reflexes,
+    SensorCounts, StopSite,
+};
+pub use event::{DeviceEvent, Greeting};
+pub use inhibit::{Inhibit, Inhibits};
+pub use make::{Device, DeviceIo, Drive, Make, Opening};
+pub use report::{
+    Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, Report, SlowFacts,
+    Verdict, WheelDrops, WheelSpeeds, WheelTravel,
+};
+pub use shape::Shape;
+pub use supervisor::Supervisor;
 
-use rvac_protocol::message::{Inhibit, LedPattern};
-use rvac_units::Throttle;
-
-/// A command to a device, in SI units and REP-103 axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DeviceCommand {
-    /// Drives the base.
-    Drive {
-        /// Forward speed, m/s.
-        speed_m_per_s: f64,
-        /// Turn rate, rad/s, counter-clockwise positive.
-        turn_rad_per_s: f64,
-        /// Microseconds after which the wheels stop unless a newer command came.
-        valid_for_us: u64,
-    },
-    /// Stands still under control, brakes held.
-    Halt,
-    /// Lets go of the wheels.
-    Rest,
-    /// Stops everything and latches: nothing moves until the next [`DeviceCommand::Arm`].
-    EmergencyStop,
-    /// Brushes and suction.
-    Cleaners(CleanerDrive),
-    /// Allows motion again.
-    Arm {
-        /// Whether leaving the dock is meant.
-        leave_dock: LeaveDock,
-    },
-    /// Clears a latched inhibit.
-    Clear(Inhibit),
-    /// Plays a tone; pitch 0 is a pause.
-    Tone {
-        /// Hertz.
-        pitch_hz: u32,
-        /// Milliseconds.
-        duration_ms: u16,
-    },
-    /// Sets light number `led`.
-    Light {
-        /// Number.
-        led: u8,
-        /// What it does.
-        pattern: LedPattern,
-    },
-}
-
-/// What brushes and suction do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CleanerDrive {
-    /// They stand.
-    Off,
-    /// They run.
-    On(CleanerPower),
-}
-
-/// How hard each of them runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CleanerPower {
-    /// The main brush.
-    pub brush_main: Throttle,
-    /// The side brushes.
-    pub brush_sides: Throttle,
-    /// Suction.
-    pub vacuum: Throttle,
-}
-
-impl CleanerPower {
-    /// Nothing runs.
-    pub const NONE: Self = Self {
-        brush_main: Throttle::ZERO,
-        brush_sides: Throttle::ZERO,
-        vacuum: Throttle::ZERO,
-    };
-    /// As in a job.
-    pub const FULL: Self = Self {
-        brush_main: Throttle::FULL,
-        brush_sides: Throttle::FULL,
-        vacuum: Throttle::FULL,
-    };
-}
-
-/// Whether motion off the dock is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LeaveDock {
-    /// No.
-    Stay,
-    /// Yes.
-    Leave,
-}
-
-/// Why a command was not passed on. Nothing was sent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum CommandError {
-    /// No session with the robot, or it has not described itself yet.
-    #[error("no robot is attached")]
-    NotAttached,
-    /// A number is not finite or beyond the limits of the description.
-    #[error("a number is out of range")]
-    Range,
-    /// The robot has no such part.
-    #[error("the robot has no such part")]
-    Absent,
-    /// Stopped by [`DeviceCommand::EmergencyStop`].
-    #[error("stopped until armed again")]
-    Latched,
-    /// Too many commands wait for an answer of the robot.
-    #[error("the robot has not answered the commands before")]
-    Busy,
-}
+pub(crate) use wrapping_total::WrappingTotal;

@@ -1,14 +1,10 @@
-//! From the firmware's reports to what the brain perceives.
+//! From a device's reports to what the brain perceives.
 
 mod charge;
-mod odometer;
 
-pub use odometer::{Odometer, RawTotals, Travel};
+use brain::observation::{BeaconSignal, Contacts, Observation};
 
-use brain::observation::{BeaconSignal, Cliffs, Contacts, MotorCurrents, Observation};
-use rvac_protocol::message::{Battery, Inhibit, Inhibits, State};
-
-use crate::device::{Description, Part};
+use crate::device::{Battery, Description, Inhibits, Report, WrappingTotal};
 
 /// Name under which inhibits of newer firmware reach the brain.
 pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
@@ -29,7 +25,8 @@ struct BoardHeading {
 /// Keeps the present observation and fills it in place, so that a report costs no allocation.
 #[derive(Debug)]
 pub struct Observer {
-    odometer: Odometer,
+    /// Heading of whichever gyro counts, microradians.
+    heading: WrappingTotal,
     board_heading: Option<BoardHeading>,
     observation: Observation,
 }
@@ -43,7 +40,7 @@ impl Observer {
             ..Observation::default()
         };
         Self {
-            odometer: Odometer::default(),
+            heading: WrappingTotal::default(),
             board_heading: None,
             observation,
         }
@@ -59,7 +56,7 @@ impl Observer {
     /// it is silent: two gyros with different drift are never mixed.
     pub fn take_board_heading(&mut self, now_us: u64, heading_urad: i32) {
         if self.board_heading.is_none() {
-            self.odometer.rebase_heading();
+            self.heading.rebase();
         }
         self.board_heading = Some(BoardHeading {
             at_us: now_us,
@@ -79,66 +76,49 @@ impl Observer {
         self.observation.beacons.clear();
     }
 
-    fn heading_urad(&self, now_us: u64, state: &State, description: &Description) -> Option<i32> {
+    fn heading_urad(&self, now_us: u64, report: &Report) -> Option<i32> {
         match self.board_heading {
             Some(board) => (now_us < board.at_us + BOARD_HEADING_FRESH_US).then_some(board.heading_urad),
-            None if description.has(Part::Gyro) => state.gyro.map(|gyro| gyro.heading.0),
-            None => None,
+            None => report.heading_urad,
         }
     }
 
-    /// Takes a telemetry report, arrived at `now_us`, of a robot that is described by `description`.
-    pub fn take_state(&mut self, now_us: u64, state: &State, description: &Description) {
-        let heading_urad = self.heading_urad(now_us, state, description);
+    /// Takes a report, arrived at `now_us`, of a robot that is described by `description`.
+    pub fn take_report(&mut self, now_us: u64, report: &Report, description: &Description) {
+        let heading_urad = self.heading_urad(now_us, report);
         let view = &mut self.observation;
-        let raw = RawTotals {
-            count_left: state.count_left,
-            count_right: state.count_right,
-            heading_urad,
-        };
-        let travel = self.odometer.take(raw, description.count_m);
-        view.travel_left_m = travel.left_m;
-        view.travel_right_m = travel.right_m;
-        view.gyro_heading_rad = travel.heading_rad;
-        view.contacts = contacts(state, description.sensors.bumpers);
-        view.cliffs = Cliffs {
-            left: state.cliffs.left,
-            middle: state.cliffs.middle,
-            right: state.cliffs.right,
-        };
-        view.wheel_drop = state.wheel_drops.left || state.wheel_drops.right;
-        view.docked = state.docked;
-        view.currents = currents_a(state, description).map(|[left, right, brush]| MotorCurrents {
-            wheel_left_a: left,
-            wheel_right_a: right,
-            brush_main_a: brush,
-        });
+        view.travel_left_m = report.travel.left_m;
+        view.travel_right_m = report.travel.right_m;
+        view.gyro_heading_rad =
+            heading_urad.map(|heading_urad| self.heading.take(heading_urad) as f64 * 1e-6);
+        view.contacts = contacts(report.contacts, description.sensors.bumpers);
+        view.cliffs = report.cliffs;
+        view.wheel_drop = report.wheel_drops.any();
+        view.docked = report.docked;
+        view.currents = report.currents;
         refill(
             &mut view.proximity,
-            &state.proximity,
+            &report.proximity,
             description.sensors.proximity,
-            |raw| f32::from(raw) / 255.0,
         );
         refill(
             &mut view.dock_beams,
-            &state.dock,
+            &report.dock_beams,
             description.sensors.dock_receivers,
-            |symbol| symbol,
         );
-        name_inhibits(&mut view.inhibits, state.inhibits);
+        name_inhibits(&mut view.inhibits, report.inhibits);
     }
 
     /// Takes what is known of the battery.
     pub fn take_battery(&mut self, battery: Option<&Battery>) {
-        self.observation.battery_charge = battery.map(|battery| battery.charge.as_f64() as f32);
+        self.observation.battery_charge = battery.map(|battery| battery.charge as f32);
         self.observation.charge_flow = battery.and_then(charge::flow);
     }
 
-    /// The microcontroller was reset: its totals begin anew. Those of the board's own gyro go on.
+    /// The robot has started anew: the total of its gyro begins anew. That of the board's own gyro goes on.
     pub fn rebase(&mut self) {
-        self.odometer.rebase_wheels();
         if self.board_heading.is_none() {
-            self.odometer.rebase_heading();
+            self.heading.rebase();
         }
     }
 
@@ -166,66 +146,42 @@ pub struct LinkView {
 }
 
 /// Currents of left wheel, right wheel and main brush in amperes, of a robot that measures them.
-pub(crate) fn currents_a(state: &State, description: &Description) -> Option<[f32; 3]> {
-    let currents = [
-        state.currents.wheel_left,
-        state.currents.wheel_right,
-        state.currents.brush_main,
-    ];
-    description
-        .has(Part::Currents)
-        .then(|| currents.map(|current| current.as_a() as f32))
+pub(crate) fn currents_a(report: &Report) -> Option<[f32; 3]> {
+    report.currents.map(|currents| {
+        [
+            currents.wheel_left_a,
+            currents.wheel_right_a,
+            currents.brush_main_a,
+        ]
+    })
 }
 
 /// A robot with one zone reports it on the left; the brain sees both.
-fn contacts(state: &State, zones: u8) -> Contacts {
-    let any = state.bumpers.left || state.bumpers.right;
-    if zones == 1 {
+fn contacts(zones: Contacts, count: u8) -> Contacts {
+    let any = zones.any();
+    if count == 1 {
         Contacts {
             left: any,
             right: any,
         }
     } else {
-        Contacts {
-            left: state.bumpers.left,
-            right: state.bumpers.right,
-        }
+        zones
     }
 }
 
-fn refill<T>(view: &mut Vec<T>, raw: &[u8], count: u8, convert: impl Fn(u8) -> T) {
+fn refill<T: Copy>(view: &mut Vec<T>, all: &[T], count: u8) {
     view.clear();
-    view.extend(raw.iter().take(usize::from(count)).map(|raw| convert(*raw)));
+    view.extend(all.iter().take(usize::from(count)));
 }
 
 fn name_inhibits(view: &mut Vec<&'static str>, inhibits: Inhibits) {
     view.clear();
-    view.extend(inhibits.iter().map(Inhibit::name));
-    let known = Inhibit::ALL.into_iter().fold(Inhibits::NONE, |mut all, inhibit| {
-        all.insert(inhibit);
-        all
-    });
-    if inhibits.bits() & !known.bits() != 0 {
-        view.push(UNKNOWN_INHIBIT);
-    }
+    view.extend(inhibits.names());
 }
 
 #[cfg(test)]
 mod tests {
-    use rvac_protocol::message::{Inhibit, Inhibits};
-
-    use super::{LinkView, Observer, name_inhibits};
-
-    #[test]
-    fn inhibits_of_newer_firmware_are_not_lost() {
-        let mut names = Vec::new();
-        let mut inhibits = Inhibits::from_bits(1 << 31);
-        inhibits.insert(Inhibit::WheelDrop);
-        name_inhibits(&mut names, inhibits);
-        assert_eq!(names, ["wheel-drop", "unknown-inhibit"]);
-        name_inhibits(&mut names, Inhibits::NONE);
-        assert!(names.is_empty());
-    }
+    use super::{LinkView, Observer};
 
     #[test]
     fn times_rise_strictly() {

@@ -16,9 +16,10 @@ pub use state::BrainState;
 
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
 use brain::{Body, BrainConfig, Observation, Speeds};
-use rvac_protocol::message::Inhibit;
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
+use vthal_core::device::Inhibit;
+use vthal_core::observe::UNKNOWN_INHIBIT;
 
 use flow::FlowName;
 use sensors::SensorSettings;
@@ -263,7 +264,7 @@ fn strength(signal: &BeaconSignal) -> Option<(u16, f64)> {
 }
 
 fn inhibit_name(name: &str) -> &'static str {
-    Inhibit::from_name(name.as_bytes()).map_or(vthal_core::observe::UNKNOWN_INHIBIT, Inhibit::name)
+    Inhibit::from_name(name).map_or(UNKNOWN_INHIBIT, Inhibit::name)
 }
 
 /// [`Command`] with the time at which it was given.

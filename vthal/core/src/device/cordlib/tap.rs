@@ -5,8 +5,7 @@ use rvac_protocol::binary;
 use rvac_protocol::frame::{Framed, Framer};
 use rvac_protocol::message::{Command, Report};
 use rvac_protocol::seal;
-use rvac_protocol::text::{self, Form};
-use rvac_units::Tick;
+use rvac_protocol::text;
 
 use crate::Direction;
 
@@ -44,11 +43,9 @@ impl Line {
 
 /// Both directions.
 #[derive(Debug)]
-pub(crate) struct Tap {
+pub(super) struct Tap {
     from_robot: Line,
     to_robot: Line,
-    /// Scratch for the caller, so that packets cost no list of their own.
-    pub(crate) packets: Vec<(Direction, String)>,
 }
 
 impl Default for Tap {
@@ -56,14 +53,13 @@ impl Default for Tap {
         Self {
             from_robot: Line::new(seal::Direction::RobotToHost),
             to_robot: Line::new(seal::Direction::HostToRobot),
-            packets: Vec::new(),
         }
     }
 }
 
 impl Tap {
     /// Appends the packets that `bytes` complete.
-    pub(crate) fn take_received(
+    pub(super) fn take_received(
         &mut self,
         session: u16,
         bytes: &[u8],
@@ -75,7 +71,7 @@ impl Tap {
     }
 
     /// Appends the packets that `bytes` complete.
-    pub(crate) fn take_sent(&mut self, session: u16, bytes: &[u8], packets: &mut Vec<(Direction, String)>) {
+    pub(super) fn take_sent(&mut self, session: u16, bytes: &[u8], packets: &mut Vec<(Direction, String)>) {
         self.to_robot.read(session, bytes, |framed| {
             packets.push((Direction::ToRobot, shown(framed, drive_twin)));
         });
@@ -109,18 +105,13 @@ fn drive_twin(kind: u8, body: &[u8]) -> Option<PacketBuffer> {
     Some(buffer)
 }
 
-/// Reads what an expert typed, with the leniency of hand mode; the session numbers and seals it.
-pub(crate) fn command_from_text(text: &str) -> Option<Command> {
-    text::read_command(text.as_bytes(), Form::Hand { now: Tick(0) }).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use rvac_protocol::PacketBuffer;
     use rvac_protocol::message::{Command, Inhibit, Sequence};
     use rvac_protocol::text::write_sealed_command;
 
-    use super::{Tap, command_from_text};
+    use super::Tap;
     use crate::Direction;
 
     #[test]
@@ -144,15 +135,5 @@ mod tests {
             text.starts_with('{') && text.ends_with('}') && text.contains("wheel-stall"),
             "{text}"
         );
-    }
-
-    #[test]
-    fn an_expert_may_type_what_hand_mode_takes_and_nothing_else() {
-        assert_eq!(command_from_text(r#"{"c":"info"}"#), Some(Command::Info));
-        assert_eq!(
-            command_from_text(r#"{"c":"motor","motor":"w","throttle":1}"#),
-            None
-        );
-        assert_eq!(command_from_text("{"), None);
     }
 }

@@ -1,0 +1,165 @@
+//! Whether the wheels turn, and which way, as far as reports tell.
+
+use super::{Drive, Odometry, Report, WheelSpeeds};
+
+/// Reports farther apart tell no speed.
+const GAP_MAX_US: u64 = 10_000_000;
+
+/// Watches the totals of the wheels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct WheelWatch {
+    last: Option<Seen>,
+    /// Signed way of both rims, where the robot tells no sign.
+    sum_m: [f64; 2],
+    /// Directions of the last command that turned the wheels.
+    signs: [f64; 2],
+    turned: bool,
+    still_reports: u32,
+}
+
+/// What a report told.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    at_us: u64,
+    rims_m: [f64; 2],
+}
+
+impl WheelWatch {
+    /// The wheels are told to turn like this. A wheel that is told to stand rolls out the way it turned.
+    pub(super) fn commanded(&mut self, drive: Drive, track_m: f64) {
+        for (sign, rim_m_per_s) in self.signs.iter_mut().zip(drive.rims_m_per_s(track_m)) {
+            if rim_m_per_s != 0.0 {
+                *sign = rim_m_per_s.signum();
+            }
+        }
+    }
+
+    /// Takes a report; gives it the sign and the speeds that the robot does not tell.
+    pub(super) fn take(&mut self, now_us: u64, report: &mut Report, odometry: Odometry) {
+        let rims_m = [report.travel.left_m, report.travel.right_m];
+        let before = self.last.replace(Seen {
+            at_us: now_us,
+            rims_m,
+        });
+        let ways_m = before.map(|before| [0, 1].map(|rim| rims_m[rim] - before.rims_m[rim]));
+        if let Some(ways_m) = ways_m {
+            self.turned = ways_m
+                .iter()
+                .any(|way_m| way_m.abs() > 0.5 * odometry.resolution_m);
+            self.still_reports = if self.turned || report.is_driven {
+                0
+            } else {
+                self.still_reports.saturating_add(1)
+            };
+        }
+        let ways_m = match odometry.sign_reliable {
+            true => ways_m,
+            false => Some(self.sign(ways_m.unwrap_or_default(), report)),
+        };
+        if let (None, Some(ways_m), Some(before)) = (report.travel.speeds, ways_m, before) {
+            report.travel.speeds = speeds(ways_m, now_us.saturating_sub(before.at_us));
+        }
+    }
+
+    fn sign(&mut self, ways_m: [f64; 2], report: &mut Report) -> [f64; 2] {
+        let signed_m = [0, 1].map(|rim| self.signs[rim] * ways_m[rim].abs());
+        for (sum_m, way_m) in self.sum_m.iter_mut().zip(signed_m) {
+            *sum_m += way_m;
+        }
+        [report.travel.left_m, report.travel.right_m] = self.sum_m;
+        signed_m
+    }
+
+    /// Whether a wheel has turned between the last two reports.
+    pub(super) const fn turned(&self) -> bool {
+        self.turned
+    }
+
+    /// Reports in a row that say that nothing turns and nothing drives.
+    pub(super) const fn still_reports(&self) -> u32 {
+        self.still_reports
+    }
+
+    /// Only reports from now on count for [`Self::still_reports`].
+    pub(super) const fn forget_stillness(&mut self) {
+        self.still_reports = 0;
+        self.last = None;
+    }
+
+    /// The next report says nothing about the time before.
+    pub(super) const fn rebase(&mut self) {
+        self.last = None;
+        self.turned = false;
+    }
+}
+
+fn speeds([left_m, right_m]: [f64; 2], time_us: u64) -> Option<WheelSpeeds> {
+    let time_s = time_us as f64 * 1e-6;
+    (time_us > 0 && time_us < GAP_MAX_US).then_some(WheelSpeeds {
+        left_m_per_s: left_m / time_s,
+        right_m_per_s: right_m / time_s,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Drive, Odometry, Report, WheelSpeeds, WheelTravel};
+    use super::WheelWatch;
+
+    const MILLIMETRES: Odometry = Odometry {
+        resolution_m: 0.001,
+        sign_reliable: false,
+    };
+
+    fn report(left_m: f64, right_m: f64) -> Report {
+        Report {
+            travel: WheelTravel {
+                left_m,
+                right_m,
+                speeds: None,
+            },
+            ..Report::default()
+        }
+    }
+
+    #[test]
+    fn totals_without_a_sign_get_that_of_the_command() {
+        let mut watch = WheelWatch::default();
+        watch.take(0, &mut report(5.0, 5.0), MILLIMETRES);
+        let turn_left = Drive {
+            speed_m_per_s: 0.0,
+            turn_rad_per_s: 1.0,
+        };
+        watch.commanded(turn_left, 0.25);
+        let mut turned = report(5.1, 5.1);
+        watch.take(100_000, &mut turned, MILLIMETRES);
+        let WheelTravel {
+            left_m,
+            right_m,
+            speeds,
+        } = turned.travel;
+        assert!((left_m + 0.1).abs() < 1e-9 && (right_m - 0.1).abs() < 1e-9);
+        let WheelSpeeds { left_m_per_s, .. } = speeds.expect("two reports");
+        assert!((left_m_per_s + 1.0).abs() < 1e-9);
+        watch.commanded(Drive::STAND, 0.25);
+        let mut rolled_out = report(5.12, 5.12);
+        watch.take(200_000, &mut rolled_out, MILLIMETRES);
+        assert!((rolled_out.travel.left_m + 0.12).abs() < 1e-9);
+    }
+
+    #[test]
+    fn stillness_is_counted_from_when_it_is_asked_for() {
+        let mut watch = WheelWatch::default();
+        for at_us in 0..3 {
+            watch.take(at_us, &mut report(1.0, 1.0), MILLIMETRES);
+        }
+        assert_eq!(watch.still_reports(), 2);
+        watch.forget_stillness();
+        watch.take(3, &mut report(1.0, 1.0), MILLIMETRES);
+        assert_eq!(watch.still_reports(), 0);
+        watch.take(4, &mut report(1.002, 1.0), MILLIMETRES);
+        assert!(watch.turned() && watch.still_reports() == 0);
+        watch.take(5, &mut report(1.002, 1.0), MILLIMETRES);
+        assert_eq!(watch.still_reports(), 1);
+    }
+}
