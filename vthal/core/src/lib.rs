@@ -18,6 +18,7 @@ mod core;
 mod desk;
 pub mod device;
 mod diary;
+mod edges;
 mod floors;
 pub mod health;
 mod history;

@@ -12,15 +12,16 @@ use brain::{
     Actions, BehaviorState, Body, Brain, Checkpoint, Command, Learnt, LearntPart, MapCursor, ReadyHome,
     Reason, Speeds,
 };
-use floors::Carried;
 pub(crate) use floors::FloorNews;
+use floors::Hands;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
 use rvac_api::HomeView;
 
 use crate::device::{Description, Part};
+use crate::edges::Edges;
 use crate::floors::Floors;
 use crate::home_view::{FeltFloors, home_view};
-use crate::observe::Observer;
+use crate::observe::{LinkView, Observer};
 use crate::quest::Quest;
 use crate::{CoreConfig, FloorHome, Outputs, Record, Recording, RunCause, RunEnd, RunStart, to_api};
 
@@ -36,6 +37,8 @@ pub(crate) struct Mind {
     config: BrainConfig,
     seed: u64,
     pub(crate) observer: Observer,
+    /// Of what the observer has seen.
+    edges: Edges,
     waiting: Vec<Command>,
     /// Brains before this one: part of the number of the map.
     map_base: u32,
@@ -51,7 +54,7 @@ pub(crate) struct Mind {
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
     quest: Option<Quest>,
-    carried: Carried,
+    hands: Hands,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
     measures_currents: bool,
@@ -101,6 +104,7 @@ impl Mind {
             config,
             seed,
             observer: Observer::new(),
+            edges: Edges::default(),
             waiting: Vec::new(),
             map_base: 0,
             home_base: 0,
@@ -110,7 +114,7 @@ impl Mind {
             on_its_way: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             quest: None,
-            carried: Carried::No,
+            hands: Hands::default(),
             identity: (
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
@@ -122,6 +126,17 @@ impl Mind {
 
     pub(crate) fn brain(&self) -> &Brain {
         &self.brain
+    }
+
+    /// Dates what the robot perceives, for the next step.
+    pub(crate) fn stamp(&mut self, now_us: u64, link: LinkView) {
+        self.observer.stamp(now_us, link);
+        self.edges.take(now_us, self.observer.observation());
+    }
+
+    /// What comes and goes of what the robot feels.
+    pub(crate) fn edges(&self) -> &Edges {
+        &self.edges
     }
 
     /// Begins anew in a home that is known.

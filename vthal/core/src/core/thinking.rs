@@ -5,6 +5,7 @@ use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{Evidence, LogLevel};
 
 use super::Core;
+use crate::desk::evidence::Perceived;
 use crate::desk::health::Drive;
 use crate::desk::journal::Part;
 use crate::desk::room_power::cleaner_power;
@@ -27,7 +28,7 @@ impl Core {
         let link = self.link.view(now_us);
         let recording = self.config.recording;
         let Some(mind) = &mut self.mind else { return };
-        mind.observer.stamp(now_us, link);
+        mind.stamp(now_us, link);
         let floors = self.floors.floors();
         let news = mind.look_for_floor(now_us, floors, &mut Recorder::new(recording, outputs));
         let before = mind.brain().status().state;
@@ -57,10 +58,12 @@ impl Core {
         let (Some(mind), Some(description)) = (&self.mind, self.link.description()) else {
             return;
         };
-        let currents_a = self.link.currents_a();
-        let track_m = description.drive.track_m;
-        self.standstills
-            .feel(mind.observer.observation(), currents_a, track_m);
+        let perceived = Perceived {
+            observation: mind.observer.observation(),
+            edges: mind.edges(),
+            currents_a: self.link.currents_a(),
+        };
+        self.standstills.feel(&perceived, description.drive.track_m);
         if mind.brain().status().state != BehaviorState::Cleaning {
             return;
         }

@@ -11,7 +11,7 @@ pub(crate) mod checkpoints;
 mod client_inputs;
 mod clients;
 pub(crate) mod driver;
-mod evidence;
+pub(crate) mod evidence;
 pub(crate) mod feed;
 pub(crate) mod floors;
 pub(crate) mod health;

@@ -1,11 +1,11 @@
 //! What the robot decided and felt, and why it stands by itself: told to clients with what it felt and what it tried.
 
+use brain::PoseEstimate;
 use brain::action::Decision;
-use brain::{Observation, PoseEstimate};
 use rvac_api::{Evidence, LogLevel, Standstill, Topic, Update, remedy};
 
 use super::audience::Teller;
-use super::evidence::Sensations;
+use super::evidence::{Perceived, Sensations};
 use super::journal::Part;
 use crate::diary::{Diary, sentence};
 use crate::newest::Newest;
@@ -60,9 +60,9 @@ impl StandstillDesk {
         self.diary.entries()
     }
 
-    /// What the brain saw in this step, and currents as far as the robot measures them.
-    pub(crate) fn feel(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>, track_m: f64) {
-        self.felt.take(observation, currents_a, track_m);
+    /// What the robot perceives in this step.
+    pub(crate) fn feel(&mut self, perceived: &Perceived<'_>, track_m: f64) {
+        self.felt.take(perceived, track_m);
     }
 
     /// What a robot of this track felt and tried up to now; nothing while its track is not known.
