@@ -13,9 +13,9 @@ mod room_words;
 mod words;
 
 use super::{CELLS_MAX, FLOOR_BITS, Run, StoredMap};
-use crate::geometry::Pose2;
 use crate::mapping::dock::Felt;
 use crate::mapping::{Annotations, Cell, DockPlace};
+use crate::model::geometry::Pose2;
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
@@ -330,17 +330,18 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{StoredMap, StoredMapError, crc32};
-    use crate::config::{Body, SensorLayout};
-    use crate::geometry::{Point2, Pose2};
-    use crate::kept_place::{KeptPlace, PlaceShape};
     use crate::mapping::dock::Felt;
     use crate::mapping::{
-        Annotations, Cell, CellKnowledge, CutLine, DockPlace, FloorKind, Map, PartSide, Raster, RoomChange,
-        RoomJoin, RoomSplit,
+        Annotations, Cell, CellKnowledge, DockPlace, FloorKind, Map, PartSide, Raster, RoomChange, RoomJoin,
+        RoomSplit,
     };
-    use crate::no_go::{NoGo, RoomName};
-    use crate::order::Zone;
-    use crate::room_settings::{Pattern, RoomPower, RoomSettings};
+    use crate::model::config::{Body, SensorLayout};
+    use crate::model::cut_line::CutLine;
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::model::kept_place::{KeptPlace, PlaceShape};
+    use crate::model::no_go::{NoGo, RoomName};
+    use crate::model::room_settings::{Pattern, RoomPower, RoomSettings};
+    use crate::model::zone::Zone;
 
     const BODY: Body = Body {
         radius_m: 0.17,

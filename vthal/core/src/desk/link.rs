@@ -205,7 +205,10 @@ impl LinkDesk {
 
     /// How the brain sees the link.
     pub(crate) fn view(&self, now_us: u64) -> LinkView {
-        let up = self.is_attached() && self.facts.is_fresh(now_us);
+        let attached = self.device.as_ref().filter(|device| device.is_attached());
+        let up = attached
+            .and_then(Supervisor::fresh_us)
+            .is_some_and(|fresh_us| self.facts.is_fresh(now_us, fresh_us));
         let verdict = self
             .device
             .as_ref()

@@ -2,9 +2,6 @@
 
 use crate::device::{CommandError, Greeting, Report, SlowFacts, WheelSpeeds};
 
-/// Telemetry older than this is not fresh: the firmware would refuse motion at 400 ms (S3), and four reports are missing
-/// at the slowest rate that a robot sends.
-const FRESH_US: u64 = 300_000;
 /// Bytes per second are counted over this time.
 const RATE_WINDOW_US: u64 = 1_000_000;
 
@@ -80,9 +77,10 @@ impl LinkFacts {
         Some(u32::try_from(age_us / 1000).unwrap_or(u32::MAX))
     }
 
-    pub(crate) fn is_fresh(&self, now_us: u64) -> bool {
+    /// Whether the newest telemetry is no older than `fresh_us`.
+    pub(crate) fn is_fresh(&self, now_us: u64, fresh_us: u64) -> bool {
         self.report_us
-            .is_some_and(|report_us| now_us.saturating_sub(report_us) <= FRESH_US)
+            .is_some_and(|report_us| now_us.saturating_sub(report_us) <= fresh_us)
     }
 
     pub(crate) fn count_in(&mut self, bytes: usize) {

@@ -1,6 +1,6 @@
 //! Names, places and orders in the words of clients, read into those of the brain.
 
-use brain::order::FAR_M;
+use brain::zone::FAR_M;
 use brain::{CleaningOrder, HomePart, NoGo, Point2, Reason, RoomName, Zone};
 use rvac_api::{JobOrder, JobPart};
 

@@ -12,9 +12,11 @@ const REACTION_WAY_M: f64 = 0.03;
 const CLIFF_SPEED_MAX_M_PER_S: f64 = 0.1;
 /// Both wheels are on the floor for so long before anything moves again (S10).
 const PUT_DOWN_US: u64 = 1_000_000;
-/// A robot whose sensors are silent for so many of its latencies, and for so long at least, is blind.
-const BLIND_LATENCIES: f64 = 4.0;
-const BLIND_MIN_US: u64 = 300_000;
+/// Reports older than this are not fresh: our own firmware would refuse motion at 400 ms (S3), and four reports are missing
+/// at the slowest rate at which it sends.
+const FRESH_MIN_US: u64 = 300_000;
+/// Those of a slower robot are not fresh after so many of its latencies.
+const FRESH_LATENCIES: f64 = 4.0;
 
 /// The reflexes that the host supplies for one robot, and what its sensors said last.
 #[derive(Clone, Copy, Debug)]
@@ -96,16 +98,21 @@ impl HostReflexes {
 
     /// Whether the sensors have been silent for so long that nothing may move.
     fn is_blind(&self, now_us: u64) -> bool {
-        let latency_us = latency_s(self.sites).unwrap_or_default() * 1e6;
-        let patience_us = ((BLIND_LATENCIES * latency_us) as u64).max(BLIND_MIN_US);
+        let fresh_us = fresh_us(self.sites);
         self.reported_us
-            .is_none_or(|reported_us| now_us.saturating_sub(reported_us) > patience_us)
+            .is_none_or(|reported_us| now_us.saturating_sub(reported_us) > fresh_us)
     }
 }
 
 /// Highest speed at which the host reacts in time to what the sensors in front say, m/s.
 pub(super) fn speed_limit_m_per_s(reflexes: Reflexes) -> f64 {
     latency_s(reflexes).map_or(f64::INFINITY, |latency_s| REACTION_WAY_M / latency_s)
+}
+
+/// Microseconds for which a report tells of the present.
+pub(super) fn fresh_us(reflexes: Reflexes) -> u64 {
+    let slow_us = FRESH_LATENCIES * 1e6 * latency_s(reflexes).unwrap_or_default();
+    FRESH_MIN_US.max(slow_us as u64)
 }
 
 /// The slowest reflex of the host; `None` without any.

@@ -4,11 +4,12 @@
 use std::collections::BTreeMap;
 
 use super::{Reader, StoredMapError, put};
-use crate::geometry::Point2;
 use crate::mapping::annotations::NAMES_MAX;
 use crate::mapping::room_changes::CHANGES_MAX;
-use crate::mapping::{CutLine, PartSide, RoomChange, RoomChanges, RoomJoin, RoomSplit};
-use crate::room_settings::{Pattern, RoomPower, RoomSettings};
+use crate::mapping::{PartSide, RoomChange, RoomChanges, RoomJoin, RoomSplit};
+use crate::model::cut_line::CutLine;
+use crate::model::geometry::Point2;
+use crate::model::room_settings::{Pattern, RoomPower, RoomSettings};
 
 const LEFT: u64 = 0;
 const JOIN: u64 = 1;

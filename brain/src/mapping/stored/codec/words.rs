@@ -2,12 +2,12 @@
 //! of rooms. A name is its length in bytes and these; length 0 is no name.
 
 use super::{Reader, StoredMapError, put, put_signed};
-use crate::geometry::Point2;
-use crate::kept_place::{KeptPlace, PlaceShape};
 use crate::mapping::Annotations;
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
-use crate::no_go::{NoGo, NoGoShape, RoomName};
-use crate::order::{CORNERS_MAX, Zone};
+use crate::model::geometry::Point2;
+use crate::model::kept_place::{KeptPlace, PlaceShape};
+use crate::model::no_go::{NoGo, NoGoShape, RoomName};
+use crate::model::zone::{CORNERS_MAX, Zone};
 
 const ZONE: u64 = 0;
 const WALL: u64 = 1;

@@ -1,6 +1,6 @@
 //! Floor that clients forbid.
 
-use brain::order::FAR_M;
+use brain::zone::FAR_M;
 use brain::{Brain, Command, NoGo, Point2, Reason};
 use rvac_api::NoGoShape;
 

@@ -1,7 +1,7 @@
 //! What clients say of rooms, and where the dock stands. What rooms there are, and the dock, change only while the robot rests.
 
-use brain::mapping::CutLine;
-use brain::order::FAR_M;
+use brain::CutLine;
+use brain::zone::FAR_M;
 use brain::{Brain, Command, Point2, Pose2, Reason};
 use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
 
