@@ -1,9 +1,7 @@
 //! What a checkpoint holds.
 
 use brain::mapping::MarkKind;
-use brain::{
-    Checkpoint, CleaningOrder, HomePart, JobCheckpoint, JobKind, StrategyName, TrackingCheckpoint,
-};
+use brain::{Checkpoint, CleaningOrder, HomePart, JobCheckpoint, JobKind, StrategyName, TrackingCheckpoint};
 
 use crate::ContentHash;
 

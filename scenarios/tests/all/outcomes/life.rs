@@ -43,7 +43,10 @@ fn life(name: &'static str, (what, scene): (&str, &Scene)) {
 
 #[test]
 fn a_life_in_the_two_room_flat() {
-    life("life-two-room-flat", ("two-room-flat nominal", &scene("two-room-flat", "nominal")));
+    life(
+        "life-two-room-flat",
+        ("two-room-flat nominal", &scene("two-room-flat", "nominal")),
+    );
 }
 
 #[test]

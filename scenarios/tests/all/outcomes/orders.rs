@@ -1,11 +1,9 @@
 //! Jobs of parts of a home, with places that are forbidden; jobs that people interrupt, and a daemon that dies.
 
-use brain::command::StrategyName;
 use brain::Point2;
+use brain::command::StrategyName;
 use brain::mapping::Room;
-use rvac_api::{
-    CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody, RoomNaming, RoomSplitting,
-};
+use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody, RoomNaming, RoomSplitting};
 use rvac_sim::Host;
 use scenarios::{JOB_S, Table, Watched, generated_with, scene, usual};
 use vthal_core::{Checkpoints, CoreConfig};
@@ -36,7 +34,10 @@ fn ask(watched: &mut Watched, request: RequestBody) {
 
 #[test]
 fn parts_of_a_home_with_forbidden_places() {
-    let mut table = Table::of_outcomes("orders", "parts of two-room-flat nominal with a perfect map, seed 7");
+    let mut table = Table::of_outcomes(
+        "orders",
+        "parts of two-room-flat nominal with a perfect map, seed 7",
+    );
 
     let (mut watched, rooms) = in_rooms(7);
     let far = rooms[1];
@@ -120,10 +121,10 @@ fn jobs_that_are_interrupted() {
     ask(&mut watched, RequestBody::Stop);
     watched.pass_s(10);
     ask(&mut watched, RequestBody::Dock);
-    watched.finish(600);
+    watched.come_home(600);
     table.row("first run paused, resumed, stopped, sent home", &watched);
     watched.clean(Some(StrategyName::Systematic));
-    watched.finish(JOB_S);
+    watched.come_home(JOB_S);
     table.row("and sent out again", &watched);
 
     let mut watched = Watched::new(&generated_with(14, "nominal"), 8).knowing_home();
@@ -135,9 +136,7 @@ fn jobs_that_are_interrupted() {
     watched.pass_s(60);
     ask(&mut watched, RequestBody::Spot);
     watched.pass_s(60);
-    ask(&mut watched, RequestBody::Dock);
-    watched.finish(600);
-    table.row("known home paused, resumed, a spot, sent home", &watched);
+    table.row("known home paused, resumed, a spot instead", &watched);
     table.compare();
 }
 
@@ -152,7 +151,10 @@ fn goes_on(host: &Host, before: CoreConfig) -> CoreConfig {
 
 #[test]
 fn a_daemon_that_dies() {
-    let mut table = Table::of_outcomes("restarts", "the daemon dies twice and goes on from its checkpoint, seed 9");
+    let mut table = Table::of_outcomes(
+        "restarts",
+        "the daemon dies twice and goes on from its checkpoint, seed 9",
+    );
     for (what, is_known) in [("first run", false), ("known home", true)] {
         let scene = scene("two-room-flat", "nominal");
         let config = CoreConfig {

@@ -18,7 +18,10 @@ fn scenes(homes: &[(&str, &str)]) -> Vec<(String, Scene)> {
 }
 
 fn first_runs(name: &'static str, homes: &[(&str, &str)]) {
-    let mut table = Table::of_outcomes(name, "systematic, first run of a robot that knows nothing, seed 2");
+    let mut table = Table::of_outcomes(
+        name,
+        "systematic, first run of a robot that knows nothing, seed 2",
+    );
     for (what, scene) in scenes(homes) {
         let mut watched = Watched::new(&scene, 2);
         watched.clean(Some(StrategyName::Systematic));
@@ -81,7 +84,10 @@ fn known_generated_homes() {
 
 #[test]
 fn rings_along_walls_in_a_known_home() {
-    let mut table = Table::of_outcomes("contour", "systematic by rings along walls with a perfect map, seed 4");
+    let mut table = Table::of_outcomes(
+        "contour",
+        "systematic by rings along walls with a perfect map, seed 4",
+    );
     for (what, scene) in scenes(&[("two-room-flat", "nominal")]) {
         let mut watched = Watched::new(&scene, 4).knowing_home();
         watched.start(RequestBody::Clean(JobOrder {
@@ -98,7 +104,13 @@ fn rings_along_walls_in_a_known_home() {
 #[test]
 #[ignore = "takes minutes: for a change that shall not change any behaviour"]
 fn many_generated_homes() {
-    let homes = ["generated:1", "generated:11", "generated:20", "generated:28", "generated:33"];
+    let homes = [
+        "generated:1",
+        "generated:11",
+        "generated:20",
+        "generated:28",
+        "generated:33",
+    ];
     let noises = ["nominal", "bad", "ideal", "nominal", "bad"];
     let homes: Vec<(&str, &str)> = homes.into_iter().zip(noises).collect();
     first_runs("long-first-runs", &homes);
