@@ -2,14 +2,15 @@
 
 mod clock;
 mod desk_request;
+mod facts;
 mod firmware;
+mod hand;
 mod requests;
 mod thinking;
 
-use rvac_api::{ComponentHealth, FloorsView, LogLevel, Pose, Schedules, Status, Topic};
+use rvac_api::{LogLevel, Topic};
 
-use crate::desk::arbiter::Source;
-use crate::desk::audience::{Audience, Now, Teller};
+use crate::desk::audience::Audience;
 use crate::desk::button_desk::ButtonDesk;
 use crate::desk::checkpoints::{CheckpointClock, checkpoint_without_job};
 use crate::desk::driver::DriverDesk;
@@ -22,14 +23,12 @@ use crate::desk::input_desk::InputDesk;
 use crate::desk::journal::Part;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
-use crate::desk::readiness::{Readiness, StartFacts};
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
 use crate::device::DeviceCommand;
 use crate::learnt::Kept;
 use crate::mind::{Mind, Recorder};
-use crate::refusal::Refused;
 use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outputs, RunEnd};
 
 /// The brain is called at least this often while there is one.
@@ -135,13 +134,13 @@ impl Core {
                     mind.observer.take_beacon(signal);
                 }
             }
-            Input::ClientConnected(client) => self.audience.connect(client),
+            Input::ClientConnected(client) => self.audience.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::Refused { client, failure } => self.teller(now_us, outputs).refuse(client, failure),
             Input::ClientSilent(client) => self.client_silent(now_us, client, outputs),
             Input::ClientGone(client) => {
                 self.client_silent(now_us, client, outputs);
-                self.audience.forget(client);
+                self.audience.clients.forget(client);
             }
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::RecordingOpened { run, name } => self.history.recorded_as(run, name),
@@ -188,10 +187,10 @@ impl Core {
     #[must_use]
     pub fn next_wake_us(&self) -> Option<u64> {
         let step = self.mind.as_ref().map(|_| self.pace.stepped_us + STEP_MAX_US);
-        let feed = self.feed.next_wake_us(self.audience.clients());
+        let feed = self.feed.next_wake_us(&self.audience.clients);
         let is_preparing = self.mind.as_ref().is_some_and(Mind::is_preparing);
         let prepare = is_preparing.then_some(self.pace.prepared_us + PREPARE_US);
-        let leases = [self.driver.lease_end_us(), self.inputs.lease_end_us()];
+        let leases = [self.driver.arbiter.lease_end_us(), self.inputs.lease_end_us()];
         [self.link.next_wake_us(), step, prepare, feed]
             .into_iter()
             .chain(leases)
@@ -201,128 +200,7 @@ impl Core {
 
     /// The clients that follow `topic`, in the order in which they connected.
     pub fn followers(&self, topic: Topic) -> impl Iterator<Item = ClientId> + '_ {
-        self.audience.clients().followers(topic)
-    }
-
-    /// Where the brain believes the robot to be.
-    #[must_use]
-    pub fn pose(&self) -> Pose {
-        self.sources().pose()
-    }
-
-    /// What the robot is doing.
-    #[must_use]
-    pub fn status(&self) -> Status {
-        self.sources().status()
-    }
-
-    /// The floors, and on which of them the robot is.
-    #[must_use]
-    pub fn floors_view(&self) -> FloorsView {
-        self.floors.view(self.mind.as_ref())
-    }
-
-    /// All schedules, and what is to be expected of them.
-    #[must_use]
-    pub fn schedules(&self) -> Schedules {
-        self.schedules.view(&self.readiness())
-    }
-
-    /// How worn or dirty the parts are whose loads are measured.
-    #[must_use]
-    pub fn component_health(&self) -> Vec<ComponentHealth> {
-        self.health.components()
-    }
-
-    /// The brain, once a robot has described itself.
-    #[must_use]
-    pub fn brain(&self) -> Option<&brain::Brain> {
-        self.mind.as_ref().map(Mind::brain)
-    }
-
-    /// Whether the robot measures what its motors draw, and so can feel carpets.
-    #[must_use]
-    pub fn measures_currents(&self) -> bool {
-        self.mind.as_ref().is_some_and(Mind::measures_currents)
-    }
-
-    /// Gives the brain the map of a home it has not seen itself, in which it stands on the dock, or at the origin if the map
-    /// has no dock. For simulators; to be called while no job runs. `false` before a robot was seen.
-    pub fn take_up_home(&mut self, home: &brain::mapping::StoredMap) -> bool {
-        self.mind.as_mut().map(|mind| mind.take_up(home)).is_some()
-    }
-
-    /// Tells the brain where the robot stands in the map, for simulators that know it.
-    pub fn place_at(&mut self, pose: brain::Pose2) {
-        if let Some(mind) = &mut self.mind {
-            mind.place_at(pose);
-        }
-    }
-
-    /// Whether nothing moves as far as the newest reports since [`Input::Shutdown`] (or the start) tell, or nothing is
-    /// known because no robot is there.
-    #[must_use]
-    pub fn stands_still(&self) -> bool {
-        self.link.stands_still()
-    }
-
-    fn now(&self, time_us: u64) -> Now {
-        Now {
-            time_us,
-            recording: self.config.recording,
-            is_run: self.mind.as_ref().is_some_and(Mind::is_recorded),
-        }
-    }
-
-    /// What the core itself speaks through.
-    fn teller<'a>(&'a mut self, now_us: u64, outputs: &'a mut Outputs) -> Teller<'a> {
-        let now = self.now(now_us);
-        self.audience.teller(now, outputs)
-    }
-
-    fn sources(&self) -> Sources<'_> {
-        let driver = self.driver.driver();
-        Sources {
-            mind: self.mind.as_ref(),
-            link: &self.link,
-            floors: &self.floors,
-            driver: driver.map(|client| self.audience.clients().name(client)),
-            config: &self.config,
-        }
-    }
-
-    fn readiness(&self) -> Readiness<'_> {
-        Readiness {
-            facts: self.start_facts(),
-            mind: self.mind.as_ref(),
-            floors: &self.floors,
-        }
-    }
-
-    fn start_facts(&self) -> StartFacts {
-        let suits = || self.brain().map(brain::Brain::usual_strategy);
-        StartFacts {
-            robot: self.require_robot(),
-            schedule: self.driver.admit_now(Source::Schedule),
-            usual_strategy: self.config.strategy.or_else(suits).unwrap_or_default(),
-        }
-    }
-
-    fn require_robot(&self) -> Result<(), Refused> {
-        if self.ended {
-            return Err("ending");
-        }
-        if self.link.is_attached() && self.mind.is_some() {
-            Ok(())
-        } else {
-            Err("no-robot")
-        }
-    }
-
-    /// The distance between the robot's wheels, once it is known.
-    fn track_m(&self) -> Option<f64> {
-        let description = self.link.description();
-        description.map(|description| description.drive.track_m)
+        self.audience.clients.followers(topic)
     }
 
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
@@ -340,7 +218,7 @@ impl Core {
     fn shutdown(&mut self, now_us: u64, outputs: &mut Outputs) {
         self.ended = true;
         self.schedules.end();
-        self.driver.preempt();
+        self.driver.arbiter.preempt();
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.link.release(&mut teller);
@@ -360,7 +238,7 @@ impl Core {
 
     /// Before anything else: the brain, which sees the same end, must not let the wheels roll out in its own way first.
     fn end_leases(&mut self, now_us: u64, outputs: &mut Outputs) {
-        if let Some(client) = self.driver.expire(now_us) {
+        if let Some(client) = self.driver.arbiter.expire(now_us) {
             self.lease_ended(now_us, client, outputs);
         }
         let mut teller = self.audience.teller(self.now(now_us), outputs);
@@ -386,12 +264,12 @@ impl Core {
     /// Tells followers, the recording and the disk what is due.
     fn feed(&mut self, now_us: u64, outputs: &mut Outputs) {
         let now = self.now(now_us);
-        let driver = self.driver.driver();
+        let driver = self.driver.arbiter.driver();
         let sources = Sources {
             mind: self.mind.as_ref(),
             link: &self.link,
             floors: &self.floors,
-            driver: driver.map(|client| self.audience.clients().name(client)),
+            driver: driver.map(|client| self.audience.clients.name(client)),
             config: &self.config,
         };
         let mut teller = self.audience.teller(now, outputs);

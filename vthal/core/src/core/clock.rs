@@ -14,11 +14,7 @@ impl Core {
     /// The clock on the wall shows this.
     pub(super) fn set_clock(&mut self, now_us: u64, utc_s: i64, outputs: &mut Outputs) {
         self.history.set_clock(now_us, utc_s);
-        let readiness = Readiness {
-            facts: self.start_facts(),
-            mind: self.mind.as_ref(),
-            floors: &self.floors,
-        };
+        let readiness = Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.set_clock(utc_s, &readiness, &mut teller);
     }
@@ -33,11 +29,7 @@ impl Core {
         if let Some(verdict) = decision {
             self.carry_out(now_us, &verdict, outputs);
         }
-        let readiness = Readiness {
-            facts: self.start_facts(),
-            mind: self.mind.as_ref(),
-            floors: &self.floors,
-        };
+        let readiness = Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.go_on(&readiness, &mut teller);
     }

@@ -179,7 +179,7 @@ impl Core {
         if self.driver.admit(now_us, Source::Button).is_err() {
             return;
         }
-        self.driver.preempt();
+        self.driver.arbiter.preempt();
         let is_admitted = |mind: &Mind| mind.brain().admit(&command).is_ok();
         if self.mind.as_ref().is_some_and(is_admitted) {
             let brain = self.mind.as_ref().map(Mind::brain);

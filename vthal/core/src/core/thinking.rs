@@ -116,7 +116,7 @@ impl Core {
         if before != mind.brain().status().state {
             self.feed.state_changed(now_us);
             if before == BehaviorState::Manual {
-                self.driver.preempt();
+                self.driver.arbiter.preempt();
             }
         }
     }

@@ -39,34 +39,12 @@ pub(crate) struct Now {
 /// All who listen.
 #[derive(Debug, Default)]
 pub(crate) struct Audience {
-    clients: Clients,
+    pub(crate) clients: Clients,
     journal: Journal,
     refusals: RefusalLog,
 }
 
 impl Audience {
-    /// The clients and what they follow.
-    pub(crate) fn clients(&self) -> &Clients {
-        &self.clients
-    }
-
-    pub(crate) fn connect(&mut self, client: ClientId) {
-        self.clients.connect(client);
-    }
-
-    pub(crate) fn forget(&mut self, client: ClientId) {
-        self.clients.forget(client);
-    }
-
-    pub(crate) fn rename(&mut self, client: ClientId, name: String) {
-        self.clients.rename(client, name);
-    }
-
-    /// Replaces the topics of a client; gives those that it did not follow before, in the order in which it names them.
-    pub(crate) fn watch(&mut self, client: ClientId, topics: &[Topic]) -> Vec<Topic> {
-        self.clients.watch(client, topics)
-    }
-
     /// The lines of the log that are kept, oldest first.
     pub(crate) fn log_lines(&self) -> impl Iterator<Item = &LogEntry> {
         self.journal.entries()

@@ -61,7 +61,7 @@ pub(crate) struct Pull {
 /// Whoever drives, and what they want of brushes and suction.
 #[derive(Debug)]
 pub(crate) struct DriverDesk {
-    arbiter: Arbiter,
+    pub(crate) arbiter: Arbiter,
     power: CleanerPower,
 }
 
@@ -75,19 +75,9 @@ impl Default for DriverDesk {
 }
 
 impl DriverDesk {
-    /// Who drives.
-    pub(crate) fn driver(&self) -> Option<ClientId> {
-        self.arbiter.driver()
-    }
-
     /// How hard brushes and suction run while a person drives.
     pub(crate) fn power(&self) -> CleanerPower {
         self.power
-    }
-
-    /// When the lease of the seat ends.
-    pub(crate) fn lease_end_us(&self) -> Option<u64> {
-        self.arbiter.lease_end_us()
     }
 
     /// Whether `source` may start or change a job now.
@@ -117,7 +107,7 @@ impl DriverDesk {
         teller: &mut Teller<'_>,
     ) -> Result<u64, Refused> {
         let Pull { stick, brakes } = pull;
-        let was_driver = self.driver() == Some(client);
+        let was_driver = self.arbiter.driver() == Some(client);
         let valid_until_us = self.arbiter.drive(teller.now_us, client, stick).map_err(denied)?;
         if brakes == Brakes::Braking {
             self.arbiter.release(client);
@@ -133,26 +123,6 @@ impl DriverDesk {
     /// The driver wants this of brushes and suction.
     pub(crate) fn set_power(&mut self, power: CleanerPower) {
         self.power = power;
-    }
-
-    /// Empties the seat if its lease is over; gives the one who sat there.
-    pub(crate) fn expire(&mut self, now_us: u64) -> Option<ClientId> {
-        self.arbiter.expire(now_us)
-    }
-
-    /// The driver leaves by itself. Whether it was the driver.
-    pub(crate) fn release(&mut self, client: ClientId) -> bool {
-        self.arbiter.release(client)
-    }
-
-    /// Something of higher priority stops the robot: the driver leaves and must centre the stick.
-    pub(crate) fn preempt(&mut self) {
-        self.arbiter.preempt();
-    }
-
-    /// A client is gone for ever. Whether it was the driver.
-    pub(crate) fn forget(&mut self, client: ClientId) -> bool {
-        self.arbiter.forget(client)
     }
 }
 

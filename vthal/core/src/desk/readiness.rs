@@ -27,12 +27,16 @@ pub(crate) struct StartFacts {
 /// All of it, with what the brain and the floors say.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readiness<'a> {
-    pub(crate) facts: StartFacts,
-    pub(crate) mind: Option<&'a Mind>,
+    facts: StartFacts,
+    mind: Option<&'a Mind>,
     pub(crate) floors: &'a FloorDesk,
 }
 
-impl Readiness<'_> {
+impl<'a> Readiness<'a> {
+    pub(crate) fn new(facts: StartFacts, mind: Option<&'a Mind>, floors: &'a FloorDesk) -> Self {
+        Self { facts, mind, floors }
+    }
+
     /// The floor on which the robot is.
     pub(crate) fn floor(&self) -> Option<u16> {
         self.mind.and_then(Mind::floor)
