@@ -32,6 +32,7 @@ pub use model::config::{
 pub use model::cut_line::CutLine;
 pub use model::energy::EnergyModel;
 pub use model::geometry::{Point2, Pose2};
+pub use model::inhibit::{Inhibit, Inhibits};
 pub use model::kept_place::{KeptPlace, PlaceShape};
 pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::no_go::{NoGo, NoGoShape, RoomName};

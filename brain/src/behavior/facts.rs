@@ -1,5 +1,6 @@
 //! What an observation means for the state machine.
 
+use crate::model::inhibit::Inhibit;
 use crate::model::observation::{ChargeFlow, Observation};
 use crate::model::reason::Reason;
 
@@ -62,30 +63,47 @@ impl Facts {
             at_cliff: observation.is_at_cliff(),
             ..Self::default()
         };
-        for name in &observation.inhibits {
-            facts.add_inhibit(name);
+        for inhibit in observation.inhibits.iter() {
+            facts.add_inhibit(inhibit);
+        }
+        if observation.inhibits.other().is_some() {
+            facts.fault = Some(Reason::UnknownInhibit);
         }
         facts
     }
 
-    fn add_inhibit(&mut self, name: &str) {
-        match name {
-            "not-armed" => self.disarmed.not_armed = true,
-            "stopped" => self.disarmed.stopped = true,
-            "button-stop" => self.disarmed.button_stop = true,
-            "link-lost" => self.disarmed.link_lost = true,
-            "docked" => self.disarmed.docked = true,
+    fn add_inhibit(&mut self, inhibit: Inhibit) {
+        match inhibit {
+            Inhibit::NotArmed => self.disarmed.not_armed = true,
+            Inhibit::Stopped => self.disarmed.stopped = true,
+            Inhibit::ButtonStop => self.disarmed.button_stop = true,
+            Inhibit::LinkLost => self.disarmed.link_lost = true,
+            Inhibit::Docked => self.disarmed.docked = true,
             // Already read as what is touched or seen.
-            "bumper" | "cliff" => {}
+            Inhibit::Bumper | Inhibit::Cliff => {}
             // The firmware wants to be charged (S16).
-            "battery-low" | "battery-weak" => self.battery_low = true,
+            Inhibit::BatteryLow | Inhibit::BatteryWeak => self.battery_low = true,
             // It forbids charging only, and no motion.
-            "charger-fault" => self.charger_fault = true,
-            "cliff-sensor" => self.cliff_sensor = true,
-            "wheel-drop" => self.wheel_drop = true,
-            "not-moving" => self.not_moving = true,
-            // The remaining names are latched faults, or come from newer firmware: both need a person.
-            other => self.fault = Some(Reason::from_name(other).unwrap_or(Reason::UnknownInhibit)),
+            Inhibit::ChargerFault => self.charger_fault = true,
+            Inhibit::CliffSensorFault => self.cliff_sensor = true,
+            Inhibit::WheelDrop => self.wheel_drop = true,
+            Inhibit::NotMoving => self.not_moving = true,
+            // Somebody must see to these.
+            Inhibit::ResetLoop
+            | Inhibit::BumperStuck
+            | Inhibit::CliffTrapped
+            | Inhibit::WheelStall
+            | Inhibit::BrushStall
+            | Inhibit::Runaway
+            | Inhibit::EncoderFault
+            | Inhibit::InternalFault
+            | Inhibit::BatteryEmpty
+            | Inhibit::BatteryHot
+            | Inhibit::BatteryOverheated
+            | Inhibit::Thermistor
+            | Inhibit::ChargerShorted
+            | Inhibit::Clock
+            | Inhibit::Memory => self.fault = Some(Reason::of_inhibit(inhibit)),
         }
     }
 }
@@ -93,12 +111,13 @@ impl Facts {
 #[cfg(test)]
 mod tests {
     use super::Facts;
+    use crate::model::inhibit::Inhibits;
     use crate::model::observation::Observation;
     use crate::model::reason::Reason;
 
     fn facts_of(name: &'static str) -> Facts {
         let observation = Observation {
-            inhibits: vec![name],
+            inhibits: Inhibits::from_names([name]),
             ..Observation::default()
         };
         Facts::read(&observation, 0.15)

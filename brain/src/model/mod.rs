@@ -8,6 +8,7 @@ pub(crate) mod cut_line;
 pub mod energy;
 pub mod geometry;
 pub(crate) mod gradual;
+pub(crate) mod inhibit;
 pub(crate) mod kept_place;
 pub mod learnt;
 pub mod no_go;

@@ -1,5 +1,7 @@
 //! What the robot perceived, in SI units and REP-103 axes, whatever the make of the robot.
 
+use super::inhibit::{Inhibit, Inhibits};
+
 /// One view of the robot at one moment. Totals, not rates, so that a lost observation loses nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -31,8 +33,8 @@ pub struct Observation {
     pub charge_flow: Option<ChargeFlow>,
     /// What the motors draw; `None` where the robot does not measure it.
     pub currents: Option<MotorCurrents>,
-    /// Names of what keeps the firmware from moving, for example `wheel-drop`; empty when it may move.
-    pub inhibits: Vec<&'static str>,
+    /// What keeps the robot from moving; empty when it may move.
+    pub inhibits: Inhibits,
     /// The link to the firmware is up and its telemetry is fresh.
     pub link_up: bool,
     /// Share of the commanded speed that link quality allows, 0..1.
@@ -43,13 +45,13 @@ impl Observation {
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
     #[must_use]
     pub fn is_touching(&self) -> bool {
-        self.contacts.any() || self.inhibits.contains(&"bumper")
+        self.contacts.any() || self.inhibits.contains(Inhibit::Bumper)
     }
 
     /// A cliff is seen, or the firmware still holds the wheels because of one.
     #[must_use]
     pub fn is_at_cliff(&self) -> bool {
-        self.cliffs.any() || self.inhibits.contains(&"cliff")
+        self.cliffs.any() || self.inhibits.contains(Inhibit::Cliff)
     }
 }
 
@@ -71,7 +73,7 @@ impl Default for Observation {
             battery_charge: None,
             charge_flow: None,
             currents: None,
-            inhibits: Vec::new(),
+            inhibits: Inhibits::NONE,
             link_up: true,
             speed_share: 1.0,
         }

@@ -1,5 +1,6 @@
 //! Why the robot does what it does, by name.
 
+use super::inhibit::Inhibit;
 use super::observation::{Cliffs, Contacts};
 
 macro_rules! reasons {
@@ -265,6 +266,11 @@ impl Reason {
             (false, true) => Some(Self::BumpRight),
             (false, false) => None,
         }
+    }
+
+    /// The reason of the same name.
+    pub(crate) fn of_inhibit(inhibit: Inhibit) -> Self {
+        Self::from_name(inhibit.name()).unwrap_or(Self::UnknownInhibit)
     }
 
     /// The reason that fits cliff sensors, if any sees no floor.

@@ -2,7 +2,7 @@
 
 use crate::script::{Stage, config};
 use brain::observation::{Cliffs, Contacts};
-use brain::{BehaviorState, Brain, Command, Motion, Observation, Reason, StrategyName};
+use brain::{BehaviorState, Brain, Command, Inhibits, Motion, Observation, Reason, StrategyName};
 use proptest::prelude::*;
 
 const INHIBITS: [&str; 10] = [
@@ -99,7 +99,7 @@ fn perceive(observation: &mut Observation, episode: &Episode) {
     observation.wheel_drop = episode.wheel_drop;
     observation.link_up = episode.link_up;
     observation.docked = episode.docked;
-    observation.inhibits.clone_from(&episode.inhibits);
+    observation.inhibits = Inhibits::from_names(episode.inhibits.iter().copied());
     observation.dock_beams.clone_from(&episode.beams);
     observation.speed_share = episode.speed_share;
 }

@@ -1,7 +1,7 @@
 //! Home for charge and on with the job, by scripts.
 
 use crate::script::{Stage, check, check_with, config};
-use brain::{BehaviorState, Brain, BrainConfig, Command, JobKind, StrategyName};
+use brain::{BehaviorState, Brain, BrainConfig, Command, Inhibits, JobKind, StrategyName};
 
 /// A job that was put off for the pack's sake, on the dock.
 const ON_THE_DOCK: &str = "up
@@ -143,7 +143,7 @@ fn taken_up(before: &Stage) -> Stage {
     stage.brain = Brain::new(config(), 9);
     stage.brain.restore(&checkpoint);
     stage.observation = before.observation.clone();
-    stage.observation.inhibits = vec!["docked", "not-armed"];
+    stage.observation.inhibits = Inhibits::from_names(["docked", "not-armed"]);
     stage
 }
 

@@ -120,10 +120,8 @@ fn metres(low: i32, high: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use brain::Reason;
+    use brain::{Inhibit, Reason};
     use rvac_api::explain;
-
-    use crate::device::Inhibit;
 
     #[test]
     fn everything_that_stops_the_robot_or_refuses_is_explained() {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
-use brain::{Actions, Body, BrainConfig, Command, Motion, Observation, Speeds, StrategyName};
+use brain::{Actions, Body, BrainConfig, Command, Inhibits, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
     BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RunRecord,
@@ -119,7 +119,7 @@ fn records() -> Vec<Record> {
                 dbm: -71.0,
             }),
         ],
-        inhibits: vec!["wheel-drop"],
+        inhibits: Inhibits::from_names(["wheel-drop"]),
         ..Observation::default()
     };
     let mut records = vec![

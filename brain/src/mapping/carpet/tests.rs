@@ -1,6 +1,7 @@
 //! Loads of floors and of whatever is not one, and what is said of them.
 
 use super::{CarpetSense, FloorFelt, FloorKind};
+use crate::model::inhibit::{Inhibit, Inhibits};
 use crate::model::observation::{Contacts, MotorCurrents, Observation};
 
 /// Loads of hard floor, of a flat mat and of a deep pile, amperes: a wheel's and the brush's.
@@ -156,9 +157,9 @@ fn what_is_pushed_or_climbed_is_no_carpet() {
     };
     assert_eq!(drive.on(2.0, PILE).nothing, 40, "a bumper is pressed");
     drive.view.contacts = Contacts::default();
-    drive.view.inhibits.push("bumper");
+    drive.view.inhibits.insert(Inhibit::Bumper);
     assert_eq!(drive.on(2.0, PILE).nothing, 40, "and holds the wheels");
-    drive.view.inhibits.clear();
+    drive.view.inhibits = Inhibits::NONE;
     let chair_or_slope = [PILE[0], HARD[1]];
     assert_eq!(drive.on(5.0, chair_or_slope).carpet, 0);
     let threshold = |since_s: f64| if since_s < 0.08 { [0.5, 1.5] } else { HARD };

@@ -5,7 +5,9 @@ pub(crate) mod beams;
 
 use beams::Sight;
 use brain::observation::{Cliffs, Contacts};
-use brain::{Actions, Body, Brain, BrainConfig, Command, Motion, Observation, Point2, Pose2, Speeds};
+use brain::{
+    Actions, Body, Brain, BrainConfig, Command, Inhibit, Inhibits, Motion, Observation, Point2, Pose2, Speeds,
+};
 
 pub(crate) const STEP_S: f64 = 0.02;
 pub(crate) const BODY: Body = Body {
@@ -201,12 +203,12 @@ impl World {
         }
         self.observation.contacts = contacts;
         self.observation.cliffs = cliffs;
-        self.observation.inhibits.clear();
+        self.observation.inhibits = Inhibits::NONE;
         if contacts.any() {
-            self.observation.inhibits.push("bumper");
+            self.observation.inhibits.insert(Inhibit::Bumper);
         }
         if cliffs.any() {
-            self.observation.inhibits.push("cliff");
+            self.observation.inhibits.insert(Inhibit::Cliff);
         }
     }
 

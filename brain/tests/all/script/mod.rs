@@ -12,7 +12,8 @@
 use brain::action::Tone;
 use brain::observation::{ChargeFlow, Cliffs, Contacts};
 use brain::{
-    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Motion, Observation, Speeds, StrategyName,
+    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Inhibits, Motion, Observation, Speeds,
+    StrategyName,
 };
 
 const STEP_US: u64 = 20_000;
@@ -58,7 +59,7 @@ impl Stage {
             brain: Brain::new(config, 1),
             observation: Observation {
                 link_up: false,
-                inhibits: vec!["not-armed"],
+                inhibits: Inhibits::from_names(["not-armed"]),
                 ..Observation::default()
             },
             tones: Vec::new(),
@@ -90,9 +91,9 @@ impl Stage {
                 "bumper",
                 "cliff",
                 "not-moving",
-                "from-the-future",
+                "unknown-inhibit",
             ];
-            self.observation.inhibits.retain(|name| kept.contains(name));
+            keep(&mut self.observation.inhibits, |name| kept.contains(&name));
         }
         if let Motion::Drive {
             speed_m_per_s,
@@ -129,7 +130,7 @@ impl Stage {
         assert!(seen.link_up && !seen.wheel_drop, "{actions:?} while {seen:?}");
         let restricting = ["bumper", "cliff", "cliff-sensor"];
         assert!(
-            seen.inhibits.iter().all(|name| restricting.contains(name)),
+            seen.inhibits.names().all(|name| restricting.contains(&name)),
             "{actions:?} against {:?}",
             seen.inhibits
         );
@@ -199,9 +200,11 @@ impl Stage {
             "floor" => seen.cliffs = Cliffs::default(),
             "lift" => seen.wheel_drop = true,
             "put" => seen.wheel_drop = false,
-            "inhibit" => seen.inhibits.push(leak(arguments[0])),
-            "free" => seen.inhibits.retain(|name| *name != arguments[0]),
-            "docked" => (seen.docked, seen.inhibits) = (true, vec!["docked", "not-armed"]),
+            "inhibit" => {
+                seen.inhibits = Inhibits::from_names(seen.inhibits.names().chain([leak(arguments[0])]))
+            }
+            "free" => keep(&mut seen.inhibits, |name| name != arguments[0]),
+            "docked" => (seen.docked, seen.inhibits) = (true, Inhibits::from_names(["docked", "not-armed"])),
             "undocked" => seen.docked = false,
             "charge" => seen.battery_charge = Some(number(0) as f32),
             "current" => {
@@ -245,6 +248,10 @@ impl Stage {
 /// Inhibits are static names; the few of a test may leak.
 fn leak(name: &str) -> &'static str {
     Box::leak(name.to_owned().into_boxed_str())
+}
+
+fn keep(inhibits: &mut Inhibits, is_kept: impl Fn(&str) -> bool) {
+    *inhibits = Inhibits::from_names(inhibits.names().filter(|name| is_kept(name)));
 }
 
 /// Runs a script on a fresh robot and gives the stage back for further questions.

@@ -1,6 +1,6 @@
 //! What a person does by hand: drives, stops, and looks after the device itself.
 
-use brain::Command;
+use brain::{Command, Inhibit};
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
@@ -10,7 +10,7 @@ use crate::desk::audience::Asking;
 use crate::desk::driver::{HandDrive, Pull};
 use crate::desk::journal::Part;
 use crate::desk::reply::Reply;
-use crate::device::{CleanerPower, DeviceCommand, Inhibit, Tone};
+use crate::device::{CleanerPower, DeviceCommand, Tone};
 use crate::refusal::{Refusal, Refused};
 use crate::{ClientId, ExpertAccess, Outputs};
 

@@ -23,7 +23,7 @@ pub(crate) struct Perceived<'a> {
 impl Perceived<'_> {
     /// The names of what is felt now.
     fn signs(&self) -> impl Iterator<Item = &'static str> {
-        let inhibits = self.observation.inhibits.iter().copied();
+        let inhibits = self.observation.inhibits.names();
         self.edges.present().map(Sign::name).chain(inhibits)
     }
 }

@@ -1,5 +1,6 @@
 //! The robot on the serial device: bytes to and from it, what it told last, and how good the link is.
 
+use brain::Inhibit;
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
 
 use super::audience::Teller;
@@ -7,8 +8,8 @@ use super::driver::Brakes;
 use super::journal::Part;
 use super::link_facts::LinkFacts;
 use crate::device::{
-    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, Inhibit, Make, Report,
-    SlowFacts, Supervisor, Verdict, WheelSpeeds,
+    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, Make, Report, SlowFacts,
+    Supervisor, Verdict, WheelSpeeds,
 };
 use crate::observe::{LinkView, currents_a};
 use crate::refusal::Refused;

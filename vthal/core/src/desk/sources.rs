@@ -37,8 +37,8 @@ impl Sources<'_> {
             };
         };
         let mut status = to_api::status(mind.brain().status(), mind.brain().job());
-        let inhibits = mind.observer.observation().inhibits.iter();
-        status.inhibits = inhibits.map(|&name| name.to_owned()).collect();
+        let inhibits = mind.observer.observation().inhibits;
+        status.inhibits = inhibits.names().map(str::to_owned).collect();
         status.room = room_here(mind.brain());
         status.driver.clone_from(&self.driver);
         status

@@ -2,7 +2,7 @@
 
 use rvac_units::Throttle;
 
-use super::Inhibit;
+use brain::Inhibit;
 
 /// A command to a device, in SI units and REP-103 axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

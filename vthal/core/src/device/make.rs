@@ -2,8 +2,10 @@
 
 use core::fmt;
 
+use brain::Inhibit;
+
 use super::{
-    CleanerDrive, CommandError, Description, DeviceEvent, Inhibit, LeaveDock, Level, Light, LinkQuality, Tone,
+    CleanerDrive, CommandError, Description, DeviceEvent, LeaveDock, Level, Light, LinkQuality, Tone,
 };
 use crate::Direction;
 

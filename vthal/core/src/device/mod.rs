@@ -11,7 +11,6 @@ pub mod cordlib;
 mod dead_man;
 mod description;
 mod event;
-mod inhibit;
 mod make;
 mod reflex;
 mod report;
@@ -28,7 +27,6 @@ pub use description::{
     SensorCounts, StopSite,
 };
 pub use event::{DeviceEvent, Greeting};
-pub use inhibit::{Inhibit, Inhibits};
 pub use make::{Device, DeviceIo, Drive, Make, Opening};
 pub use report::{
     Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, Report, SlowFacts,

@@ -1,9 +1,10 @@
 //! Reflexes of the host, for robots that have the sensors and do not react to them: a bumper, a cliff and a hanging wheel
 //! hold the wheels as in our own firmware (S6, S8 and S10 of the safety concept), as soon as a report tells of them.
 
+use brain::Inhibit;
 use brain::observation::Contacts;
 
-use super::{Description, Drive, Inhibit, ReflexSite, Reflexes, Report};
+use super::{Description, Drive, ReflexSite, Reflexes, Report};
 
 /// Way that a robot may make between what happens and the wheels' answer, metres: less than the travel of a bumper, and
 /// than what lies between a cliff sensor and the wheel behind it.
@@ -142,9 +143,10 @@ fn is_away(pressed: Contacts, [left, right]: [f64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use brain::Inhibit;
     use brain::observation::{Cliffs, Contacts};
 
-    use super::super::{Drive, Inhibit, ReflexSite, Reflexes, Report, WheelDrops};
+    use super::super::{Drive, ReflexSite, Reflexes, Report, WheelDrops};
     use super::{HostReflexes, speed_limit_m_per_s};
 
     const HOST: ReflexSite = ReflexSite::Host { latency_s: 0.2 };

@@ -1,9 +1,8 @@
 //! What a device reports again and again, in SI units.
 
+use brain::Inhibits;
 use brain::config::PROXIMITY_MAX;
 use brain::observation::{Cliffs, Contacts, MotorCurrents};
-
-use super::Inhibits;
 
 /// Most dock receivers that a report holds.
 pub const DOCK_RECEIVERS_MAX: usize = 4;

@@ -4,10 +4,7 @@ mod charge;
 
 use brain::observation::{BeaconSignal, Contacts, Observation};
 
-use crate::device::{Battery, Description, Inhibits, Report, WrappingTotal};
-
-/// Name under which inhibits of newer firmware reach the brain.
-pub const UNKNOWN_INHIBIT: &str = "unknown-inhibit";
+use crate::device::{Battery, Description, Report, WrappingTotal};
 
 /// A heading of the Linux board's gyro older than this says nothing about the robot's present.
 const BOARD_HEADING_FRESH_US: u64 = 200_000;
@@ -106,7 +103,7 @@ impl Observer {
             &report.dock_beams,
             description.sensors.dock_receivers,
         );
-        name_inhibits(&mut view.inhibits, report.inhibits);
+        view.inhibits = report.inhibits;
     }
 
     /// Takes what is known of the battery.
@@ -172,11 +169,6 @@ fn contacts(zones: Contacts, count: u8) -> Contacts {
 fn refill<T: Copy>(view: &mut Vec<T>, all: &[T], count: u8) {
     view.clear();
     view.extend(all.iter().take(usize::from(count)));
-}
-
-fn name_inhibits(view: &mut Vec<&'static str>, inhibits: Inhibits) {
-    view.clear();
-    view.extend(inhibits.names());
 }
 
 #[cfg(test)]

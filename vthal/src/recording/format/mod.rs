@@ -15,11 +15,9 @@ pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
 pub use state::BrainState;
 
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
-use brain::{Body, BrainConfig, Observation, Speeds};
+use brain::{Body, BrainConfig, Inhibits, Observation, Speeds};
 use serde::{Deserialize, Serialize};
 use vthal_core::RunStart;
-use vthal_core::device::Inhibit;
-use vthal_core::observe::UNKNOWN_INHIBIT;
 
 use flow::FlowName;
 use sensors::SensorSettings;
@@ -188,7 +186,7 @@ impl From<&Observation> for Seen {
             currents_a: seen
                 .currents
                 .map(|all| [all.wheel_left_a, all.wheel_right_a, all.brush_main_a]),
-            inhibits: seen.inhibits.iter().map(|&name| name.to_owned()).collect(),
+            inhibits: seen.inhibits.names().map(str::to_owned).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
             beacons: seen.beacons.iter().filter_map(range).collect(),
@@ -225,7 +223,7 @@ impl Seen {
                 wheel_right_a: right,
                 brush_main_a: brush,
             }),
-            inhibits: self.inhibits.iter().map(|name| inhibit_name(name)).collect(),
+            inhibits: Inhibits::from_names(self.inhibits.iter().map(String::as_str)),
             link_up: self.link_up,
             speed_share: self.speed_share,
             beacons: self.signals(),
@@ -263,10 +261,6 @@ fn strength(signal: &BeaconSignal) -> Option<(u16, f64)> {
     }
 }
 
-fn inhibit_name(name: &str) -> &'static str {
-    Inhibit::from_name(name).map_or(UNKNOWN_INHIBIT, Inhibit::name)
-}
-
 /// [`Command`] with the time at which it was given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Given {
@@ -281,8 +275,8 @@ mod tests {
     use brain::CutLine;
     use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
     use brain::{
-        CleaningOrder, Command, HomePart, KeptPlace, NoGo, Observation, Pattern, PlaceShape, Point2, Pose2,
-        RoomName, RoomPower, RoomSettings, Zone,
+        CleaningOrder, Command, HomePart, Inhibits, KeptPlace, NoGo, Observation, Pattern, PlaceShape,
+        Point2, Pose2, RoomName, RoomPower, RoomSettings, Zone,
     };
 
     use super::{Given, GivenCommand, Seen};
@@ -295,7 +289,7 @@ mod tests {
             travel_right_m: -1.0 / 3.0,
             gyro_heading_rad: Some(f64::MIN_POSITIVE),
             proximity: vec![1.0 / 255.0, 0.7],
-            inhibits: vec!["wheel-drop", "unknown-inhibit"],
+            inhibits: Inhibits::from_names(["wheel-drop", "unknown-inhibit"]),
             battery_charge: Some(0.3),
             charge_flow: Some(ChargeFlow::Missing),
             currents: Some(MotorCurrents {

@@ -6,6 +6,7 @@ mod events;
 mod tap;
 mod to_model;
 
+use brain::Inhibit;
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
     self, Beep, BinaryKinds, Capabilities, Command, Led, LedPattern, Motor, MotorCommand, RobotHello,
@@ -19,8 +20,8 @@ use self::encoders::Encoders;
 use self::events::LastStart;
 use self::tap::Tap;
 use super::{
-    CleanerDrive, CleanerPower, CommandError, Description, Device, DeviceIo, Drive, Inhibit, LeaveDock,
-    Level, Light, LightPattern, LinkQuality, Make, Opening, Tone,
+    CleanerDrive, CleanerPower, CommandError, Description, Device, DeviceIo, Drive, LeaveDock, Level, Light,
+    LightPattern, LinkQuality, Make, Opening, Tone,
 };
 use crate::Direction;
 

@@ -1,17 +1,17 @@
 //! From the words of the wire to those of the device model: the only place where a struct exists twice.
 
 use brain::observation::{Cliffs, Contacts, MotorCurrents};
+use brain::{Inhibit, Inhibits};
 use rvac_protocol::message::{
     self, Capabilities, ChargePhase, Info, MotionPhase, ProtocolVersion, RobotHello, State,
 };
 use rvac_protocol::quality;
 
 use super::super::{
-    Battery, ChargeState, Charger, CleanersRunning, DeadManKind, Description, DriveLimits, Identity, Inhibit,
-    Inhibits, Level, LinkQuality, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape,
-    SlowFacts, StopSite, Verdict, WheelDrops, WheelTravel,
+    Battery, ChargeState, Charger, CleanersRunning, DeadManKind, Description, DriveLimits, Identity, Level,
+    LinkQuality, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape, SlowFacts, StopSite,
+    Verdict, WheelDrops, WheelTravel,
 };
-use crate::observe::UNKNOWN_INHIBIT;
 
 /// What the robot is and can do.
 pub(super) fn description(hello: Option<&RobotHello>, table: &message::Description) -> Description {
@@ -142,7 +142,7 @@ fn inhibits(wire: message::Inhibits) -> Inhibits {
             all
         });
     if !wire.without(known).is_empty() {
-        all.insert_other(UNKNOWN_INHIBIT);
+        all.insert_unknown();
     }
     all
 }

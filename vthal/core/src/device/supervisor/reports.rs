@@ -1,10 +1,10 @@
 //! What the robot tells, as far as it concerns every make: lost words are repeated, and reports get what the robot itself does
 //! not tell.
 
+use brain::Inhibit;
+
 use super::super::reflex::{HostReflexes, speed_limit_m_per_s};
-use super::super::{
-    CleanerDrive, DeadManKind, Description, DeviceEvent, DeviceIo, Inhibit, Report, StopSite,
-};
+use super::super::{CleanerDrive, DeadManKind, Description, DeviceEvent, DeviceIo, Report, StopSite};
 use super::Supervisor;
 
 /// Telemetry has had the time to know of a stop after this long.

@@ -162,6 +162,9 @@ impl Inhibit {
     }
 }
 
+/// Name of what has no word and whose own name is not known either.
+const UNKNOWN: &str = "unknown-inhibit";
+
 /// A set of inhibits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inhibits {
@@ -202,6 +205,24 @@ impl Inhibits {
     /// robot needs a person for any of them.
     pub const fn insert_other(&mut self, name: &'static str) {
         self.other = Some(name);
+    }
+
+    /// Adds something of which not even a name is known.
+    pub const fn insert_unknown(&mut self) {
+        self.insert_other(UNKNOWN);
+    }
+
+    /// The set of these names, as [`Self::names`] told them; one without a word is only known to be there.
+    #[must_use]
+    pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut all = Self::NONE;
+        for name in names {
+            match Inhibit::from_name(name) {
+                Some(inhibit) => all.insert(inhibit),
+                None => all.insert_unknown(),
+            }
+        }
+        all
     }
 
     /// Something for which [`Inhibit`] has no word.
@@ -253,5 +274,7 @@ mod tests {
             inhibits.remove(known);
         }
         assert!(!inhibits.is_empty());
+        let read = Inhibits::from_names(["flux-capacitor", "docked"]);
+        assert!(read.names().eq(["docked", "unknown-inhibit"]));
     }
 }
