@@ -36,6 +36,7 @@ mod outputs;
 mod quest;
 pub mod schedule;
 mod scheduler;
+pub mod stored_map;
 mod stored_version;
 mod swept_sigma;
 mod tap;
