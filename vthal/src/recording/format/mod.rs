@@ -17,8 +17,10 @@ pub use state::BrainState;
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
 use brain::{Body, BrainConfig, Observation, Speeds};
 use rvac_protocol::message::Inhibit;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vthal_core::RunStart;
+use serde_json::{Map, Value};
+use vthal_core::{Direction, RunStart};
 
 use flow::FlowName;
 use sensors::SensorSettings;
@@ -27,7 +29,7 @@ use sensors::SensorSettings;
 pub const FORMAT: u32 = 1;
 
 /// Beginning of a run.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct RunHeader {
     /// [`FORMAT`] of the writer.
     pub format: u32,
@@ -46,8 +48,10 @@ pub struct RunHeader {
     /// Version of its firmware.
     pub firmware: String,
     /// Settings of the brain.
+    #[schemars(with = "Map<String, Value>")]
     pub config: BrainSettings,
     /// What the brain took up.
+    #[schemars(with = "Map<String, Value>")]
     pub state: BrainState,
 }
 
@@ -138,7 +142,7 @@ impl BrainSettings {
 }
 
 /// [`Observation`]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Seen {
     time_us: u64,
     left_m: f64,
@@ -163,9 +167,11 @@ pub struct Seen {
     speed_share: f64,
     /// Number, range and its deviation of each beacon that was measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<f64>>")]
     beacons: Vec<(u16, f64, f64)>,
     /// Number and received power of each beacon of which only that was measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<f64>>")]
     strengths: Vec<(u16, f64)>,
 }
 
@@ -267,12 +273,31 @@ fn inhibit_name(name: &str) -> &'static str {
 }
 
 /// [`Command`] with the time at which it was given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Given {
     /// Host time in microseconds.
     pub time_us: u64,
     /// What.
+    #[schemars(with = "Value")]
     pub command: GivenCommand,
+}
+
+/// A packet of the wire.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SentPacket<'packet> {
+    direction: char,
+    text: &'packet str,
+}
+
+impl<'packet> SentPacket<'packet> {
+    /// A packet as text.
+    #[must_use]
+    pub fn new(direction: Direction, text: &'packet str) -> Self {
+        Self {
+            direction: direction.symbol(),
+            text,
+        }
+    }
 }
 
 #[cfg(test)]
