@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod api_forms;
 mod arbiter;
 mod buttons;
 mod checkpoint;

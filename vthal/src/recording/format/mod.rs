@@ -6,12 +6,14 @@ mod answer;
 mod command;
 mod flow;
 mod order;
+mod packet;
 mod sensors;
 mod state;
 
 pub use answer::Answered;
 pub use command::GivenCommand;
-pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
+pub use order::GivenOrder;
+pub use packet::SentPacket;
 pub use state::BrainState;
 
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
@@ -20,7 +22,7 @@ use rvac_protocol::message::Inhibit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use vthal_core::{Direction, RunStart};
+use vthal_core::RunStart;
 
 use flow::FlowName;
 use sensors::SensorSettings;
@@ -280,24 +282,6 @@ pub struct Given {
     /// What.
     #[schemars(with = "Value")]
     pub command: GivenCommand,
-}
-
-/// A packet of the wire.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct SentPacket<'packet> {
-    direction: char,
-    text: &'packet str,
-}
-
-impl<'packet> SentPacket<'packet> {
-    /// A packet as text.
-    #[must_use]
-    pub fn new(direction: Direction, text: &'packet str) -> Self {
-        Self {
-            direction: direction.symbol(),
-            text,
-        }
-    }
 }
 
 #[cfg(test)]
