@@ -1,24 +1,30 @@
 //! The brain as its shell sees it.
 
+pub mod checkpoint;
 mod feeling;
+mod learning;
+mod situation;
 
-use crate::action::Actions;
-use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Reason, Status};
-use crate::checkpoint::{Checkpoint, CheckpointWork};
-use crate::command::{Command, StrategyName};
-use crate::config::BrainConfig;
-use crate::coverage::{JobEstimate, SweptShare, estimate};
-use crate::docking::BeamMemory;
-use crate::energy::EnergyModel;
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::learnt::{GyroLearnt, Learnt};
-use crate::localization::{Localization, PoseEstimate};
-use crate::mapping::{Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
-use crate::observation::{Cliffs, Contacts, Observation};
-use crate::order::CleaningOrder;
-use crate::random::Random;
-use crate::room_settings::RoomPower;
-use crate::task::{Mind, Situation};
+use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
+use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
+use crate::coverage::{JobEstimate, estimate};
+use crate::localization::{Localization, MapCorrection};
+use crate::mapping::{BeamMemory, Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
+use crate::model::action::Actions;
+use crate::model::command::{Command, StrategyName};
+use crate::model::config::BrainConfig;
+use crate::model::energy::EnergyModel;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::learnt::{GyroLearnt, Learnt};
+use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::order::CleaningOrder;
+use crate::model::pose_estimate::PoseEstimate;
+use crate::model::random::Random;
+use crate::model::reason::Reason;
+use crate::model::room_settings::RoomPower;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::Mind;
+use situation::Parts;
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
 const SIDE_RAD: f64 = core::f64::consts::FRAC_PI_4;
@@ -104,10 +110,8 @@ impl Brain {
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
-        self.localization.refine(observation, advance);
-        if let Some(keyframes) = self.localization.take_redraw(observation.time_us) {
-            self.map.redraw(&keyframes);
-        }
+        let correction = self.localization.refine(observation, advance);
+        self.correct_map(correction);
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
         self.beams.take(observation, &estimate);
@@ -118,22 +122,21 @@ impl Brain {
             self.map.insert(&estimate, observation);
         }
         self.localization.look(observation, advance, &self.config);
-        self.localization
+        let correction = self
+            .localization
             .learn(&self.map, &self.config, observation.time_us);
-        if let Some(withdrawal) = self.localization.take_withdrawal() {
-            self.map.withdraw(withdrawal.since_us, &withdrawal.keyframes);
-            self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
-        }
+        self.correct_map(correction);
         self.note_encounters(observation, &estimate);
         for command in commands {
             self.edit_map(command, observation.docked);
         }
-        let situation = Situation::new(
-            observation,
-            advance,
-            (&self.localization, &self.map, &self.beams),
-            &self.config,
-        );
+        let situation = Parts {
+            localization: &self.localization,
+            map: &self.map,
+            beams: &self.beams,
+            config: &self.config,
+        }
+        .situation(observation, advance);
         let intent = self.behavior.step(&situation, commands, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
@@ -160,6 +163,18 @@ impl Brain {
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
+        }
+    }
+
+    /// Does with the map what the robot's place asks for.
+    fn correct_map(&mut self, correction: Option<MapCorrection>) {
+        match correction {
+            Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
+            Some(MapCorrection::Withdraw { since_us, keyframes }) => {
+                self.map.withdraw(since_us, &keyframes);
+                self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
+            }
+            None => {}
         }
     }
 

@@ -4,49 +4,44 @@
 //! [`Brain::new`]. The same calls give the same decisions, bit for bit, which is what replay rests on.
 #![forbid(unsafe_code)]
 
-pub mod action;
 pub mod behavior;
 mod brain;
-pub mod checkpoint;
-pub mod command;
-pub mod config;
 pub mod coverage;
 mod docking;
-pub mod energy;
-pub mod geometry;
-mod gradual;
-mod kept_place;
-pub mod learnt;
 pub mod localization;
-mod manoeuvre;
 pub mod mapping;
-pub mod no_go;
-pub mod observation;
-pub mod order;
-mod random;
+mod model;
+mod navigation;
 mod recovery;
-pub mod room_settings;
-mod spot;
-mod task;
 
-pub use action::{Actions, Motion};
-pub use behavior::{BehaviorState, JobFigures, JobKind, Reason, Status};
-pub use brain::Brain;
-pub use checkpoint::{Checkpoint, CheckpointWork, JobCheckpoint, TrackingCheckpoint};
-pub use command::{Command, StrategyName};
-pub use config::{Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds};
-pub use coverage::{JobEstimate, SweptShare};
-pub use energy::EnergyModel;
-pub use geometry::{Point2, Pose2};
-pub use kept_place::{KeptPlace, PlaceShape};
-pub use learnt::{GyroLearnt, Learnt, LearntPart};
-pub use localization::{Finding, FloorFinder, FloorPlace, PoseEstimate};
+pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
+pub use brain::checkpoint::{Checkpoint, CheckpointWork};
+pub use brain::{Brain, checkpoint};
+pub use coverage::JobEstimate;
+pub use localization::{Finding, FloorFinder, FloorPlace, TrackingCheckpoint};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, FloorKind, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind,
     PathPoint, Raster, ReadyHome, StoredMap, StoredMapError, Sweeping, SweptRun, TakingUp,
 };
-pub use no_go::{NoGo, NoGoShape, RoomName};
-pub use observation::Observation;
-pub use order::{CleaningOrder, HomePart, Zone};
-pub use room_settings::{Pattern, RoomPower, RoomSettings};
-pub use spot::DISC_M as SPOT_RADIUS_M;
+pub use model::action::{Actions, Motion};
+pub use model::advance::Advance;
+pub use model::command::{Command, StrategyName};
+pub use model::config::{
+    Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
+};
+pub use model::cut_line::CutLine;
+pub use model::energy::EnergyModel;
+pub use model::geometry::{Point2, Pose2};
+pub use model::kept_place::{KeptPlace, PlaceShape};
+pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
+pub use model::no_go::{NoGo, NoGoShape, RoomName};
+pub use model::observation::Observation;
+pub use model::order::{CleaningOrder, DISC_M as SPOT_RADIUS_M, HomePart};
+pub use model::pose_estimate::PoseEstimate;
+pub use model::reason::Reason;
+pub use model::room_settings::{Pattern, RoomPower, RoomSettings};
+pub use model::swept_share::SweptShare;
+pub use model::zone::Zone;
+pub use model::{
+    action, command, config, energy, geometry, learnt, no_go, observation, order, room_settings, zone,
+};

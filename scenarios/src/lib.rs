@@ -2,12 +2,18 @@
 //! `tests/`; here is what they share.
 #![forbid(unsafe_code)]
 
+mod table;
+mod watched;
+
 use std::path::PathBuf;
 
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
+
+pub use table::Table;
+pub use watched::{JOB_S, Watched, free_place, recorded, usual};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];

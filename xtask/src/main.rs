@@ -38,7 +38,7 @@ enum Command {
     /// Measures one part of the project and prints its figures: the link, the daemon, the simulator, the firmware, how the robot cleans.
     Bench(bench::Arguments),
     /// Checks the rules of the repository.
-    Tidy,
+    Tidy(tidy::Arguments),
     /// Writes the generated files, or with --check says which are stale.
     Codegen(codegen::Arguments),
     /// Builds the panel for the browser and packs it.
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
         Command::Test(arguments) => test::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
-        Command::Tidy => tidy::run(),
+        Command::Tidy(arguments) => tidy::run_with(&arguments),
         Command::Codegen(arguments) => codegen::run(&arguments),
         Command::BookPictures => book_pictures::run(),
         Command::Panel => {

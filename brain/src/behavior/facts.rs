@@ -1,7 +1,7 @@
 //! What an observation means for the state machine.
 
-use super::Reason;
-use crate::observation::{ChargeFlow, Observation};
+use crate::model::observation::{ChargeFlow, Observation};
+use crate::model::reason::Reason;
 
 /// Digest of one observation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -93,8 +93,8 @@ impl Facts {
 #[cfg(test)]
 mod tests {
     use super::Facts;
-    use crate::behavior::Reason;
-    use crate::observation::Observation;
+    use crate::model::observation::Observation;
+    use crate::model::reason::Reason;
 
     fn facts_of(name: &'static str) -> Facts {
         let observation = Observation {

@@ -4,15 +4,14 @@ use super::gyro_rest::GyroRest;
 use super::second_look::SecondLook;
 use super::{JobFigures, JobKind};
 use crate::coverage;
+use crate::coverage::Spot;
 use crate::docking::Docking;
-use crate::geometry::TurnSide;
-use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
-use crate::no_go::NoGo;
-use crate::order::CleaningOrder;
-use crate::random::Random;
+use crate::model::geometry::TurnSide;
+use crate::model::no_go::NoGo;
+use crate::model::order::CleaningOrder;
+use crate::model::random::Random;
+use crate::navigation::{BackOff, Part, Sequence, Task, Turn};
 use crate::recovery::{EdgeWatch, Ladder, Pen, ProgressWatch, SlipWatch};
-use crate::spot::Spot;
-use crate::task::Task;
 
 /// Way back from the dock before turning away. No more, because contacts may close without a dock: the ground behind is
 /// unknown then.

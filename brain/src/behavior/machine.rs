@@ -1,17 +1,26 @@
 //! The modes, and how a step runs through them.
 
+mod admission;
+mod contacts;
+mod manual;
+mod reaction;
+mod recharge;
+mod second_look;
+mod start;
+mod work;
+
 use super::facts::Facts;
 use super::job::Job;
-use super::manual::ManualDrive;
-use super::{BehaviorState, JobFigures, JobKind, Reason, Status};
-use crate::action::{Arm, Motion, Tone};
-use crate::command::Command;
-use crate::config::BrainConfig;
-use crate::energy::EnergyWatch;
-use crate::geometry::Point2;
-use crate::gradual::Gradual;
-use crate::manoeuvre::BACK_AT_CLIFF_M_PER_S;
-use crate::task::{Mind, Situation};
+use super::{BehaviorState, JobFigures, JobKind, Status};
+use crate::model::action::{Arm, Motion, Tone};
+use crate::model::command::Command;
+use crate::model::config::BrainConfig;
+use crate::model::energy::EnergyWatch;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Gradual;
+use crate::model::reason::Reason;
+use crate::navigation::{BACK_AT_CLIFF_M_PER_S, Mind, Situation};
+use manual::ManualDrive;
 
 /// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
 const HALT_US: u64 = 500_000;

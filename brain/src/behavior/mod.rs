@@ -4,21 +4,14 @@
 //! again, the graver cause winning; the mode then says how to move; and a last gate takes out every motion that the
 //! firmware would have to refuse.
 
-mod admission;
-mod contacts;
 mod facts;
 mod gyro_rest;
 mod job;
+mod job_checkpoint;
 mod machine;
-mod manual;
-mod reaction;
-mod reason;
-mod recharge;
 mod second_look;
-mod start;
 mod state;
-mod work;
 
+pub use job_checkpoint::JobCheckpoint;
 pub(crate) use machine::{Behavior, JobStart};
-pub use reason::Reason;
 pub use state::{BehaviorState, JobFigures, JobKind, Status};

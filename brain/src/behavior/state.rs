@@ -1,7 +1,7 @@
 //! The states a person sees, and what belongs to them.
 
-use super::Reason;
-use crate::command::StrategyName;
+use crate::model::command::StrategyName;
+use crate::model::reason::Reason;
 
 /// What the robot is doing. Closed: every moment of its life has one of these names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

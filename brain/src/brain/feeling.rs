@@ -2,7 +2,7 @@
 
 use super::Brain;
 use crate::behavior::BehaviorState;
-use crate::observation::Observation;
+use crate::model::observation::Observation;
 
 impl Brain {
     /// Feels by the motors' loads what the robot drives on. How hard the brush runs while a person drives, the brain does not know.

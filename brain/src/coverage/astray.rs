@@ -1,8 +1,8 @@
 //! Bouncing out of a place where nothing else works.
 
 use super::Bounce;
-use crate::geometry::Point2;
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::geometry::Point2;
+use crate::navigation::{Mind, Plan, Situation, Task};
 
 /// It is away from the place at this distance, metres.
 const ASTRAY_M: f64 = 0.6;

@@ -1,16 +1,17 @@
 //! What a job will take, before it begins.
 
-use super::lane_frame::LaneFrame;
+use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
-use super::systematic::{KEEP_OFF_M, SIGMA_MIN_M, reachable};
 use super::wanted::Wanted;
-use crate::behavior::Reason;
-use crate::config::BrainConfig;
-use crate::energy::{EnergyModel, time_to_return_s};
-use crate::geometry::Pose2;
-use crate::gradual::{Pace, at_once};
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
-use crate::order::{CleaningOrder, HomePart};
+use crate::model::config::BrainConfig;
+use crate::model::energy::{EnergyModel, time_to_return_s};
+use crate::model::geometry::Pose2;
+use crate::model::gradual::{Pace, at_once};
+use crate::model::order::{CleaningOrder, HomePart};
+use crate::model::reason::Reason;
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::reachable;
 
 /// Real jobs take this many times as long as their plans: speeding up and braking, contacts, leftovers of an uncertain pose.
 const DRIVEN: f64 = 1.25;
@@ -43,7 +44,7 @@ pub(crate) fn estimate(
     (map, start): (&Map, Pose2),
     (config, energy): (&BrainConfig, &EnergyModel),
 ) -> Result<JobEstimate, Reason> {
-    order.fits(map)?;
+    map.admit_order(order)?;
     let settings = PlanSettings {
         swath_m: config.body.swath_m,
         sigma_m: SIGMA_MIN_M,
@@ -142,9 +143,9 @@ fn part_of(
         settings: *settings,
     };
     let plan = at_once(plan_area(ground, (course, |_| false), from, &mut Pace::at_once()));
-    let plan = frame.plan_in_map(plan);
+    let plan = plan.in_map(&frame);
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
-    let passes = order.passes_over(part, map.annotations());
+    let passes = map.annotations().passes_over(order, part);
     let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);
     PartEstimate {
         end,

@@ -3,10 +3,12 @@
 mod astray;
 mod bounce;
 mod estimate;
-pub(crate) mod lane_frame;
+mod margins;
 mod perimeter;
 pub mod plan;
+mod recent_coverage;
 mod spiral;
+mod spot;
 mod statistical;
 pub(crate) mod systematic;
 mod wall_bounce;
@@ -17,14 +19,14 @@ pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
 pub(crate) use estimate::estimate;
 pub(crate) use perimeter::{LapStep, Perimeter};
+pub(crate) use spot::Spot;
 use statistical::Statistical;
-pub use systematic::SweptShare;
 use systematic::Systematic;
 use wall_bounce::WallBounce;
 
-use crate::command::StrategyName;
-use crate::order::CleaningOrder;
-use crate::task::Task;
+use crate::model::command::StrategyName;
+use crate::model::order::CleaningOrder;
+use crate::navigation::Task;
 
 /// A fresh strategy of this name. Only `systematic` knows parts of a home; others clean all of it.
 pub(crate) fn strategy(name: StrategyName, order: &CleaningOrder) -> Box<dyn Task> {

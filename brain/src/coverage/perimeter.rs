@@ -12,11 +12,10 @@ use core::f64::consts::TAU;
 
 use super::astray::Astray;
 use super::whole_turns::WholeTurns;
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::{Pose2, normalize_rad};
-use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
-use crate::task::{Mind, Plan, Situation};
+use crate::model::action::Motion;
+use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::reason::Reason;
+use crate::navigation::{Leg, Mind, Plan, Situation, Turn, WallFollower, WallStep};
 
 /// Places of the track are so far apart, metres.
 const TRACK_STEP_M: f64 = 0.1;
@@ -288,7 +287,7 @@ impl Footprint {
 #[cfg(test)]
 mod tests {
     use super::{Footprint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
-    use crate::geometry::Pose2;
+    use crate::model::geometry::Pose2;
 
     fn at(x_m: f64, heading_rad: f64, way_m: f64) -> Footprint {
         Footprint {

@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::action::Motion;
-use crate::task::Situation;
+use crate::model::action::Motion;
+use crate::navigation::Situation;
 
 /// Radius of curvature at the start of a spiral and at its end, metres.
 const RADIUS_M: (f64, f64) = (0.08, 1.0);

@@ -3,10 +3,9 @@
 
 use super::Bounce;
 use super::spiral::Spiral;
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::{Leg, Mind, Plan, Situation, Task, Turn, WallFollower, WallStep};
 
 /// Way of bouncing before the next stretch along a wall, metres.
 const BOUNCE_M: (f64, f64) = (12.0, 30.0);

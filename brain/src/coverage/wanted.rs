@@ -2,8 +2,8 @@
 
 use super::plan::Course;
 use crate::mapping::{Cell, Map, Rooms};
-use crate::order::{CleaningOrder, HomePart};
-use crate::room_settings::Pattern;
+use crate::model::order::{CleaningOrder, HomePart};
+use crate::model::room_settings::Pattern;
 
 /// The floor that shall be swept, as it was known at one time.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ impl Wanted {
         let words = map.annotations();
         let ring_rooms = match part {
             Some(_) => Vec::new(),
-            None => order.contour_rooms(words),
+            None => words.contour_rooms(order),
         };
         let needs_rooms = part.is_some() || !ring_rooms.is_empty();
         Self {
@@ -36,7 +36,7 @@ impl Wanted {
     /// How a cell is to be swept, if it belongs to it.
     pub(crate) fn course(&self, cell: Cell) -> Option<Course> {
         match (&self.part, &self.rooms) {
-            (Some(part), Some(rooms)) => part.contains(cell, rooms).then_some(self.usual),
+            (Some(part), Some(rooms)) => rooms.is_in_part(cell, part).then_some(self.usual),
             (None, Some(rooms)) => {
                 let room = rooms.labels().get(cell);
                 let is_ringed = room.is_some_and(|room| self.ring_rooms.contains(room));
@@ -51,6 +51,6 @@ impl Wanted {
 fn course_over(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Course {
     match (part, order.pattern()) {
         (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => Course::Outwards,
-        _ => order.pattern_over(part, map.annotations()).into(),
+        _ => map.annotations().pattern_over(order, part).into(),
     }
 }

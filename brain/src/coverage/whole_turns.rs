@@ -6,10 +6,9 @@
 
 use core::f64::consts::TAU;
 
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::manoeuvre::{Leg, Turn};
-use crate::task::{Mind, Situation};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::{Leg, Mind, Situation, Turn};
 
 /// Worth it while the scale is known no better, relative. A gyro is off by some 0.5 %; with a tenth of a percent a first run
 /// is wrong by 7 cm instead of 11 (design page on navigation).

@@ -5,14 +5,13 @@
 
 use core::f64::consts::PI;
 
-use super::hearing::{Hearing, Lobe};
 use super::line::Line;
 use super::scan::{Scan, ScanStep};
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::normalize_rad;
-use crate::manoeuvre::{Evasion, EvasionStep};
-use crate::task::{Mind, Situation};
+use crate::mapping::{Hearing, Lobe};
+use crate::model::action::Motion;
+use crate::model::geometry::normalize_rad;
+use crate::model::reason::Reason;
+use crate::navigation::{Evasion, EvasionStep, Mind, Situation};
 
 /// Speed beside the line.
 const ASIDE_M_PER_S: f64 = 0.18;

@@ -2,7 +2,7 @@
 //!
 //! Terms are those of [`super::approach`].
 
-use super::hearing::{Hearing, Lobe};
+use crate::mapping::{Hearing, Lobe};
 
 /// Speed on the line far from the dock, and while one lobe alone is heard.
 const LINE_M_PER_S: f64 = 0.2;

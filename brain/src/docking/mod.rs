@@ -8,22 +8,20 @@
 //! state machine above ends the job then. Every phase begins with a decision that names why.
 
 mod approach;
-mod hearing;
+mod beam_goals;
 mod line;
-mod memory;
 mod roam;
 mod scan;
 mod search;
 mod travel;
 
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::{Pose2, normalize_rad};
-use crate::gradual::Gradual;
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::gradual::Gradual;
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Plan, Situation, Task};
 use approach::{Approach, ApproachStep};
-pub(crate) use memory::BeamMemory;
-use memory::Vain;
+use beam_goals::{Vain, goals};
 use search::Search;
 use travel::{Travel, TravelStep};
 
@@ -145,7 +143,7 @@ impl Docking {
 
     /// Back to where a beam was heard, if there is such a place.
     fn begin_back(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> bool {
-        let heard_at = situation.beams.goals(&self.vain);
+        let heard_at = goals(situation.beams, &self.vain);
         if heard_at.is_empty() || self.back_to_beams >= BACK_TO_BEAMS_MAX {
             return false;
         }

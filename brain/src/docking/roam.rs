@@ -7,14 +7,12 @@
 use core::f64::consts::{FRAC_PI_3, TAU};
 use std::collections::BTreeSet;
 
-use crate::action::Motion;
-use crate::behavior::Reason;
 use crate::coverage::Bounce;
-use crate::coverage::systematic::encounter;
-use crate::geometry::{Point2, normalize_rad};
-use crate::manoeuvre::Evasion;
 use crate::mapping::{Cell, CellKnowledge};
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::geometry::{Point2, normalize_rad};
+use crate::model::reason::Reason;
+use crate::navigation::{Evasion, Mind, Plan, Situation, Task, encounter};
 
 /// Edge of a block, metres.
 const BLOCK_M: f64 = 0.5;

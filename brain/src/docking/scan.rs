@@ -5,8 +5,8 @@
 
 use core::f64::consts::TAU;
 
-use super::hearing::Hearing;
-use crate::action::Motion;
+use crate::mapping::Hearing;
+use crate::model::action::Motion;
 
 /// Rate of the turn, rad/s: less than the fastest, so that an edge is not smeared over many degrees.
 const SCAN_RAD_PER_S: f64 = 0.8;
@@ -101,8 +101,8 @@ impl Scan {
 #[cfg(test)]
 mod tests {
     use super::{Scan, ScanStep};
-    use crate::action::Motion;
-    use crate::docking::hearing::Hearing;
+    use crate::mapping::Hearing;
+    use crate::model::action::Motion;
 
     /// Turns where a dock lies at `dock_rad`, and gives the direction that is found then.
     fn scanned(dock_rad: f64, symbols: u8) -> Option<f64> {

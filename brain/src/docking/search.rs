@@ -3,10 +3,10 @@
 //! nothing it roams, and follows the next wall that it does not know.
 
 use super::roam::Roam;
-use crate::action::Motion;
-use crate::behavior::Reason;
 use crate::coverage::{LapStep, Perimeter};
-use crate::task::{Mind, Plan, Situation};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Plan, Situation};
 
 /// Way of roaming between two laps, metres: across a room and through a door.
 const ROAM_M: f64 = 10.0;

@@ -5,16 +5,16 @@
 
 use core::task::Poll;
 
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::coverage::lane_frame::LaneFrame;
-use crate::coverage::plan::{Goal, Piece, plan_way};
-use crate::coverage::systematic::{Obstructions, caution, encounter, reachable};
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Gradual, Pace};
-use crate::manoeuvre::{Evasion, FollowStep, Follower};
 use crate::mapping::{CellKnowledge, Raster};
-use crate::task::{Mind, Situation};
+use crate::model::action::Motion;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Gradual, Pace};
+use crate::model::reason::Reason;
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::{
+    Evasion, FollowStep, Follower, Goal, Mind, Obstructions, Piece, Situation, caution, encounter, plan_way,
+    reachable,
+};
 
 /// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
 /// not touch. With the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is

@@ -5,10 +5,11 @@
 //! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
 //! bias that walls have told and a later rest denies would stay otherwise.
 
-use super::Advance;
-use super::particles::GyroBelief;
+use super::gyro_belief::BiasTold;
+use super::gyro_belief::GyroBelief;
 use super::rest::Rested;
-use crate::learnt::GyroLearnt;
+use crate::model::advance::Advance;
+use crate::model::learnt::GyroLearnt;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
@@ -51,25 +52,6 @@ pub(super) struct Gain {
     pub(super) gained_rad: f64,
     /// Variance of what was gained, square radians.
     pub(super) variance_rad2: f64,
-}
-
-/// What a rest says of the bias.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BiasTold {
-    pub(super) rad_per_s: f64,
-    pub(super) variance_rad2_per_s2: f64,
-}
-
-impl BiasTold {
-    /// What both say together.
-    pub(super) fn and(self, other: Self) -> Self {
-        let sum = self.variance_rad2_per_s2 + other.variance_rad2_per_s2;
-        let own = other.variance_rad2_per_s2 / sum;
-        Self {
-            rad_per_s: own * self.rad_per_s + (1.0 - own) * other.rad_per_s,
-            variance_rad2_per_s2: own * self.variance_rad2_per_s2,
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -276,8 +258,9 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasTold, Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
-    use crate::learnt::GyroLearnt;
+    use super::{Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
+    use crate::localization::gyro_belief::BiasTold;
+    use crate::model::learnt::GyroLearnt;
 
     fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
         BiasTold {

@@ -9,18 +9,18 @@
 
 use core::task::Poll;
 
+use super::TrackingCheckpoint;
 use super::odometry::Odometry;
 use super::places::is_alone;
 use super::search::{Candidate, Search};
 use super::terrain::Terrain;
-use super::tracker::{Moved, Tracker};
-use super::{Advance, SENSORS_MIN};
-use crate::checkpoint::TrackingCheckpoint;
-use crate::config::BrainConfig;
-use crate::geometry::Pose2;
-use crate::gradual::{Gradual, Pace};
+use super::tracker::{Moved, SENSORS_MIN, Tracker};
 use crate::mapping::StoredMap;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::config::BrainConfig;
+use crate::model::geometry::Pose2;
+use crate::model::gradual::{Gradual, Pace};
+use crate::model::observation::Observation;
 
 /// Way for which a rival must explain what the robot meets, metres,
 const PROVEN_M: f64 = 6.0;

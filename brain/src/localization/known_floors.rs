@@ -2,8 +2,8 @@
 
 use super::known_home::{START, Truth, config, flat};
 use super::{Finding, FloorFinder};
-use crate::geometry::Point2;
 use crate::mapping::StoredMap;
+use crate::model::geometry::Point2;
 
 /// The flat as a mirror shows it: walls and furniture of the same sizes.
 fn mirrored(home: &StoredMap) -> StoredMap {

@@ -1,13 +1,13 @@
 //! A robot with bad wheels and a bad gyro drives about in a flat whose map it has.
 
-use super::Localization;
-use crate::config::{
+use super::{Localization, MapCorrection};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
+use crate::model::config::{
     Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
 };
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
-use crate::observation::{Contacts, Observation};
-use crate::random::Random;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::{Contacts, Observation};
+use crate::model::random::Random;
 
 const RADIUS_M: f64 = 0.175;
 pub(super) const TRACK_M: f64 = 0.23;
@@ -260,8 +260,7 @@ fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_be
 /// One step of a robot that draws what it sees, as the brain does it.
 fn take_and_draw(localization: &mut Localization, map: &mut Map, view: &Observation) {
     let advance = localization.update(view);
-    localization.refine(view, advance);
-    if let Some(keyframes) = localization.take_redraw(view.time_us) {
+    if let Some(MapCorrection::Redraw { keyframes }) = localization.refine(view, advance) {
         map.redraw(&keyframes);
     }
     map.insert(&localization.estimate(), view);

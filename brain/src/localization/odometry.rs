@@ -1,48 +1,13 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
-use super::calibration::{BiasTold, Calibration};
+use super::calibration::Calibration;
+use super::gyro_belief::BiasTold;
 use super::rest::RestWatch;
-use crate::geometry::Pose2;
-use crate::learnt::GyroLearnt;
-use crate::observation::Observation;
-
-/// What the robot moved between two observations, by its own account.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Advance {
-    /// Time between the two, in seconds.
-    pub time_s: f64,
-    /// Way of the centre in metres, backwards negative.
-    pub distance_m: f64,
-    /// Change of heading in radians, from the gyro if there is one, else from the wheels.
-    pub turn_rad: f64,
-    /// Change of heading that the wheels alone report, in radians.
-    pub wheel_turn_rad: f64,
-    /// Change of heading that the gyro alone reports, in radians, if there is one.
-    pub gyro_turn_rad: Option<f64>,
-}
-
-impl Advance {
-    /// Neither wheels nor gyro moved.
-    pub(crate) fn stands(&self) -> bool {
-        self.distance_m == 0.0 && self.turn_rad == 0.0
-    }
-}
-
-/// Totals of the last observation.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Totals {
-    pub(super) time_us: u64,
-    pub(super) left_m: f64,
-    pub(super) right_m: f64,
-    pub(super) gyro_rad: Option<f64>,
-}
-
-impl Totals {
-    /// Whether no wheel has turned between the two.
-    pub(super) fn wheels_agree_with(self, other: Self) -> bool {
-        self.left_m == other.left_m && self.right_m == other.right_m
-    }
-}
+use super::totals::Totals;
+use crate::model::advance::Advance;
+use crate::model::geometry::Pose2;
+use crate::model::learnt::GyroLearnt;
+use crate::model::observation::Observation;
 
 #[derive(Clone, Debug)]
 pub(super) struct Odometry {
@@ -168,7 +133,7 @@ impl Odometry {
 #[cfg(test)]
 mod tests {
     use super::Odometry;
-    use crate::observation::Observation;
+    use crate::model::observation::Observation;
 
     fn at(time_us: u64, left_m: f64, right_m: f64) -> Observation {
         Observation {

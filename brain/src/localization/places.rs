@@ -1,7 +1,7 @@
 //! What the places mean that a search has found, the best one first.
 
 use super::search::Candidate;
-use crate::geometry::Pose2;
+use crate::model::geometry::Pose2;
 
 /// Another place that fits nearly as well as the best one, this share of it, makes a find ambiguous.
 const RIVAL_SHARE: f64 = 0.93;
@@ -58,7 +58,7 @@ fn is_at(place: &Candidate, pose: Pose2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Candidate, found_near, is_alone, near_if_as_good};
-    use crate::geometry::Pose2;
+    use crate::model::geometry::Pose2;
 
     fn place(x_m: f64, score: f64) -> Candidate {
         Candidate { pose: at(x_m), score }

@@ -1,6 +1,6 @@
 //! What the gyro shows while the wheels stand still: its bias, and the noise of its heading.
 
-use super::odometry::Totals;
+use super::totals::Totals;
 
 /// After the last encoder count the robot still swings out for so long.
 const SETTLE_S: f64 = 0.3;

@@ -4,7 +4,7 @@
 //! the way back up, driving forward makes it good, and never more than the bound is to be had, because a turn on the spot
 //! puts other ground behind the robot.
 
-use super::Advance;
+use crate::model::advance::Advance;
 
 /// Most way back that no way forward has made good, in metres. The firmware ends reversing from a cliff (S8) and from a
 /// pressed bumper (S7) after the same way.

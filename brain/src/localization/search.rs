@@ -4,11 +4,11 @@
 //! A coarse grid of poses is tried with wide tolerances, and most of them are given up after a few points. That costs some
 //! hundred milliseconds for a home, in many steps, and nothing has to be drawn by chance.
 
-use super::Advance;
 use super::particles::Surroundings;
 use super::strengths::Hearing;
 use super::trail::{Trace, Trail};
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::advance::Advance;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// Poses that are tried in one step: a millisecond of a desktop's core.
 const PLACES_A_STEP: usize = 300;

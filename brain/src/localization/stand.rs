@@ -1,6 +1,6 @@
 //! How long a robot has stood: where a long stand ends, what was learnt of its gyro on the way before is of yesterday.
 
-use super::Advance;
+use crate::model::advance::Advance;
 
 /// After a stand of so long, seconds, its rests have told more of the gyro's bias than was learnt on the way before.
 const LONG_STAND_S: f64 = 60.0;

@@ -5,9 +5,9 @@
 //! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
 
 use super::particles::Surroundings;
-use crate::geometry::Point2;
-use crate::gradual::Pace;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, Map, Raster, StoredMap};
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
 
 /// Cells between two places where a robot may be looked for: 15 cm.
 const PLACE_CELLS: usize = 6;
@@ -150,8 +150,8 @@ fn edge_m(knowledge: &Raster<CellKnowledge>, at: Point2) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::edge_m;
-    use crate::geometry::Point2;
     use crate::mapping::{Cell, CellKnowledge, Raster};
+    use crate::model::geometry::Point2;
 
     #[test]
     fn the_end_of_the_floor_is_as_far_on_both_sides() {

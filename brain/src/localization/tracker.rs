@@ -6,23 +6,27 @@
 mod doubt;
 
 use super::beacons::Heard;
-use super::calibration::BiasTold;
 use super::confidence::{Confidence, Verdict};
-use super::estimate::{WHEEL_TURN_SCALE, turn_variance};
+use super::drift::{WHEEL_TURN_SCALE, turn_variance};
+use super::gyro_belief::{BiasTold, GyroBelief};
 use super::odometry::Odometry;
-use super::particles::{Felt, Fit, GyroBelief, Manner, Motion, ParticleFilter, Spread, Surroundings};
+use super::particles::{Felt, Fit, Manner, Motion, ParticleFilter, Spread, Surroundings};
 use super::places::{is_alone, is_among, near_if_as_good};
 use super::search::{Candidate, Search};
 use super::stand::Stand;
 use super::strengths::{Hearing, StrengthMap, Strengths};
 use super::trail::Trail;
-use super::{Advance, PoseEstimate};
+use crate::model::advance::Advance;
+use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
 
-use crate::config::SensorLayout;
-use crate::geometry::{Point2, Pose2};
-use crate::observation::{Cliffs, Contacts, Observation};
+use crate::model::config::SensorLayout;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{Cliffs, Contacts, Observation};
 
+/// With fewer proximity sensors than this a robot cannot keep its place in a map by wheels alone: tried, it is metres off
+/// within minutes.
+pub(super) const SENSORS_MIN: usize = 3;
 /// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
 const WEIGH_M: f64 = 0.05;
 const WEIGH_RAD: f64 = 0.15;

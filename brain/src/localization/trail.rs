@@ -3,11 +3,11 @@
 
 use std::collections::VecDeque;
 
-use super::Advance;
 use super::strengths::Level;
-use crate::config::ProximityLayout;
-use crate::geometry::{Point2, Pose2};
-use crate::observation::{Contacts, Observation};
+use crate::model::advance::Advance;
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{Contacts, Observation};
 
 /// Way that is remembered, metres: odometry bends a longer one too much.
 const TRAIL_M: f64 = 14.0;

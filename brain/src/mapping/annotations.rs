@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::room_changes::RoomChanges;
-use crate::behavior::Reason;
-use crate::kept_place::KeptPlace;
-use crate::no_go::{NoGo, RoomName};
-use crate::room_settings::RoomSettings;
+use crate::model::kept_place::KeptPlace;
+use crate::model::no_go::{NoGo, RoomName};
+use crate::model::reason::Reason;
+use crate::model::room_settings::RoomSettings;
 
 /// Most no-go zones and virtual walls of a home.
 pub(super) const NO_GO_MAX: usize = 64;

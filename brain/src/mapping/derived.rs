@@ -3,7 +3,7 @@
 use super::distance::{DistanceField, grown, window};
 use super::layers::{CellBox, Layers};
 use super::{Cell, CellKnowledge, Raster};
-use crate::gradual::Pace;
+use crate::model::gradual::Pace;
 
 /// Work of finding a cell among the tiles.
 const LOOK_UP_WORK: usize = 6;

@@ -5,8 +5,8 @@
 
 use super::layers::CellBox;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
-use crate::geometry::Point2;
-use crate::gradual::{Pace, at_once};
+use crate::model::geometry::Point2;
+use crate::model::gradual::{Pace, at_once};
 
 /// Cells up to which distances are exact.
 pub(super) const FAR_CELLS: i32 = 32;

@@ -4,7 +4,7 @@
 //! has docked there with a pose that it may trust, the dock is *felt* there. The contacts close on a robot that stands askew by up
 //! to some degrees, so the place is the mean of what was felt the first times.
 
-use crate::geometry::{Pose2, normalize_rad};
+use crate::model::geometry::{Pose2, normalize_rad};
 
 /// A place that is told nearer than this to the one that was felt is that one: somebody takes back what he said. Metres and
 /// radians.
@@ -108,7 +108,7 @@ impl Felt {
 #[cfg(test)]
 mod tests {
     use super::{DockPlace, TIMES_MAX};
-    use crate::geometry::Pose2;
+    use crate::model::geometry::Pose2;
     use core::f64::consts::PI;
 
     fn at(x_m: f64) -> Pose2 {

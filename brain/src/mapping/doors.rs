@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::reach::neighbours;
-use super::rooms::CELLS;
+use super::cell::neighbours;
+use super::raster::CELLS;
 use super::{CELL_M, Cell, Raster};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
 
 /// Cells of one door lie within this many cells of each other.
 const DOOR_GAP_CELLS: i32 = 8;

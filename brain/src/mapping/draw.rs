@@ -3,8 +3,8 @@
 use super::layers::{Evidence, Flag, Layers};
 use super::sighting::Sighting;
 use super::{CELL_M, Cell};
-use crate::config::{Body, SensorLayout};
-use crate::geometry::{Point2, Pose2};
+use crate::model::config::{Body, SensorLayout};
+use crate::model::geometry::{Point2, Pose2};
 
 /// What the body's presence says against an obstacle: few sightings outweigh anything that infrared saw before.
 const BODY_STEP: i8 = -30;

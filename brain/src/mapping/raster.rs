@@ -2,6 +2,9 @@
 
 use super::Cell;
 
+/// Cells that are looked at between two looks at the pace.
+pub(super) const CELLS: usize = 128;
+
 /// Values of the cells of a rectangle whose lower left cell is `origin`; rows from low to high y.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster<T> {

@@ -2,24 +2,16 @@
 
 use std::collections::VecDeque;
 
+use super::cell::neighbours;
 use super::distance::{squared_cells, window};
-use super::{CELL_M, Cell, CellKnowledge, Map, Raster};
-use crate::geometry::Point2;
-use crate::gradual::{Pace, at_once};
+use super::{CELL_M, Cell, CellKnowledge, Raster};
+use crate::model::geometry::Point2;
+use crate::model::gradual::{Pace, at_once};
 
 /// The start is looked for in this many cells around a point that the body itself cannot be on.
 const START_CELLS: i32 = 12;
 
-impl Map {
-    /// Cells on which the centre of a body with `clearance_m` around it can be, reached from `from` over free cells. Unknown
-    /// ground, obstacles, edges and forbidden cells are not entered. Takes some milliseconds for a home.
-    #[must_use]
-    pub fn reachable(&self, from: Point2, clearance_m: f64) -> Raster<bool> {
-        reachable(self.knowledge(), from, clearance_m)
-    }
-}
-
-/// As [`Map::reachable`], for knowledge from elsewhere.
+/// As [`super::Map::reachable`], for knowledge from elsewhere.
 #[must_use]
 pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f64) -> Raster<bool> {
     let mut reached = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
@@ -48,14 +40,6 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
         }
     }
     reached
-}
-
-/// The cells beside, below and above.
-pub(super) fn neighbours(cell: Cell) -> [Cell; 4] {
-    [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(x, y)| Cell {
-        x: cell.x.saturating_add(x),
-        y: cell.y.saturating_add(y),
-    })
 }
 
 fn nearest(from: Cell, fits: &impl Fn(Cell) -> bool) -> Option<Cell> {

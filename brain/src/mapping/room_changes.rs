@@ -6,11 +6,12 @@
 
 use std::collections::BTreeMap;
 
-use super::room_cut::{CutLine, PartSide, nearest_cut};
+use super::room_cut::{PartSide, nearest_cut};
 use super::{Cell, Raster};
-use crate::behavior::Reason;
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use crate::model::cut_line::CutLine;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
+use crate::model::reason::Reason;
 
 /// Most changes of a home's rooms, and most splits that were taken back and may be made again under their identities.
 pub(super) const CHANGES_MAX: usize = 64;

@@ -2,97 +2,18 @@
 
 use std::collections::VecDeque;
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, Cell, Raster};
-use crate::behavior::Reason;
-use crate::geometry::Point2;
-use crate::no_go::in_micrometres;
-use crate::order::FAR_M;
+use crate::model::cut_line::CutLine;
+use crate::model::geometry::Point2;
+use crate::model::reason::Reason;
 
-/// Shortest line, metres.
-const LINE_MIN_M: f64 = 0.05;
 /// People end a line before the wall: it goes on by so much, metres.
 const BEYOND_M: f64 = 0.5;
 /// Smallest part of a room that a person may cut off, square metres.
 const PART_MIN_M2: f64 = 0.5;
 /// Places of a line that are looked at, per cell.
 const STEPS_PER_CELL: f64 = 4.0;
-
-/// A line that a person has drawn. Its ends are whole micrometres, as a stored map keeps them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CutLine {
-    from: Point2,
-    to: Point2,
-}
-
-impl CutLine {
-    /// A line between two places.
-    ///
-    /// # Errors
-    /// [`Reason::BadLine`] when they are one place or far away.
-    pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
-        let is_near = |end: &Point2| end.x_m.abs() < FAR_M && end.y_m.abs() < FAR_M;
-        let line = Self {
-            from: in_micrometres(from),
-            to: in_micrometres(to),
-        };
-        if is_near(&from) && is_near(&to) && line.length_m() >= LINE_MIN_M {
-            Ok(line)
-        } else {
-            Err(Reason::BadLine)
-        }
-    }
-
-    /// Its ends.
-    #[must_use]
-    pub fn ends(&self) -> [Point2; 2] {
-        [self.from, self.to]
-    }
-
-    fn length_m(&self) -> f64 {
-        self.from.distance_m(self.to)
-    }
-
-    /// The place so many metres along it; it goes on beyond its ends.
-    fn at(&self, way_m: f64) -> Point2 {
-        let share = way_m / self.length_m();
-        Point2 {
-            x_m: self.from.x_m + share * (self.to.x_m - self.from.x_m),
-            y_m: self.from.y_m + share * (self.to.y_m - self.from.y_m),
-        }
-    }
-
-    fn side_of(&self, point: Point2) -> PartSide {
-        let (along_x, along_y) = (self.to.x_m - self.from.x_m, self.to.y_m - self.from.y_m);
-        let across = along_x * (point.y_m - self.from.y_m) - along_y * (point.x_m - self.from.x_m);
-        if across < 0.0 {
-            PartSide::Right
-        } else {
-            PartSide::Left
-        }
-    }
-
-    /// Cells under it from one place of it to another; each one shares an edge with the next.
-    fn cells(&self, (from_m, to_m): (f64, f64)) -> Vec<Cell> {
-        let steps = ((to_m - from_m).abs() * STEPS_PER_CELL / CELL_M) as u32 + 1;
-        let mut cells: Vec<Cell> = Vec::new();
-        for step in 0..=steps {
-            let share = f64::from(step) / f64::from(steps);
-            let cell = Cell::under(self.at(from_m + share * (to_m - from_m)));
-            match cells.last().copied() {
-                Some(last) if last == cell => {}
-                Some(last) => {
-                    if last.x != cell.x && last.y != cell.y {
-                        cells.push(Cell { x: cell.x, y: last.y });
-                    }
-                    cells.push(cell);
-                }
-                None => cells.push(cell),
-            }
-        }
-        cells
-    }
-}
 
 /// Which part of a room, seen from the beginning of the line to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,7 +75,7 @@ pub(super) fn nearest_cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLin
     }
     let beside = under.iter().flat_map(|cell| neighbours(*cell));
     let mut next: VecDeque<(Cell, PartSide)> =
-        beside.map(|cell| (cell, line.side_of(cell.middle()))).collect();
+        beside.map(|cell| (cell, side_of(line, cell.middle()))).collect();
     let (mut left, mut right, mut leaks) = (under.clone(), Vec::new(), false);
     while let Some((cell, side)) = next.pop_front() {
         let Some(place) = places.get_mut(cell).filter(|_| labels.get(cell) == Some(&room)) else {
@@ -182,6 +103,39 @@ pub(super) fn nearest_cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLin
     })
 }
 
+/// On which side of a line a point lies.
+fn side_of(line: &CutLine, point: Point2) -> PartSide {
+    let [from, to] = line.ends();
+    let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
+    let across = along_x * (point.y_m - from.y_m) - along_y * (point.x_m - from.x_m);
+    if across < 0.0 {
+        PartSide::Right
+    } else {
+        PartSide::Left
+    }
+}
+
+/// Cells under a line from one place of it to another; each one shares an edge with the next.
+fn cells_under(line: &CutLine, (from_m, to_m): (f64, f64)) -> Vec<Cell> {
+    let steps = ((to_m - from_m).abs() * STEPS_PER_CELL / CELL_M) as u32 + 1;
+    let mut cells: Vec<Cell> = Vec::new();
+    for step in 0..=steps {
+        let share = f64::from(step) / f64::from(steps);
+        let cell = Cell::under(line.at(from_m + share * (to_m - from_m)));
+        match cells.last().copied() {
+            Some(last) if last == cell => {}
+            Some(last) => {
+                if last.x != cell.x && last.y != cell.y {
+                    cells.push(Cell { x: cell.x, y: last.y });
+                }
+                cells.push(cell);
+            }
+            None => cells.push(cell),
+        }
+    }
+    cells
+}
+
 /// Where a cell of the room was found to lie.
 #[derive(Clone, Copy)]
 enum Place {
@@ -192,7 +146,7 @@ enum Place {
 
 /// The longest piece of a line that lies in one room, to the room's border at both ends, and the room.
 fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<(u16, Vec<Cell>)> {
-    let cells = line.cells((0.0, line.length_m()));
+    let cells = cells_under(line, (0.0, line.length_m()));
     let room_of = |cell: &Cell| {
         let label = labels.get(*cell).copied().filter(|label| *label != 0);
         label.filter(|label| wanted.is_none_or(|room| room == *label))
@@ -206,7 +160,7 @@ fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<
     let inside = |cell: &Cell| labels.get(*cell) == Some(&room);
     if piece.first() == cells.first() {
         under.extend(
-            line.cells((0.0, -BEYOND_M))
+            cells_under(line, (0.0, -BEYOND_M))
                 .into_iter()
                 .take_while(inside)
                 .skip(1),
@@ -214,7 +168,7 @@ fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<
     }
     if piece.last() == cells.last() {
         under.extend(
-            line.cells((end, end + BEYOND_M))
+            cells_under(line, (end, end + BEYOND_M))
                 .into_iter()
                 .take_while(inside)
                 .skip(1),
@@ -225,10 +179,11 @@ fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use super::{CutLine, PartSide, cut, nearest_cut};
-    use crate::behavior::Reason;
-    use crate::geometry::Point2;
+    use super::{PartSide, cut, nearest_cut};
     use crate::mapping::{Cell, Raster};
+    use crate::model::cut_line::CutLine;
+    use crate::model::geometry::Point2;
+    use crate::model::reason::Reason;
 
     fn at(x_m: f64, y_m: f64) -> Point2 {
         Point2 { x_m, y_m }

@@ -8,13 +8,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::cell::neighbours;
 use super::distance::{squared_cells, window};
 use super::doors::{Door, doors};
-use super::reach::neighbours;
+use super::raster::CELLS;
 use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
-use crate::geometry::Point2;
-use crate::gradual::{Pace, at_once};
+use crate::model::geometry::Point2;
+use crate::model::gradual::{Pace, at_once};
 
 /// Half of the widest passage that still divides two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;
@@ -27,8 +28,7 @@ const ROOM_M2: f64 = 1.0;
 /// What is not free and smaller than this is furniture, square metres.
 const FURNITURE_M2: f64 = 1.2;
 
-/// Cells that are looked at between two looks at the pace, and the work of one: visited, named, flooded.
-pub(super) const CELLS: usize = 128;
+/// Work of a cell: visited, named, flooded.
 const VISIT_WORK: usize = 8;
 const NAME_WORK: usize = 6;
 const FLOOD_WORK: usize = 25;

@@ -4,10 +4,10 @@
 //! the map can be drawn again when the poses turn out to have been others.
 
 use super::carpet::FloorFelt;
-use crate::config::PROXIMITY_MAX;
-use crate::geometry::Pose2;
-use crate::localization::PoseEstimate;
-use crate::observation::Observation;
+use crate::model::config::PROXIMITY_MAX;
+use crate::model::geometry::Pose2;
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 
 /// An observation as far as the map needs it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -117,7 +117,7 @@ impl Sighting {
         /// Half a cell at the end of a beam.
         const TURN_RAD: f64 = 0.03;
         let way_m = self.pose.position().distance_m(before.pose.position());
-        let turn_rad = crate::geometry::normalize_rad(self.pose.heading_rad - before.pose.heading_rad);
+        let turn_rad = crate::model::geometry::normalize_rad(self.pose.heading_rad - before.pose.heading_rad);
         self.touched.switches() == before.touched.switches() && way_m < STEP_M && turn_rad.abs() < TURN_RAD
     }
 }

@@ -5,10 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{Point2, Pose2};
+use super::cell::{CELL_M, Cell, index};
+use crate::model::geometry::{Point2, Pose2};
 
-/// Edge of a cell in metres.
-pub const CELL_M: f64 = 0.025;
 /// Cells along the edge of a tile; one row of a tile is one `u64`.
 const TILE_CELLS: i32 = 64;
 /// Tiles kept of one map: 10,000 square metres. What lies beyond is not remembered.
@@ -25,39 +24,6 @@ const TICKS_MAX: u16 = (1 << TIME_BITS) - 1;
 const PASSES_MAX: u16 = (1 << (16 - TIME_BITS)) - 1;
 /// A brush that comes back after this time makes another pass, ticks: turning round on the spot and backing off take less.
 const AWAY_TICKS: u16 = 4;
-
-/// Integer coordinates of a cell: it spans `x * CELL_M` to `(x + 1) * CELL_M`, likewise in y.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Cell {
-    /// Column.
-    pub x: i32,
-    /// Row.
-    pub y: i32,
-}
-
-impl Cell {
-    /// The cell under a point.
-    #[must_use]
-    pub fn under(point: Point2) -> Self {
-        Self {
-            x: index(point.x_m),
-            y: index(point.y_m),
-        }
-    }
-
-    /// The point in the middle.
-    #[must_use]
-    pub fn middle(self) -> Point2 {
-        Point2 {
-            x_m: (f64::from(self.x) + 0.5) * CELL_M,
-            y_m: (f64::from(self.y) + 0.5) * CELL_M,
-        }
-    }
-}
-
-fn index(coordinate_m: f64) -> i32 {
-    libm::floor(coordinate_m / CELL_M) as i32
-}
 
 /// Swept cells side by side in one row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -377,8 +343,9 @@ impl Swath {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Swath, SweptLayer, SweptRun};
-    use crate::geometry::Pose2;
+    use super::{Swath, SweptLayer, SweptRun};
+    use crate::mapping::cell::Cell;
+    use crate::model::geometry::Pose2;
     use core::f64::consts::{FRAC_PI_2, PI};
 
     const SWATH_M: f64 = 0.30;
@@ -480,7 +447,7 @@ mod tests {
 
     #[test]
     fn runs_are_the_cells_in_order_joined_where_they_touch() {
-        let mut random = crate::random::Random::new(4);
+        let mut random = crate::model::random::Random::new(4);
         let mut layer = SweptLayer::default();
         for _ in 0..400 {
             layer.paint_run(SweptRun {

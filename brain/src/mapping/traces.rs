@@ -1,6 +1,6 @@
 //! The way of the robot and the places where it met something.
 
-use crate::geometry::Point2;
+use crate::model::geometry::Point2;
 
 /// Points of the way are at least this far apart.
 const PATH_STEP_MM: i64 = 20;
@@ -130,7 +130,7 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::Path;
-    use crate::geometry::Point2;
+    use crate::model::geometry::Point2;
 
     #[test]
     fn the_way_is_thinned_to_two_centimetres() {

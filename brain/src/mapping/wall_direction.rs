@@ -7,10 +7,10 @@
 use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, CellKnowledge, Raster};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
 
 /// Width of the lines, metres: walls on a map are some two cells thick.
 const LINE_M: f64 = 2.0 * CELL_M;
@@ -165,9 +165,9 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::{DirectionAt, folded_rad, wall_direction_rad};
-    use crate::geometry::{Point2, Pose2};
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Raster};
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::model::gradual::{Pace, at_once};
 
     /// A map of what lies inside of a shape, with a border two cells thick.
     fn map(is_inside: impl Fn(Point2) -> bool) -> Raster<CellKnowledge> {

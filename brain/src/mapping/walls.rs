@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use super::reach::neighbours;
+use super::cell::neighbours;
 use super::{CELL_M, Cell, CellKnowledge, DistanceField, Raster};
-use crate::geometry::Point2;
+use crate::model::geometry::Point2;
 
 /// A straight piece of wall, or of furniture that stands like one.
 #[derive(Clone, Copy, Debug, PartialEq)]

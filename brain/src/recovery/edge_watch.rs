@@ -2,8 +2,8 @@
 //! gets the robot going again. Whatever drives it, a robot that has met two stands still until the first of them is long
 //! enough ago.
 
-use crate::behavior::Reason;
-use crate::task::Mind;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
 
 /// Two edges within this time are enough, microseconds: a little more than the firmware's five seconds.
 const WINDOW_US: u64 = 5_500_000;
@@ -36,8 +36,8 @@ impl EdgeWatch {
 #[cfg(test)]
 mod tests {
     use super::{EdgeWatch, WINDOW_US};
-    use crate::random::Random;
-    use crate::task::Mind;
+    use crate::model::random::Random;
+    use crate::navigation::Mind;
 
     #[test]
     fn a_free_robot_stands_still_after_two_edges_until_the_first_is_long_ago() {

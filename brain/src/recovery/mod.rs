@@ -3,24 +3,22 @@
 //! person. So trouble ends either way: a pen gives a bounded number of rungs ([`Ladder`]), each takes a bounded time, and
 //! between two of them the task has a bounded time to get out ([`Pen`]).
 
-mod edge;
 mod edge_watch;
 mod ladder;
 mod pen;
 mod progress;
 mod slip;
 
-pub(crate) use edge::EdgeTrace;
 pub(crate) use edge_watch::EdgeWatch;
 pub(crate) use ladder::{Grip, Ladder, Rung};
 pub(crate) use pen::{Pen, Whereabouts};
 pub(crate) use progress::ProgressWatch;
 pub(crate) use slip::{SlipWatch, Traction};
 
-use crate::behavior::Reason;
-use crate::geometry::TurnSide;
-use crate::manoeuvre::{BackOff, Part, Sequence, Turn};
-use crate::random::Random;
+use crate::model::geometry::TurnSide;
+use crate::model::random::Random;
+use crate::model::reason::Reason;
+use crate::navigation::{BackOff, EdgeTrace, Part, Sequence, Turn};
 
 /// Time along an edge: once round a closet.
 const EDGE_S: f64 = 75.0;

@@ -1,6 +1,6 @@
 //! Whether the robot gets anywhere: the box around where it has been.
 
-use crate::geometry::Point2;
+use crate::model::geometry::Point2;
 
 /// A box whose diagonal is longer than this is left: a robot that came so far is not shut in. Longer than a closet, shorter
 /// than any room in which somebody would let a robot clean.
@@ -100,7 +100,7 @@ impl Pen {
 #[cfg(test)]
 mod tests {
     use super::{Pen, Whereabouts};
-    use crate::geometry::Point2;
+    use crate::model::geometry::Point2;
 
     fn at(x_m: f64) -> Point2 {
         Point2 { x_m, y_m: 0.0 }

@@ -1,7 +1,7 @@
 //! Commanded to move and not moving (S15).
 
-use crate::action::Motion;
-use crate::localization::Advance;
+use crate::model::action::Motion;
+use crate::model::advance::Advance;
 
 /// Not moving for this long is trouble.
 const PATIENCE_S: f64 = 2.0;
@@ -44,8 +44,8 @@ impl ProgressWatch {
 #[cfg(test)]
 mod tests {
     use super::ProgressWatch;
-    use crate::action::Motion;
-    use crate::localization::Advance;
+    use crate::model::action::Motion;
+    use crate::model::advance::Advance;
 
     const FORWARD: Motion = Motion::Drive {
         speed_m_per_s: 0.25,

@@ -1,6 +1,6 @@
 //! Gyro and wheels that tell different stories (S14).
 
-use crate::localization::Advance;
+use crate::model::advance::Advance;
 
 /// Length of a comparison.
 const WINDOW_S: f64 = 0.5;
@@ -56,7 +56,7 @@ impl SlipWatch {
 #[cfg(test)]
 mod tests {
     use super::{SlipWatch, Traction};
-    use crate::localization::Advance;
+    use crate::model::advance::Advance;
 
     #[test]
     fn slip_slows_then_stops_and_good_grip_forgives() {

@@ -7,6 +7,7 @@ mod files;
 mod folders;
 mod foreign;
 mod kinds;
+mod layers;
 mod length;
 mod licences;
 mod metadata;
@@ -33,7 +34,7 @@ struct Rule {
     check: fn(&Files) -> anyhow::Result<Finding>,
 }
 
-const RULES: [Rule; 11] = [
+const RULES: [Rule; 12] = [
     Rule {
         wants: "crates depend only on crates they may know",
         check: directions::check,
@@ -41,6 +42,10 @@ const RULES: [Rule; 11] = [
     Rule {
         wants: "crates are no_std and free of unsafe code where the architecture says so",
         check: kinds::check,
+    },
+    Rule {
+        wants: layers::WANTS,
+        check: layers::check,
     },
     Rule {
         wants: "every Rust file begins with what it is",
@@ -80,12 +85,33 @@ const RULES: [Rule; 11] = [
     },
 ];
 
+/// What of the rules to show.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Prints the layers of the brain with their modules and circles, and checks nothing else.
+    #[arg(long)]
+    layers: bool,
+}
+
 /// Checks all rules and fails when one is broken.
 pub(crate) fn run() -> anyhow::Result<()> {
+    judge(&Files::list()?, RULES.iter())
+}
+
+/// Checks what is asked for.
+pub(crate) fn run_with(arguments: &Arguments) -> anyhow::Result<()> {
+    if !arguments.layers {
+        return run();
+    }
     let files = Files::list()?;
+    layers::print(&files);
+    judge(&files, RULES.iter().filter(|rule| rule.wants == layers::WANTS))
+}
+
+fn judge<'rules>(files: &Files, rules: impl Iterator<Item = &'rules Rule>) -> anyhow::Result<()> {
     let mut broken = 0_usize;
-    for rule in &RULES {
-        match (rule.check)(&files)? {
+    for rule in rules {
+        match (rule.check)(files)? {
             Finding::Skipped(why) => process::say(&format!("tidy: skipped: {}: {why}", rule.wants)),
             Finding::Checked(places) if places.is_empty() => {
                 process::say(&format!("tidy: ok: {}", rule.wants))

@@ -6,12 +6,11 @@
 
 mod pocket;
 
-use super::statistical::Lately;
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::TurnSide;
-use crate::manoeuvre::Evasion;
-use crate::task::{Mind, Plan, Situation, Task};
+use super::recent_coverage::Lately;
+use crate::model::action::Motion;
+use crate::model::geometry::TurnSide;
+use crate::model::reason::Reason;
+use crate::navigation::{Evasion, Mind, Plan, Situation, Task};
 use pocket::Pocket;
 
 /// A run this long without an encounter is no run any more (a home has walls): perhaps the wheels spin.

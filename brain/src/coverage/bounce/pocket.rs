@@ -1,7 +1,7 @@
 //! Memory of short runs.
 
-use crate::behavior::Reason;
-use crate::geometry::TurnSide;
+use crate::model::geometry::TurnSide;
+use crate::model::reason::Reason;
 
 /// A run below this is short.
 const SHORT_RUN_M: f64 = 0.25;
@@ -96,8 +96,8 @@ impl Pocket {
 #[cfg(test)]
 mod tests {
     use super::Pocket;
-    use crate::behavior::Reason;
-    use crate::geometry::TurnSide;
+    use crate::model::geometry::TurnSide;
+    use crate::model::reason::Reason;
 
     #[test]
     fn short_runs_lead_along_the_edge_then_round_to_one_side() {

@@ -7,12 +7,12 @@
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::PlanSettings;
-use super::bits::BitGrid;
-use super::ground::{Axis, Ground};
+use super::bit_grid::BitGrid;
+use super::settings::PlanSettings;
 use super::stretches::{Stretch, Stretches};
-use crate::gradual::Pace;
 use crate::mapping::CELL_M;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::{Axis, Ground};
 
 /// Cells that one edge less of border is worth.
 const BORDER_CELLS: i16 = 1;

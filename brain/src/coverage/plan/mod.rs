@@ -7,45 +7,30 @@
 //!
 //! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
 
-mod bits;
+mod bit_grid;
 mod contour;
-mod ground;
-mod heading;
+mod course;
 mod lanes;
-mod queue;
-mod route;
-mod smooth;
+mod settings;
 mod stretches;
+mod timing;
 mod tour;
-mod way;
 
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Pace, at_once};
 use crate::mapping::{CELL_M, Cell, Raster};
-use crate::room_settings::Pattern;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Pace, at_once};
+use crate::model::room_settings::Pattern;
+pub use crate::navigation::Piece;
+use crate::navigation::configuration_space::Ground;
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::router::Router;
+use crate::navigation::smoothing;
 use contour::{RingFloor, ring_way};
-use ground::Ground;
+pub(crate) use course::Course;
 use lanes::Picker;
-use route::Router;
-pub use smooth::Piece;
+pub use settings::PlanSettings;
+pub(crate) use settings::{Departure, reach_cells};
 use tour::Tour;
-pub(crate) use way::{Goal, plan_way};
-
-/// What a plan depends on besides the ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlanSettings {
-    /// Width that one pass cleans, in metres.
-    pub swath_m: f64,
-    /// Standard deviation of the pose estimate in metres: lanes overlap by twice as much.
-    pub sigma_m: f64,
-    /// Speed on lanes and links, m/s.
-    pub cruise_m_per_s: f64,
-    /// Turn rate, rad/s.
-    pub turn_rad_per_s: f64,
-    /// Leftovers beside the way are swept while passing. In a home that is still being found out the plan is soon another one,
-    /// and the lanes of the first round show more of it (three seeds of home 7: 95 % after 2.45 instead of 2.6 T0).
-    pub takes_along: bool,
-}
 
 /// A way to drive.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,6 +67,21 @@ impl CoveragePlan {
             1.0
         }
     }
+
+    /// A plan that was made in `frame`, in the frame of the map.
+    #[must_use]
+    pub(crate) fn in_map(mut self, frame: &LaneFrame) -> Self {
+        if *frame == LaneFrame::OF_MAP {
+            return self;
+        }
+        for corner in &mut self.corners {
+            *corner = frame.point_in_map(*corner);
+        }
+        for piece in &mut self.pieces {
+            piece.start = frame.in_map() * piece.start;
+        }
+        self
+    }
 }
 
 /// Plans a way over `reachable` (cells that the middle of the body can take) that sweeps what `swept` has not seen yet,
@@ -110,33 +110,6 @@ pub fn plan_pattern(
     };
     let course = |_| Some(Course::from(pattern));
     at_once(plan_area(reachable, (course, swept), from, &mut Pace::at_once()))
-}
-
-/// Where a plan begins, and what it depends on besides the ground.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Departure {
-    pub(crate) start: Pose2,
-    pub(crate) settings: PlanSettings,
-}
-
-/// How floor is swept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Course {
-    /// By lanes.
-    Lines,
-    /// By rings, those along its border first.
-    Inwards,
-    /// By rings, those in its middle first.
-    Outwards,
-}
-
-impl From<Pattern> for Course {
-    fn from(pattern: Pattern) -> Self {
-        match pattern {
-            Pattern::Lines => Self::Lines,
-            Pattern::Contour => Self::Inwards,
-        }
-    }
 }
 
 /// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.
@@ -182,9 +155,9 @@ pub(crate) async fn plan_area(
     corners.pop();
     let of_rings = corners.len();
     corners.extend(tour.corners(pace).await);
-    let pieces = smooth::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
+    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
     CoveragePlan {
-        time_s: pieces.iter().map(|piece| piece.time_s(settings)).sum(),
+        time_s: pieces.iter().map(|piece| settings.time_s(piece)).sum(),
         corners,
         pieces,
         lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
@@ -209,8 +182,36 @@ pub(crate) async fn floor_in_reach(
     floor
 }
 
-/// Cells to either side of a lane's own that it counts as swept.
-pub(crate) fn reach_cells(settings: &PlanSettings) -> usize {
-    let half_m = 0.5 * settings.swath_m - settings.sigma_m;
-    (libm::floor(half_m / CELL_M - 0.25).clamp(1.0, 40.0)) as usize
+#[cfg(test)]
+mod tests {
+    use super::CoveragePlan;
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::navigation::Piece;
+    use crate::navigation::lane_frame::LaneFrame;
+
+    #[test]
+    fn a_plan_is_turned_into_the_frame_of_the_map() {
+        let frame = LaneFrame::along(0.6);
+        let at = Point2 { x_m: 1.3, y_m: -4.2 };
+        let pose = Pose2 {
+            x_m: at.x_m,
+            y_m: at.y_m,
+            heading_rad: 3.0,
+        };
+        let piece = Piece {
+            start: frame.pose(pose),
+            length_m: 0.5,
+            turn_rad: 0.2,
+        };
+        let plan = CoveragePlan {
+            corners: vec![frame.point(at)],
+            pieces: vec![piece],
+            ..CoveragePlan::default()
+        };
+        let there = plan.in_map(&frame);
+        assert!(there.corners[0].distance_m(at) < 1e-12);
+        let start = there.pieces[0].start;
+        assert!(start.position().distance_m(at) < 1e-12 && (start.heading_rad - 3.0).abs() < 1e-12);
+        assert_eq!((there.pieces[0].length_m, there.pieces[0].turn_rad), (0.5, 0.2));
+    }
 }

@@ -1,7 +1,7 @@
 //! Stretches: where a lane can lie at all.
 
-use super::ground::{Axis, Ground};
-use crate::gradual::Pace;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::{Axis, Ground};
 
 /// Work of looking at a cell.
 const LOOK_WORK: usize = 1;

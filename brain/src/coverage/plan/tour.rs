@@ -4,13 +4,14 @@
 //! is entered at. Costs are seconds, turning included; the way back costs the same, so a part of a tour can be turned
 //! round without changing what lies inside.
 
-use super::PlanSettings;
-use super::heading::{heading_rad, way_s};
 use super::lanes::Lane;
-use super::route::{Router, Spread};
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::Pace;
+use super::settings::PlanSettings;
+use super::timing::way_s;
 use crate::mapping::CELL_M;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::Pace;
+use crate::navigation::heading::heading_rad;
+use crate::navigation::router::{Router, Spread};
 
 /// Nearest ends to which the way is really looked for; ways to others are guessed.
 const NEAR_ENDS: usize = 20;
@@ -417,10 +418,10 @@ fn move_part(order: &mut Vec<End>, (fixed, first, count): (usize, usize, usize),
 #[cfg(test)]
 mod tests {
     use super::{Costs, End, Lane, PlanSettings, Router, Tour, cheapest_place};
-    use crate::coverage::plan::ground::Ground;
-    use crate::geometry::Pose2;
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, Raster};
+    use crate::model::geometry::Pose2;
+    use crate::model::gradual::{Pace, at_once};
+    use crate::navigation::configuration_space::Ground;
 
     /// Lanes without length at these places of a line; the start is at 0.
     fn costs(places: &[f32]) -> Costs {

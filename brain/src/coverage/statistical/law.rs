@@ -5,7 +5,7 @@
 //! much of the floor was new tells `A`, from ways so short that wheels alone still tell where they led. How much of a floor is swept
 //! after a long way over it is known from simulated homes.
 
-use crate::coverage::SweptShare;
+use crate::model::swept_share::SweptShare;
 
 /// What was swept longer ago than this counts as new, seconds: by then the place of a robot with nothing but wheels is wrong by some
 /// decimetres.
@@ -90,7 +90,7 @@ fn swept(times: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{KNOWN_S, Tally, swept};
-    use crate::random::Random;
+    use crate::model::random::Random;
 
     const SWATH_M: f64 = 0.25;
     const SPEED_M_PER_S: f64 = 0.2;

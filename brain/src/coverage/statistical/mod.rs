@@ -4,21 +4,18 @@
 //! with a spiral where the floor is open, until hardly anything that it comes over is new; then it follows the walls until what lies
 //! beside them is, which is mostly another room. How much is swept in all is told by statistics ([`law`]), and so is when to end.
 
-mod lately;
 mod law;
 mod novelty;
 
 use super::Bounce;
 use super::spiral::Spiral;
-use super::systematic::SweptShare;
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::Point2;
-use crate::manoeuvre::{Leg, Turn, WallFollower, WallStep};
+use crate::coverage::recent_coverage::{LATELY_S, is_new};
 use crate::mapping::Map;
-use crate::task::{Mind, Plan, Situation, Task};
-pub(super) use lately::Lately;
-use lately::{LATELY_S, is_new};
+use crate::model::action::Motion;
+use crate::model::geometry::Point2;
+use crate::model::reason::Reason;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::{Leg, Mind, Plan, Situation, Task, Turn, WallFollower, WallStep};
 use novelty::Novelty;
 
 /// A place is left when no more than this share of what the robot comes over is new.

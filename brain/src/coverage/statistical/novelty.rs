@@ -1,9 +1,9 @@
 //! How much of the floor that the robot comes over is new.
 
-use super::lately::{LATELY_S, is_new};
 use super::law::{KNOWN_S, Tally};
-use crate::geometry::Point2;
-use crate::task::Situation;
+use crate::coverage::recent_coverage::{LATELY_S, is_new};
+use crate::model::geometry::Point2;
+use crate::navigation::Situation;
 
 /// Way over which the share is averaged, metres.
 const WINDOW_M: f64 = 10.0;

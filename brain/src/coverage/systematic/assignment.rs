@@ -2,7 +2,7 @@
 
 use crate::coverage::wanted::Wanted;
 use crate::mapping::Map;
-use crate::order::{CleaningOrder, HomePart};
+use crate::model::order::{CleaningOrder, HomePart};
 
 /// An order, and how far it is.
 #[derive(Debug, Default)]
@@ -42,7 +42,7 @@ impl Assignment {
     /// The present part is done once more.
     pub(super) fn advance(&mut self, map: &Map) -> Next {
         self.passes_done += 1;
-        if self.passes_done < self.order.passes_over(self.part(), map.annotations()) {
+        if self.passes_done < map.annotations().passes_over(&self.order, self.part()) {
             return Next::Again;
         }
         if self.part + 1 >= self.order.parts().len() {

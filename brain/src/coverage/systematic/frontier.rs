@@ -3,8 +3,8 @@
 //! Terms. *Enclosed*: unknown floor with known cells all round it, which the lap along the walls leaves in the middle of
 //! each room. *Frontier*: where known floor ends and nothing is known beyond. Both are taken for floor until something is met.
 
-use crate::gradual::Pace;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
+use crate::model::gradual::Pace;
 
 /// Work of copying a cell, of finding out whether something unknown lies beside it, and of freeing or visiting one.
 const COPIES_A_WORK: usize = 8;
@@ -129,8 +129,8 @@ async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, pace: &mut Pace) {
 
 #[cfg(test)]
 mod tests {
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Raster};
+    use crate::model::gradual::{Pace, at_once};
 
     fn hopeful(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
         at_once(super::hopeful(knowledge, beyond_m, &mut Pace::at_once()))

@@ -1,12 +1,11 @@
 //! What becomes of a plan once it is made: it is followed, or nothing is left, or something must have been cut off.
 
 use super::{Outline, Systematic, shuts_in, squeeze};
-use crate::action::Motion;
-use crate::behavior::Reason;
 use crate::coverage::astray::Astray;
 use crate::coverage::plan::CoveragePlan;
-use crate::manoeuvre::Follower;
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::{Follower, Mind, Plan, Situation, Task};
 
 /// A plan that swept less than this brought nothing, square metres.
 const NOTHING_M2: f64 = 0.02;

@@ -9,14 +9,11 @@
 //! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
 
 mod assignment;
-mod caution;
 mod frontier;
 mod judging;
-mod obstructions;
 mod outline;
 mod passed;
 mod planning;
-mod reachable;
 mod seeking;
 mod share;
 mod shyness;
@@ -26,36 +23,31 @@ mod standoff;
 mod trail;
 
 use super::astray::Astray;
-use super::lane_frame::LaneFrame;
+use super::margins::KEEP_OFF_M;
 use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
-use crate::action::Motion;
-use crate::behavior::Reason;
-use crate::geometry::{Point2, Pose2};
-use crate::manoeuvre::{Evasion, FollowStep, Follower};
 use crate::mapping::{CellKnowledge, Map, Raster};
-use crate::order::CleaningOrder;
-use crate::task::{Mind, Plan, Situation, Task};
+use crate::model::action::Motion;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::caution::{Ahead, ahead, caution};
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::{
+    Evasion, FollowStep, Follower, Mind, Obstructions, Plan, Situation, Task, encounter,
+};
 use assignment::{Assignment, Next};
-use caution::ahead;
-pub(crate) use caution::caution;
 use frontier::margin_cells;
-pub(crate) use obstructions::{Obstructions, encounter};
 use outline::{Hope, Outline, knows_home, shuts_in};
 use passed::{Passed, Window};
 use planning::{Basis, Planning, settings};
-pub(crate) use reachable::reachable;
 use seeking::{Seeking, Sought};
-pub use share::SweptShare;
 use share::{PassedFloor, Shares};
 use shyness::Shyness;
 use squeeze::Squeeze;
-use standoff::{Ahead, Standoff};
+use standoff::Standoff;
 
-/// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
-pub(super) const KEEP_OFF_M: f64 = 0.01;
-/// Lanes overlap by twice this at least, whatever the estimate says of itself.
-pub(super) const SIGMA_MIN_M: f64 = 0.01;
 /// Way back after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
 /// Way back from what is seen ahead.

@@ -2,7 +2,7 @@
 
 use crate::coverage::perimeter::Perimeter;
 use crate::mapping::{CELL_M, CellKnowledge};
-use crate::task::Situation;
+use crate::navigation::Situation;
 
 /// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
 const SHUT_IN_SHARE: f64 = 0.4;

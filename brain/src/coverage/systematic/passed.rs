@@ -3,11 +3,10 @@
 //! The swept layer of the map paints the bar under the robot, which is what people are shown. A plan made from that would
 //! send the robot back to each end of a lane for the half swath before the wall that the side brushes have reached.
 
-use super::reachable::Disc;
 use super::trail::{Place, Trail};
-use crate::geometry::Point2;
 use crate::mapping::{Cell, Map, Raster};
-use crate::task::Situation;
+use crate::model::geometry::Point2;
+use crate::navigation::{Disc, Situation};
 
 /// Places of the way that are recalled in one step.
 const RECALLED_A_STEP: usize = 1_000;

@@ -4,14 +4,15 @@ use core::task::Poll;
 
 use super::frontier::hopeful;
 use super::since::without_what_came;
-use super::{SIGMA_MIN_M, reachable, squeeze};
-use crate::coverage::lane_frame::LaneFrame;
+use super::squeeze;
+use crate::coverage::margins::SIGMA_MIN_M;
 use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
 use crate::coverage::wanted::Wanted;
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Gradual, Pace};
 use crate::mapping::{CellKnowledge, Raster};
-use crate::task::Situation;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Gradual, Pace};
+use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::{Situation, reachable};
 
 /// A plan is not followed from farther away than this from where it begins, metres: back-offs get longer than expected.
 const OFF_START_M: f64 = 0.06;
@@ -124,7 +125,7 @@ async fn planned(basis: Basis) -> Made {
     };
     let plan = planned_in(&frame, basis, pace).await;
     Made {
-        plan: frame.plan_in_map(plan),
+        plan: plan.in_map(&frame),
         frame,
     }
 }
@@ -160,14 +161,14 @@ async fn planned_in(frame: &LaneFrame, basis: Basis, pace: &mut Pace) -> Coverag
 #[cfg(test)]
 mod tests {
     use super::{Basis, Planning, reachable};
-    use crate::config::{Body, SensorLayout};
-    use crate::coverage::lane_frame::LaneFrame;
     use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_coverage};
     use crate::coverage::systematic::assignment::Assignment;
-    use crate::geometry::{Point2, Pose2};
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Map, Raster};
-    use crate::order::CleaningOrder;
+    use crate::model::config::{Body, SensorLayout};
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::model::gradual::{Pace, at_once};
+    use crate::model::order::CleaningOrder;
+    use crate::navigation::lane_frame::LaneFrame;
 
     const START: Pose2 = Pose2 {
         x_m: 0.5,

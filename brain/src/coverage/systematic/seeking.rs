@@ -3,9 +3,9 @@
 //! Lanes on a pose that is not believed lead nowhere, and what they sweep is written down in the wrong place. Walls tell the filter
 //! most, and who goes along them comes through all rooms.
 
-use crate::behavior::Reason;
 use crate::coverage::{LapStep, Perimeter};
-use crate::task::{Mind, Plan, Situation};
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Plan, Situation};
 
 /// Way along walls after which it goes on with what it believes, metres: once around a large home, so the map may be another's.
 const SEEK_MAX_M: f64 = 120.0;

@@ -7,21 +7,11 @@ use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
 use crate::coverage::wanted::Wanted;
 use crate::mapping::{CELL_M, Map, Raster};
+use crate::model::swept_share::SweptShare;
 
 /// A plan that finds less than this share of what is counted is one of a robot that stands elsewhere: cut off from the rest, or
 /// outside of the walls by its map.
 const ELSEWHERE_SHARE: f64 = 0.5;
-
-/// Share of the floor that a job wants and knows which it has swept.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SweptShare {
-    /// As the robot believes, 0..=1.
-    pub share: f64,
-    /// The same if it knows its place half as well as it believes.
-    pub share_low: f64,
-    /// What of it is left, square metres.
-    pub left_m2: f64,
-}
 
 /// Floor that was passed, square metres, and what stays of it with more doubt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

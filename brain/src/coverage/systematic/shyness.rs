@@ -1,8 +1,8 @@
 //! After a touch on one side the robot keeps a little to the other: it has been wrong about its place there, and would touch
 //! the same thing again on the same way.
 
-use crate::behavior::Reason;
-use crate::localization::Advance;
+use crate::model::advance::Advance;
+use crate::model::reason::Reason;
 
 /// How far it keeps off its way, metres.
 const OFFSET_M: f64 = 0.015;
@@ -40,8 +40,8 @@ impl Shyness {
 #[cfg(test)]
 mod tests {
     use super::{OFFSET_M, Shyness, WAY_M};
-    use crate::behavior::Reason;
-    use crate::localization::Advance;
+    use crate::model::advance::Advance;
+    use crate::model::reason::Reason;
 
     fn ahead(distance_m: f64) -> Advance {
         Advance {

@@ -3,8 +3,8 @@
 //! A home that is known was whole when the job began. Where a robot has nothing left to plan, it looks once more at what would be
 //! in reach if that were gone again, and tries the way there: who stood in a door has mostly left by then.
 
-use crate::gradual::Pace;
 use crate::mapping::{CellKnowledge, Raster};
+use crate::model::gradual::Pace;
 
 /// Cells that are looked at for a unit of work.
 const CELLS_A_WORK: usize = 4;
@@ -35,8 +35,8 @@ pub(super) async fn without_what_came(
 #[cfg(test)]
 mod tests {
     use super::without_what_came;
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, CellKnowledge, Raster};
+    use crate::model::gradual::{Pace, at_once};
 
     #[test]
     fn what_came_is_gone_again_and_walls_edges_and_what_is_forbidden_stay() {

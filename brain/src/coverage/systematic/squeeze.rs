@@ -4,10 +4,10 @@
 //! Where a robot has nothing left to plan, it looks once more at what a body without any gap to what is known would reach. If
 //! that is much more floor, it tries the way there, and what it touches tells the rest.
 
-use crate::config::Body;
 use crate::coverage::plan::CoveragePlan;
-use crate::gradual::Pace;
 use crate::mapping::{Cell, Raster};
+use crate::model::config::Body;
+use crate::model::gradual::Pace;
 
 /// Floor that must come into reach, square metres.
 pub(super) const WORTH_M2: f64 = 0.4;
@@ -102,10 +102,10 @@ pub(super) async fn near(cells: &Raster<bool>, pace: &mut Pace) -> Raster<bool> 
 #[cfg(test)]
 mod tests {
     use super::{Squeeze, TRIES_MAX, near};
-    use crate::config::Body;
     use crate::coverage::plan::CoveragePlan;
-    use crate::gradual::{Pace, at_once};
     use crate::mapping::{Cell, Raster};
+    use crate::model::config::Body;
+    use crate::model::gradual::{Pace, at_once};
 
     #[test]
     fn looks_end_after_some_tries_until_floor_is_won() {

@@ -3,8 +3,8 @@
 //! The way leads to where the map shows nothing; the sensors see it first. Dark things reflect little and look farther away than they
 //! are: a robot that touches what it saw farther ahead stops earlier for a while, since walls of one home mostly look alike.
 
-use crate::geometry::Point2;
-use crate::localization::Advance;
+use crate::model::advance::Advance;
+use crate::navigation::caution::Ahead;
 
 /// Nearer than this to something that looks like a wall it stops, metres: what stands there is swept by the way beside it.
 const STOP_M: f64 = 0.02;
@@ -21,15 +21,6 @@ const FORGET_M: f64 = 10.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Standoff {
     dark_m: f64,
-}
-
-/// Something ahead, as the sensors show it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Ahead {
-    /// Way straight ahead until it is touched, metres.
-    pub(crate) way_m: f64,
-    /// Where it is, in the body's frame.
-    pub(crate) at: Point2,
 }
 
 impl Standoff {
@@ -54,9 +45,10 @@ impl Standoff {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ahead, FORGET_M, Standoff};
-    use crate::geometry::Point2;
-    use crate::localization::Advance;
+    use super::{FORGET_M, Standoff};
+    use crate::model::advance::Advance;
+    use crate::model::geometry::Point2;
+    use crate::navigation::caution::Ahead;
 
     fn at(way_m: f64) -> Ahead {
         Ahead {

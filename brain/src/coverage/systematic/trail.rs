@@ -6,8 +6,9 @@
 
 use std::collections::VecDeque;
 
-use crate::geometry::{Point2, Pose2};
-use crate::localization::{Advance, PoseEstimate};
+use crate::model::advance::Advance;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Way between two places that are kept, metres.
 const STEP_M: f64 = 0.0125;
@@ -150,8 +151,9 @@ impl Trail {
 #[cfg(test)]
 mod tests {
     use super::{Place, TRUSTED_MIN_M, Trail};
-    use crate::geometry::{Point2, Pose2};
-    use crate::localization::{Advance, PoseEstimate};
+    use crate::model::advance::Advance;
+    use crate::model::geometry::{Point2, Pose2};
+    use crate::model::pose_estimate::PoseEstimate;
 
     fn believed(x_m: f64, y_m: f64, sigma_m: f64) -> PoseEstimate {
         PoseEstimate {

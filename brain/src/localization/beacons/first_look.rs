@@ -4,13 +4,14 @@
 //! beacons. It is tried every few metres until the answer is sure; a way that does not bend enough to tell a beacon from
 //! its mirror image has to be longer.
 
-use super::super::PoseEstimate;
 use super::envelope::{Envelope, Factor};
 use super::follower::{BEND_SIGMA, Follower, SCALE_SIGMA, STRETCH_SIGMA, Start, WHEELS};
 use super::guess::{Ranged, guess};
 use super::hop::Hop;
-use super::weight;
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use super::sight::Sight;
+use super::weight::weight;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Way before the first try, and between two, metres.
 const FIRST_M: f64 = 8.0;
@@ -146,7 +147,7 @@ impl FirstLook {
     }
 
     /// Number of the hop, and the range.
-    fn ranges(&self) -> impl Iterator<Item = (usize, &crate::observation::BeaconRange)> {
+    fn ranges(&self) -> impl Iterator<Item = (usize, &crate::model::observation::BeaconRange)> {
         self.hops
             .iter()
             .enumerate()
@@ -268,32 +269,6 @@ impl Guess {
                 place.x_m += x;
                 place.y_m += y;
             }
-        }
-    }
-}
-
-/// Distance from the middle of a hop to a beacon, and its derivatives by the pose at the end of the hop.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sight {
-    pub(super) away_m: f64,
-    pub(super) by_x: f64,
-    pub(super) by_y: f64,
-    pub(super) by_heading: f64,
-}
-
-impl Sight {
-    pub(super) fn new(pose: Pose2, middle: Point2, beacon: Point2) -> Self {
-        let from = pose.transform(middle);
-        let (dx, dy) = (from.x_m - beacon.x_m, from.y_m - beacon.y_m);
-        let away_m = libm::sqrt(dx * dx + dy * dy).max(0.05);
-        let (by_x, by_y) = (dx / away_m, dy / away_m);
-        // The middle moves at a right angle to its direction from the pose when the pose turns.
-        let (ox, oy) = (from.x_m - pose.x_m, from.y_m - pose.y_m);
-        Self {
-            away_m,
-            by_x,
-            by_y,
-            by_heading: by_y * ox - by_x * oy,
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Carries pose, wheels' errors and beacons on from hop to hop: an extended Kalman filter of a few dozen numbers.
 
-use super::super::PoseEstimate;
-use super::first_look::Sight;
 use super::guess::{Ranged, guess};
-use super::hop::Hop;
-use super::{BEACONS_MAX, Heard, weight};
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use super::heard::Heard;
+use super::hop::{BEACONS_MAX, Hop};
+use super::sight::Sight;
+use super::weight::weight;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Numbers that say what is wrong with the wheels: bend of a straight way in radians a metre, error of the scale of turns,
 /// error of the way, both relative.

@@ -1,7 +1,7 @@
 //! A first guess of a beacon's place, from ranges along a way that is roughly known.
 
-use super::weight;
-use crate::geometry::Point2;
+use super::weight::weight;
+use crate::model::geometry::Point2;
 
 /// Directions from the nearest place on the way in which the beacon is tried.
 const DIRECTIONS: u32 = 72;
@@ -67,7 +67,7 @@ pub(super) fn misfit(ranges: &[Ranged], place: Point2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Ranged, guess};
-    use crate::geometry::Point2;
+    use crate::model::geometry::Point2;
 
     const BEACON: Point2 = Point2 { x_m: 4.0, y_m: 3.0 };
 

@@ -1,10 +1,11 @@
 //! Motion and ranges, gathered into hops.
 
-use super::super::Advance;
-use super::BEACONS_MAX;
-use crate::geometry::{Point2, Pose2};
-use crate::observation::{BeaconRange, BeaconSignal, Observation};
+use crate::model::advance::Advance;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{BeaconRange, BeaconSignal, Observation};
 
+/// Beacons that are followed; more than enough for a home.
+pub(super) const BEACONS_MAX: usize = 8;
 /// A hop ends after this way, metres, or this turn, radians.
 const HOP_M: f64 = 0.15;
 const HOP_RAD: f64 = 0.5;

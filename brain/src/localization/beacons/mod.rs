@@ -12,30 +12,22 @@ mod envelope;
 mod first_look;
 mod follower;
 mod guess;
+mod heard;
 mod hop;
+mod sight;
+mod weight;
 
-use super::{Advance, PoseEstimate};
-use crate::geometry::{Point2, Pose2};
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::geometry::Pose2;
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 use first_look::FirstLook;
 use follower::Follower;
+pub(super) use heard::Heard;
 use hop::Gathering;
 
-/// Beacons that are followed; more than enough for a home.
-const BEACONS_MAX: usize = 8;
 /// Wheels that hang for so long hang because somebody carries the robot, seconds.
 const CARRIED_S: f64 = 1.0;
-
-/// What the ranges of a hop say, to somebody who knows where beacons are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Heard {
-    /// Place of the beacon in the map.
-    pub(super) at: Point2,
-    /// Mean range of the hop, metres.
-    pub(super) range_m: f64,
-    /// Its deviation, with that of the beacon's place, metres.
-    pub(super) sigma_m: f64,
-}
 
 /// Pose by beacons.
 #[derive(Clone, Debug)]
@@ -149,17 +141,12 @@ impl Beacons {
 
     /// Numbers and places of the beacons that are known, and how sure they are, metres.
     #[cfg(test)]
-    pub(super) fn places(&self) -> Vec<(u16, Point2, f64)> {
+    pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {
             Stage::Following(follower) => follower.places(),
             Stage::Silent | Stage::Looking(_) | Stage::Carried => Vec::new(),
         }
     }
-}
-
-/// How much a range counts that is off by so many deviations: that of Student's t with three degrees of freedom.
-fn weight(off: f64) -> f64 {
-    4.0 / (3.0 + off * off)
 }
 
 #[cfg(test)]

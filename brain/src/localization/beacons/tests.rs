@@ -1,9 +1,9 @@
 //! A robot with bad wheels and no gyro drives about between beacons.
 
 use super::super::Localization;
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::observation::{BeaconRange, BeaconSignal, BeaconStrength, Observation};
-use crate::random::Random;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::{BeaconRange, BeaconSignal, BeaconStrength, Observation};
+use crate::model::random::Random;
 
 const TRACK_M: f64 = 0.21;
 const STEP_S: f64 = 0.05;

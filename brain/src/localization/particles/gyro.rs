@@ -3,9 +3,11 @@
 //! the pose, and as sure as the guesses agree.
 
 use super::ParticleFilter;
-use crate::localization::Advance;
-use crate::localization::calibration::{BIAS_DRIFT_RAD2_PER_S3, BiasTold};
-use crate::random::Random;
+use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
+use crate::localization::gyro_belief::BiasTold;
+use crate::localization::gyro_belief::GyroBelief;
+use crate::model::advance::Advance;
+use crate::model::random::Random;
 
 /// How the scale wanders, relative per square root of a radian that was turned: no gyro has the same scale at all rates, and guesses that
 /// agreed too soon go on learning.
@@ -24,17 +26,6 @@ const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
 /// Least variance that a long rest is believed to have, square radians per square second: few guesses would be left, and with them few
 /// places.
 const TOLD_VARIANCE_MIN: f64 = 2.5e-8;
-
-/// What is believed of the gyro.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::localization) struct GyroBelief {
-    /// Error of the scale, relative, and its deviation.
-    pub(in crate::localization) scale: f64,
-    pub(in crate::localization) scale_sigma: f64,
-    /// Bias and its deviation, radians per second.
-    pub(in crate::localization) bias_rad_per_s: f64,
-    pub(in crate::localization) bias_sigma_rad_per_s: f64,
-}
 
 /// What the gyro showed while the robot moved.
 #[derive(Clone, Copy, Debug, Default)]
@@ -150,9 +141,10 @@ pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasTold, GyroBelief, GyroCount, GyroGuess, belief};
-    use crate::localization::Advance;
-    use crate::random::Random;
+    use super::{BiasTold, GyroCount, GyroGuess, belief};
+    use crate::localization::gyro_belief::GyroBelief;
+    use crate::model::advance::Advance;
+    use crate::model::random::Random;
 
     const BELIEF: GyroBelief = GyroBelief {
         scale: 0.01,

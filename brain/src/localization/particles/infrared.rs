@@ -1,9 +1,9 @@
 //! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
 
-use super::Surroundings;
 use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Surface, Surfaces, UNMAPPED, bell};
-use crate::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
-use crate::geometry::Point2;
+use super::surroundings::Surroundings;
+use crate::model::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
+use crate::model::geometry::Point2;
 
 /// Levels below this are noise of the conversion, 0..1.
 const LEVEL_MIN: f64 = 0.02;

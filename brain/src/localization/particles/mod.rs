@@ -5,40 +5,30 @@
 //! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
 //! a dark cupboard is dark for all of its length.
 
+mod filter_mode;
 mod gyro;
 mod infrared;
 mod surface;
+mod surroundings;
 mod touch;
 
-use crate::config::SensorLayout;
-use crate::geometry::{Point2, Pose2, normalize_rad};
-use crate::observation::{Cliffs, Contacts, Observation};
-use crate::random::Random;
+use crate::model::config::SensorLayout;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::random::Random;
 
-use super::PoseEstimate;
 use super::beacons::Heard;
-use super::calibration::BiasTold;
+use super::gyro_belief::BiasTold;
+use super::gyro_belief::GyroBelief;
+use crate::model::pose_estimate::PoseEstimate;
+pub(super) use filter_mode::Manner;
+pub(super) use gyro::GyroCount;
 use gyro::GyroGuess;
-pub(super) use gyro::{GyroBelief, GyroCount};
 pub(super) use infrared::Fit;
 use infrared::{Beams, Place};
 use surface::Surfaces;
+pub(super) use surroundings::Surroundings;
 use touch::{Touch, body_likelihood};
-
-/// What the filter asks of a map.
-pub(super) trait Surroundings {
-    /// Distance from a place to the nearest solid thing, in metres; negative inside of one.
-    fn clearance_m(&self, at: Point2) -> f64;
-
-    /// Distance from a place to the nearest end of the floor, in metres, on either side of it; `None` if the map has none.
-    fn drop_m(&self, at: Point2) -> Option<f64>;
-
-    /// Whether anything is known of a place.
-    fn is_known(&self, at: Point2) -> bool;
-
-    /// Places evenly all over the floor on which the robot can stand.
-    fn places(&self) -> Vec<Point2>;
-}
 
 /// Fewest guesses while the robot knows where it is.
 const TRACKING_MIN: usize = 220;
@@ -74,15 +64,6 @@ const WAY_FACTOR_SIGMA: f64 = 0.01;
 const WAY_FACTOR_WALK: f64 = 0.002;
 /// Least and greatest factor that is believed.
 const WAY_FACTORS: (f64, f64) = (0.9, 1.1);
-
-/// What guesses make of what they see.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Manner {
-    /// The robot may be elsewhere: guesses are spread, and each look at a surface counts by itself.
-    Searching,
-    /// The robot knows where it is: guesses hold headings, and know surfaces again that they have looked at.
-    Holding,
-}
 
 /// One guess.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! How likely a distance is that an infrared level tells, for a surface of which a guess has learnt how dark it is.
 
-use crate::config::PROXIMITY_MAX;
+use crate::model::config::PROXIMITY_MAX;
 
 /// Deviation of what a surface reflects, relative: white walls and dark furniture.
 pub(super) const REFLECTION_SIGMA: f64 = 0.2;

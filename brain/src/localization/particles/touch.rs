@@ -1,10 +1,11 @@
 //! How likely contacts, cliffs and the mere presence of the body are at a place of the map.
 
+use super::filter_mode::Manner;
 use super::infrared::Place;
-use super::{Manner, Surroundings};
-use crate::config::SensorLayout;
-use crate::geometry::Point2;
-use crate::observation::{Cliffs, Contacts};
+use super::surroundings::Surroundings;
+use crate::model::config::SensorLayout;
+use crate::model::geometry::Point2;
+use crate::model::observation::{Cliffs, Contacts};
 
 /// The body may be this deep in what the map has as solid before it counts: half a cell and the bumper's travel, metres.
 const INSIDE_FREE_M: f64 = 0.015;

@@ -1,8 +1,8 @@
 //! Strengths, gathered on short ways: packets fade one by one, their mean does not.
 
-use super::super::Advance;
-use super::{BEACONS_MAX, Level};
-use crate::observation::{BeaconSignal, Observation};
+use super::level::{BEACONS_MAX, Level};
+use crate::model::advance::Advance;
+use crate::model::observation::{BeaconSignal, Observation};
 
 /// A mean is made after this way, metres: fading differs from one to the next, the shadow of walls hardly.
 const WAY_M: f64 = 0.3;

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Level, StrengthMap};
-use crate::geometry::{Point2, Pose2};
+use super::level::Level;
+use super::map::StrengthMap;
+use crate::model::geometry::{Point2, Pose2};
 
 /// Deviation of a mean from what was learnt around the same place, decibels: fading that is left, where the antenna points, and what
 /// lies between pieces of floor.

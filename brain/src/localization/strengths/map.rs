@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::Level;
-use crate::geometry::Point2;
+use super::level::Level;
+use crate::model::geometry::Point2;
 
 /// Edge of a piece of floor, metres.
 const CELL_M: f64 = 0.5;
@@ -81,7 +81,7 @@ fn centre(x: i32, y: i32) -> Point2 {
 #[cfg(test)]
 mod tests {
     use super::{Level, StrengthMap};
-    use crate::geometry::Point2;
+    use crate::model::geometry::Point2;
 
     fn at(x_m: f64) -> Point2 {
         Point2 { x_m, y_m: 0.25 }

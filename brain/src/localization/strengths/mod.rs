@@ -8,6 +8,7 @@
 
 mod gathering;
 mod hearing;
+mod level;
 mod map;
 #[cfg(test)]
 mod tests;
@@ -15,22 +16,13 @@ mod tests;
 use std::sync::Arc;
 
 pub(super) use hearing::Hearing;
+pub(super) use level::Level;
 pub(super) use map::StrengthMap;
 
-use super::Advance;
-use crate::geometry::Point2;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::geometry::Point2;
+use crate::model::observation::Observation;
 use gathering::Gathering;
-
-/// Beacons that are remembered.
-const BEACONS_MAX: u16 = 32;
-
-/// Mean strength of a beacon on a short way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Level {
-    pub(super) beacon: u16,
-    pub(super) dbm: f64,
-}
 
 /// What is received now, and what was learnt of the home.
 #[derive(Clone, Debug, Default)]

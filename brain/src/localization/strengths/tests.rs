@@ -2,10 +2,10 @@
 
 use super::super::Localization;
 use super::super::known_home::{START, TRACK_M, Truth, config, take};
-use crate::geometry::{Point2, Pose2};
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
-use crate::observation::{BeaconSignal, BeaconStrength, Observation};
-use crate::random::Random;
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::{BeaconSignal, BeaconStrength, Observation};
+use crate::model::random::Random;
 
 /// How far the second room is from the first, metres.
 const APART_M: f64 = 4.0;

@@ -1,8 +1,8 @@
 //! A lap that comes back to the wall along which it began: strokes that lie on a wall which was seen before close it.
 
-use crate::geometry::Pose2;
 use crate::localization::Localization;
 use crate::localization::known_home::{TRACK_M, Truth, config, flat, take};
+use crate::model::geometry::Pose2;
 use core::f64::consts::FRAC_PI_2;
 
 const STEP_M: f64 = 0.005;

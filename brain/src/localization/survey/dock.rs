@@ -1,11 +1,11 @@
 //! The robot on its dock: it stands there as it stood there before, whatever it has driven meanwhile.
 
 use super::Survey;
-use super::TurnCounting;
 use super::graph::Graph;
 use super::linear::System;
+use super::turns::TurnCounting;
 use super::visit::Visit;
-use crate::geometry::{Pose2, normalize_rad};
+use crate::model::geometry::{Pose2, normalize_rad};
 
 /// How well two stands on the dock agree, metres and radians: the contacts are some centimetres wide, and close on a robot that is
 /// askew by some degrees. 2 cm and 2 degrees for each of the two.
@@ -120,13 +120,13 @@ impl Graph {
 #[cfg(test)]
 mod tests {
     use super::DockWatch;
-    use crate::config::SensorLayout;
-    use crate::geometry::Pose2;
-    use crate::localization::Advance;
     use crate::localization::survey::graph::tests::{laps, rmse_m};
     use crate::localization::survey::optimization::optimized;
     use crate::localization::survey::{Survey, TurnCounting};
-    use crate::observation::Observation;
+    use crate::model::advance::Advance;
+    use crate::model::config::SensorLayout;
+    use crate::model::geometry::Pose2;
+    use crate::model::observation::Observation;
     use core::f64::consts::FRAC_PI_2;
 
     #[test]

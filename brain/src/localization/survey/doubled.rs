@@ -239,8 +239,8 @@ pub(super) mod tests {
     use super::super::kalman::StepVariance;
     use super::super::optimization::optimized;
     use super::{Double, Graph, Mark, doubles};
-    use crate::geometry::{Point2, Pose2};
     use crate::localization::survey::fit::tests::fitted;
+    use crate::model::geometry::{Point2, Pose2};
 
     /// Nodes of the first lap, and walls of the room.
     const LAP: usize = 32;

@@ -12,7 +12,7 @@ use super::optimization::Optimization;
 use super::square::{directed, square};
 use super::tidy::tidy;
 use super::work::Work;
-use crate::geometry::{Pose2, normalize_rad};
+use crate::model::geometry::{Pose2, normalize_rad};
 
 /// Work of a step: a quarter of a millisecond of a desktop's core.
 const STEP_WORK: usize = 300_000;
@@ -189,10 +189,10 @@ impl Fitted {
 #[cfg(test)]
 pub(super) mod tests {
     use super::{Fit, Fitted, Stage};
-    use crate::geometry::Point2;
     use crate::localization::survey::doubled::tests::seen_twice;
     use crate::localization::survey::graph::tests::{laps, rmse_m};
     use crate::localization::survey::graph::{Graph, Wall};
+    use crate::model::geometry::Point2;
 
     /// The fit of a graph, and how many steps it took.
     pub(in crate::localization::survey) fn fitted(graph: &Graph) -> (Fitted, u32) {

@@ -10,7 +10,7 @@ use super::kalman::StepVariance;
 use super::linear::System;
 use super::stroke::Stroke;
 use super::turns::{TurnErrors, TurnUnknowns, Turns};
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use core::f64::consts::FRAC_PI_2;
 
 /// A pose at which walls were seen.
@@ -344,11 +344,11 @@ impl Graph {
 #[cfg(test)]
 pub(super) mod tests {
     use super::{Graph, Mark, Node, Turns, Wall, direction};
-    use crate::geometry::{Point2, Pose2, normalize_rad};
     use crate::localization::survey::kalman::StepVariance;
     use crate::localization::survey::optimization::optimized;
     use crate::localization::survey::stroke::Stroke;
-    use crate::random::Random;
+    use crate::model::geometry::{Point2, Pose2, normalize_rad};
+    use crate::model::random::Random;
     use core::f64::consts::FRAC_PI_2;
 
     const VARIANCE: StepVariance = StepVariance {

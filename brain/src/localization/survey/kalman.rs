@@ -1,6 +1,6 @@
 //! The pose between two optimizations: a Kalman filter of three numbers, for which walls stand where they are.
 
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// A pose and its covariance in the map: x, y, heading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -227,7 +227,7 @@ impl Solving {
 #[cfg(test)]
 mod tests {
     use super::{Solution, System, Work};
-    use crate::random::Random;
+    use crate::model::random::Random;
     use core::task::Poll;
 
     /// The solution, made in steps of so much work, and how many steps that took.

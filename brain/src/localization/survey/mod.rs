@@ -26,14 +26,15 @@ use dock::DockWatch;
 use fit::{Fit, Fitted};
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
+pub(super) use turns::TurnCounting;
 use turns::{TurnErrors, Turns};
 use visit::{Visit, VisitLog};
 
-use super::Advance;
-use crate::config::ProximityLayout;
-use crate::geometry::{Point2, Pose2, normalize_rad};
 use crate::mapping::Keyframe;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::Observation;
 
 /// Slip along the way, square metres per metre, and what each step adds: that of a bad robot. One that is taken for too good
 /// holds on to a wrong wall.
@@ -94,16 +95,6 @@ pub(super) struct Survey {
     has_new_scale: bool,
     /// It is in a fit: the map is drawn again at once, for the work may be over.
     is_hurried: bool,
-}
-
-/// How well turns are counted.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TurnCounting {
-    /// What was found wrong with the scale and is put right, relative, and its deviation.
-    pub(super) scale: f64,
-    pub(super) scale_sigma: f64,
-    /// Deviation of the bias, radians per second.
-    pub(super) bias_sigma_rad_per_s: f64,
 }
 
 /// What the robot moved since the last node.
@@ -393,8 +384,8 @@ mod tests {
     use super::graph::Node;
     use super::turns::Turns;
     use super::{Pending, StepVariance};
-    use crate::geometry::Pose2;
-    use crate::localization::Advance;
+    use crate::model::advance::Advance;
+    use crate::model::geometry::Pose2;
 
     /// A step of a turn on the spot, a straight way and an arc, by a gyro that counts so much too much. It began at `odom`.
     fn counted(error: f64, odom: Pose2) -> Node {

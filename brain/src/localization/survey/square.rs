@@ -1,7 +1,7 @@
 //! Whether the home's walls stand at right angles, and in which directions.
 
 use super::graph::{Graph, Wall};
-use crate::geometry::normalize_rad;
+use crate::model::geometry::normalize_rad;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 /// Bins of a quarter turn: 2 degrees each.
@@ -108,8 +108,8 @@ mod tests {
     use super::super::stroke::Stroke;
     use super::super::turns::Turns;
     use super::square;
-    use crate::geometry::{Point2, Pose2, normalize_rad};
-    use crate::random::Random;
+    use crate::model::geometry::{Point2, Pose2, normalize_rad};
+    use crate::model::random::Random;
     use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
     /// Directions of strokes scatter by so much, radians: 2 degrees.

@@ -4,8 +4,8 @@
 //! moment of it. *Stroke*: a straight line that many glimpses of a visit agree on. The beams are cones: what they meet first
 //! is nearer than the wall in their middle, which the fit takes into account for the line at hand.
 
-use crate::config::ProximityResponse;
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::config::ProximityResponse;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// What a sensor saw, in the frame of the visit.
 #[derive(Clone, Copy, Debug)]
@@ -238,8 +238,8 @@ fn stroke(glimpses: &[Glimpse], line: Line, cone: f64) -> Option<Stroke> {
 #[cfg(test)]
 mod tests {
     use super::{Glimpse, strokes};
-    use crate::config::ProximityResponse;
-    use crate::geometry::Pose2;
+    use crate::model::config::ProximityResponse;
+    use crate::model::geometry::Pose2;
     use core::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
     const RESPONSE: ProximityResponse = ProximityResponse {
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn a_stroke_is_the_less_sure_the_more_its_glimpses_scatter() {
         let sure = |noise_m: f64| {
-            let mut random = crate::random::Random::new(4);
+            let mut random = crate::model::random::Random::new(4);
             let mut glimpses = driven((0.65, 15), 0.35, 9.0);
             for glimpse in &mut glimpses {
                 glimpse.seen_m += noise_m * random.normal();

@@ -2,7 +2,7 @@
 //! dropped.
 
 use super::graph::{Graph, Mark, Wall};
-use crate::geometry::normalize_rad;
+use crate::model::geometry::normalize_rad;
 
 /// Walls nearer to each other than this are one, metres, if the gap between their ends is no longer than that.
 const MERGE_M: f64 = 0.05;

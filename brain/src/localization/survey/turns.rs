@@ -2,9 +2,18 @@
 //! left. Both are unknowns of the graph. A fit hardly moves a heading off what was counted where walls are seen now and then;
 //! what it moves it by says too little of the scale, and says it for sure.
 
-use super::TurnCounting;
 use super::linear::System;
-use crate::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+
+/// How well turns are counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::localization) struct TurnCounting {
+    /// What was found wrong with the scale and is put right, relative, and its deviation.
+    pub(in crate::localization) scale: f64,
+    pub(in crate::localization) scale_sigma: f64,
+    /// Deviation of the bias, radians per second.
+    pub(in crate::localization) bias_sigma_rad_per_s: f64,
+}
 
 /// A spell lasts so long, microseconds.
 const SPELL_US: u64 = 60_000_000;
@@ -181,10 +190,10 @@ impl TurnErrors {
 #[cfg(test)]
 mod tests {
     use super::{Spell, TurnCounting, TurnErrors};
-    use crate::geometry::{Pose2, normalize_rad};
     use crate::localization::survey::graph::Graph;
     use crate::localization::survey::graph::tests::laps;
     use crate::localization::survey::optimization::optimized;
+    use crate::model::geometry::{Pose2, normalize_rad};
     use core::f64::consts::FRAC_PI_2;
 
     const COUNTING: TurnCounting = TurnCounting {

@@ -1,10 +1,10 @@
 //! Short ways along walls, told apart from the ways between them.
 
 use super::stroke::{Glimpse, Stroke, strokes};
-use crate::config::ProximityLayout;
-use crate::geometry::{Pose2, normalize_rad};
-use crate::localization::Advance;
-use crate::observation::Observation;
+use crate::model::advance::Advance;
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::observation::Observation;
 
 /// A visit is over when nothing was seen for this way, metres.
 const UNSEEN_M: f64 = 0.12;
@@ -145,10 +145,10 @@ impl VisitLog {
 #[cfg(test)]
 mod tests {
     use super::{Visit, VisitLog};
-    use crate::config::{ProximityLayout, ProximityResponse};
-    use crate::geometry::{Pose2, normalize_rad};
-    use crate::localization::Advance;
-    use crate::observation::Observation;
+    use crate::model::advance::Advance;
+    use crate::model::config::{ProximityLayout, ProximityResponse};
+    use crate::model::geometry::{Pose2, normalize_rad};
+    use crate::model::observation::Observation;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
     /// By how much this gyro counts too much.

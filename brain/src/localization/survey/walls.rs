@@ -4,7 +4,7 @@ use super::graph::{Mark, Wall, direction};
 use super::square::quarter;
 use super::stroke::Stroke;
 use super::{NODES_MAX, Survey};
-use crate::geometry::{Pose2, normalize_rad};
+use crate::model::geometry::{Pose2, normalize_rad};
 
 /// A stroke lies on a wall when it is within so many deviations of it,
 const GATE: f64 = 3.0;

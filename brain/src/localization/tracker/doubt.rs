@@ -4,10 +4,10 @@
 //! as in a wrong place, but the way there, of some metres, fits nowhere better.
 
 use super::{SEARCH_FROM_M, SEARCHED, Tracker};
-use crate::geometry::Pose2;
 use crate::localization::confidence::Confidence;
 use crate::localization::particles::Surroundings;
 use crate::localization::places::{found_near, near_if_as_good};
+use crate::model::geometry::Pose2;
 
 /// Guesses that are this near to where the trail fits stay as they are, metres and radians.
 const STAY_M: f64 = 0.15;
@@ -46,10 +46,10 @@ impl Tracker {
 
 #[cfg(test)]
 mod tests {
-    use crate::geometry::Pose2;
     use crate::localization::Localization;
     use crate::localization::known_home::{START, Truth, flat, placed, take};
     use crate::localization::particles::Fit;
+    use crate::model::geometry::Pose2;
 
     /// Drives for so many seconds; gives for how many steps the robot took itself for lost.
     fn drive(truth: &mut Truth<'_>, localization: &mut Localization, seconds: u32) -> u32 {

@@ -1,11 +1,11 @@
 //! What is felt of the floor, in the map: drawn, drawn again, stored and taken up.
 
 use super::{FloorFelt, FloorKind};
-use crate::config::{Body, SensorLayout};
-use crate::geometry::{Point2, Pose2};
-use crate::localization::PoseEstimate;
 use crate::mapping::{Cell, Keyframe, Map};
-use crate::observation::Observation;
+use crate::model::config::{Body, SensorLayout};
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::observation::Observation;
+use crate::model::pose_estimate::PoseEstimate;
 
 const BODY: Body = Body {
     radius_m: 0.17,

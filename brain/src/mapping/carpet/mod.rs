@@ -16,7 +16,7 @@
 mod steady;
 mod usual;
 
-use crate::observation::Observation;
+use crate::model::observation::Observation;
 use steady::{Drawn, SteadyWatch};
 use usual::{Load, UsualLoad, Way};
 

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::usual::{Load, Way, quantile};
-use crate::observation::{MotorCurrents, Observation};
+use crate::model::observation::{MotorCurrents, Observation};
 
 /// Loads are looked at over this time, microseconds: the median of it passes over what is shorter than 3 cm.
 const WINDOW_US: u64 = 250_000;

@@ -1,7 +1,7 @@
 //! Loads of floors and of whatever is not one, and what is said of them.
 
 use super::{CarpetSense, FloorFelt, FloorKind};
-use crate::observation::{Contacts, MotorCurrents, Observation};
+use crate::model::observation::{Contacts, MotorCurrents, Observation};
 
 /// Loads of hard floor, of a flat mat and of a deep pile, amperes: a wheel's and the brush's.
 const HARD: [f32; 2] = [0.06, 0.5];

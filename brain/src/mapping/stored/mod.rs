@@ -13,8 +13,8 @@ use super::annotations::Annotations;
 use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
 use super::rooms::Rooms;
 use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
-use crate::geometry::Pose2;
-use crate::gradual::{Pace, at_once};
+use crate::model::geometry::Pose2;
+use crate::model::gradual::{Pace, at_once};
 
 /// Most cells of a stored map's window.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;

@@ -4,14 +4,14 @@ use core::fmt;
 use std::collections::BTreeMap;
 
 use super::{CELLS_MAX, FLOOR_BITS, Run, StoredMap};
-use crate::geometry::Pose2;
-use crate::kept_place::KeptPlace;
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
 use crate::mapping::dock::Felt;
 use crate::mapping::room_changes::CHANGES_MAX;
 use crate::mapping::{Annotations, Cell, DockPlace, RoomChange, RoomChanges, RoomSplit};
-use crate::no_go::{NoGo, RoomName};
-use crate::room_settings::RoomSettings;
+use crate::model::geometry::Pose2;
+use crate::model::kept_place::KeptPlace;
+use crate::model::no_go::{NoGo, RoomName};
+use crate::model::room_settings::RoomSettings;
 
 /// Everything that a stored map holds. [`StoredMap::from_parts`] checks it.
 #[derive(Clone, Debug, PartialEq)]

@@ -202,9 +202,9 @@ fn curve(home: &Home, plan: &CoveragePlan, settings: &PlanSettings) -> Vec<(f64,
         for step in 1..=steps {
             let share = f64::from(step) / f64::from(steps);
             floor.sweep(piece.at(share));
-            curve.push((time_s + share * piece.time_s(settings), floor.count as f64 / all));
+            curve.push((time_s + share * settings.time_s(piece), floor.count as f64 / all));
         }
-        time_s += piece.time_s(settings);
+        time_s += settings.time_s(piece);
     }
     curve
 }

@@ -1,6 +1,6 @@
 //! What clients order for parts of the home, and what they say of the home.
 
-use brain::order::FAR_M;
+use brain::zone::FAR_M;
 use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Pose2, Reason, RoomName, Zone};
 use rvac_api::{
     Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RequestBody, RoomNaming, Update,

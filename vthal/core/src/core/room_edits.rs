@@ -1,7 +1,7 @@
 //! What clients change of the home while the robot rests: its rooms, and where the dock stands.
 
-use brain::mapping::CutLine;
-use brain::order::FAR_M;
+use brain::CutLine;
+use brain::zone::FAR_M;
 use brain::{Brain, Command, Point2, Pose2, Reason};
 use rvac_api::RoomSplitting;
 

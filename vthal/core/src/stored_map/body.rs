@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use brain::mapping::{self, CutLine, Felt, PartSide, RoomJoin, RoomSplit, StoredMapParts};
-use brain::{Cell, KeptPlace, Point2, Pose2, RoomName, RoomPower, StoredMap, StoredMapError, Zone};
+use brain::mapping::{self, Felt, PartSide, RoomJoin, RoomSplit, StoredMapParts};
+use brain::{Cell, CutLine, KeptPlace, Point2, Pose2, RoomName, RoomPower, StoredMap, StoredMapError, Zone};
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]

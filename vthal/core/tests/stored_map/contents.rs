@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use brain::mapping::{
-    CutLine, Felt, Numbered, PartSide, RoomChange, RoomJoin, RoomSplit, Run, StoredMapParts,
-};
+use brain::mapping::{Felt, Numbered, PartSide, RoomChange, RoomJoin, RoomSplit, Run, StoredMapParts};
 use brain::{
-    Cell, KeptPlace, NoGo, Pattern, PlaceShape, Point2, Pose2, RoomName, RoomPower, RoomSettings, StoredMap,
-    Zone,
+    Cell, CutLine, KeptPlace, NoGo, Pattern, PlaceShape, Point2, Pose2, RoomName, RoomPower, RoomSettings,
+    StoredMap, Zone,
 };
 
 fn at(x_m: f64, y_m: f64) -> Point2 {

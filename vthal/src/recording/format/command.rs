@@ -1,6 +1,6 @@
 //! What people and schedules asked of the brain, as it stands in recordings.
 
-use brain::mapping::CutLine;
+use brain::CutLine;
 use brain::{Command, KeptPlace, Point2, Pose2, RoomName, RoomSettings, StrategyName};
 use rvac_api::{CleaningPattern, NoGoShape, PlaceShape};
 use serde::{Deserialize, Serialize};

@@ -286,7 +286,7 @@ pub struct Given {
 
 #[cfg(test)]
 mod tests {
-    use brain::mapping::CutLine;
+    use brain::CutLine;
     use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
     use brain::{
         CleaningOrder, Command, HomePart, KeptPlace, NoGo, Observation, Pattern, PlaceShape, Point2, Pose2,

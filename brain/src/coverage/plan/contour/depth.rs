@@ -1,7 +1,7 @@
 //! How deep within the floor that is ringed each cell lies.
 
-use crate::coverage::plan::ground::Ground;
-use crate::gradual::Pace;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::Ground;
 
 /// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are right to 2 %.
 pub(super) const CELL: i32 = 5;

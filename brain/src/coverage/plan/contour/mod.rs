@@ -15,13 +15,13 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::ground::Ground;
-use super::route::Router;
-use super::{Course, Departure};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use super::course::Course;
+use super::settings::Departure;
 use crate::mapping::Cell;
-use order::Drive;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::Ground;
+use crate::navigation::router::Router;
+use order::{Drive, RingWay};
 use runs::{Run, Sweeper};
 
 /// A job that has swept less than this share of the floor to be ringed begins at the wall, or in the middle; a later plan
@@ -37,16 +37,6 @@ pub(super) struct RingFloor {
     is_outwards: bool,
     /// How much of it there was before any of it was swept.
     floor: usize,
-}
-
-/// A way along rings.
-pub(super) struct RingWay {
-    pub(super) corners: Vec<Point2>,
-    pub(super) runs: usize,
-    /// The cell where it ends, and the heading there.
-    pub(super) end: (usize, f64),
-    /// What is open after it.
-    pub(super) open: Vec<bool>,
 }
 
 impl RingFloor {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::RingWay;
 use super::runs::{Run, Sweeper};
 use super::shape::corners;
 use crate::coverage::plan::Departure;
-use crate::coverage::plan::heading::{heading_rad, way_s};
-use crate::coverage::plan::route::{Router, Spread};
-use crate::geometry::Point2;
-use crate::gradual::Pace;
+use crate::coverage::plan::timing::way_s;
+use crate::model::geometry::Point2;
+use crate::model::gradual::Pace;
+use crate::navigation::heading::heading_rad;
+use crate::navigation::router::{Router, Spread};
 
 /// Nearest places to enter a run that are compared.
 const NEAR_ENTRIES: usize = 16;
@@ -18,6 +18,16 @@ const AHEAD: usize = 8;
 /// Work of the search for a way beyond that for its end, and of looking at a cell of a run.
 const WAY_WORK: usize = 3_000;
 const LOOK_WORK: usize = 2;
+
+/// A way along rings.
+pub(in crate::coverage::plan) struct RingWay {
+    pub(in crate::coverage::plan) corners: Vec<Point2>,
+    pub(in crate::coverage::plan) runs: usize,
+    /// The cell where it ends, and the heading there.
+    pub(in crate::coverage::plan) end: (usize, f64),
+    /// What is open after it.
+    pub(in crate::coverage::plan) open: Vec<bool>,
+}
 
 /// A way along runs in the making.
 pub(super) struct Drive<'plan> {

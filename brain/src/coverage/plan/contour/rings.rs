@@ -1,8 +1,8 @@
 //! Rows of cells along the borders of each level.
 
 use super::depth::CELL;
-use crate::coverage::plan::ground::Ground;
-use crate::gradual::Pace;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::Ground;
 
 /// Work of looking at a cell, and of a step along a border.
 const LOOK_WORK: usize = 1;

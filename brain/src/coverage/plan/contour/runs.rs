@@ -1,8 +1,8 @@
 //! Which parts of a ring are worth driving.
 
 use super::rings::Ring;
-use crate::coverage::plan::ground::Ground;
-use crate::gradual::Pace;
+use crate::model::gradual::Pace;
+use crate::navigation::configuration_space::Ground;
 
 /// Least share of what a ring sweeps over wholly open floor that makes it worth driving: as that of a lane of the first round.
 const WORTH_PERCENT: usize = 35;

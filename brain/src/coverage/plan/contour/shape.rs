@@ -1,8 +1,8 @@
 //! From rows of cells to corners.
 
-use crate::coverage::plan::ground::Ground;
-use crate::geometry::Point2;
 use crate::mapping::CELL_M;
+use crate::model::geometry::Point2;
+use crate::navigation::configuration_space::Ground;
 
 /// A corner may be left out where the straight way is no farther off than this: walls are drawn with steps of a cell.
 const OFF_MAX_M: f64 = 1.3 * CELL_M;

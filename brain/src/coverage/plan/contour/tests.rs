@@ -2,11 +2,11 @@
 
 use super::depth::depths;
 use super::rings::{Ring, rings};
-use crate::coverage::plan::ground::Ground;
 use crate::coverage::plan::{Course, CoveragePlan, Departure, PlanSettings, plan_area, reach_cells};
-use crate::geometry::{Point2, Pose2};
-use crate::gradual::{Pace, at_once};
 use crate::mapping::{CELL_M, Cell, Raster};
+use crate::model::geometry::{Point2, Pose2};
+use crate::model::gradual::{Pace, at_once};
+use crate::navigation::configuration_space::Ground;
 
 const SETTINGS: PlanSettings = PlanSettings {
     swath_m: 0.25,

@@ -1,0 +1,189 @@
+//! What perceptions change, the gravest first.
+
+use super::{Behavior, Mode};
+use crate::behavior::JobKind;
+use crate::behavior::job::Job;
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Situation};
+
+/// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
+const SHORT_OUTAGE_US: u64 = 5_000_000;
+/// A cliff sensor that fails its self-test for this long is a fault; shorter it is a spot of sun or a dark rug.
+const SENSOR_PATIENCE_US: u64 = 2_000_000;
+
+impl Behavior {
+    /// The fault that stands in this observation, if any.
+    pub(super) fn fault(&mut self) -> Option<Reason> {
+        if !self.facts.cliff_sensor {
+            self.cliff_sensor_since_us = None;
+            return self.facts.fault;
+        }
+        let now_us = self.facts.now_us;
+        let since_us = *self.cliff_sensor_since_us.get_or_insert(now_us);
+        let lasting = now_us.saturating_sub(since_us) >= SENSOR_PATIENCE_US;
+        self.facts.fault.or(lasting.then_some(Reason::CliffSensor))
+    }
+
+    /// Changes the mode where what was perceived demands it.
+    pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        if !self.facts.link_up {
+            self.lose_link(mind);
+            return;
+        }
+        if let Mode::Disconnected { since_us, resume } = self.mode {
+            self.reconnect(since_us, resume, mind);
+        }
+        if self.react_to_fault(mind) {
+            return;
+        }
+        self.react_to_person(mind);
+        self.react_to_dock(situation, mind);
+        self.react_to_budgets(situation, mind);
+    }
+
+    fn lose_link(&mut self, mind: &mut Mind) {
+        let resume = match self.mode {
+            Mode::Disconnected { .. } => return,
+            Mode::Starting { .. } | Mode::Working => true,
+            Mode::Recharging => {
+                self.put_off_again();
+                true
+            }
+            Mode::Manual(_) => {
+                self.centre_first = true;
+                false
+            }
+            _ => false,
+        };
+        let since_us = Some(self.facts.now_us);
+        self.enter(Mode::Disconnected { since_us, resume }, Reason::LinkLost, mind);
+    }
+
+    fn reconnect(&mut self, since_us: Option<u64>, resume: bool, mind: &mut Mind) {
+        let short =
+            since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
+        match (&self.job, resume) {
+            // It was on its way home or there already.
+            (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(mind),
+            (Some(_), true) if short && !self.facts.disarmed.not_armed => {
+                self.enter(Mode::Working, Reason::LinkRestored, mind);
+            }
+            (Some(_), true) => {
+                let restored = self.reason == Reason::Restored;
+                let reason = if restored {
+                    Reason::Restored
+                } else {
+                    Reason::Continued
+                };
+                self.announce(reason, mind);
+            }
+            _ => self.hold(Reason::LinkRestored, mind),
+        }
+    }
+
+    /// True while a fault stands or waits to be acknowledged.
+    fn react_to_fault(&mut self, mind: &mut Mind) -> bool {
+        match (self.mode, self.facts.fault) {
+            (Mode::Error { .. }, Some(fault)) => self.reason = fault,
+            (_, Some(fault)) => {
+                self.centre_first |= matches!(self.mode, Mode::Manual(_));
+                self.enter(Mode::Error { acknowledged: false }, fault, mind);
+            }
+            (Mode::Error { acknowledged: true }, None) => {
+                let reason = self.reason;
+                self.hold(reason, mind);
+                return false;
+            }
+            (Mode::Error { acknowledged: false }, None) => {}
+            _ => return false,
+        }
+        true
+    }
+
+    /// Lifted, stopped at the button, stopped by somebody else's `stop`, or the lease of a person who drives is over.
+    fn react_to_person(&mut self, mind: &mut Mind) {
+        let disarmed = self.facts.disarmed;
+        let ready = match self.mode {
+            Mode::Working => true,
+            Mode::Manual(drive) => drive.ready,
+            _ => false,
+        };
+        let moving = matches!(self.mode, Mode::Working | Mode::Manual(_));
+        let active = moving || matches!(self.mode, Mode::Starting { .. } | Mode::Stuck);
+        let reason = if active && self.facts.wheel_drop {
+            Reason::WheelDrop
+        } else if ready && disarmed.button_stop {
+            Reason::ButtonStop
+        } else if matches!(self.mode, Mode::Manual(drive) if drive.valid_until_us <= self.facts.now_us) {
+            Reason::LeaseEnded
+        } else if ready && disarmed.stopped {
+            Reason::Stopped
+        } else {
+            return;
+        };
+        self.centre_first |= matches!(self.mode, Mode::Manual(_));
+        self.hold(reason, mind);
+    }
+
+    fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        match self.mode {
+            Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
+            Mode::Docked if !self.facts.docked => self.come_off(mind),
+            Mode::Docked => self.watch_dry_dock(mind),
+            Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(mind),
+            Mode::Recharging => self.watch_charge(situation, mind),
+            // Carried home by a person.
+            Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
+                self.arrive(mind);
+            }
+            Mode::Starting { .. } | Mode::Working if self.facts.docked => {
+                if self.drives_home() {
+                    self.meet_contacts(mind);
+                } else if self.mode == Mode::Working && self.facts.disarmed.docked {
+                    self.leave_dock(mind);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Off the dock without being sent.
+    fn come_off(&mut self, mind: &mut Mind) {
+        if self.slips_off() {
+            self.job = Some(Job::new(JobKind::Dock, self.figures()));
+            self.announce(Reason::DockMissed, mind);
+        } else {
+            self.enter(Mode::Idle, Reason::Released, mind);
+        }
+    }
+
+    fn drives_home(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock)
+    }
+
+    /// Strayed onto the dock while cleaning: off again.
+    fn leave_dock(&mut self, mind: &mut Mind) {
+        if let Some(job) = &mut self.job
+            && !job.is_departing()
+        {
+            job.depart(&mut mind.random);
+            mind.decide("depart", Reason::Docked, 0.0);
+        }
+    }
+
+    fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        if self.mode != Mode::Working || self.waits_for_current() {
+            return;
+        }
+        let Some(job) = &self.job else { return };
+        if self.facts.disarmed.not_armed && !job.is_departing() {
+            self.announce(Reason::NotArmed, mind);
+        } else if job.kind == JobKind::Dock {
+            // It has a budget of its own.
+        } else if job.figures.time_s >= self.config.task_budget_s {
+            self.turn_home(Reason::TaskBudget, mind);
+        } else if self.must_go_home(situation) {
+            self.turn_home_for_charge(situation, mind);
+        }
+    }
+}

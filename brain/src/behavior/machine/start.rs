@@ -1,0 +1,96 @@
+//! How a job begins: it announces itself, arms, and waits for the firmware to agree (S24).
+
+use super::{Behavior, JobStart, Mode};
+use crate::behavior::job::Job;
+use crate::behavior::{JobFigures, JobKind};
+use crate::model::action::{Arm, Motion, Tone};
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::navigation::Mind;
+
+/// Pause between two tries to arm.
+const ARM_AGAIN_US: u64 = 500_000;
+/// Tones of the announcement (S24): three beeps.
+const BEEP: Tone = Tone {
+    pitch_hz: 880,
+    duration_ms: 150,
+};
+const GAP: Tone = Tone {
+    pitch_hz: 0,
+    duration_ms: 150,
+};
+/// Length of the beeps and the two seconds after them (S24).
+const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
+/// The firmware must let itself be armed within this time.
+const ARM_PATIENCE_US: u64 = 3_000_000;
+
+impl Behavior {
+    /// Waits for the announcement to end, arms, and waits for the firmware to agree.
+    pub(super) fn start(&mut self, since_us: u64, mind: &mut Mind) -> Motion {
+        let waited_us = self.facts.now_us.saturating_sub(since_us);
+        if waited_us < ANNOUNCEMENT_US {
+            return Motion::Rest;
+        }
+        let asked_yet = self.armed_us.is_some();
+        if asked_yet && !self.facts.disarmed.any() {
+            let reason = self.reason;
+            if self.facts.docked
+                && let Some(job) = &mut self.job
+            {
+                job.depart(&mut mind.random);
+            }
+            self.enter(Mode::Working, reason, mind);
+            return Motion::Halt;
+        }
+        if waited_us > ANNOUNCEMENT_US + ARM_PATIENCE_US {
+            self.enter(Mode::Paused, Reason::ArmRefused, mind);
+            return Motion::Rest;
+        }
+        self.ask_to_arm();
+        Motion::Rest
+    }
+
+    /// Arms, but not more often than answers can come back.
+    pub(super) fn ask_to_arm(&mut self) {
+        let due = self
+            .armed_us
+            .is_none_or(|armed_us| self.facts.now_us >= armed_us + ARM_AGAIN_US);
+        if due {
+            self.armed_us = Some(self.facts.now_us);
+            self.arm = Some(Arm {
+                undock: self.facts.docked || self.facts.disarmed.docked,
+            });
+        }
+    }
+
+    /// Announces and starts the present job (S24).
+    pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
+        if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
+            job.returns = true;
+            job.second_look.begins();
+        }
+        self.enter(
+            Mode::Starting {
+                since_us: self.facts.now_us,
+            },
+            reason,
+            mind,
+        );
+        self.tones.extend([BEEP, GAP, BEEP, GAP, BEEP]);
+    }
+
+    /// Begins a new job; the old one is forgotten.
+    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut Mind) {
+        self.job = Some(Job::with_order((kind, order), JobFigures::default()));
+        self.put_off = None;
+        self.slips = 0;
+        self.dry_tries = 0;
+        if kind != JobKind::Dock {
+            self.job_start = JobStart::FreshMap;
+            if !self.facts.knows_heading {
+                mind.decide("keep-no-map", Reason::NoHeading, 0.0);
+            }
+        }
+        self.announce(Reason::Command, mind);
+    }
+}

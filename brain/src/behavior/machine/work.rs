@@ -1,0 +1,288 @@
+//! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
+
+use super::{Behavior, Mode};
+use crate::behavior::JobKind;
+use crate::behavior::gyro_rest::RestPace;
+use crate::behavior::job::{Detour, Job, Purpose};
+use crate::mapping::Map;
+use crate::model::action::Motion;
+use crate::model::advance::Advance;
+use crate::model::command::StrategyName;
+use crate::model::geometry::Point2;
+use crate::model::no_go::NoGo;
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+use crate::model::swept_share::SweptShare;
+use crate::navigation::{Mind, Plan, Situation};
+use crate::recovery::{self, Grip, Traction, Whereabouts};
+
+/// The firmware may be out of reach of `arm` for this long before the job is put off.
+const STARVE_US: u64 = 3_000_000;
+/// A gyro's bias that is known so well, rad/s, has been told by a rest of two seconds: over a minute it turns a map by two degrees
+/// at most.
+const SETTLED_RAD_PER_S: f64 = 6.0e-4;
+/// The same for a robot that is about to draw a map, told by twelve seconds: until it sees the first wall nothing else tells its
+/// heading, and what that is wrong by then the whole map is turned by.
+const SETTLED_SURVEYING_RAD_PER_S: f64 = 2.0e-4;
+/// Longest that a job waits for that before its first move, seconds.
+const SETTLE_MAX_S: f64 = 16.0;
+/// Share of the speed while wheels slip (S14).
+const SLIP_SHARE: f64 = 0.5;
+/// A place that took so many rungs to leave is not entered again in this job.
+const POCKET_RUNGS: u8 = 3;
+
+impl Behavior {
+    /// A contact began.
+    pub(crate) fn count_bump(&mut self) {
+        if self.mode == Mode::Working
+            && let Some(job) = &mut self.job
+        {
+            job.figures.bumps += 1;
+        }
+    }
+
+    pub(super) fn work(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        let commanded = self.last_motion;
+        let Some(job) = &mut self.job else {
+            self.hold(Reason::NoJob, mind);
+            return Motion::Halt;
+        };
+        job.figures.time_s += situation.advance.time_s;
+        job.figures.path_m += situation.advance.distance_m.abs();
+        job.brushes |= !self.facts.touching;
+        job.returns &= situation.map.is_swept(situation.pose.position());
+        if self.facts.disarmed.any() {
+            return self.wait_for_arm(mind);
+        }
+        self.starved_since_us = None;
+        let plans_on_map = job.kind == JobKind::Clean(StrategyName::Systematic);
+        if plans_on_map && !situation.knows_heading {
+            self.end_job(Reason::NoHeading, mind);
+            return Motion::Halt;
+        }
+        if plans_on_map && self.settles_gyro(situation) {
+            return rest_for_gyro(commanded, mind);
+        }
+        self.watch_pen(situation, mind);
+        let plan = self.watched_plan(commanded, situation, mind);
+        let motion = self.follow(plan, situation, mind);
+        if !self.rests_for_gyro(motion, situation) {
+            return motion;
+        }
+        rest_for_gyro(commanded, mind)
+    }
+
+    /// Whether the robot has come free.
+    fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+        let Some(job) = &mut self.job else { return };
+        match job
+            .pen
+            .follow(situation.pose.position(), situation.advance.time_s)
+        {
+            Whereabouts::Inside => {}
+            Whereabouts::MovedOff => job.ladder.move_off(),
+            Whereabouts::Left(troubled_at) => {
+                let rungs = job.ladder.leave();
+                if rungs == 0 {
+                    return;
+                }
+                mind.decide("free", Reason::CameFree, f64::from(rungs));
+                if rungs >= POCKET_RUNGS {
+                    self.pocket = troubled_at;
+                }
+            }
+        }
+    }
+
+    /// Whether the robot must stand still before its first move, because nothing has told its gyro's bias yet: it was switched on
+    /// only just now.
+    fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
+        let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
+        let settled_rad_per_s = if situation.is_tracked {
+            SETTLED_RAD_PER_S
+        } else {
+            SETTLED_SURVEYING_RAD_PER_S
+        };
+        self.job.as_ref().is_some_and(has_not_moved)
+            && situation
+                .gyro_bias_sigma_rad_per_s
+                .is_some_and(|sigma| sigma > settled_rad_per_s)
+    }
+
+    /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.
+    fn rests_for_gyro(&mut self, motion: Motion, situation: &Situation<'_>) -> bool {
+        let is_ahead = matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
+        let Some(job) = &mut self.job else { return false };
+        if situation.observation.gyro_heading_rad.is_none() {
+            return false;
+        }
+        let pace = RestPace::of(situation.is_tracked);
+        job.gyro_rest.follow(self.facts.now_us, is_ahead, pace)
+    }
+
+    fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {
+        let since_us = *self.starved_since_us.get_or_insert(self.facts.now_us);
+        if self.facts.now_us.saturating_sub(since_us) > STARVE_US {
+            let reason = if self.facts.disarmed.link_lost {
+                Reason::LinkLost
+            } else {
+                Reason::ArmRefused
+            };
+            self.hold(reason, mind);
+        } else {
+            self.ask_to_arm();
+        }
+        Motion::Rest
+    }
+
+    /// What the task or a detour wants, unless a watch calls trouble first.
+    fn watched_plan(&mut self, commanded: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let Some(job) = &mut self.job else {
+            return Plan::Go(Motion::Halt);
+        };
+        let traction = job.slip.judge(situation.advance);
+        if traction == Traction::Lost {
+            return Plan::Finished(Reason::Slip);
+        }
+        let stands_still = job.progress.stands_still(commanded, situation.advance);
+        let first_report = self.facts.not_moving && commanded != Motion::Rest;
+        if stands_still || first_report {
+            job.progress = recovery::ProgressWatch::default();
+            return Plan::Trouble(Reason::NotMoving);
+        }
+        if self.facts.not_moving {
+            // The firmware rests for a second after it saw no progress; the escape starts after that.
+            return Plan::Go(Motion::Rest);
+        }
+        if job.edges.must_wait(situation.at_cliff, self.facts.now_us, mind) {
+            return Plan::Go(Motion::Halt);
+        }
+        if job.detour.is_none() && job.pen.is_due() {
+            return Plan::Trouble(Reason::ShutIn);
+        }
+        let plan = self.plan(situation, mind);
+        match plan {
+            Plan::Finished(Reason::Finished | Reason::RestOutOfReach) if self.ends_in_pen(situation) => {
+                Plan::Trouble(Reason::ShutIn)
+            }
+            Plan::Go(motion) if traction == Traction::Slipping => Plan::Go(slowed(motion)),
+            other => other,
+        }
+    }
+
+    fn plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        let Some(job) = &mut self.job else {
+            return Plan::Go(Motion::Halt);
+        };
+        if let Some(detour) = &mut job.detour {
+            if let Some(motion) = detour.sequence.step(situation) {
+                return Plan::Go(motion);
+            }
+            job.detour = None;
+            job.pen.try_again();
+            job.task.interrupted();
+            // What was moved since the last step belongs to the detour.
+            let still = Situation {
+                advance: Advance {
+                    time_s: 0.0,
+                    ..Advance::default()
+                },
+                ..*situation
+            };
+            return job.task.step(&still, mind);
+        }
+        job.task.step(situation, mind)
+    }
+
+    fn follow(&mut self, plan: Plan, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+        match plan {
+            Plan::Go(motion) => return motion,
+            Plan::Trouble(reason) => self.escape(reason, situation, mind),
+            Plan::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
+            Plan::Finished(reason) => self.finish(reason, situation, mind),
+        }
+        Motion::Halt
+    }
+
+    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
+        let Some(job) = &mut self.job else { return };
+        job.task.interrupted();
+        let grip = recovery::grip(reason);
+        let Some(rung) = job.ladder.trouble(grip) else {
+            self.enter(Mode::Stuck, reason, mind);
+            return;
+        };
+        match grip {
+            Grip::Held => job.pen.hold(situation.pose.position()),
+            Grip::Penned => job.pen.climb(situation.pose.position()),
+        }
+        mind.decide(rung.decision(), reason, 0.0);
+        let sequence = recovery::escape(rung, &mut mind.random);
+        job.detour = Some(Detour {
+            sequence,
+            purpose: Purpose::Escape,
+        });
+    }
+
+    /// Whether a job for the whole home is at its end only because the robot is shut in: it has not swept half of what it
+    /// knows of the home.
+    fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
+        let is_cleaning = |job: &&Job| {
+            let is_whole_home = job.order.is_for_whole_home();
+            matches!(job.kind, JobKind::Clean(_)) && is_whole_home && job.pen.holds_the_end()
+        };
+        self.job.as_ref().filter(is_cleaning).is_some()
+            && situation.map.swept_m2() < 0.5 * situation.map.free_m2()
+    }
+
+    /// Corners of the way that the running or waiting job means to drive.
+    pub(crate) fn planned_way(&self) -> Vec<Point2> {
+        self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
+    }
+
+    /// How much of its floor the running or waiting job has swept.
+    pub(crate) fn swept_share(&self, map: &Map) -> Option<SweptShare> {
+        self.job.as_ref()?.task.swept_share(map)
+    }
+
+    /// Where the running or waiting job does not go.
+    pub(crate) fn avoided(&self) -> &[NoGo] {
+        self.job.as_ref().map_or(&[], Job::avoided)
+    }
+
+    /// What the running or waiting job is to clean.
+    pub(crate) fn order(&self) -> Option<&CleaningOrder> {
+        self.job.as_ref().map(|job| &job.order)
+    }
+
+    /// The job is put off until the pack is charged.
+    pub(crate) fn awaits_charge(&self) -> bool {
+        self.mode == Mode::Recharging || self.put_off.is_some()
+    }
+
+    /// Kind of the running or waiting job.
+    pub(crate) fn job_kind(&self) -> Option<JobKind> {
+        self.job.as_ref().map(|job| job.kind)
+    }
+}
+
+/// Stands still, and tells why when the rest begins.
+fn rest_for_gyro(commanded: Motion, mind: &mut Mind) -> Motion {
+    if commanded != Motion::Halt {
+        mind.decide("rest", Reason::GyroDrift, 0.0);
+    }
+    Motion::Halt
+}
+
+fn slowed(motion: Motion) -> Motion {
+    match motion {
+        Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s,
+        } => Motion::Drive {
+            speed_m_per_s: SLIP_SHARE * speed_m_per_s,
+            turn_rad_per_s: SLIP_SHARE * turn_rad_per_s,
+        },
+        other => other,
+    }
+}

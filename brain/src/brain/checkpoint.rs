@@ -1,0 +1,105 @@
+//! What must survive a restart of the daemon, as plain data: the shell writes and reads it in a form of its own.
+
+use core::task::Poll;
+
+use crate::behavior::JobCheckpoint;
+use crate::localization::TrackingCheckpoint;
+use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
+use crate::model::energy::EnergyModel;
+use crate::model::geometry::Pose2;
+use crate::model::gradual::Gradual;
+use crate::model::learnt::{GyroLearnt, Learnt};
+
+/// State of a brain that can be taken up again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checkpoint {
+    /// Pose in the map.
+    pub pose: Pose2,
+    /// State of the random generator.
+    pub random_state: u64,
+    /// Way back in metres that no way forward has made good.
+    pub backed_m: f64,
+    /// The job that ran or waited, if there was one.
+    pub job: Option<JobCheckpoint>,
+    /// Swept cells in rows.
+    pub swept: Vec<SweptRun>,
+    /// The way so far.
+    pub path: Vec<PathPoint>,
+    /// Contacts and cliffs met so far.
+    pub marks: Vec<Mark>,
+    /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
+    pub home: Option<StoredMap>,
+    /// What driving and cleaning take from the pack.
+    pub energy: EnergyModel,
+    /// What was learnt of the gyro; `None` = nothing that is worth keeping.
+    pub gyro: Option<GyroLearnt>,
+    /// How the pose is followed in the map of the home; `None` = by odometry alone.
+    pub tracking: Option<TrackingCheckpoint>,
+}
+
+/// A checkpoint that is being made: writing down the home takes some steps.
+#[derive(Debug)]
+pub struct CheckpointWork {
+    /// All but the home.
+    pub(crate) rest: Checkpoint,
+    pub(crate) home: Gradual<StoredMap>,
+}
+
+impl CheckpointWork {
+    /// Does the next step. What it gives in the end is the state at the beginning. Not to be called again after that.
+    pub fn go_on(&mut self) -> Option<Checkpoint> {
+        let Poll::Ready(home) = self.home.go_on() else {
+            return None;
+        };
+        Some(Checkpoint {
+            home: Some(home).filter(|home| !home.is_empty()),
+            ..core::mem::take(&mut self.rest)
+        })
+    }
+}
+
+impl Checkpoint {
+    /// The same for a robot that has learnt this before, where the checkpoint knows nothing newer.
+    #[must_use]
+    pub fn after(self, learnt: Learnt) -> Self {
+        let is_new = self.energy.seen_s > 0.0;
+        Self {
+            gyro: self.gyro.or(learnt.gyro),
+            energy: if is_new { self.energy } else { learnt.energy },
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Checkpoint;
+    use crate::model::energy::EnergyModel;
+    use crate::model::learnt::{GyroLearnt, Learnt};
+
+    const GYRO: GyroLearnt = GyroLearnt {
+        scale: 0.012,
+        scale_sigma: 0.001,
+        bias_rad_per_s: -2e-3,
+    };
+
+    #[test]
+    fn what_a_checkpoint_knows_is_the_newer() {
+        let energy = EnergyModel {
+            seen_s: 600.0,
+            ..EnergyModel::default()
+        };
+        let learnt = Learnt {
+            gyro: Some(GYRO),
+            energy,
+        };
+        let after = Checkpoint::default().after(learnt);
+        assert_eq!((after.gyro, after.energy), (Some(GYRO), energy));
+        let newer = GyroLearnt { scale: 0.01, ..GYRO };
+        let known = Checkpoint {
+            gyro: Some(newer),
+            ..Checkpoint::default()
+        };
+        assert_eq!(known.after(learnt).gyro, Some(newer));
+    }
+}

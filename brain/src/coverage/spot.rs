@@ -1,0 +1,113 @@
+//! Cleaning a disc of one metre: a spiral outwards from where the robot stands.
+//!
+//! Driving with a radius of curvature that grows evenly with the angle turned draws the involute of a circle: its turns
+//! lie evenly apart and its centre stays put, without knowing a pose.
+
+use core::f64::consts::TAU;
+
+use crate::model::action::Motion;
+use crate::model::geometry::TurnSide;
+use crate::model::order::DISC_M;
+use crate::model::reason::Reason;
+use crate::navigation::{Evasion, EvasionStep, Mind, Plan, Situation, Task};
+
+/// Radius of curvature at the start.
+const START_M: f64 = 0.06;
+/// Share of the swath by which neighbouring turns lie apart.
+const SPACING: f64 = 0.8;
+/// Share of the highest turn rate that the tight inner turns use.
+const TURN_SHARE: f64 = 0.8;
+/// Things met until the place is called too full.
+const ENCOUNTERS_MAX: u32 = 8;
+
+/// The task.
+#[derive(Clone, Debug)]
+pub(crate) struct Spot {
+    side: TurnSide,
+    /// Angle turned since the start, to the spiral's side.
+    turned_rad: f64,
+    encounters: u32,
+    evasion: Option<Evasion>,
+}
+
+impl Default for Spot {
+    fn default() -> Self {
+        Self {
+            side: TurnSide::Left,
+            turned_rad: 0.0,
+            encounters: 0,
+            evasion: None,
+        }
+    }
+}
+
+impl Task for Spot {
+    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if let Some(evasion) = &mut self.evasion {
+            match evasion.step(situation) {
+                EvasionStep::Going(motion) => return Plan::Go(motion),
+                EvasionStep::Free => self.evasion = None,
+                EvasionStep::Held(reason) => {
+                    self.evasion = None;
+                    return Plan::Trouble(reason);
+                }
+            }
+        } else {
+            self.turned_rad += (self.side.sign() * situation.advance.turn_rad).max(0.0);
+        }
+        self.spiral(situation, mind)
+    }
+
+    fn interrupted(&mut self) {
+        self.evasion = None;
+    }
+}
+
+impl Spot {
+    fn spiral(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        if situation.touching || situation.at_cliff {
+            return self.evade(situation, mind);
+        }
+        let config = situation.config;
+        let widening_m_per_rad = SPACING * config.body.swath_m / TAU;
+        let outermost_m = DISC_M - 0.5 * config.body.swath_m;
+        let radius_m = (START_M + widening_m_per_rad * self.turned_rad).min(outermost_m);
+        // One more turn at the outermost radius closes the disc.
+        if self.turned_rad > (outermost_m - START_M) / widening_m_per_rad + TAU {
+            return Plan::Finished(Reason::Finished);
+        }
+        let speeds = config.speeds;
+        let speed_m_per_s = speeds
+            .cruise_m_per_s
+            .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
+        Plan::Go(Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: self.side.sign() * speed_m_per_s / radius_m,
+        })
+    }
+
+    /// Away from what was met, and on with the other hand, so that the rest of the disc lies ahead.
+    fn evade(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+        self.encounters += 1;
+        if self.encounters > ENCOUNTERS_MAX {
+            return Plan::Finished(Reason::Obstructed);
+        }
+        let observation = situation.observation;
+        let contact = Reason::of_cliffs(observation.cliffs).or(Reason::of_contacts(observation.contacts));
+        let reason = contact.unwrap_or(Reason::BumpFront);
+        let turn_to = match reason {
+            Reason::BumpLeft | Reason::CliffLeft => TurnSide::Right,
+            Reason::BumpRight | Reason::CliffRight => TurnSide::Left,
+            _ => self.side.opposite(),
+        };
+        self.side = turn_to;
+        mind.decide("back-off", reason, self.turned_rad);
+        let turn_rad = turn_to.sign() * mind.random.between(1.2, 2.2);
+        self.evasion = Some(if situation.at_cliff {
+            Evasion::from_cliff(0.08, turn_rad)
+        } else {
+            Evasion::from_contact(0.04, turn_rad)
+        });
+        Plan::Go(Motion::Halt)
+    }
+}

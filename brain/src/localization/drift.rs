@@ -1,0 +1,54 @@
+//! How the pose becomes less sure while nothing but odometry carries it on.
+
+use crate::model::advance::Advance;
+
+/// Standard deviations of a pose that nothing but odometry carries on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Drift {
+    pub(super) sigma_m: f64,
+    pub(super) sigma_rad: f64,
+}
+
+/// Error of the way by wheels that differ from the data sheet, relative. Figures of this file: navigation experiments of
+/// the project with robots of this class; no robot was measured yet.
+const WAY_SCALE: f64 = 0.01;
+/// Slip along the way, metres per square root of a metre.
+const SLIP_M_PER_SQRT_M: f64 = 0.01;
+/// Slip in heading, radians per square root of a metre: 0.5 degrees, only where there is no gyro.
+const SLIP_RAD_PER_SQRT_M: f64 = 8.7e-3;
+/// Error of a turn by wheels, relative.
+pub(super) const WHEEL_TURN_SCALE: f64 = 0.015;
+/// Error of a turn by a gyro whose scale nobody has calibrated, relative.
+const GYRO_TURN_SCALE: f64 = 0.005;
+/// Noise of the gyro's heading, radians per square root of a second: 0.02 degrees.
+const GYRO_WALK_RAD_PER_SQRT_S: f64 = 3.5e-4;
+
+impl Drift {
+    /// What the motion adds. The error of the heading tilts all of the way that follows, so the figure is that of a
+    /// straight way: an upper one for ways that turn back.
+    pub(super) fn grow(&mut self, advance: Advance) {
+        let way_m = advance.distance_m.abs();
+        let turn_variance = turn_variance(advance);
+        self.sigma_rad = libm::sqrt(self.sigma_rad * self.sigma_rad + turn_variance);
+        let slipped_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * way_m;
+        self.sigma_m = libm::sqrt(self.sigma_m * self.sigma_m + slipped_m2)
+            + way_m * libm::sqrt(WAY_SCALE * WAY_SCALE + self.sigma_rad * self.sigma_rad);
+    }
+}
+
+/// Variance that a motion adds to the heading, in square radians. Standing adds none: what the gyro shows then is not counted.
+pub(super) fn turn_variance(advance: Advance) -> f64 {
+    if advance.stands() {
+        return 0.0;
+    }
+    match advance.gyro_turn_rad {
+        Some(turn_rad) => {
+            let scale_rad = GYRO_TURN_SCALE * turn_rad;
+            scale_rad * scale_rad + GYRO_WALK_RAD_PER_SQRT_S * GYRO_WALK_RAD_PER_SQRT_S * advance.time_s
+        }
+        None => {
+            let scale_rad = WHEEL_TURN_SCALE * advance.wheel_turn_rad;
+            scale_rad * scale_rad + SLIP_RAD_PER_SQRT_M * SLIP_RAD_PER_SQRT_M * advance.distance_m.abs()
+        }
+    }
+}

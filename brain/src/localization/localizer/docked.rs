@@ -1,0 +1,95 @@
+//! What docking tells of the robot's place, and its place of the dock.
+//!
+//! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
+//! tells where the dock is.
+
+use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
+use crate::localization::TrackingCheckpoint;
+use crate::localization::drift::Drift;
+use crate::localization::tracker::PROBATION_BEAMS;
+use crate::mapping::{DockPlace, Map};
+use crate::model::config::BrainConfig;
+use crate::model::geometry::Pose2;
+
+/// How well a pose is known that a person has pointed out, metres and radians.
+const TOLD_SIGMA_M: f64 = 0.3;
+const TOLD_SIGMA_RAD: f64 = 0.4;
+/// A pose that is as sure as this may lead others, metres.
+const CONFIRMED_M: f64 = 0.15;
+
+impl Localization {
+    /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
+    pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
+        self.place_at(pose);
+        self.track(map, config, seed);
+        if self.tracked.is_none() {
+            self.survey(config);
+        }
+        self.begin_roughly_at(pose);
+    }
+
+    pub(super) fn begin_roughly_at(&mut self, pose: Pose2) {
+        self.put_at(pose);
+        self.odometry.calibration.interrupt();
+        self.drift = Drift {
+            sigma_m: TOLD_SIGMA_M,
+            sigma_rad: TOLD_SIGMA_RAD,
+        };
+        if let Some(tracked) = &mut self.tracked {
+            tracked.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
+            tracked.tracker.doubt_for(PROBATION_BEAMS);
+        }
+    }
+
+    /// The dock is known to be elsewhere.
+    pub fn put_dock(&mut self, dock: DockPlace) {
+        if let Some(tracked) = &mut self.tracked {
+            tracked.terrain.put_dock(dock);
+        }
+    }
+
+    /// Whether the pose is so sure that others may be led by it: what the sensors show confirms it, or walls that were followed
+    /// from the beginning do.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
+        is_narrow
+            && match &self.tracked {
+                Some(tracked) => tracked.tracker.is_confirmed(),
+                None => self.survey.is_some(),
+            }
+    }
+
+    /// Whether the dock's contacts closed at the last observation: a robot that wakes on its dock has felt nothing yet.
+    #[must_use]
+    pub fn has_just_docked(&self) -> bool {
+        self.has_just_docked
+    }
+
+    /// Whether the dock's contacts were closed at the last observation.
+    #[must_use]
+    pub fn is_docked(&self) -> bool {
+        self.was_docked
+    }
+
+    /// How a robot that stands on its dock begins to compare with the map that it has made, with what it has learnt of its gyro.
+    #[must_use]
+    pub fn tracking_on_dock(&self) -> TrackingCheckpoint {
+        let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
+        TrackingCheckpoint {
+            sigma_m: START_SIGMA_M,
+            sigma_rad: START_SIGMA_RAD,
+            gyro_scale,
+            gyro_bias_rad_per_s,
+            ..TrackingCheckpoint::default()
+        }
+    }
+
+    /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found
+    /// its place first.
+    #[must_use]
+    pub fn may_draw(&self) -> bool {
+        let is_told = |tracked: &Tracked| tracked.tracker.unconfirmed_beams() > 0;
+        !self.tracked.as_deref().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
+    }
+}

@@ -1,0 +1,73 @@
+//! What an order means in this map: which floor its parts are, and what is set for their rooms.
+
+use super::Map;
+use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
+use crate::model::order::{CleaningOrder, DISC_M, HomePart};
+use crate::model::reason::Reason;
+use crate::model::room_settings::{Pattern, RoomSettings};
+
+impl Rooms {
+    /// Whether a cell belongs to a part of the home.
+    pub(crate) fn is_in_part(&self, cell: Cell, part: &HomePart) -> bool {
+        match part {
+            HomePart::Room(id) => self.labels().get(cell) == Some(id),
+            HomePart::Zone(zone) => zone.contains(cell.middle()),
+            HomePart::Spot(place) => cell.middle().distance_m(*place) <= DISC_M,
+        }
+    }
+}
+
+impl Annotations {
+    /// How often a part of an order is cleaned: as the order says, or more often if that is a setting of the room.
+    #[must_use]
+    pub fn passes_over(&self, order: &CleaningOrder, part: Option<&HomePart>) -> u8 {
+        let of_room = match part {
+            Some(HomePart::Room(id)) => self.settings(*id).map(|settings| settings.passes()),
+            _ => None,
+        };
+        of_room.unwrap_or(0).max(order.passes())
+    }
+
+    /// In which way a part of an order is swept: as the order says, else as is set for the room.
+    #[must_use]
+    pub fn pattern_over(&self, order: &CleaningOrder, part: Option<&HomePart>) -> Pattern {
+        let of_room = || match part {
+            Some(HomePart::Room(id)) => self.settings(*id).map(RoomSettings::pattern),
+            Some(HomePart::Zone(_) | HomePart::Spot(_)) | None => None,
+        };
+        order.pattern().or_else(of_room).unwrap_or_default()
+    }
+
+    /// Rooms that are swept in rings when the whole home is cleaned and the order does not say how.
+    pub(crate) fn contour_rooms(&self, order: &CleaningOrder) -> Vec<u16> {
+        let is_contour = |settings: &RoomSettings| settings.pattern() == Pattern::Contour;
+        match order.pattern() {
+            Some(_) => Vec::new(),
+            None => self.rooms_with(is_contour).collect(),
+        }
+    }
+}
+
+impl Map {
+    /// Whether the map holds what is ordered.
+    pub(crate) fn admit_order(&self, order: &CleaningOrder) -> Result<(), Reason> {
+        let knowledge = self.knowledge();
+        let has_floor = |part: &HomePart| {
+            (0..knowledge.values().len())
+                .filter(|index| knowledge.values().get(*index) == Some(&CellKnowledge::Free))
+                .any(|index| self.rooms().is_in_part(knowledge.cell(index), part))
+        };
+        for part in order.parts() {
+            match part {
+                HomePart::Room(id) if self.rooms().rooms().iter().all(|room| room.id != *id) => {
+                    return Err(Reason::NoSuchRoom);
+                }
+                HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => {
+                    return Err(Reason::NoFloorThere);
+                }
+                _ => {}
+            }
+        }
+        order.avoid().iter().try_for_each(|no_go| self.may_forbid(no_go))
+    }
+}

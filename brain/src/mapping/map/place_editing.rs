@@ -1,0 +1,115 @@
+//! People keep zones and spots of the map under names.
+
+use super::Map;
+use crate::mapping::annotations::PLACES_MAX;
+use crate::model::kept_place::{KeptPlace, PlaceShape};
+use crate::model::no_go::RoomName;
+use crate::model::order::CleaningOrder;
+use crate::model::reason::Reason;
+
+impl Map {
+    /// Whether a place can be kept: the map must know floor there. With a number it comes back under the one that it had.
+    ///
+    /// # Errors
+    /// The named reason against it.
+    pub fn admit_place(&self, place: &KeptPlace, number: Option<u16>) -> Result<(), Reason> {
+        let known = &self.annotations().places;
+        if self.knowledge().values().is_empty() {
+            return Err(Reason::NoMap);
+        }
+        if known.kept.len() >= PLACES_MAX || known.next == u16::MAX {
+            return Err(Reason::TooManyPlaces);
+        }
+        if number
+            .is_some_and(|number| number == 0 || number >= known.next || known.kept.contains_key(&number))
+        {
+            return Err(Reason::NoSuchPlace);
+        }
+        known.may_be_called(None, place.name())?;
+        self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)
+    }
+
+    /// Keeps a place under its name.
+    ///
+    /// # Errors
+    /// As [`Self::admit_place`]; then nothing is changed.
+    pub fn keep_place(&mut self, place: KeptPlace, number: Option<u16>) -> Result<(), Reason> {
+        self.admit_place(&place, number)?;
+        let known = &mut self.home.annotations.places;
+        let number = number.unwrap_or(known.next);
+        known.next = known.next.max(number + 1);
+        known.kept.insert(number, place);
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether a place may be called so.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchPlace`], or [`Reason::NameTaken`] by another one.
+    pub fn admit_place_name(&self, number: u16, name: &RoomName) -> Result<(), Reason> {
+        self.admit_place_removal(number)?;
+        self.annotations().places.may_be_called(Some(number), name)
+    }
+
+    /// Gives a place another name.
+    ///
+    /// # Errors
+    /// As [`Self::admit_place_name`]; then nothing is changed.
+    pub fn name_place(&mut self, number: u16, name: RoomName) -> Result<(), Reason> {
+        self.admit_place_name(number, &name)?;
+        let known = self.home.annotations.places.kept.get_mut(&number);
+        let known = known.ok_or(Reason::NoSuchPlace)?;
+        *known = known.clone().with_name(name);
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether a place may be there in place of where it is.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchPlace`], or what speaks against a new one there.
+    pub fn admit_place_shape(&self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+        self.reshaped(number, shape).map(drop)
+    }
+
+    fn reshaped(&self, number: u16, shape: &PlaceShape) -> Result<KeptPlace, Reason> {
+        let known = self.annotations().place(number).ok_or(Reason::NoSuchPlace)?;
+        let place = known.clone().with_shape(shape)?;
+        self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)?;
+        Ok(place)
+    }
+
+    /// Lets a place be elsewhere, under its number and name.
+    ///
+    /// # Errors
+    /// As [`Self::admit_place_shape`]; then nothing is changed.
+    pub fn reshape_place(&mut self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+        let place = self.reshaped(number, shape)?;
+        self.home.annotations.places.kept.insert(number, place);
+        self.home.touch();
+        Ok(())
+    }
+
+    /// Whether there is a place of this number.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchPlace`] when not.
+    pub fn admit_place_removal(&self, number: u16) -> Result<(), Reason> {
+        match self.annotations().place(number) {
+            Some(_) => Ok(()),
+            None => Err(Reason::NoSuchPlace),
+        }
+    }
+
+    /// Keeps a place no longer.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchPlace`]; then nothing is changed.
+    pub fn forget_place(&mut self, number: u16) -> Result<(), Reason> {
+        let known = &mut self.home.annotations.places.kept;
+        known.remove(&number).ok_or(Reason::NoSuchPlace)?;
+        self.home.touch();
+        Ok(())
+    }
+}

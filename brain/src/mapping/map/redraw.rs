@@ -1,0 +1,193 @@
+//! The map drawn again with other poses of the past: the home and the job in it.
+//!
+//! Some ten thousand sightings are drawn, piece by piece over many steps, so that no step takes long; until all of it is there
+//! the map stays as it is.
+
+use super::Map;
+use crate::mapping::carpet::FloorFelt;
+use crate::mapping::derived::Derived;
+use crate::mapping::home::HomeMap;
+use crate::mapping::keyframe::Keyframe;
+use crate::mapping::layers::{Flag, Layers};
+use crate::mapping::sighting::Sighting;
+use crate::mapping::swept::{Swath, SweptLayer};
+use crate::mapping::traces::Path;
+use crate::mapping::{Cell, Mark};
+use crate::model::geometry::Pose2;
+
+/// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
+const SIGHTINGS_A_STEP: usize = 40;
+/// So few tiles may be left for the last step, because the robot draws on meanwhile.
+const TILES_LEFT: usize = 2;
+
+/// A map that is being drawn again.
+#[derive(Clone, Debug)]
+pub(super) struct Redrawing {
+    keyframes: Vec<Keyframe>,
+    next: usize,
+    layers: Layers,
+    derived: Derived,
+    swept: SweptLayer,
+    swath: Swath,
+    path: Path,
+}
+
+impl Redrawing {
+    /// A cell is not forbidden any more.
+    pub(super) fn allow(&mut self, cell: Cell) {
+        self.layers.change(cell, |evidence| evidence.clear(Flag::NoGo));
+    }
+
+    /// What was felt at a sighting that is drawn already.
+    fn draw_floor(&mut self, mut sighting: Sighting, home: &HomeMap) {
+        sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
+        home.pencil.draw_floor(&sighting, &mut self.layers);
+    }
+
+    /// Draws up to `most` sightings, and when none is left derives rasters for a tile. `true` when hardly one is left.
+    fn go_on(&mut self, home: &HomeMap, job_from: usize, most: usize) -> bool {
+        let sightings = home.sightings.get(self.next..).unwrap_or_default();
+        for sighting in sightings.iter().take(most) {
+            let mut sighting = *sighting;
+            sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
+            home.pencil.draw(&sighting, &mut self.layers);
+            if self.next >= job_from {
+                self.path.follow(sighting.pose.position());
+                if sighting.touched.sweeps() {
+                    self.swept.set_time(sighting.time_us);
+                    self.swath.sweep_to(sighting.pose, &mut self.swept);
+                } else {
+                    self.swath.lift();
+                }
+            }
+            self.next += 1;
+        }
+        let is_drawn = self.next >= home.sightings.len();
+        if is_drawn {
+            self.derived.refresh_tile(&mut self.layers);
+        }
+        is_drawn && self.layers.dirty_tiles() <= TILES_LEFT
+    }
+}
+
+impl Map {
+    /// Begins to draw the map again with other poses of the past, in the order of their times; poses between two keyframes are
+    /// moved by both. It is done after some more calls of [`Self::insert`].
+    pub fn redraw(&mut self, keyframes: &[Keyframe]) {
+        if keyframes.is_empty() {
+            return;
+        }
+        let mut swath = self.swath.clone();
+        swath.lift();
+        let mut layers = self.home.base.clone();
+        layers.soil();
+        self.redrawing = Some(Box::new(Redrawing {
+            keyframes: keyframes.to_vec(),
+            next: 0,
+            layers,
+            derived: Derived::default(),
+            swept: self.job_base.swept.clone(),
+            swath,
+            path: self.job_base.path.clone(),
+        }));
+    }
+
+    /// Takes back what was seen, met and swept from `since_us` on, and begins to draw the map again without it.
+    pub(crate) fn withdraw(&mut self, since_us: u64, keyframes: &[Keyframe]) {
+        let sightings = &mut self.home.sightings;
+        sightings.truncate(sightings.partition_point(|sighting| sighting.time_us < since_us));
+        self.job_base.sightings = self.job_base.sightings.min(sightings.len());
+        self.marks.withdraw(since_us);
+        self.redraw(keyframes);
+    }
+
+    /// Draws what is left of a map that is being drawn again.
+    pub fn finish_redraw(&mut self) {
+        while self.redrawing.is_some() {
+            self.draw_up_to(usize::MAX);
+        }
+    }
+
+    pub(super) fn redraw_on(&mut self) {
+        self.draw_up_to(SIGHTINGS_A_STEP);
+    }
+
+    fn draw_up_to(&mut self, most: usize) {
+        let Some(redrawing) = &mut self.redrawing else {
+            return;
+        };
+        if !redrawing.go_on(&self.home, self.job_base.sightings, most) {
+            return;
+        }
+        let Some(redrawing) = self.redrawing.take() else {
+            return;
+        };
+        let Redrawing {
+            keyframes,
+            layers,
+            derived,
+            swept,
+            path,
+            ..
+        } = *redrawing;
+        self.home.take_redrawn(layers, derived);
+        self.swept = swept;
+        self.path = path;
+        self.swath.lift();
+        self.marks.moved(|time_us, odom| {
+            corrected(
+                &keyframes,
+                time_us,
+                Pose2 {
+                    x_m: odom.x_m,
+                    y_m: odom.y_m,
+                    heading_rad: 0.0,
+                },
+            )
+            .position()
+        });
+        self.generation += 1;
+    }
+
+    /// Takes in what the motors' loads say of the floor at the observation that was inserted last, if it was at this time.
+    pub(crate) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) {
+        let Some(newest) = self.home.note_floor(time_us, felt) else {
+            return;
+        };
+        if let Some(redrawing) = &mut self.redrawing
+            && redrawing.next >= self.home.sightings.len()
+        {
+            redrawing.draw_floor(newest, &self.home);
+        }
+    }
+
+    /// From now on nothing of what was seen and swept up to now is drawn again.
+    pub(super) fn settle(&mut self) {
+        self.home.settle();
+        self.job_base.swept = self.swept.clone();
+        self.job_base.path = self.path.clone();
+        self.job_base.sightings = 0;
+        self.marks.settle();
+    }
+
+    /// Notes a place where something was met, at `time_us` and at the place `odom` by odometry.
+    pub(crate) fn mark(&mut self, mark: Mark, seen: crate::mapping::traces::SeenAt) {
+        self.marks.add(mark, Some(seen));
+    }
+}
+
+/// Where a robot was at `time_us` that was at `odom` by odometry, by the keyframes before and after.
+fn corrected(keyframes: &[Keyframe], time_us: u64, odom: Pose2) -> Pose2 {
+    let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
+    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * odom);
+    let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
+    match (before, keyframes.get(after)) {
+        (Some(before), Some(after)) => {
+            let span_us = after.time_us.saturating_sub(before.time_us).max(1) as f64;
+            let share = time_us.saturating_sub(before.time_us) as f64 / span_us;
+            by(before).towards(by(after), share)
+        }
+        (Some(only), None) | (None, Some(only)) => by(only),
+        (None, None) => odom,
+    }
+}

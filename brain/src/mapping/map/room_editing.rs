@@ -1,0 +1,137 @@
+//! People change the rooms: one is split, two are joined, a change is taken back.
+
+use super::Map;
+use crate::mapping::Room;
+use crate::mapping::room_changes::{RoomChange, RoomJoin, RoomSplit};
+use crate::mapping::room_cut::{PartSide, cut};
+use crate::model::cut_line::CutLine;
+use crate::model::no_go::in_micrometres;
+use crate::model::reason::Reason;
+
+impl Map {
+    /// Whether a line can cut a room in two; without a room, the one in which the line is longest.
+    ///
+    /// # Errors
+    /// [`Reason::NoMap`], [`Reason::NoSuchRoom`], [`Reason::LineMissesRoom`], [`Reason::LineEndsInRoom`],
+    /// [`Reason::PartTooSmall`] or [`Reason::TooManyRoomChanges`].
+    pub fn admit_room_split(&self, room: Option<u16>, line: &CutLine) -> Result<(), Reason> {
+        self.split_of(room, line).map(|_| ())
+    }
+
+    /// The room that a line would cut, and the part that would get another identity.
+    fn split_of(&self, room: Option<u16>, line: &CutLine) -> Result<(u16, PartSide), Reason> {
+        if self.rooms().rooms().is_empty() {
+            return Err(Reason::NoMap);
+        }
+        if let Some(room) = room {
+            self.room(room)?;
+        }
+        self.home.annotations.rooms.has_room_for_another()?;
+        if self.home.rooms.next() == u16::MAX {
+            return Err(Reason::TooManyRoomChanges);
+        }
+        let cut = cut(self.rooms().labels(), room, line)?;
+        Ok((cut.room, cut.smaller()))
+    }
+
+    /// Cuts a room in two. The larger part keeps identity and name; the other one gets an identity that no room has had,
+    /// or the one that the same split gave before it was taken back.
+    ///
+    /// # Errors
+    /// As [`Self::admit_room_split`]; then nothing is changed.
+    pub fn split_room(&mut self, room: Option<u16>, line: CutLine) -> Result<(), Reason> {
+        let (room, side) = self.split_of(room, &line)?;
+        let before = self.home.annotations.rooms.part_before((room, side, line));
+        let part = before.unwrap_or_else(|| self.home.rooms.take_next());
+        let split = RoomSplit {
+            room,
+            part,
+            side,
+            line,
+        };
+        self.home.annotations.rooms.add(RoomChange::Split(split))?;
+        self.rooms_have_changed();
+        Ok(())
+    }
+
+    /// Whether two rooms can be one: they must lie beside each other.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchRoom`], [`Reason::RoomsApart`] or [`Reason::TooManyRoomChanges`].
+    pub fn admit_room_join(&self, rooms: [u16; 2]) -> Result<(), Reason> {
+        self.join_of(rooms).map(|_| ())
+    }
+
+    fn join_of(&self, rooms: [u16; 2]) -> Result<RoomJoin, Reason> {
+        let [one, other] = [self.room(rooms[0])?, self.room(rooms[1])?];
+        let mut border = self.rooms().doors().iter();
+        if !border
+            .any(|door| door.rooms.contains(&one.id) && door.rooms.contains(&other.id) && one.id != other.id)
+        {
+            return Err(Reason::RoomsApart);
+        }
+        self.home.annotations.rooms.has_room_for_another()?;
+        let (kept, lost) = if self.is_kept(one, other) {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        Ok(RoomJoin {
+            kept: kept.id,
+            lost: lost.id,
+            at: [in_micrometres(kept.middle), in_micrometres(lost.middle)],
+        })
+    }
+
+    /// A room with a name goes before one without; else the larger one.
+    fn is_kept(&self, one: &Room, other: &Room) -> bool {
+        let is_named = |room: &Room| self.home.annotations.name(room.id).is_some();
+        match (is_named(one), is_named(other)) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => one.area_m2 >= other.area_m2,
+        }
+    }
+
+    /// Makes two rooms one, which has identity and name of the one with a name, or else of the larger one.
+    ///
+    /// # Errors
+    /// As [`Self::admit_room_join`]; then nothing is changed.
+    pub fn join_rooms(&mut self, rooms: [u16; 2]) -> Result<(), Reason> {
+        let join = self.join_of(rooms)?;
+        self.home.annotations.rooms.add(RoomChange::Join(join))?;
+        self.rooms_have_changed();
+        Ok(())
+    }
+
+    /// Whether a change of the rooms can be taken back: no later one may build on it.
+    ///
+    /// # Errors
+    /// [`Reason::NoSuchRoomChange`] or [`Reason::RoomChangeInUse`].
+    pub fn admit_room_change_undo(&self, number: u16) -> Result<(), Reason> {
+        self.home.annotations.rooms.may_be_taken_back(number)
+    }
+
+    /// Takes a change of the rooms back; identities and names are again as they were before it.
+    ///
+    /// # Errors
+    /// As [`Self::admit_room_change_undo`]; then nothing is changed.
+    pub fn undo_room_change(&mut self, number: u16) -> Result<(), Reason> {
+        self.home.annotations.rooms.take_back(number)?;
+        self.rooms_have_changed();
+        Ok(())
+    }
+
+    fn room(&self, id: u16) -> Result<&Room, Reason> {
+        let known = self.rooms().rooms().iter().find(|room| room.id == id);
+        known.ok_or(Reason::NoSuchRoom)
+    }
+
+    fn rooms_have_changed(&mut self) {
+        self.home.survey();
+        self.home.touch();
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,55 @@
+//! A line by which a person cuts a room in two.
+
+use super::geometry::Point2;
+use super::no_go::in_micrometres;
+use super::reason::Reason;
+use super::zone::FAR_M;
+
+/// Shortest line, metres.
+const LINE_MIN_M: f64 = 0.05;
+
+/// A line that a person has drawn. Its ends are whole micrometres, as a stored map keeps them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutLine {
+    from: Point2,
+    to: Point2,
+}
+
+impl CutLine {
+    /// A line between two places.
+    ///
+    /// # Errors
+    /// [`Reason::BadLine`] when they are one place or far away.
+    pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
+        let is_near = |end: &Point2| end.x_m.abs() < FAR_M && end.y_m.abs() < FAR_M;
+        let line = Self {
+            from: in_micrometres(from),
+            to: in_micrometres(to),
+        };
+        if is_near(&from) && is_near(&to) && line.length_m() >= LINE_MIN_M {
+            Ok(line)
+        } else {
+            Err(Reason::BadLine)
+        }
+    }
+
+    /// Its ends.
+    #[must_use]
+    pub fn ends(&self) -> [Point2; 2] {
+        [self.from, self.to]
+    }
+
+    /// Its length in metres.
+    pub(crate) fn length_m(&self) -> f64 {
+        self.from.distance_m(self.to)
+    }
+
+    /// The place so many metres along it; it goes on beyond its ends.
+    pub(crate) fn at(&self, way_m: f64) -> Point2 {
+        let share = way_m / self.length_m();
+        Point2 {
+            x_m: self.from.x_m + share * (self.to.x_m - self.from.x_m),
+            y_m: self.from.y_m + share * (self.to.y_m - self.from.y_m),
+        }
+    }
+}

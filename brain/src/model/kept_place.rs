@@ -1,0 +1,86 @@
+//! Zones and spots that people keep under a name, to have them cleaned again.
+
+use super::geometry::Point2;
+use super::no_go::{RoomName, in_micrometres};
+use super::order::HomePart;
+use super::reason::Reason;
+use super::zone::{FAR_M, Zone};
+
+/// What a person has drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlaceShape {
+    /// A zone.
+    Zone(Zone),
+    /// A spot, by its middle.
+    Spot(Point2),
+}
+
+impl PlaceShape {
+    /// The part of a job that cleans it.
+    #[must_use]
+    pub fn part(&self) -> HomePart {
+        match self {
+            Self::Zone(zone) => HomePart::Zone(zone.clone()),
+            Self::Spot(place) => HomePart::Spot(*place),
+        }
+    }
+}
+
+/// A zone or spot with a name. Its corners are whole micrometres, as a stored map keeps them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptPlace {
+    name: RoomName,
+    shape: PlaceShape,
+}
+
+impl KeptPlace {
+    /// A place under a name.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] for one that is far away.
+    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, Reason> {
+        let shape = match shape {
+            PlaceShape::Zone(zone) => {
+                let corners = zone.corners().iter().copied().map(in_micrometres);
+                PlaceShape::Zone(Zone::new(corners.collect())?)
+            }
+            PlaceShape::Spot(place) if place.x_m.abs() < FAR_M && place.y_m.abs() < FAR_M => {
+                PlaceShape::Spot(in_micrometres(*place))
+            }
+            PlaceShape::Spot(_) => return Err(Reason::BadZone),
+        };
+        Ok(Self { name, shape })
+    }
+
+    /// The same under another name.
+    #[must_use]
+    pub fn with_name(self, name: RoomName) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same elsewhere.
+    ///
+    /// # Errors
+    /// [`Reason::BadZone`] for a shape that is far away.
+    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, Reason> {
+        Self::new(self.name, shape)
+    }
+
+    /// What people call it.
+    #[must_use]
+    pub const fn name(&self) -> &RoomName {
+        &self.name
+    }
+
+    /// What a person has drawn.
+    #[must_use]
+    pub const fn shape(&self) -> &PlaceShape {
+        &self.shape
+    }
+
+    /// The part of a job that cleans it.
+    #[must_use]
+    pub fn part(&self) -> HomePart {
+        self.shape.part()
+    }
+}

@@ -1,0 +1,21 @@
+//! The words of the brain: plain data that every layer above speaks with, and the little arithmetic that belongs to it.
+
+pub mod action;
+pub(crate) mod advance;
+pub mod command;
+pub mod config;
+pub(crate) mod cut_line;
+pub mod energy;
+pub mod geometry;
+pub(crate) mod gradual;
+pub(crate) mod kept_place;
+pub mod learnt;
+pub mod no_go;
+pub mod observation;
+pub mod order;
+pub(crate) mod pose_estimate;
+pub(crate) mod random;
+pub(crate) mod reason;
+pub mod room_settings;
+pub(crate) mod swept_share;
+pub mod zone;

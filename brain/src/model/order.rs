@@ -1,0 +1,152 @@
+//! What of the home a job cleans, in which order and how often; and where the robot must not go.
+
+use super::geometry::Point2;
+use super::no_go::NoGo;
+use super::reason::Reason;
+use super::room_settings::{PASSES_MAX, Pattern, RoomPower};
+use super::zone::Zone;
+
+/// Most parts of an order.
+const PARTS_MAX: usize = 32;
+/// Most places that a job may be told to keep out of.
+const AVOID_MAX: usize = 16;
+/// Radius of a spot in metres.
+pub const DISC_M: f64 = 0.5;
+
+/// A part of the home.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HomePart {
+    /// A room by its identity in the map.
+    Room(u16),
+    /// A zone.
+    Zone(Zone),
+    /// The disc of [`DISC_M`] around a place.
+    Spot(Point2),
+}
+
+/// What a job shall clean. The default is the whole home, once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CleaningOrder {
+    parts: Vec<HomePart>,
+    passes: u8,
+    avoid: Vec<NoGo>,
+    power: Option<RoomPower>,
+    pattern: Option<Pattern>,
+}
+
+impl Default for CleaningOrder {
+    fn default() -> Self {
+        Self {
+            parts: Vec::new(),
+            passes: 1,
+            avoid: Vec::new(),
+            power: None,
+            pattern: None,
+        }
+    }
+}
+
+impl CleaningOrder {
+    /// Up to 32 parts, cleaned one after the other, each 1 to 3 times before the next. No part means the whole home.
+    ///
+    /// # Errors
+    /// [`Reason::BadOrder`] for more parts or another number of passes.
+    pub fn new(parts: Vec<HomePart>, passes: u8) -> Result<Self, Reason> {
+        if parts.len() <= PARTS_MAX && (1..=PASSES_MAX).contains(&passes) {
+            Ok(Self {
+                parts,
+                passes,
+                ..Self::default()
+            })
+        } else {
+            Err(Reason::BadOrder)
+        }
+    }
+
+    /// The same, and the robot keeps out of up to 16 places until the next job begins.
+    ///
+    /// # Errors
+    /// [`Reason::TooManyNoGos`] for more of them.
+    pub fn avoiding(self, avoid: Vec<NoGo>) -> Result<Self, Reason> {
+        if avoid.len() <= AVOID_MAX {
+            Ok(Self { avoid, ..self })
+        } else {
+            Err(Reason::TooManyNoGos)
+        }
+    }
+
+    /// The same, with brushes and suction running so wherever the job cleans, whatever is set for the rooms.
+    ///
+    /// # Errors
+    /// [`Reason::BadSettings`] for more than 100 percent, or when nothing would run.
+    pub fn with_power(self, power: RoomPower) -> Result<Self, Reason> {
+        if power.is_possible() {
+            Ok(Self {
+                power: Some(power),
+                ..self
+            })
+        } else {
+            Err(Reason::BadSettings)
+        }
+    }
+
+    /// The same, swept by this pattern, whatever is set for the rooms.
+    #[must_use]
+    pub fn with_pattern(self, pattern: Pattern) -> Self {
+        Self {
+            pattern: Some(pattern),
+            ..self
+        }
+    }
+
+    /// How hard brushes and suction run if the order says it.
+    #[must_use]
+    pub const fn power(&self) -> Option<RoomPower> {
+        self.power
+    }
+
+    /// By which pattern floor is swept if the order says it.
+    #[must_use]
+    pub const fn pattern(&self) -> Option<Pattern> {
+        self.pattern
+    }
+
+    /// Where the robot does not go in this job.
+    #[must_use]
+    pub fn avoid(&self) -> &[NoGo] {
+        &self.avoid
+    }
+
+    /// The parts in their order.
+    #[must_use]
+    pub fn parts(&self) -> &[HomePart] {
+        &self.parts
+    }
+
+    /// Whether it is for the whole home, and not for parts of it.
+    #[must_use]
+    pub const fn is_for_whole_home(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// How often each part is cleaned at least.
+    #[must_use]
+    pub const fn passes(&self) -> u8 {
+        self.passes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CleaningOrder, HomePart};
+    use crate::model::reason::Reason;
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        for passes in [0, 4] {
+            assert_eq!(CleaningOrder::new(vec![], passes), Err(Reason::BadOrder));
+        }
+        let rooms = vec![HomePart::Room(1); 33];
+        assert_eq!(CleaningOrder::new(rooms, 1), Err(Reason::BadOrder));
+    }
+}

@@ -1,0 +1,71 @@
+//! Blocks in the order in which a search leaves them: a list for each cost, because steps cost little and costs are whole.
+
+/// Cost of the longest step.
+pub(super) const LONGEST: u32 = 14;
+
+/// Blocks that wait to be left, those of least cost and lowest number first.
+pub(super) struct Queue {
+    /// Blocks of equal costs; those that wait differ by no more than the longest step.
+    rings: [Vec<u32>; LONGEST as usize + 1],
+    cost: u32,
+    waiting: usize,
+    /// The present ring is in order.
+    is_sorted: bool,
+}
+
+impl Queue {
+    pub(super) fn of(start: usize) -> Self {
+        let mut queue = Self {
+            rings: Default::default(),
+            cost: 0,
+            waiting: 0,
+            is_sorted: false,
+        };
+        queue.push(0, start);
+        queue
+    }
+
+    pub(super) fn push(&mut self, cost: u32, block: usize) {
+        self.rings[(cost % (LONGEST + 1)) as usize].push(block as u32);
+        self.waiting += 1;
+    }
+
+    pub(super) fn pop(&mut self) -> Option<(u32, usize)> {
+        if self.waiting == 0 {
+            return None;
+        }
+        loop {
+            let ring = &mut self.rings[(self.cost % (LONGEST + 1)) as usize];
+            if !self.is_sorted {
+                ring.sort_unstable_by(|one, other| other.cmp(one));
+                self.is_sorted = true;
+            }
+            if let Some(block) = ring.pop() {
+                self.waiting -= 1;
+                return Some((self.cost, block as usize));
+            }
+            self.cost += 1;
+            self.is_sorted = false;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LONGEST, Queue};
+
+    #[test]
+    fn what_costs_least_comes_first_and_of_equals_the_lowest_number() {
+        let mut queue = Queue::of(7);
+        assert_eq!(queue.pop(), Some((0, 7)));
+        for (cost, block) in [(LONGEST, 3), (10, 9), (10, 2)] {
+            queue.push(cost, block);
+        }
+        assert_eq!(queue.pop(), Some((10, 2)));
+        queue.push(10 + LONGEST, 1);
+        assert_eq!(queue.pop(), Some((10, 9)));
+        assert_eq!(queue.pop(), Some((LONGEST, 3)));
+        assert_eq!(queue.pop(), Some((10 + LONGEST, 1)));
+        assert_eq!(queue.pop(), None);
+    }
+}

@@ -1,0 +1,177 @@
+//! What the proximity sensors and the map advise a robot that follows a way: slower towards what is ahead, and away from what
+//! it nearly touches at a side.
+
+use super::path_follower::Caution;
+use super::{Follower, Situation};
+use crate::mapping::{CELL_M, Cell, CellKnowledge};
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::Point2;
+
+/// Levels below this are too far away to matter.
+const LEVEL_MIN: f64 = 0.2;
+/// What reaches less than this into the way of the body is passed without a touch, metres.
+const GRAZE_M: f64 = 0.008;
+/// Fastest approach, m/s for each metre of free way beyond `STAND_M`.
+const APPROACH_PER_S: f64 = 2.5;
+/// As `APPROACH_PER_S`, metres.
+const STAND_M: f64 = 0.01;
+/// A smaller gap at a side is widened, metres.
+const GAP_M: f64 = 0.02;
+/// How far the robot goes aside for each metre of gap that lacks.
+const ASIDE_GAIN: f64 = 2.0;
+/// What stands nearer than this share of the radius to the way of the middle is ahead and not at a side.
+const SIDE_SHARE: f64 = 0.5;
+/// What lies farther back than this is not met any more, metres.
+const BEHIND_M: f64 = -0.03;
+/// A sensor that only says near keeps the robot this far to the other side of its way, metres.
+const NEAR_ASIDE_M: f64 = 0.02;
+
+/// Something ahead, as the sensors show it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ahead {
+    /// Way straight ahead until it is touched, metres.
+    pub(crate) way_m: f64,
+    /// Where it is, in the body's frame.
+    pub(crate) at: Point2,
+}
+
+/// What is advised on the way of `follower`.
+pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
+    let layout = &situation.config.sensors.proximity;
+    let seen = hits(layout, &situation.observation.proximity);
+    if layout.response.near_m.is_some() {
+        return Caution {
+            offset_m: seen.map(|hit| -NEAR_ASIDE_M.copysign(hit.y_m)).sum(),
+            ..Caution::default()
+        };
+    }
+    let radius_m = situation.config.body.radius_m;
+    let mut sides = Sides::default();
+    for hit in seen {
+        sides.note(hit, hit.distance_m(Point2::ORIGIN) - radius_m, radius_m);
+    }
+    note_known(situation, &mut sides);
+    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.way_m);
+    Caution {
+        speed_m_per_s: if follower.turns_on_spot() {
+            f64::INFINITY
+        } else {
+            APPROACH_PER_S * (ahead_m - STAND_M).max(0.0)
+        },
+        aside_m: ASIDE_GAIN * (sides.right_lacks_m - sides.left_lacks_m),
+        ahead_m,
+        ..Caution::default()
+    }
+}
+
+/// The nearest of what the sensors see straight ahead; `None` also for sensors that only say near.
+pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
+    let layout = &situation.config.sensors.proximity;
+    if layout.response.near_m.is_some() {
+        return None;
+    }
+    let radius_m = situation.config.body.radius_m;
+    hits(layout, &situation.observation.proximity)
+        .map(|at| Ahead {
+            way_m: way_to(at, radius_m),
+            at,
+        })
+        .filter(|ahead| ahead.way_m.is_finite())
+        .min_by(|one, other| one.way_m.total_cmp(&other.way_m))
+}
+
+/// What lacks of the gap at each side, metres.
+#[derive(Debug, Default)]
+struct Sides {
+    left_lacks_m: f64,
+    right_lacks_m: f64,
+}
+
+impl Sides {
+    /// Notes something at a place in the body's frame with a gap to the rim.
+    fn note(&mut self, at: Point2, gap_m: f64, radius_m: f64) {
+        if at.x_m < BEHIND_M || at.y_m.abs() < SIDE_SHARE * radius_m {
+            return;
+        }
+        let lacks_m = if at.y_m > 0.0 {
+            &mut self.left_lacks_m
+        } else {
+            &mut self.right_lacks_m
+        };
+        *lacks_m = lacks_m.max(GAP_M - gap_m.max(0.0));
+    }
+}
+
+/// Notes what the map shows at the sides: sensors see nothing of what stands between their beams.
+fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
+    let knowledge = situation.map.knowledge();
+    let body_from_map = situation.pose.inverse();
+    let radius_m = situation.config.body.radius_m;
+    let reach = libm::ceil((radius_m + GAP_M) / CELL_M) as i32 + 1;
+    let middle = Cell::under(situation.pose.position());
+    for rise in -reach..=reach {
+        for shift in -reach..=reach {
+            let cell = Cell {
+                x: middle.x.saturating_add(shift),
+                y: middle.y.saturating_add(rise),
+            };
+            if knowledge.get(cell) == Some(&CellKnowledge::Occupied) {
+                let at = body_from_map.transform(cell.middle());
+                sides.note(
+                    at,
+                    at.distance_m(Point2::ORIGIN) - radius_m - 0.5 * CELL_M,
+                    radius_m,
+                );
+            }
+        }
+    }
+}
+
+/// Where the sensors see something near, in the body's frame.
+fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2> {
+    layout.sensors().iter().zip(levels).filter_map(|(sensor, level)| {
+        let level = f64::from(*level);
+        let distance_m = layout.response.distance_m(level).filter(|_| level >= LEVEL_MIN)?;
+        Some(sensor.transform(Point2 {
+            x_m: distance_m,
+            y_m: 0.0,
+        }))
+    })
+}
+
+/// Way straight ahead until the rim touches a point; infinite when it passes beside.
+fn way_to(point: Point2, radius_m: f64) -> f64 {
+    if point.x_m <= 0.0 || point.y_m.abs() >= radius_m - GRAZE_M {
+        return f64::INFINITY;
+    }
+    (point.x_m - libm::sqrt(radius_m * radius_m - point.y_m * point.y_m)).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GAP_M, Sides, way_to};
+    use crate::model::geometry::Point2;
+
+    const RADIUS_M: f64 = 0.175;
+
+    #[test]
+    fn the_way_ends_where_the_rim_touches_and_what_passes_beside_does_not_end_it() {
+        assert!((way_to(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
+        assert_eq!(way_to(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M), f64::INFINITY);
+        assert_eq!(way_to(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M), f64::INFINITY);
+    }
+
+    #[test]
+    fn what_stands_at_a_side_lacks_gap_there_and_what_is_ahead_or_behind_at_none() {
+        let lacks = |x_m: f64, y_m: f64, gap_m: f64| {
+            let mut sides = Sides::default();
+            sides.note(Point2 { x_m, y_m }, gap_m, RADIUS_M);
+            (sides.left_lacks_m, sides.right_lacks_m)
+        };
+        assert_eq!(lacks(0.05, 0.18, 0.0), (GAP_M, 0.0));
+        assert_eq!(lacks(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
+        assert_eq!(lacks(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
+        assert_eq!(lacks(0.18, 0.02, 0.0), (0.0, 0.0));
+        assert_eq!(lacks(-0.1, 0.15, 0.0), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,161 @@
+//! Getting away from what was met: back off until it is released, then turn away.
+
+use super::{BackOff, Leg, Situation, Turn};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+
+/// Way back that is added each time the bumper is still pressed or the floor still missing.
+const MORE_M: f64 = 0.02;
+/// Most way back at a cliff; the firmware ends reversing after 0.15 m (S8).
+const CLIFF_MOST_M: f64 = 0.14;
+/// Most way back after a contact beyond the length that was asked for.
+const CONTACT_MOST_M: f64 = 0.12;
+/// Times a turn may meet something before it is called trouble.
+const TURN_CONTACTS_MAX: u32 = 3;
+
+/// What was met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Met {
+    Contact,
+    Cliff,
+}
+
+/// Back off, then turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Evasion {
+    phase: Phase,
+    met: Met,
+    turn_rad: f64,
+    /// Way that may still be added to the back-off.
+    more_m: f64,
+    contacts_left: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    Back(BackOff),
+    Turn(Turn),
+}
+
+/// State of an evasion after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum EvasionStep {
+    /// Not free yet.
+    Going(Motion),
+    /// Free, and turned away.
+    Free,
+    /// What was met does not let go.
+    Held(Reason),
+}
+
+impl Evasion {
+    /// Away from a contact: `back_m` back, then a turn.
+    pub(crate) fn from_contact(back_m: f64, turn_rad: f64) -> Self {
+        Self {
+            phase: Phase::Back(BackOff::from_contact(back_m)),
+            met: Met::Contact,
+            turn_rad,
+            more_m: CONTACT_MOST_M,
+            contacts_left: TURN_CONTACTS_MAX,
+        }
+    }
+
+    /// Away from a cliff: `back_m` back, then a turn.
+    pub(crate) fn from_cliff(back_m: f64, turn_rad: f64) -> Self {
+        Self {
+            phase: Phase::Back(BackOff::from_cliff(back_m)),
+            met: Met::Cliff,
+            more_m: (CLIFF_MOST_M - back_m).max(0.0),
+            ..Self::from_contact(back_m, turn_rad)
+        }
+    }
+
+    /// Goes on with what is under way, and forgets it when it is free: the motion to make, or why the robot is held. `None` =
+    /// nothing is under way any more.
+    pub(crate) fn pursue(
+        under_way: &mut Option<Self>,
+        situation: &Situation<'_>,
+    ) -> Option<Result<Motion, Reason>> {
+        match under_way.as_mut()?.step(situation) {
+            EvasionStep::Going(motion) => Some(Ok(motion)),
+            EvasionStep::Held(reason) => Some(Err(reason)),
+            EvasionStep::Free => {
+                *under_way = None;
+                None
+            }
+        }
+    }
+
+    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> EvasionStep {
+        match self.phase {
+            Phase::Back(mut back) => {
+                let leg = back.step(situation);
+                self.phase = Phase::Back(back);
+                self.after_back(leg, situation)
+            }
+            Phase::Turn(mut turn) => {
+                let leg = turn.step(situation);
+                self.phase = Phase::Turn(turn);
+                self.after_turn(leg, situation)
+            }
+        }
+    }
+
+    fn after_back(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
+        if let Leg::Going(motion) = leg {
+            return EvasionStep::Going(motion);
+        }
+        if situation.at_cliff && self.met == Met::Contact {
+            *self = Self::from_cliff(MORE_M, self.turn_rad);
+        }
+        let held = if self.met == Met::Cliff {
+            situation.at_cliff
+        } else {
+            situation.touching
+        };
+        if !held {
+            self.phase = Phase::Turn(Turn::by(self.turn_rad));
+            return EvasionStep::Going(Motion::Halt);
+        }
+        if leg == Leg::Late || self.more_m <= 0.0 {
+            return EvasionStep::Held(self.held_reason());
+        }
+        self.more_m -= MORE_M;
+        let Phase::Back(back) = &mut self.phase else {
+            return EvasionStep::Held(self.held_reason());
+        };
+        back.lengthen(MORE_M);
+        match back.step(situation) {
+            Leg::Going(motion) => EvasionStep::Going(motion),
+            Leg::Arrived | Leg::Late => EvasionStep::Going(Motion::Halt),
+        }
+    }
+
+    fn after_turn(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
+        if !situation.touching && !situation.at_cliff {
+            return match leg {
+                Leg::Going(motion) => EvasionStep::Going(motion),
+                // A turn that came late is as good: any direction but the old one will do.
+                Leg::Arrived | Leg::Late => EvasionStep::Free,
+            };
+        }
+        if self.contacts_left == 0 {
+            return EvasionStep::Held(self.held_reason());
+        }
+        let contacts_left = self.contacts_left - 1;
+        *self = if situation.at_cliff {
+            Self::from_cliff(MORE_M, self.turn_rad)
+        } else {
+            Self::from_contact(MORE_M, self.turn_rad)
+        };
+        self.contacts_left = contacts_left;
+        EvasionStep::Going(Motion::Halt)
+    }
+
+    fn held_reason(&self) -> Reason {
+        match self.met {
+            Met::Contact => Reason::ContactHeld,
+            Met::Cliff => Reason::CliffHeld,
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Where something was met that stands in the way of plans.
+//!
+//! A contact near to something that the map shows is first taken for a robot that came too near to it; met again, it stands there.
+
+use super::Situation;
+use crate::mapping::{CELL_M, Cell, CellKnowledge};
+use crate::model::geometry::Point2;
+use crate::model::reason::Reason;
+
+/// An obstruction is believed for this long.
+const BELIEVED_US: u64 = 240_000_000;
+/// Contacts kept; the oldest go first.
+const KEPT_MAX: usize = 64;
+/// Two contacts nearer than this are with the same thing.
+const SAME_M: f64 = 0.12;
+/// A contact this near to something known is with that.
+const KNOWN_M: f64 = 0.06;
+/// Direction of a contact on one side from straight ahead when nothing else tells, radians.
+const SIDE_RAD: f64 = 0.7;
+/// So far to either side of `SIDE_RAD` it may be, and of straight ahead when both halves of the bumper are pressed, radians.
+const SIDE_SPREAD_RAD: f64 = 0.35;
+const AHEAD_SPREAD_RAD: f64 = 0.2;
+/// Proximity level of a sensor that looks at what was touched.
+const TOUCH_LEVEL: f32 = 0.5;
+
+/// The contacts of the last minutes.
+#[derive(Debug, Default)]
+pub(crate) struct Obstructions {
+    met: Vec<Met>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    since_us: u64,
+    at: Point2,
+    /// Where it may be as well: the bumper does not tell more.
+    beside: [Point2; 2],
+    is_believed: bool,
+}
+
+impl Obstructions {
+    /// Notes what was met.
+    pub(crate) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
+        let (bearing, spread_rad) = bearing_rad(reason, situation);
+        let at = rim(bearing, situation);
+        let beside = [-spread_rad, spread_rad].map(|aside_rad| rim(bearing + aside_rad, situation));
+        self.keep(at, beside, situation);
+    }
+
+    /// Notes what the sensors show, at a place in the body's frame.
+    pub(crate) fn add_seen(&mut self, hit: Point2, situation: &Situation<'_>) {
+        let at = rim(libm::atan2(hit.y_m, hit.x_m), situation);
+        self.keep(at, [at; 2], situation);
+    }
+
+    fn keep(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
+        let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
+        if self.met.len() >= KEPT_MAX {
+            self.met.remove(0);
+        }
+        self.met.push(Met {
+            since_us: situation.observation.time_us,
+            at,
+            beside,
+            is_believed: is_again || !is_known(at, situation),
+        });
+    }
+
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.met.clear();
+    }
+
+    /// Where plans must not lead over.
+    pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
+        self.met
+            .retain(|met| now_us < met.since_us.saturating_add(BELIEVED_US));
+        self.met
+            .iter()
+            .filter(|met| met.is_believed)
+            .flat_map(|met| [met.at, met.beside[0], met.beside[1]])
+            .collect()
+    }
+}
+
+/// The point of the rim in a direction from straight ahead.
+fn rim(bearing_rad: f64, situation: &Situation<'_>) -> Point2 {
+    let in_base = Point2::in_direction(bearing_rad, situation.config.body.radius_m);
+    situation.pose.transform(in_base)
+}
+
+/// Whether the map knows of something near a point.
+fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
+    let knowledge = situation.map.knowledge();
+    let reach = libm::ceil(KNOWN_M / CELL_M) as i32;
+    let middle = Cell::under(at);
+    (-reach..=reach).any(|rise| {
+        (-reach..=reach).any(|shift| {
+            let cell = Cell {
+                x: middle.x.saturating_add(shift),
+                y: middle.y.saturating_add(rise),
+            };
+            !matches!(
+                knowledge.get(cell),
+                None | Some(CellKnowledge::Free | CellKnowledge::Unknown)
+            )
+        })
+    })
+}
+
+/// Direction of what was met from straight ahead, and how far to either side of that it may be: that of the proximity sensor
+/// that sees most on this side, else somewhere in the middle of the side.
+fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
+    let side = match reason {
+        Reason::BumpLeft | Reason::CliffLeft => 1.0,
+        Reason::BumpRight | Reason::CliffRight => -1.0,
+        _ => return (0.0, AHEAD_SPREAD_RAD),
+    };
+    let levels = &situation.observation.proximity;
+    let sensors = situation.config.sensors.proximity;
+    let mut best = (TOUCH_LEVEL, (side * SIDE_RAD, SIDE_SPREAD_RAD));
+    for (level, sensor) in levels.iter().zip(sensors.sensors()) {
+        if sensor.heading_rad * side > 0.0 && *level > best.0 {
+            best = (*level, (sensor.heading_rad, 0.0));
+        }
+    }
+    best.1
+}
+/// What was just met, if anything was.
+pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
+    if situation.at_cliff {
+        Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))
+    } else if situation.touching {
+        Some(Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront))
+    } else {
+        None
+    }
+}

@@ -1,0 +1,344 @@
+//! Following a way of arcs, straights and turns on the spot by the pose in the map.
+//!
+//! Terms. *Piece*: see [`Piece`]. *Offset*: distance of the robot from the piece it follows, left positive.
+
+use super::{Piece, Situation};
+use crate::model::action::Motion;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+
+/// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.4 m
+/// at cruise speed, without swinging.
+const HEADING_GAIN_PER_S: f64 = 3.5;
+/// Steering for an offset, rad/s for each metre of offset and m/s of speed.
+const OFFSET_GAIN: f64 = 40.0;
+/// Steering below this is not worth it; a straight way then is really straight, which the rest for the gyro needs.
+const STEER_MIN_RAD_PER_S: f64 = 0.03;
+/// Brakes and accelerates like this: less than the 0.5 m/s2 of the firmware, so that it can follow.
+const BRAKE_M_PER_S2: f64 = 0.4;
+/// Commands take this long to show in the wheels: arcs are entered as much earlier.
+const LAG_S: f64 = 0.25;
+/// Slowest speed that is still a speed for a motor with a dead band.
+const CREEP_M_PER_S: f64 = 0.05;
+/// Turn rate asked for each radian that is left of a turn on the spot.
+const TURN_GAIN_PER_S: f64 = 4.0;
+/// Slowest turn that is still a turn.
+const TURN_MIN_RAD_PER_S: f64 = 0.4;
+/// A turn on the spot is made when less than this is left; steering does the rest.
+const TURN_DONE_RAD: f64 = 0.06;
+/// Share of the highest turn rate that arcs use: the rest is for steering. With 0.8 known homes take 0.01 to 0.1 T0 longer to 90 %,
+/// with 0.95 furniture is touched more often.
+const ARC_SHARE: f64 = 0.9;
+/// With less way ahead than this, and less than that left of a piece, the robot goes on with the next one, metres: what it sees
+/// tells better than its place where the way ends.
+const TURN_BEFORE_M: f64 = 0.02;
+const SHORT_OF_M: f64 = 0.08;
+/// Off a straight by more than the first and less than the second the robot keeps aside of something, metres.
+const ASIDE_MIN_M: f64 = 0.005;
+const ASIDE_MAX_M: f64 = 0.03;
+/// Farther from the way than this the robot does not follow it any more.
+const LOST_M: f64 = 0.25;
+/// A robot that looks farther away from the way than this turns before it drives on.
+const ELSEWHERE_RAD: f64 = 1.2;
+
+/// A way that is being driven.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Follower {
+    pieces: Vec<Piece>,
+    current: usize,
+    /// Turn on the spot: what is left of it, once it has begun.
+    turn_left_rad: Option<f64>,
+}
+
+/// State of a way after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FollowStep {
+    /// On it.
+    Going(Motion),
+    /// At its end.
+    Arrived,
+    /// Too far from it.
+    Off,
+}
+
+/// What surroundings allow at this moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Caution {
+    /// Fastest speed.
+    pub(crate) speed_m_per_s: f64,
+    /// Keep this much to the left of the way (negative: to the right).
+    pub(crate) offset_m: f64,
+    /// Go this much to the left of where it is now (negative: to the right), unless the way leads farther that way anyhow.
+    pub(crate) aside_m: f64,
+    /// Way straight ahead until something is touched, as far as it is seen.
+    pub(crate) ahead_m: f64,
+}
+
+impl Default for Caution {
+    /// Nothing is near.
+    fn default() -> Self {
+        Self {
+            speed_m_per_s: f64::INFINITY,
+            offset_m: 0.0,
+            aside_m: 0.0,
+            ahead_m: f64::INFINITY,
+        }
+    }
+}
+
+impl Caution {
+    /// What of an offset is to be made good.
+    fn off_m(&self, offset_m: f64) -> f64 {
+        let off_m = offset_m - self.offset_m;
+        if self.aside_m > 0.0 {
+            off_m.min(-self.aside_m)
+        } else if self.aside_m < 0.0 {
+            off_m.max(-self.aside_m)
+        } else {
+            off_m
+        }
+    }
+}
+
+/// Where the robot is on a piece.
+struct Fix {
+    /// Way made on the piece.
+    along_m: f64,
+    offset_m: f64,
+    /// Heading beyond that of the way.
+    heading_rad: f64,
+}
+
+impl Follower {
+    pub(crate) fn new(pieces: Vec<Piece>) -> Self {
+        Self {
+            pieces,
+            current: 0,
+            turn_left_rad: None,
+        }
+    }
+
+    /// Corners of what is left of the way, arcs by their ends and middles.
+    pub(crate) fn way(&self) -> Vec<Point2> {
+        let left = self.pieces.get(self.current..).unwrap_or_default();
+        let mut corners = Vec::with_capacity(left.len() + 1);
+        for piece in left.iter().filter(|piece| !is_turn(piece)) {
+            if corners.is_empty() {
+                corners.push(piece.start.position());
+            }
+            if piece.turn_rad != 0.0 {
+                corners.push(piece.at(0.5).position());
+            }
+            corners.push(piece.at(1.0).position());
+        }
+        corners
+    }
+
+    /// The place on the way beside the robot, where it keeps a little off a straight.
+    pub(crate) fn beside(&self, situation: &Situation<'_>) -> Option<Point2> {
+        let piece = self
+            .pieces
+            .get(self.current)
+            .filter(|piece| !is_turn(piece) && piece.turn_rad == 0.0)?;
+        let fix = Fix::on(piece, situation.pose);
+        let off_m = fix.offset_m.abs();
+        let is_beside = (0.0..=piece.length_m).contains(&fix.along_m);
+        (is_beside && (ASIDE_MIN_M..ASIDE_MAX_M).contains(&off_m))
+            .then(|| piece.at(fix.along_m / piece.length_m).position())
+    }
+
+    /// Whether a turn on the spot is being made.
+    pub(crate) fn turns_on_spot(&self) -> bool {
+        self.pieces.get(self.current).is_some_and(is_turn)
+    }
+
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, caution: Caution) -> FollowStep {
+        while let Some(piece) = self.pieces.get(self.current).copied() {
+            if is_turn(&piece) {
+                if let Some(motion) = self.turn(&piece, situation) {
+                    return FollowStep::Going(motion);
+                }
+            } else {
+                let fix = Fix::on(&piece, situation.pose);
+                let left_m = piece.length_m - fix.along_m;
+                let is_at_wall = caution.ahead_m < TURN_BEFORE_M
+                    && left_m < SHORT_OF_M
+                    && self.current + 1 < self.pieces.len();
+                let speeds = &situation.config.speeds;
+                let speed_m_per_s = piece_speed(&piece, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
+                if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
+                    return self.drive(&piece, &fix, (situation, caution));
+                }
+            }
+            self.current += 1;
+            self.turn_left_rad = None;
+        }
+        FollowStep::Arrived
+    }
+
+    /// The motion of a turn on the spot; `None` when it is made.
+    fn turn(&mut self, piece: &Piece, situation: &Situation<'_>) -> Option<Motion> {
+        let target_rad = piece.start.heading_rad + piece.turn_rad;
+        let error_rad = normalize_rad(target_rad - situation.pose.heading_rad);
+        // A half turn keeps the side on which it began.
+        let left_rad = match self.turn_left_rad {
+            Some(before_rad) if error_rad.abs() > 2.0 => error_rad.abs().copysign(before_rad),
+            Some(_) => error_rad,
+            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(piece.turn_rad),
+            None => error_rad,
+        };
+        self.turn_left_rad = Some(left_rad);
+        if left_rad.abs() < TURN_DONE_RAD {
+            return None;
+        }
+        let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
+        let rate = (TURN_GAIN_PER_S * left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
+        Some(Motion::Drive {
+            speed_m_per_s: 0.0,
+            turn_rad_per_s: rate.copysign(left_rad),
+        })
+    }
+
+    fn drive(&self, piece: &Piece, fix: &Fix, (situation, caution): (&Situation<'_>, Caution)) -> FollowStep {
+        if fix.offset_m.abs() > LOST_M {
+            return FollowStep::Off;
+        }
+        let turn_max = situation.config.speeds.turn_max_rad_per_s;
+        if fix.heading_rad.abs() > ELSEWHERE_RAD {
+            return FollowStep::Going(Motion::Drive {
+                speed_m_per_s: 0.0,
+                turn_rad_per_s: -turn_max.copysign(fix.heading_rad),
+            });
+        }
+        let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
+        let left_m = piece.length_m - fix.along_m;
+        let free_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
+            .min(self.braked(left_m, cruise_m_per_s, turn_max))
+            .max(CREEP_M_PER_S);
+        let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CREEP_M_PER_S));
+        let curvature = self.curvature_ahead(piece, left_m, LAG_S * speed_m_per_s);
+        let offset_m = caution.off_m(fix.offset_m);
+        let steer = -HEADING_GAIN_PER_S * fix.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
+        let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
+            0.0
+        } else {
+            steer
+        };
+        // A robot that looks elsewhere first turns.
+        let facing = libm::cos(fix.heading_rad).max(0.2);
+        FollowStep::Going(Motion::Drive {
+            speed_m_per_s: speed_m_per_s * facing,
+            // Caution does not slow the turn: an arc gets tighter before something near, and turns away from it.
+            turn_rad_per_s: (free_m_per_s * facing * curvature + steer).clamp(-turn_max, turn_max),
+        })
+    }
+
+    /// The speed from which it can brake for what comes after this piece.
+    fn braked(&self, left_m: f64, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+        let after_m_per_s = match self.pieces.get(self.current + 1) {
+            Some(next) if !is_turn(next) => piece_speed(next, cruise_m_per_s, turn_max),
+            _ => 0.0,
+        };
+        libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
+    }
+
+    /// Curvature of the way a little ahead.
+    fn curvature_ahead(&self, piece: &Piece, left_m: f64, ahead_m: f64) -> f64 {
+        let there = if ahead_m < left_m {
+            Some(piece)
+        } else {
+            self.pieces.get(self.current + 1).filter(|next| !is_turn(next))
+        };
+        there.map_or(0.0, curvature)
+    }
+}
+
+fn is_turn(piece: &Piece) -> bool {
+    piece.length_m <= 0.0
+}
+
+fn curvature(piece: &Piece) -> f64 {
+    piece.turn_rad / piece.length_m
+}
+
+fn piece_speed(piece: &Piece, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+    if piece.turn_rad == 0.0 {
+        cruise_m_per_s
+    } else {
+        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(piece).abs())
+    }
+}
+
+impl Fix {
+    fn on(piece: &Piece, pose: Pose2) -> Self {
+        let local = piece.start.inverse() * pose;
+        // Before its start an arc goes on straight: the circle of a tight one leads elsewhere within centimetres.
+        if piece.turn_rad == 0.0 || local.x_m < 0.0 {
+            return Self {
+                along_m: local.x_m,
+                offset_m: local.y_m,
+                heading_rad: local.heading_rad,
+            };
+        }
+        // Seen from the middle of the arc, with the start below it for a left turn and above it for a right one.
+        let radius_m = piece.length_m / piece.turn_rad;
+        let (x_m, y_m) = (local.x_m, local.y_m - radius_m);
+        let side = radius_m.signum();
+        let angle_rad = libm::atan2(x_m, -y_m * side);
+        Self {
+            along_m: angle_rad * radius_m.abs(),
+            offset_m: side * (radius_m.abs() - libm::sqrt(x_m * x_m + y_m * y_m)),
+            heading_rad: normalize_rad(local.heading_rad - angle_rad * side),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Caution, Fix, Piece};
+    use crate::model::geometry::Pose2;
+
+    #[test]
+    fn going_aside_counts_from_where_the_robot_is_and_the_way_may_ask_for_more() {
+        let aside = |aside_m: f64| Caution {
+            aside_m,
+            ..Caution::default()
+        };
+        assert_eq!(aside(0.0).off_m(0.02), 0.02);
+        // Off to the right, a little more to the left is asked for than the way does, then less.
+        assert_eq!(aside(0.03).off_m(-0.01), -0.03);
+        assert_eq!(aside(0.03).off_m(-0.05), -0.05);
+        // Off to the left of a way beside something on the right, it stays off.
+        assert_eq!(aside(0.01).off_m(0.02), -0.01);
+        assert_eq!(aside(-0.01).off_m(-0.02), 0.01);
+    }
+
+    #[test]
+    fn a_robot_on_an_arc_has_no_offset_and_one_inside_of_it_has() {
+        for turn_rad in [1.2, -1.2] {
+            let start = Pose2 {
+                x_m: 0.3,
+                y_m: -0.1,
+                heading_rad: 0.7,
+            };
+            let piece = Piece {
+                start,
+                length_m: 0.3,
+                turn_rad,
+            };
+            let there = piece.at(0.5);
+            let fix = Fix::on(&piece, there);
+            assert!((fix.along_m - 0.15).abs() < 1e-9 && fix.offset_m.abs() < 1e-9);
+            assert!(fix.heading_rad.abs() < 1e-9);
+            let left = there.transform(crate::model::geometry::Point2 { x_m: 0.0, y_m: 0.02 });
+            let fix = Fix::on(
+                &piece,
+                Pose2 {
+                    x_m: left.x_m,
+                    y_m: left.y_m,
+                    ..there
+                },
+            );
+            assert!((fix.offset_m - 0.02).abs() < 1e-9, "{}", fix.offset_m);
+        }
+    }
+}

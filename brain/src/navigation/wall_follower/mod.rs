@@ -1,0 +1,334 @@
+//! Following whatever stands on the right: walls, corners, furniture, edges of the floor.
+//!
+//! Terms. *Gap*: distance between the rim and what stands on the right. *Inner corner*: something ahead, the robot turns
+//! left on the spot. *Outer corner*: the wall ends beside the robot, which drives round its end in an arc to the right. A
+//! robot without sensors that look to the side does the same by touch: after each contact a little to the left, then the arc.
+//!
+//! Each step is bounded: turns and arcs by their angle, the search by its way, contacts by their number on little way.
+
+mod beams;
+mod wall_line;
+
+use super::{Evasion, EvasionStep};
+use crate::model::action::Motion;
+use crate::model::reason::Reason;
+use crate::navigation::{Mind, Situation};
+use beams::Beams;
+use wall_line::WallLine;
+
+/// Gap that is kept, metres. A dark wall is really nearer, a bright one farther away: half a centimetre more or less.
+const GAP_M: f64 = 0.035;
+/// Added to the gap after a contact with what is seen farther away: a very dark wall.
+const DARK_M: f64 = 0.01;
+/// Most that is added.
+const DARK_MAX_M: f64 = 0.04;
+/// Way after which a step of `DARK_M` is forgotten.
+const DARK_FORGET_M: f64 = 3.0;
+/// Curvature for each metre of gap too much, 1/m2. With `SLOPE_GAIN` an error is made good on some 0.35 m.
+const GAP_GAIN: f64 = 16.0;
+/// Curvature for each radian of slope, 1/m.
+const SLOPE_GAIN: f64 = 8.0;
+/// Sharpest curve towards or away from a wall, 1/m.
+const CURVATURE_MAX: f64 = 4.0;
+/// Share of the highest turn rate that curves use.
+const TURN_SHARE: f64 = 0.85;
+/// Brakes like this before something ahead, m/s2.
+const BRAKE_M_PER_S2: f64 = 0.3;
+/// Commands take this long to show in the wheels, seconds.
+const LAG_S: f64 = 0.15;
+/// Slowest speed that is still a speed for a motor with a dead band, m/s.
+const CREEP_M_PER_S: f64 = 0.05;
+/// Nearer than this to something ahead the robot turns, metres.
+const STOP_M: f64 = 0.03;
+/// So much free way ahead ends a turn at an inner corner, metres.
+const CLEAR_M: f64 = 0.16;
+/// A wall that is not seen for this way has ended, metres.
+const ENDED_M: f64 = 0.02;
+/// Radius of the arc by touch beyond that of the body, metres.
+const TOUCH_ARC_M: f64 = 0.1;
+/// Radius of the arc back to an edge of the floor beyond that of the body, metres: edges are not met often (S8).
+const EDGE_ARC_M: f64 = 0.35;
+/// Straight way after an edge, for the same reason.
+const EDGE_PASS_M: f64 = 0.3;
+/// An arc that has turned this far leads round nothing, radians.
+const ARC_MAX_RAD: f64 = 7.0;
+/// A turn on the spot that has come this far finds no way out, radians.
+const TURN_MAX_RAD: f64 = 7.0;
+/// A straight search longer than this ends no more in any home, metres.
+const SEEK_MAX_M: f64 = 14.0;
+/// Way back after a contact and at an edge, metres.
+const CONTACT_BACK_M: f64 = 0.02;
+const EDGE_BACK_M: f64 = 0.08;
+/// Turn away from an edge, radians.
+const EDGE_TURN_RAD: f64 = 0.9;
+/// Added to it for each edge on little way before: where edges meet, three of them in 5 s would latch the firmware (S8).
+const EDGES_TURN_RAD: f64 = 0.7;
+const EDGES_MAX: u32 = 2;
+/// As `EDGES_TURN_RAD`: the way, metres.
+const EDGES_M: f64 = 0.7;
+/// Contacts on less than `CROWDED_M` add this much to the turn each, radians.
+const CROWDED_RAD: f64 = 0.35;
+/// As `CROWDED_RAD`: the way, metres.
+const CROWDED_M: f64 = 0.25;
+/// So many contacts on little way: boxed in.
+const CROWDED_MAX: u32 = 10;
+
+/// Follows a wall on the right.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WallFollower {
+    phase: Phase,
+    line: WallLine,
+    evasion: Option<Evasion>,
+    dark_m: f64,
+    /// Contacts on little way, and the way since the last one.
+    contacts: u32,
+    since_contact_m: f64,
+    /// The same for edges of the floor.
+    edges: u32,
+    since_edge_m: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// Straight on until there is something.
+    Seek { way_m: f64 },
+    /// Along it.
+    Along,
+    /// Round its end; `beyond_m` is the radius beyond that of the body.
+    Around { turned_rad: f64, beyond_m: f64 },
+    /// Left on the spot.
+    Turn { turned_rad: f64 },
+    /// Straight on along an edge of the floor.
+    Pass { left_m: f64 },
+}
+
+impl Default for Phase {
+    fn default() -> Self {
+        Self::Seek { way_m: 0.0 }
+    }
+}
+
+/// State after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum WallStep {
+    /// On it.
+    Going(Motion),
+    /// It cannot go on.
+    Trouble(Reason),
+}
+
+impl WallFollower {
+    /// Whether it follows something, and is not still looking for it.
+    pub(crate) fn is_following(&self) -> bool {
+        !matches!(self.phase, Phase::Seek { .. })
+    }
+
+    /// Whether a wall is beside it that it sees and goes along.
+    pub(crate) fn is_along_wall(&self) -> bool {
+        self.phase == Phase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
+    }
+
+    /// Whether it is getting away from something that it touched.
+    pub(crate) fn is_evading(&self) -> bool {
+        self.evasion.is_some()
+    }
+
+    /// Half-done movements are void.
+    pub(crate) fn interrupted(&mut self) {
+        self.evasion = None;
+        self.line.give_up();
+        self.phase = Phase::default();
+    }
+
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
+        let beams = Beams::read(situation);
+        self.line.follow(situation.advance, &beams);
+        if let Some(evasion) = &mut self.evasion {
+            match evasion.step(situation) {
+                EvasionStep::Going(motion) => return WallStep::Going(motion),
+                EvasionStep::Free => self.evasion = None,
+                EvasionStep::Held(reason) => {
+                    self.interrupted();
+                    return WallStep::Trouble(reason);
+                }
+            }
+        } else if !situation.is_free() {
+            return self.evade(situation, mind);
+        }
+        self.count(situation.advance.distance_m.max(0.0));
+        self.change_phase(situation, &beams, mind);
+        match self.phase {
+            Phase::Seek { way_m } if way_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
+            Phase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => self.trouble(Reason::BoxedIn),
+            _ => WallStep::Going(self.motion(situation, &beams)),
+        }
+    }
+
+    fn trouble(&mut self, reason: Reason) -> WallStep {
+        self.interrupted();
+        WallStep::Trouble(reason)
+    }
+
+    fn count(&mut self, way_m: f64) {
+        self.since_contact_m += way_m;
+        if self.since_contact_m > CROWDED_M {
+            self.contacts = 0;
+        }
+        self.since_edge_m += way_m;
+        if self.since_edge_m > EDGES_M {
+            self.edges = 0;
+        }
+        self.dark_m = (self.dark_m - DARK_M * way_m / DARK_FORGET_M).max(0.0);
+    }
+
+    fn evade(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
+        let observation = situation.observation;
+        if situation.at_cliff {
+            let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
+            mind.decide("back-off", reason, 0.0);
+            let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
+            self.edges = (self.edges + 1).min(EDGES_MAX);
+            self.since_edge_m = 0.0;
+            self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
+            self.line.give_up();
+            self.phase = Phase::Pass { left_m: EDGE_PASS_M };
+            return WallStep::Going(Motion::Halt);
+        }
+        let reason = Reason::of_contacts(observation.contacts).unwrap_or(Reason::BumpFront);
+        self.contacts += 1;
+        if self.contacts > CROWDED_MAX {
+            self.contacts = 0;
+            return self.trouble(Reason::BoxedIn);
+        }
+        if reason == Reason::BumpRight && self.line.is_seen_within(CROWDED_M) {
+            self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
+        }
+        let turn_rad = self.turn_after(reason);
+        mind.decide("back-off", reason, turn_rad);
+        self.evasion = Some(Evasion::from_contact(CONTACT_BACK_M, turn_rad));
+        self.since_contact_m = 0.0;
+        self.phase = if self.line.is_seen_within(ENDED_M) {
+            Phase::Along
+        } else {
+            Phase::Around {
+                turned_rad: 0.0,
+                beyond_m: TOUCH_ARC_M,
+            }
+        };
+        WallStep::Going(Motion::Halt)
+    }
+
+    /// Where to turn after a contact, radians. What touches on the left while there is room on the right is passed there
+    /// first; met again, the passage is too narrow.
+    fn turn_after(&self, reason: Reason) -> f64 {
+        let crowded_rad = CROWDED_RAD * f64::from(self.contacts.saturating_sub(1)).min(4.0);
+        match reason {
+            Reason::BumpRight => 0.3 + crowded_rad,
+            Reason::BumpLeft if self.contacts <= 1 => -0.2,
+            Reason::BumpLeft => 1.4 + crowded_rad,
+            _ => 0.8 + crowded_rad,
+        }
+    }
+
+    fn change_phase(&mut self, situation: &Situation<'_>, beams: &Beams, mind: &mut Mind) {
+        let advance = situation.advance;
+        let way_m = advance.distance_m.max(0.0);
+        let stop_m = STOP_M + self.dark_m;
+        let is_blocked = beams.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
+        let next = match self.phase {
+            Phase::Turn { turned_rad } => {
+                if beams.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
+                    Phase::Along
+                } else {
+                    Phase::Turn {
+                        turned_rad: turned_rad + advance.turn_rad.max(0.0),
+                    }
+                }
+            }
+            _ if is_blocked => {
+                mind.decide("turn", Reason::WallAhead, 0.0);
+                self.line.give_up();
+                Phase::Turn { turned_rad: 0.0 }
+            }
+            Phase::Seek { .. } | Phase::Around { .. } if beams.side_m.is_some() => Phase::Along,
+            Phase::Seek { way_m: before_m } => Phase::Seek {
+                way_m: before_m + way_m,
+            },
+            Phase::Pass { left_m } if left_m > 0.0 => Phase::Pass {
+                left_m: left_m - way_m,
+            },
+            Phase::Pass { .. } => around(EDGE_ARC_M),
+            Phase::Along if !self.line.is_seen_within(ENDED_M) => {
+                let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
+                self.line.give_up();
+                mind.decide("arc", Reason::WallEnded, gap_m);
+                around(gap_m)
+            }
+            Phase::Along => Phase::Along,
+            Phase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => Phase::default(),
+            Phase::Around { turned_rad, beyond_m } => Phase::Around {
+                turned_rad: turned_rad + (-advance.turn_rad).max(0.0),
+                beyond_m,
+            },
+        };
+        self.phase = next;
+    }
+
+    fn motion(&self, situation: &Situation<'_>, beams: &Beams) -> Motion {
+        let speeds = situation.config.speeds;
+        let curvature = match self.phase {
+            Phase::Turn { .. } => {
+                return Motion::Drive {
+                    speed_m_per_s: 0.0,
+                    turn_rad_per_s: TURN_SHARE * speeds.turn_max_rad_per_s,
+                };
+            }
+            Phase::Seek { .. } | Phase::Pass { .. } => 0.0,
+            Phase::Along => self.along(),
+            Phase::Around { beyond_m, .. } => self.arc(beyond_m, situation.config.body.radius_m, beams),
+        };
+        let turn_max = TURN_SHARE * speeds.turn_max_rad_per_s;
+        let speed_m_per_s = speeds
+            .cruise_m_per_s
+            .min(turn_max / curvature.abs().max(1e-6))
+            .min(self.braked(beams, speeds.cruise_m_per_s))
+            .max(CREEP_M_PER_S);
+        Motion::Drive {
+            speed_m_per_s,
+            turn_rad_per_s: speed_m_per_s * curvature,
+        }
+    }
+
+    /// Curvature that keeps the gap.
+    fn along(&self) -> f64 {
+        let gap_m = GAP_M + self.dark_m;
+        let error_m = (gap_m - self.line.gap_m).clamp(-0.1, 0.1);
+        (GAP_GAIN * error_m - SLOPE_GAIN * self.line.slope_rad).clamp(-CURVATURE_MAX, CURVATURE_MAX)
+    }
+
+    /// Curvature of the arc round an end, straighter where something comes too near.
+    fn arc(&self, beyond_m: f64, radius_m: f64, beams: &Beams) -> f64 {
+        let is_near = beams.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
+        if is_near {
+            0.0
+        } else {
+            -1.0 / (radius_m + beyond_m)
+        }
+    }
+
+    /// The speed from which it can stop before what is ahead.
+    fn braked(&self, beams: &Beams, cruise_m_per_s: f64) -> f64 {
+        let Some(ahead_m) = beams.ahead_m else {
+            return f64::INFINITY;
+        };
+        let left_m = ahead_m - STOP_M - self.dark_m - LAG_S * cruise_m_per_s;
+        libm::sqrt(2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
+    }
+}
+
+fn around(beyond_m: f64) -> Phase {
+    Phase::Around {
+        turned_rad: 0.0,
+        beyond_m,
+    }
+}

@@ -1,0 +1,92 @@
+//! The wall on the right as a line, carried along by what the robot moved and corrected by what it sees.
+//!
+//! One sensor that looks to the side is enough: how its distance changes on the way tells the angle. A second one that looks
+//! before the side tells the angle at once.
+
+use super::beams::Beams;
+use crate::model::advance::Advance;
+
+/// Share of a difference in distance that is taken over for each metre of way.
+const GAP_SHARE_PER_M: f64 = 25.0;
+/// Angle that a difference in distance speaks for, radians a metre of difference and metre of way.
+const SLOPE_PER_M2: f64 = 200.0;
+/// Share of a difference in angle that is taken over for each metre of way.
+const SLOPE_SHARE_PER_M: f64 = 12.0;
+/// What differs more is another thing, metres.
+const OTHER_M: f64 = 0.05;
+
+/// The wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct WallLine {
+    /// Gap between the rim and the wall, metres.
+    pub(super) gap_m: f64,
+    /// Heading beyond that of the wall, radians; positive looks away from it.
+    pub(super) slope_rad: f64,
+    /// Way since something was seen on the right; `None` = nothing was seen since the line was given up.
+    unseen_m: Option<f64>,
+}
+
+impl WallLine {
+    /// Whether a wall was seen within the last `way_m`.
+    pub(super) fn is_seen_within(&self, way_m: f64) -> bool {
+        self.unseen_m.is_some_and(|unseen_m| unseen_m <= way_m)
+    }
+
+    /// The wall is not beside the robot any more.
+    pub(super) fn give_up(&mut self) {
+        self.unseen_m = None;
+    }
+
+    pub(super) fn follow(&mut self, advance: Advance, beams: &Beams) {
+        let way_m = advance.distance_m;
+        self.gap_m += way_m * libm::sin(self.slope_rad + 0.5 * advance.turn_rad);
+        self.slope_rad += advance.turn_rad;
+        let Some(side_m) = beams.side_m else {
+            self.unseen_m = self.unseen_m.map(|unseen_m| unseen_m + way_m.abs());
+            return;
+        };
+        let apart_m = side_m - self.gap_m;
+        if self.unseen_m.is_none() || apart_m.abs() > OTHER_M {
+            self.gap_m = side_m;
+            self.slope_rad = beams.slope_rad.unwrap_or(0.0);
+        } else {
+            let way_m = way_m.abs();
+            self.gap_m += (GAP_SHARE_PER_M * way_m).min(1.0) * apart_m;
+            match beams.slope_rad {
+                Some(seen_rad) => {
+                    self.slope_rad += (SLOPE_SHARE_PER_M * way_m).min(1.0) * (seen_rad - self.slope_rad);
+                }
+                None => self.slope_rad += SLOPE_PER_M2 * way_m * apart_m * way_m.signum(),
+            }
+        }
+        self.unseen_m = Some(0.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Beams, WallLine};
+    use crate::model::advance::Advance;
+
+    #[test]
+    fn one_sensor_tells_the_angle_by_the_way() {
+        let mut line = WallLine::default();
+        let slope_rad: f64 = 0.2;
+        let mut gap_m = 0.04;
+        for _ in 0..60 {
+            gap_m += 0.005 * slope_rad.sin();
+            let advance = Advance {
+                time_s: 0.02,
+                distance_m: 0.005,
+                ..Advance::default()
+            };
+            let beams = Beams {
+                side_m: Some(gap_m),
+                ..Beams::default()
+            };
+            line.follow(advance, &beams);
+        }
+        assert!((line.slope_rad - slope_rad).abs() < 0.04, "{line:?}");
+        assert!((line.gap_m - gap_m).abs() < 0.01, "{line:?}");
+    }
+}
