@@ -10,8 +10,9 @@ use std::collections::BTreeSet;
 pub use parts::{Numbered, StoredMapError, StoredMapParts};
 
 use super::annotations::Annotations;
-use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
+use super::layers::{CellBox, Evidence, Flag, Layers, TILES_MAX};
 use super::rooms::Rooms;
+use super::tile_grid::TILE_CELLS;
 use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Pace, at_once};
