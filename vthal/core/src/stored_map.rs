@@ -3,6 +3,7 @@
 //! `RVACMAP`, a version byte, the body, and a CRC-32 (IEEE 802.3) over everything before it, low byte first. Since version
 //! 10 the body is a [`Body`] in the postcard format. Versions 1 to 9 are read by [`legacy`].
 
+mod annotations;
 mod body;
 mod legacy;
 

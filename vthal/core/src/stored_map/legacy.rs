@@ -8,9 +8,8 @@
 
 use brain::StoredMapError;
 
-use super::body::{
-    Body, FeltDock, Layers, NoGo, NoGoShape, Numbered, Pattern, Pose, RoomChanges, RoomSettings,
-};
+use super::annotations::{NoGo, NoGoShape, Numbered, Pattern, RoomChanges, RoomSettings};
+use super::body::{Body, FeltDock, Layers, Pose};
 use super::{DecodeError, Reader};
 
 /// Bits of a cell that held something else before version 9.
@@ -65,7 +64,10 @@ fn told_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<Pose>, Decod
 fn layers(reader: &mut Reader<'_>, version: u8) -> Result<Layers, DecodeError> {
     let mut layers: Layers = reader.take(DecodeError::Number)?;
     if version < 9 {
-        layers.cells.iter_mut().for_each(|run| run.value &= !FLOOR_BITS);
+        layers
+            .cells
+            .iter_mut()
+            .for_each(|(value, _)| *value &= !FLOOR_BITS);
     }
     Ok(layers)
 }
