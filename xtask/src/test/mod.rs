@@ -82,6 +82,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         total.add(outcome.count);
         process::print(&row(outcome));
     }
+    if outcomes.len() > 1 {
+        process::print(&together(&outcomes));
+    }
     process::print(&total.to_string());
     if outcomes.len() > 1 {
         // Said once more: in the middle of a long run nobody sees it.
@@ -168,10 +171,21 @@ fn complain_of(stage: &Stage, errors: &[anyhow::Error]) {
 fn row(outcome: &Outcome) -> String {
     let verdict = if outcome.errors.is_empty() { "ok" } else { "FAILED" };
     format!(
-        "{:10} {verdict:6} {:7.1} s, {:7.1} s of processor  {}",
+        "{:10} {verdict:6} {}  {}",
         outcome.stage.name,
-        outcome.took.as_secs_f64(),
-        outcome.processor.as_secs_f64(),
+        times(outcome.took, outcome.processor),
         outcome.count
     )
+}
+
+/// The seconds of all stages.
+fn together(outcomes: &[Outcome]) -> String {
+    let took = outcomes.iter().map(|outcome| outcome.took).sum();
+    let processor = outcomes.iter().map(|outcome| outcome.processor).sum();
+    format!("{:10} {:6} {}", "together", "", times(took, processor))
+}
+
+fn times(took: Duration, processor: Duration) -> String {
+    let (took, processor) = (took.as_secs_f64(), processor.as_secs_f64());
+    format!("{took:7.1} s, {processor:7.1} s of processor")
 }
