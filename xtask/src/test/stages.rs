@@ -50,7 +50,7 @@ pub(super) const STAGES: [Stage; 17] = [
     },
     Stage {
         name: "firmware",
-        does: "the robot's firmware keeps to its budgets; its parts pass their tests",
+        does: "the robot's firmware keeps to its budgets; its parts pass their tests; with --all its bytes are the same anywhere",
         from: Extent::Short,
         wants_the_machine: false,
         run: robot::of_firmware,
@@ -64,7 +64,7 @@ pub(super) const STAGES: [Stage; 17] = [
     },
     Stage {
         name: "tests",
-        does: "unit and integration tests, C and Raku included",
+        does: "unit and integration tests, C and Raku included; those of minutes with --all",
         from: Extent::Short,
         wants_the_machine: false,
         run: programs::workspace_tests,
@@ -79,7 +79,7 @@ pub(super) const STAGES: [Stage; 17] = [
     Stage {
         name: "doctests",
         does: "examples in the documentation compile and run",
-        from: Extent::Short,
+        from: Extent::All,
         wants_the_machine: false,
         run: code::doctests,
     },
@@ -113,7 +113,7 @@ pub(super) const STAGES: [Stage; 17] = [
     },
     Stage {
         name: "headless",
-        does: "the demo cleans without a browser, with either robot",
+        does: "the demo cleans without a browser; with --all the emulated robot, too",
         from: Extent::Short,
         wants_the_machine: true,
         run: campaigns::headless,
