@@ -34,19 +34,27 @@ impl Desk {
 
     /// Waits until the daemon's log says this so many times.
     fn wait_for(&self, text: &str, times: usize) {
-        let deadline = Instant::now() + PATIENCE;
-        loop {
-            let log = self.log();
-            if log.matches(text).count() >= times {
-                return;
-            }
-            assert!(Instant::now() < deadline, "{text:?} is missing in {log}");
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        wait_for_log(&self.scratch, text, times);
     }
 
     fn log(&self) -> String {
-        fs::read_to_string(self.scratch.join("state/log/vthal.log")).unwrap_or_default()
+        log(&self.scratch)
+    }
+}
+
+fn log(scratch: &Scratch) -> String {
+    fs::read_to_string(scratch.join("state/log/vthal.log")).unwrap_or_default()
+}
+
+fn wait_for_log(scratch: &Scratch, text: &str, times: usize) {
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        let log = log(scratch);
+        if log.matches(text).count() >= times {
+            return;
+        }
+        assert!(Instant::now() < deadline, "{text:?} is missing in {log}");
+        std::thread::sleep(Duration::from_millis(20));
     }
 }
 
@@ -176,8 +184,7 @@ fn a_relax_without_gyro_drives_by_a_radio_on_its_linux_board() {
         |update: &Update| matches!(update, Update::Pose(pose) if pose.x.hypot(pose.y) > UNDER_WAY_M);
     let moved = client.wait_for(deadline, under_way).expect("reads");
     assert!(moved.is_some(), "its pose does not follow");
-    let log = fs::read_to_string(scratch.join("state/log/vthal.log")).expect("there");
-    assert_eq!(log.matches("hears the beacon").count(), 4, "{log}");
+    wait_for_log(&scratch, "hears the beacon", 4);
 }
 
 fn wait_for_state(client: &mut Client, state: &str) {
