@@ -39,7 +39,7 @@ fn compile(page: Page) -> anyhow::Result<PathBuf> {
     let (toolchain, mut cargo) = compilation(page)?;
     let minutes = match page {
         Page::Release => "about nine minutes",
-        Page::Demo => "about three minutes",
+        Page::Demo => "about four minutes",
     };
     process::run(
         &format!("build the panel with {toolchain} ({minutes} the first time)"),
