@@ -306,6 +306,7 @@ impl Core {
         self.buttons.forget();
         let text = match reason {
             LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
+            LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
         };
         self.log(now_us, (LogLevel::Warn, Part::Link, text), outputs);
@@ -377,6 +378,7 @@ impl Core {
                 link: &mut outputs.link,
                 events: &mut events,
             });
+            outputs.next_rate |= device.gives_up_rate(now_us);
         }
         self.device_events(now_us, &mut events, outputs);
         self.events = events;
