@@ -13,7 +13,7 @@ use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
 
 pub use table::Table;
-pub use watched::{JOB_S, Watched, free_place, recorded, usual};
+pub use watched::{JOB_S, Watched, free_place, is_home, recorded, usual};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];

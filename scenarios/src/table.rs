@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use crate::Watched;
 use crate::watched::COLUMNS;
 
+/// Characters for what a row is about.
+const WIDTH: usize = 54;
+
 /// A table in the making. A change of behaviour shows as a difference of the table: look at it, and when it is what you wanted write
 /// the new one with `UPDATE_EXPECTED=1 cargo test -p scenarios`.
 #[derive(Debug)]
@@ -26,7 +29,7 @@ impl Table {
     /// An empty table of watched households.
     #[must_use]
     pub fn of_outcomes(name: &'static str, head: &str) -> Self {
-        Self::new(name, &format!("{head}\n\n{:<44} {COLUMNS}", ""))
+        Self::new(name, &format!("{head}\n\n{:<WIDTH$} {COLUMNS}", ""))
     }
 
     /// Adds a line.
@@ -37,7 +40,7 @@ impl Table {
 
     /// Adds what came of a household.
     pub fn row(&mut self, what: &str, watched: &Watched) {
-        self.line(&format!("{what:<44} {}", watched.row()));
+        self.line(&format!("{what:<WIDTH$} {}", watched.row()));
     }
 
     /// Compares it with the expected one.

@@ -1,7 +1,7 @@
 //! A household that is watched while it runs: what it does becomes numbers that differ when a single bit of it does.
 
 use brain::command::StrategyName;
-use brain::{Brain, StoredMap};
+use brain::{BehaviorState, Brain, StoredMap};
 use content_hash::ContentHash;
 use home::{Home, Pcg, Pose};
 use robot::RobotSettings;
@@ -14,6 +14,8 @@ use vthal_core::{CoreConfig, Record, Recording};
 pub const JOB_S: u64 = 30 * 60;
 /// A host knows its robot after so many seconds.
 const CONNECT_S: u64 = 3;
+/// A robot has left its dock after so many seconds.
+const SET_OUT_S: u64 = 10;
 /// What docking tells of the way is drawn within so long, seconds.
 const SETTLE_S: u64 = 30;
 /// Free floor around a body that somebody puts down, metres from its middle.
@@ -144,6 +146,13 @@ impl Watched {
         self.pass_s(SETTLE_S);
     }
 
+    /// Lets it come home, at most `seconds_max`; then it has time to draw its map anew.
+    pub fn come_home(&mut self, seconds_max: u64) {
+        self.pass_s(SET_OUT_S);
+        self.pass_until(seconds_max, is_home);
+        self.pass_s(SETTLE_S);
+    }
+
     /// Somebody carries it elsewhere.
     pub fn carry(&mut self, seed: u64) {
         let there = free_place(self.household.robot().world().home(), seed);
@@ -192,7 +201,7 @@ impl Watched {
         let state = self.household.host().and_then(Host::state);
         format!(
             "{:<9} {:>6} {:>5.1} % {:>5} {:>7.2} {:>3} {:>5} {:>6} {:>4}  {:016x} {:016x} {:016x} {:016x}",
-            state.map_or("unknown", brain::BehaviorState::name),
+            state.map_or("unknown", BehaviorState::name),
             truth.time_ms / 1_000,
             100.0 * truth.swept_share,
             truth.contacts,
@@ -207,6 +216,12 @@ impl Watched {
             ContentHash::of_map(self.brain().map()).value(),
         )
     }
+}
+
+/// Whether the robot says that it stands on its dock.
+#[must_use]
+pub fn is_home(household: &Household) -> bool {
+    household.host().and_then(Host::state) == Some(BehaviorState::Docked)
 }
 
 /// What the columns of [`Watched::row`] are.

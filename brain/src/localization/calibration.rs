@@ -5,8 +5,7 @@
 //! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
 //! bias that walls have told and a later rest denies would stay otherwise.
 
-use super::gyro_belief::BiasTold;
-use super::gyro_belief::GyroBelief;
+use super::gyro_belief::{BiasTold, GyroBelief};
 use super::rest::Rested;
 use crate::model::advance::Advance;
 use crate::model::learnt::GyroLearnt;

@@ -1,5 +1,7 @@
-//! Getting from place to place on floor that is known or felt: where the body can be, the way there, and the movements that
-//! follow it. What to drive for is the business of the tasks in the layers above.
+//! Getting from place to place: where the body can be, the way there, and the movements that take the robot along it.
+//!
+//! What to drive for is the business of the tasks in the layers above. The movements are short and bounded: each ends by its own
+//! measure of way or turn, or by time.
 
 mod bucket_queue;
 pub(crate) mod caution;

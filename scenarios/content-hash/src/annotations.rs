@@ -1,6 +1,7 @@
 //! What people have said of a home.
 
-use brain::mapping::{Annotations, CutLine, RoomChange};
+use brain::CutLine;
+use brain::mapping::{Annotations, RoomChange};
 use brain::{NoGo, NoGoShape, Pattern, PlaceShape, RoomPower, Zone};
 
 use crate::ContentHash;

@@ -2,6 +2,7 @@
 
 mod daemon;
 mod floors;
+mod kept;
 mod learnt;
 mod radio;
 mod recording;

@@ -81,6 +81,17 @@ const SIMULATED: &[&str] = &[
     "rvac-protocol",
     "rvac-units",
 ];
+/// Whole systems in the simulator, and what came of them as numbers.
+const SCENARIOS: &[&str] = &[
+    "content-hash",
+    "rvac-sim",
+    "robot",
+    "monitor",
+    "home",
+    "vthal-core",
+    "brain",
+    "rvac-api",
+];
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
@@ -97,7 +108,7 @@ const DIRECTIONS: [Direction; 30] = [
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "vthal-bench"], never: &[] },
+    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "vthal-bench", "content-hash"], never: &[] },
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
@@ -112,7 +123,8 @@ const DIRECTIONS: [Direction; 30] = [
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
-    Direction { of: "scenarios",     knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
+    Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
+    Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },
 ];
 

@@ -218,8 +218,7 @@ impl Localization {
     }
 
     /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::track`] was asked for there is
-    /// no map; then only ranges to beacons count. Says with which
-    /// poses the map should be drawn again.
+    /// no map; then only ranges to beacons count. Says with which poses the map should be drawn again.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) -> Option<MapCorrection> {
         self.strengths.listen(observation, advance);
         self.find_place(observation, advance);

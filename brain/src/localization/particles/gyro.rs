@@ -4,8 +4,7 @@
 
 use super::ParticleFilter;
 use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
-use crate::localization::gyro_belief::BiasTold;
-use crate::localization::gyro_belief::GyroBelief;
+use crate::localization::gyro_belief::{BiasTold, GyroBelief};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
 

@@ -18,8 +18,7 @@ use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::random::Random;
 
 use super::beacons::Heard;
-use super::gyro_belief::BiasTold;
-use super::gyro_belief::GyroBelief;
+use super::gyro_belief::{BiasTold, GyroBelief};
 use crate::model::pose_estimate::PoseEstimate;
 pub(super) use filter_mode::Manner;
 pub(super) use gyro::GyroCount;

@@ -121,10 +121,10 @@ fn jobs_that_are_interrupted() {
     ask(&mut watched, RequestBody::Stop);
     watched.pass_s(10);
     ask(&mut watched, RequestBody::Dock);
-    watched.finish(600);
+    watched.come_home(600);
     table.row("first run paused, resumed, stopped, sent home", &watched);
     watched.clean(Some(StrategyName::Systematic));
-    watched.finish(JOB_S);
+    watched.come_home(JOB_S);
     table.row("and sent out again", &watched);
 
     let mut watched = Watched::new(&generated_with(14, "nominal"), 8).knowing_home();
@@ -136,9 +136,7 @@ fn jobs_that_are_interrupted() {
     watched.pass_s(60);
     ask(&mut watched, RequestBody::Spot);
     watched.pass_s(60);
-    ask(&mut watched, RequestBody::Dock);
-    watched.finish(600);
-    table.row("known home paused, resumed, a spot, sent home", &watched);
+    table.row("known home paused, resumed, a spot instead", &watched);
     table.compare();
 }
 
