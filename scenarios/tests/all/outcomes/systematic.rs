@@ -99,20 +99,3 @@ fn rings_along_walls_in_a_known_home() {
     }
     table.compare();
 }
-
-/// Larger homes, for the long campaign.
-#[test]
-#[ignore = "takes minutes: for a change that shall not change any behaviour"]
-fn many_generated_homes() {
-    let homes = [
-        "generated:1",
-        "generated:11",
-        "generated:20",
-        "generated:28",
-        "generated:33",
-    ];
-    let noises = ["nominal", "bad", "ideal", "nominal", "bad"];
-    let homes: Vec<(&str, &str)> = homes.into_iter().zip(noises).collect();
-    first_runs("long-first-runs", &homes);
-    known_homes("long-known-homes", &homes);
-}
