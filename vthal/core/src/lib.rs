@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod api_forms;
 mod checkpoint;
 mod config;
 mod core;
@@ -33,6 +34,7 @@ mod outputs;
 mod quest;
 mod refusal;
 pub mod schedule;
+pub mod stored_map;
 mod stored_version;
 mod swept_sigma;
 mod to_api;

@@ -13,6 +13,7 @@ mod licences;
 mod metadata;
 mod rust_text;
 mod specification;
+mod vocabulary;
 mod words;
 
 use crate::process;
@@ -34,7 +35,7 @@ struct Rule {
     check: fn(&Files) -> anyhow::Result<Finding>,
 }
 
-const RULES: [Rule; 12] = [
+const RULES: [Rule; 14] = [
     Rule {
         wants: "crates depend only on crates they may know",
         check: directions::check,
@@ -62,6 +63,14 @@ const RULES: [Rule; 12] = [
     Rule {
         wants: "no unfinished business",
         check: words::check,
+    },
+    Rule {
+        wants: "no retired word of the glossary is used",
+        check: vocabulary::retired,
+    },
+    Rule {
+        wants: "within a crate one name means one type",
+        check: vocabulary::homonyms,
     },
     Rule {
         wants: "the specification names every word of the wire",

@@ -31,4 +31,4 @@ mod scheduler;
 pub(crate) mod schedules;
 pub(crate) mod sources;
 pub(crate) mod standstills;
-mod words;
+pub(crate) mod words;

@@ -4,6 +4,7 @@ use brain::{BehaviorState, Brain, Pattern, Reason, RoomPower};
 use rvac_api::{CleaningPattern, CleaningPower, RoomSettings};
 use rvac_units::Throttle;
 
+use crate::api_forms;
 use crate::device::CleanerPower;
 use crate::refusal::Refusal;
 
@@ -64,7 +65,7 @@ fn percent(share: f64) -> u8 {
     (100.0 * share).round().clamp(0.0, 100.0) as u8
 }
 
-pub(crate) fn to_pattern(pattern: CleaningPattern) -> Pattern {
+pub(crate) const fn to_pattern(pattern: CleaningPattern) -> Pattern {
     match pattern {
         CleaningPattern::Lines => Pattern::Lines,
         CleaningPattern::Contour => Pattern::Contour,
@@ -82,9 +83,6 @@ pub(crate) fn to_api(settings: &brain::RoomSettings) -> RoomSettings {
             main_brush: share(power.main_brush),
             side_brushes: share(power.side_brushes),
         },
-        pattern: match settings.pattern() {
-            Pattern::Lines => CleaningPattern::Lines,
-            Pattern::Contour => CleaningPattern::Contour,
-        },
+        pattern: api_forms::pattern(settings.pattern()),
     }
 }

@@ -17,7 +17,7 @@ use crate::refusal::Refusal;
 use crate::{FloorHome, MapEdit, Outputs};
 
 pub(crate) use no_go::{NoGoRequest, to_no_go};
-pub(crate) use places::{PlaceRequest, to_api, with_any_places, with_places};
+pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
 pub(crate) use rooms::RoomRequest;
 
 /// What clients say of the home.

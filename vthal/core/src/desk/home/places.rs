@@ -4,6 +4,7 @@ use brain::{Brain, Command, KeptPlace, PlaceShape, Point2, Reason};
 use rvac_api::{JobOrder, JobPart};
 
 use super::{Edit, known_home};
+use crate::api_forms;
 use crate::desk::words::{to_name, to_zone};
 use crate::mind::Mind;
 use crate::refusal::Refusal;
@@ -102,7 +103,7 @@ fn no_such_place(number: u16, brain: &Brain) -> Refusal {
     Refusal::because(Reason::NoSuchPlace, text)
 }
 
-fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
+pub(crate) fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
     match shape {
         rvac_api::PlaceShape::Zone(corners) => to_zone("The place", corners).map(PlaceShape::Zone),
         rvac_api::PlaceShape::Spot([x_m, y_m]) => Ok(PlaceShape::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
@@ -114,7 +115,7 @@ pub(crate) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, R
     let words = brain.map().annotations();
     let part = |part: &JobPart| match part {
         JobPart::Place(number) => match words.place(*number) {
-            Some(place) => Ok(match to_api(place.shape()) {
+            Some(place) => Ok(match api_forms::place(place.shape()) {
                 rvac_api::PlaceShape::Zone(corners) => JobPart::Zone(corners),
                 rvac_api::PlaceShape::Spot(middle) => JobPart::Spot(middle),
             }),
@@ -138,16 +139,5 @@ pub(crate) fn with_any_places(order: &JobOrder) -> JobOrder {
     JobOrder {
         parts: order.parts.iter().map(part).collect(),
         ..order.clone()
-    }
-}
-
-/// Where a place is, in the words of clients.
-pub(crate) fn to_api(shape: &PlaceShape) -> rvac_api::PlaceShape {
-    match shape {
-        PlaceShape::Zone(zone) => {
-            let corners = zone.corners().iter();
-            rvac_api::PlaceShape::Zone(corners.map(|corner| [corner.x_m, corner.y_m]).collect())
-        }
-        PlaceShape::Spot(middle) => rvac_api::PlaceShape::Spot([middle.x_m, middle.y_m]),
     }
 }
