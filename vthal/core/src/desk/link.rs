@@ -47,6 +47,7 @@ impl LinkDesk {
         self.facts.closed();
         let text = match reason {
             LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
+            LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
         };
         teller.log(LogLevel::Warn, Part::Link, text);
@@ -93,6 +94,7 @@ impl LinkDesk {
                 events: &mut events,
             };
             device.poll(&mut io);
+            teller.outputs.next_rate |= device.gives_up_rate(teller.now_us);
         }
         events
     }
