@@ -6,7 +6,7 @@
 
 use brain::{RoomName, StoredMap};
 use rvac_api::ARCHIVE_BYTES_MAX;
-use rvac_protocol::seal::crc32c;
+use rvac_protocol::crc::crc32c;
 
 const MAGIC: &[u8; 8] = b"RVACFLRS";
 const VERSION: u8 = 1;

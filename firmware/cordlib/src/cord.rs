@@ -238,8 +238,8 @@ impl<P: Parts> Cord<P> {
             self.accepted = accepted;
             self.heard = now;
         }
-        let sealed = self.session.mode() == rvac_protocol::session::Mode::Sealed;
-        if sealed && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
+        let checked = self.session.mode() == rvac_protocol::session::Mode::Checked;
+        if checked && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
             self.reflexes.host.lose_link();
         }
     }

@@ -1,4 +1,4 @@
-//! What the host's commands do. They arrive checked: well-formed, sealed, fresh. Here they meet the machine's limits and
+//! What the host's commands do. They arrive checked: well-formed, with the right CRC, fresh. Here they meet the machine's limits and
 //! what inhibits.
 
 use rvac_protocol::message::{
@@ -175,7 +175,7 @@ impl<P: Parts> Cord<P> {
         let motion = &self.parameters.motion;
         let pace = match self.session.mode() {
             Mode::Hand => HAND_PACE,
-            Mode::Sealed => Pace {
+            Mode::Checked => Pace {
                 speed_um_per_s: motion.move_speed.0,
                 turn_urad_per_s: motion.move_turn.0,
             },

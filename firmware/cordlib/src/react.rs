@@ -1,6 +1,6 @@
 //! What follows from findings: of the reflexes, of motion that ended, of motors that were overloaded.
 
-use rvac_protocol::message::{EdgeKind, Inhibit, LogLevel, Motor, MoveEnd};
+use rvac_protocol::message::{Event, Inhibit, LogLevel, Motor, MoveEnd};
 use rvac_units::Tick;
 
 use crate::board::Parts;
@@ -31,7 +31,7 @@ impl<P: Parts> Cord<P> {
         let changed = findings.buttons.pressed | findings.buttons.released;
         for button in (0..8).filter(|number| changed & (1 << number) != 0) {
             let pressed = findings.buttons.pressed & (1 << button) != 0;
-            self.session.queue_edge(EdgeKind::Button { button, pressed }, now);
+            self.session.queue_event(Event::Button { button, pressed }, now);
         }
     }
 
@@ -49,7 +49,7 @@ impl<P: Parts> Cord<P> {
         match ending {
             Some(Ending::Move(end)) => {
                 let now = self.senses.now;
-                self.session.queue_edge(EdgeKind::MoveFinished(end), now);
+                self.session.queue_event(Event::MoveFinished(end), now);
             }
             Some(Ending::LeaseLost) => self.reflexes.host.lose_link(),
             None => {}
@@ -59,7 +59,7 @@ impl<P: Parts> Cord<P> {
     /// Reports a wheel that was switched off for its load.
     pub(crate) fn note_stall(&mut self, motor: Motor) {
         let now = self.senses.now;
-        self.session.queue_edge(EdgeKind::Stall(motor), now);
+        self.session.queue_event(Event::Stall(motor), now);
         self.journal.note(LogLevel::Error, "overload of", motor.name());
     }
 

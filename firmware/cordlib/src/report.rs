@@ -1,8 +1,6 @@
 //! Telemetry: `state` and `info` at their periods, edges when something changes, log lines when there are any.
 
-use rvac_protocol::message::{
-    Bumpers, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
-};
+use rvac_protocol::message::{Bumpers, Cliffs, Event, Info, Inhibits, LogLevel, Report, State, WheelDrops};
 use rvac_protocol::session::Mode;
 use rvac_units::Tick;
 
@@ -129,7 +127,7 @@ impl Reporter {
             self.bytes_out.take(now);
         }
         self.info.update(now);
-        if mode == Mode::Sealed {
+        if mode == Mode::Checked {
             self.state.update(now);
         }
     }
@@ -145,20 +143,17 @@ impl<P: Parts> Cord<P> {
         }
         self.reporter.told = facts;
         let edges = [
-            (facts.bumpers != told.bumpers, EdgeKind::Bump(facts.bumpers)),
-            (facts.cliffs != told.cliffs, EdgeKind::Cliff(facts.cliffs)),
+            (facts.bumpers != told.bumpers, Event::Bump(facts.bumpers)),
+            (facts.cliffs != told.cliffs, Event::Cliff(facts.cliffs)),
             (
                 facts.wheel_drops != told.wheel_drops,
-                EdgeKind::Lift(facts.wheel_drops),
+                Event::Lift(facts.wheel_drops),
             ),
-            (facts.docked != told.docked, EdgeKind::Docked(facts.docked)),
-            (
-                facts.inhibits != told.inhibits,
-                EdgeKind::Inhibits(facts.inhibits),
-            ),
+            (facts.docked != told.docked, Event::Docked(facts.docked)),
+            (facts.inhibits != told.inhibits, Event::Inhibits(facts.inhibits)),
         ];
         for (_, kind) in edges.into_iter().filter(|(changed, _)| *changed) {
-            self.session.queue_edge(kind, now);
+            self.session.queue_event(kind, now);
         }
         let new = Inhibits::from_bits(facts.inhibits.bits() & !told.inhibits.bits());
         for inhibit in new.iter().filter(|inhibit| inhibit.is_latched()) {

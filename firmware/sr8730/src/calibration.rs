@@ -225,7 +225,7 @@ mod tests {
     use super::{Calibration, CliffEmitters};
     use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
     use crate::logic::calibration_record::{MAGIC, RecordFault, UNKNOWN, VERSION};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     fn record(values: &[i32; COUNT]) -> Vec<u8> {

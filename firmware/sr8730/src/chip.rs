@@ -5,11 +5,11 @@ use core::panic::PanicInfo;
 
 use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
 use pic32mx3_hal::exception::{Exception, Kind};
-use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_seal, reset};
+use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_crc, reset};
 
 use sr8730::board::off;
 use sr8730::generated::pins;
-use sr8730::logic::image_check::UNSEALED;
+use sr8730::logic::image_check::NO_CRC;
 use sr8730::logic::reset_log::Trouble;
 use sr8730::robot::{self, Robot};
 
@@ -22,7 +22,7 @@ const CONFIGURATION: Configuration = Configuration::new()
     .watchdog_period_ms(128)
     .watchdog_always();
 configuration!(CONFIGURATION);
-image_seal!(UNSEALED);
+image_crc!(NO_CRC);
 entry!(main);
 exception_hook!(on_exception);
 

@@ -60,7 +60,7 @@ impl Robot {
         match verdict {
             Verdict::Whole => {}
             Verdict::Damaged => self.fail(HardwareFault::Memory, "image in flash is damaged"),
-            Verdict::Unsealed => self.fail(HardwareFault::Internal, "image carries no check value"),
+            Verdict::Unchecked => self.fail(HardwareFault::Internal, "image carries no check value"),
         }
     }
 
@@ -167,7 +167,7 @@ mod tests {
     use crate::calibration::Calibration;
     use crate::generated::calibration::{COUNT, ENTRIES};
     use crate::logic::calibration_record::{MAGIC, VERSION};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     fn measured() -> Calibration {

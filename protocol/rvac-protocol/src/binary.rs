@@ -1,17 +1,17 @@
 //! The binary forms of `state` and `drive`: same meaning as the text, an eighth of the bytes.
 //!
-//! A packet is its kind byte, the body below, and the seal of both, little endian. All integers are little endian. The
+//! A packet is its kind byte, the body below, and the CRC of both, little endian. All integers are little endian. The
 //! bytes 0x1D, 0x1E and 0x1F are stuffed on the line; here they stand as they are.
 
 use heapless::Vec;
 use rvac_units::{Angle, AngularSpeed, Current, Speed, Tick, Voltage};
 
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::message::{
     Bumpers, ChargeState, Cliffs, Currents, Drive, Gyro, Inhibits, MotionPhase, Refusal, Sequence, State,
     WheelDrops,
 };
-use crate::seal::Direction;
 use crate::span::{self, Span};
 
 /// Kind byte of `drive`.
@@ -58,20 +58,28 @@ pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
     ])
 }
 
-/// Appends a `drive`, sealed for `session`, and a separator.
+/// Appends a `drive` with its CRC for `session`, and a separator.
 ///
 /// # Errors
 /// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
-pub fn write_sealed_drive(drive: &Drive, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+pub fn write_drive_with_crc(
+    drive: &Drive,
+    session: u16,
+    buffer: &mut PacketBuffer,
+) -> Result<(), EncodeError> {
     let packet = write_drive(drive).ok_or(EncodeError::Range)?;
     buffer.push_binary(&packet, Direction::HostToRobot, session)
 }
 
-/// Appends a `state`, sealed for `session`, and a separator.
+/// Appends a `state` with its CRC for `session`, and a separator.
 ///
 /// # Errors
 /// [`EncodeError::TooLong`] if the buffer is full.
-pub fn write_sealed_state(state: &State, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+pub fn write_state_with_crc(
+    state: &State,
+    session: u16,
+    buffer: &mut PacketBuffer,
+) -> Result<(), EncodeError> {
     buffer.push_binary(&write_state(state), Direction::RobotToHost, session)
 }
 

@@ -3,14 +3,14 @@
 //! A *separator* (0x1F, or 0x1E from tools of 2016) ends a packet. A *poisoned* packet is one that cannot be whole any
 //! more: a forbidden control byte, a framing error, too many bytes; everything up to the next separator is dropped with
 //! it. Work per byte is bounded: the digest follows some bytes behind the input, because the last bytes of a packet are
-//! its seal, and nobody knows that they are the last until the separator comes.
+//! its CRC, and nobody knows that they are the last until the separator comes.
 //!
 //! Most bytes are *plain*: inside of a packet, nothing to do but to keep them. They take the short way through
 //! [`Framer::push`]; every sixteenth takes the long way and brings the digest on.
 
-use crate::seal::{Digest, Direction, from_hex};
+use crate::crc::{Digest, Direction, from_hex};
 
-/// Most bytes of a packet, its seal included, its separator not. Binary packets are counted unstuffed.
+/// Most bytes of a packet, its CRC included, its separator not. Binary packets are counted unstuffed.
 pub const PACKET_BYTES_MAX: usize = 256;
 /// Ends a packet: Unit Separator.
 pub const SEPARATOR: u8 = 0x1F;
@@ -24,9 +24,9 @@ pub const STUFFED_BIT: u8 = 0x20;
 pub const BINARY_KIND_MIN: u8 = 0x80;
 
 /// `*` and eight digits.
-pub(crate) const TEXT_SEAL_BYTES: usize = 9;
-/// The seal of a binary packet, little endian.
-const BINARY_SEAL_BYTES: usize = 4;
+pub(crate) const TEXT_CRC_BYTES: usize = 9;
+/// The CRC of a binary packet, little endian.
+const BINARY_CRC_BYTES: usize = 4;
 /// Bytes that the digest takes at a time.
 const DIGEST_STEP: usize = 16;
 /// The first byte that is never special inside of a packet.
@@ -35,26 +35,26 @@ const PLAIN_FROM: u8 = 0x20;
 /// What a separator ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Framed<'a> {
-    /// Text without a seal.
-    Open(&'a [u8]),
-    /// Text with the right seal, which is cut off.
-    Sealed(&'a [u8]),
-    /// Text with a seal that is not the session's.
-    Missealed {
-        /// The text without the seal.
+    /// Text without a CRC.
+    Unchecked(&'a [u8]),
+    /// Text with the right CRC, which is cut off.
+    Checked(&'a [u8]),
+    /// Text whose CRC is not that of the session.
+    BadCrc {
+        /// The text without the CRC.
         text: &'a [u8],
-        /// The seal it came with.
-        seal: u32,
+        /// The CRC it came with.
+        crc: u32,
     },
-    /// A binary packet with the right seal.
+    /// A binary packet with the right CRC.
     Binary {
         /// What it is, 0x80 or above.
         kind: u8,
-        /// Unstuffed, without kind and seal.
+        /// Unstuffed, without kind and CRC.
         body: &'a [u8],
     },
-    /// A binary packet with a wrong seal or too short for one.
-    BinaryMissealed,
+    /// A binary packet with a wrong CRC or too short for one.
+    BinaryBadCrc,
     /// A poisoned packet.
     Poisoned(Poison),
 }
@@ -80,7 +80,7 @@ enum Form {
     Poisoned(Poison),
 }
 
-/// Cuts a stream into packets and checks their seals on the way.
+/// Cuts a stream into packets and checks their CRCs on the way.
 #[derive(Clone, Debug)]
 pub struct Framer {
     buffer: [u8; PACKET_BYTES_MAX],
@@ -115,7 +115,7 @@ impl Framer {
         }
     }
 
-    /// From the next packet on seals are those of `session`; a packet that has begun is still measured by the old one.
+    /// From the next packet on CRCs are those of `session`; a packet that has begun is still measured by the old one.
     pub fn set_session(&mut self, session: u16) {
         self.start = Digest::start(self.direction, session);
         if self.length == 0 {
@@ -184,7 +184,7 @@ impl Framer {
         }
     }
 
-    /// Keeps a byte and brings the digest on when the next step is surely not the seal.
+    /// Keeps a byte and brings the digest on when the next step is surely not the CRC.
     fn take(&mut self, byte: u8) {
         let Some(slot) = self.buffer.get_mut(self.length) else {
             self.poison(Poison::TooLong);
@@ -192,16 +192,16 @@ impl Framer {
         };
         *slot = byte;
         self.length += 1;
-        let seal_bytes = if self.form == Form::Binary {
-            BINARY_SEAL_BYTES
+        let crc_bytes = if self.form == Form::Binary {
+            BINARY_CRC_BYTES
         } else {
-            TEXT_SEAL_BYTES
+            TEXT_CRC_BYTES
         };
         let step_end = self.digested + DIGEST_STEP;
-        if self.length >= step_end + seal_bytes {
+        if self.length >= step_end + crc_bytes {
             self.catch_up(step_end);
         }
-        self.plain_until = self.digested + DIGEST_STEP + seal_bytes - 1;
+        self.plain_until = self.digested + DIGEST_STEP + crc_bytes - 1;
     }
 
     /// Takes the bytes up to `end` into the digest.
@@ -232,40 +232,40 @@ impl Framer {
     }
 
     fn finish_text(&mut self, length: usize) -> Framed<'_> {
-        let seal = self.text_seal(length);
-        let text_length = if seal.is_some() {
-            length - TEXT_SEAL_BYTES
+        let crc = self.text_crc(length);
+        let text_length = if crc.is_some() {
+            length - TEXT_CRC_BYTES
         } else {
             length
         };
-        if seal.is_some() {
+        if crc.is_some() {
             self.catch_up(text_length);
         }
-        let right = self.digest.seal();
+        let right = self.digest.crc();
         self.restart();
         let text = self.buffer.get(..text_length).unwrap_or_default();
-        match seal {
-            None => Framed::Open(text),
-            Some(seal) if seal == right => Framed::Sealed(text),
-            Some(seal) => Framed::Missealed { text, seal },
+        match crc {
+            None => Framed::Unchecked(text),
+            Some(crc) if crc == right => Framed::Checked(text),
+            Some(crc) => Framed::BadCrc { text, crc },
         }
     }
 
     fn finish_binary(&mut self, length: usize) -> Framed<'_> {
-        let body_end = length.saturating_sub(BINARY_SEAL_BYTES);
+        let body_end = length.saturating_sub(BINARY_CRC_BYTES);
         self.catch_up(body_end);
-        let right = self.digest.seal();
+        let right = self.digest.crc();
         self.restart();
         let packet = self.buffer.get(..body_end).unwrap_or_default();
-        let seal = self.buffer.get(body_end..length).unwrap_or_default();
+        let crc = self.buffer.get(body_end..length).unwrap_or_default();
         match packet {
-            [kind, body @ ..] if seal == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
-            _ => Framed::BinaryMissealed,
+            [kind, body @ ..] if crc == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
+            _ => Framed::BinaryBadCrc,
         }
     }
 
-    fn text_seal(&self, length: usize) -> Option<u32> {
-        let tail = self.buffer.get(..length)?.last_chunk::<TEXT_SEAL_BYTES>()?;
+    fn text_crc(&self, length: usize) -> Option<u32> {
+        let tail = self.buffer.get(..length)?.last_chunk::<TEXT_CRC_BYTES>()?;
         match tail {
             [b'*', digits @ ..] => from_hex(*digits),
             _ => None,

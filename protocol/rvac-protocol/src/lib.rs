@@ -1,6 +1,6 @@
 //! The wire between a robot's microcontroller and its Linux board. `protocol/SPEC.md` is the normative text.
 //!
-//! From the line upwards: [`frame`] cuts bytes into packets, [`seal`] tells the whole ones from the broken, `text` and
+//! From the line upwards: [`frame`] cuts bytes into packets, [`crc`] tells whole packets from damaged ones, `text` and
 //! `binary` turn them into the closed types of [`message`] and back, [`session`] holds the conversation, [`quality`] judges
 //! the line. No allocation, no recursion, no clock, no panic on any input; work per byte is constant.
 #![no_std]
@@ -9,10 +9,10 @@
 
 pub mod binary;
 mod buffer;
+pub mod crc;
 pub mod frame;
 pub mod message;
 pub mod quality;
-pub mod seal;
 pub mod session;
 pub mod span;
 pub mod text;

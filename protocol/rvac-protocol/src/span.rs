@@ -57,7 +57,7 @@ pub const RATIO: Span = Span::new(6, 0, 1_000_000);
 pub const LED: Span = Span::new(0, 0, 15);
 /// Any `u8`.
 pub const BYTE: Span = Span::new(0, 0, u8::MAX as i64);
-/// Any `u16`: numbers of commands and edges, sessions.
+/// Any `u16`: numbers of commands and events, sessions.
 pub const WORD: Span = Span::new(0, 0, u16::MAX as i64);
 /// Any `u32`: ticks in ms, totals.
 pub const TOTAL: Span = Span::new(0, 0, u32::MAX as i64);

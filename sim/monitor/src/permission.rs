@@ -48,8 +48,8 @@ pub(crate) struct Permission {
     session: u16,
     /// Session in which the packet under way began.
     packet_session: u16,
-    /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
-    sealed_ms: Option<u64>,
+    /// Newest valid packet with a CRC of the session; `None` = hand mode since the reset or by command.
+    checked_ms: Option<u64>,
     reset_ms: u64,
     /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
@@ -79,26 +79,27 @@ impl Permission {
         else {
             return;
         };
-        if heard.sealed {
-            self.sealed_ms = Some(now_ms);
+        if heard.checked {
+            self.checked_ms = Some(now_ms);
         } else if !self.hand(now_ms) && heard.word != Heard::Stop {
             return;
         }
-        self.obey(now_ms, heard.word, heard.sealed);
+        self.obey(now_ms, heard.word, heard.checked);
     }
 
     fn hand(&self, now_ms: u64) -> bool {
-        self.sealed_ms.is_none_or(|sealed| now_ms > sealed + SILENCE_MS)
+        self.checked_ms
+            .is_none_or(|checked| now_ms > checked + SILENCE_MS)
     }
 
-    fn obey(&mut self, now_ms: u64, word: Heard, sealed: bool) {
+    fn obey(&mut self, now_ms: u64, word: Heard, checked: bool) {
         match word {
             Heard::Stop => self.arming.stop_ms = Some(now_ms + STOP_GRACE_MS),
-            Heard::Hand => self.sealed_ms = None,
+            Heard::Hand => self.checked_ms = None,
             Heard::Arm { number, undock } => self.arm(now_ms, number, undock),
             Heard::Clear => self.resets_ms = [None; 3],
             Heard::Wheels { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
-                let lease_ms = if sealed {
+                let lease_ms = if checked {
                     lease_ms
                 } else {
                     lease_ms.min(HAND_LEASE_MS)
@@ -172,7 +173,7 @@ impl Permission {
 
     pub(crate) fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.session = 0;
-        self.sealed_ms = None;
+        self.checked_ms = None;
         self.reset_ms = now_ms;
         self.clock_ms = now_ms;
         self.arming = Arming::default();

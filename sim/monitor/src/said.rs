@@ -2,13 +2,13 @@
 
 use serde_json::Value;
 
-use super::wire::{Direction, Seal, unseal, unseal_binary};
+use super::wire::{CrcCheck, Direction, checked_binary, split_crc};
 
-/// A packet to the robot whose seal is right or absent.
+/// A packet to the robot whose CRC is right or absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeardPacket {
     pub(crate) word: Heard,
-    pub(crate) sealed: bool,
+    pub(crate) checked: bool,
 }
 
 /// A word to the robot.
@@ -57,23 +57,23 @@ const MOVE_EXTRA_MS: u64 = 5_000;
 const LEASE_DEFAULT_MS: u64 = 250;
 const LEASE_MAX_MS: u64 = 1_000;
 
-/// Reads a packet to the robot; `None` when its seal is wrong or it is no packet at all.
+/// Reads a packet to the robot; `None` when its CRC is wrong or it is no packet at all.
 pub(crate) fn read_heard(packet: &[u8], session: u16) -> Option<HeardPacket> {
     if packet[0] >= 0x80 {
-        let body = unseal_binary(packet, Direction::ToRobot, session)?;
+        let body = checked_binary(packet, Direction::ToRobot, session)?;
         return Some(HeardPacket {
             word: word_of_binary(&body),
-            sealed: true,
+            checked: true,
         });
     }
-    let (json, seal) = unseal(packet, Direction::ToRobot, session);
-    if seal == Seal::Wrong {
+    let (json, crc) = split_crc(packet, Direction::ToRobot, session);
+    if crc == CrcCheck::Wrong {
         return None;
     }
     let object: Value = serde_json::from_slice(json).ok()?;
     Some(HeardPacket {
         word: word_of(&object),
-        sealed: seal == Seal::Right,
+        checked: crc == CrcCheck::Right,
     })
 }
 
@@ -154,8 +154,8 @@ pub(crate) fn read_said(packet: &[u8], session: u16) -> Option<Said> {
     if !hello && !packet.starts_with(br#"{"a":"#) {
         return None;
     }
-    // The hello that opens a session may be sealed with the old number or with the one it gives.
-    let (json, _) = unseal(packet, Direction::FromRobot, session);
+    // The hello that opens a session may have the CRC of the old session or of the one that it opens.
+    let (json, _) = split_crc(packet, Direction::FromRobot, session);
     let object: Value = serde_json::from_slice(json).ok()?;
     if hello {
         return number_of(&object, "session").map(Said::Session);

@@ -236,7 +236,7 @@ fn the_sampled_line_loses_nothing_at_full_load() {
         let link = flood(&mut robot_with(image, &settings), 8_000)
             .expect("slow facts")
             .link;
-        let damaged = link.bad_seal + link.framing + link.overrun + link.malformed;
+        let damaged = link.bad_crc + link.framing + link.overrun + link.malformed;
         assert_eq!(damaged, 0, "{error_permille} permille: {link:?}");
         assert!(link.accepted > 500, "{error_permille} permille: {link:?}");
     }

@@ -3,7 +3,7 @@
 use crate::rig;
 use crate::rig::{Rig, clear, drive, motor, movement, worst_reaction};
 use rvac_protocol::message::{
-    Bumpers, Cliffs, Currents, EdgeKind, Inhibit, MotionPhase, Motor, MoveEnd, Refusal, WheelDrops,
+    Bumpers, Cliffs, Currents, Event, Inhibit, MotionPhase, Motor, MoveEnd, Refusal, WheelDrops,
 };
 use rvac_units::Current;
 
@@ -126,7 +126,7 @@ fn s6_only_motion_away_is_allowed_until_release() {
     rig.repeated.clear();
     press(&mut rig, LEFT);
     rig.run(20);
-    assert!(rig.edges.contains(&EdgeKind::Bump(LEFT)));
+    assert!(rig.edges.contains(&Event::Bump(LEFT)));
     assert_eq!(rig.cord.phase(), MotionPhase::Reflex);
     assert_eq!(rig.try_motion(drive(0.1, 0.0)), Err(Refusal::Inhibited));
     assert_eq!(
@@ -259,7 +259,7 @@ fn s8_only_a_slow_short_reverse_leads_away() {
     rig.repeated.clear();
     see(&mut rig, MIDDLE);
     rig.run(200);
-    assert!(rig.edges.contains(&EdgeKind::Cliff(MIDDLE)));
+    assert!(rig.edges.contains(&Event::Cliff(MIDDLE)));
     assert_eq!(rig.try_motion(drive(0.05, 0.0)), Err(Refusal::Inhibited));
     assert_eq!(rig.try_motion(drive(0.0, 0.5)), Err(Refusal::Inhibited));
     let start_m = rig.ways[0];
@@ -410,7 +410,7 @@ fn s11_over_current_and_standstill_switch_the_wheel_off() {
     let mut rig = Rig::driving(0);
     block(&mut rig);
     rig.run(400);
-    assert!(rig.has(Inhibit::WheelStall) && rig.edges.contains(&EdgeKind::Stall(Motor::WheelLeft)));
+    assert!(rig.has(Inhibit::WheelStall) && rig.edges.contains(&Event::Stall(Motor::WheelLeft)));
     assert_eq!(rig.ask(clear(Inhibit::WheelStall)), Ok(()));
 }
 
@@ -598,7 +598,7 @@ fn s28_a_button_stops_within_50_ms_and_until_arming() {
     rig.run(500);
     assert!(off(&rig), "the host goes on asking in vain");
     for pressed in [true, false] {
-        assert!(rig.edges.contains(&EdgeKind::Button { button: 0, pressed }));
+        assert!(rig.edges.contains(&Event::Button { button: 0, pressed }));
     }
     rig.arm();
     rig.run(200);
@@ -629,7 +629,7 @@ fn s28_a_button_of_a_resting_robot_is_an_event_only() {
     rig.cord.board_mut().buttons.down = 1;
     rig.run(100);
     assert!(!rig.has(Inhibit::ButtonStop));
-    assert!(rig.edges.contains(&EdgeKind::Button {
+    assert!(rig.edges.contains(&Event::Button {
         button: 0,
         pressed: true
     }));

@@ -68,7 +68,7 @@ impl SelfChecks {
         Self {
             image: Some(ImageCheck::new(
                 [program, memory::image::boot()],
-                memory::image::seal(),
+                memory::image::check_words(),
             )),
             // Taken before the whole image is checked, so that what changes in between is found, too.
             sums: ImageSums::new(program.len() as u32 / 4, block_sum),

@@ -4,7 +4,7 @@
 //! CRC-32C of all before it. A record that is damaged, or made for another list of values, counts as wholly unknown:
 //! half of a calibration is worse than none.
 
-use rvac_protocol::seal::crc32c;
+use rvac_protocol::crc::crc32c;
 
 /// First word.
 pub const MAGIC: u32 = 0x4C41_4352;
@@ -69,7 +69,7 @@ pub fn read<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::{MAGIC, RecordFault, UNKNOWN, VERSION, read};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     const RANGES: [(i32, i32); 3] = [(0, 10), (-5, 5), (1, 1_000)];

@@ -4,12 +4,12 @@
 //! code checks both before the first motor may move, and the main loop goes over them again, a few bytes in each
 //! millisecond, so that a bit that flips later is noticed within ten seconds.
 
-use rvac_protocol::seal::crc32c;
+use rvac_protocol::crc::crc32c;
 
 /// Pieces of an image: program flash and boot flash.
 pub const PIECES: usize = 2;
 /// What stands in place of the check values when nobody has written them.
-pub const UNSEALED: [u32; PIECES] = [u32::MAX; PIECES];
+pub const NO_CRC: [u32; PIECES] = [u32::MAX; PIECES];
 /// Bytes checked in one millisecond.
 const SLICE_BYTES: usize = 16;
 
@@ -21,7 +21,7 @@ pub enum Verdict {
     /// The image differs from its check value.
     Damaged,
     /// The image carries no check value: it was not made by `cargo xtask firmware`.
-    Unsealed,
+    Unchecked,
 }
 
 /// Goes over the image again and again.
@@ -34,12 +34,12 @@ pub struct ImageCheck<'a> {
 }
 
 impl<'a> ImageCheck<'a> {
-    /// Of these pieces, with their check values. A seal of another size counts as none.
+    /// Of these pieces, with their check values. Another number of words counts as none.
     #[must_use]
-    pub fn new(flash: [&'a [u8]; PIECES], seal: &[u32]) -> Self {
-        let seal = seal.first_chunk().copied().unwrap_or(UNSEALED);
+    pub fn new(flash: [&'a [u8]; PIECES], words: &[u32]) -> Self {
+        let words = words.first_chunk().copied().unwrap_or(NO_CRC);
         let [program, boot] = flash;
-        let [program_check, boot_check] = seal;
+        let [program_check, boot_check] = words;
         Self {
             pieces: [(program, program_check), (boot, boot_check)],
             piece: 0,
@@ -51,8 +51,8 @@ impl<'a> ImageCheck<'a> {
     /// Checks everything at once.
     #[must_use]
     pub fn all(&self) -> Verdict {
-        if self.pieces.iter().map(|(_, check)| *check).eq(UNSEALED) {
-            return Verdict::Unsealed;
+        if self.pieces.iter().map(|(_, check)| *check).eq(NO_CRC) {
+            return Verdict::Unchecked;
         }
         let whole = self
             .pieces
@@ -84,8 +84,8 @@ impl<'a> ImageCheck<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ImageCheck, UNSEALED, Verdict};
-    use rvac_protocol::seal::crc32c;
+    use super::{ImageCheck, NO_CRC, Verdict};
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     fn flash() -> [Vec<u8>; 2] {
@@ -93,13 +93,13 @@ mod tests {
         [bytes(1_000, 37), bytes(33, 201)]
     }
 
-    fn check_of<'a>(flash: &'a [Vec<u8>; 2], sealed: &[Vec<u8>; 2]) -> ImageCheck<'a> {
-        let seal = [&sealed[0], &sealed[1]].map(|piece| !crc32c(u32::MAX, piece));
-        ImageCheck::new([&flash[0], &flash[1]], &seal)
+    fn check_of<'a>(flash: &'a [Vec<u8>; 2], written: &[Vec<u8>; 2]) -> ImageCheck<'a> {
+        let words = [&written[0], &written[1]].map(|piece| !crc32c(u32::MAX, piece));
+        ImageCheck::new([&flash[0], &flash[1]], &words)
     }
 
     #[test]
-    fn a_sealed_image_is_whole_round_after_round() {
+    fn an_image_with_its_crcs_is_whole_round_after_round() {
         let flash = flash();
         let mut check = check_of(&flash, &flash);
         assert_eq!(check.all(), Verdict::Whole);
@@ -125,9 +125,9 @@ mod tests {
     #[test]
     fn an_image_without_check_values_says_so() {
         let flash = flash();
-        for seal in [&UNSEALED[..], &[], &[7]] {
-            let check = ImageCheck::new([&flash[0], &flash[1]], seal);
-            assert_eq!(check.all(), Verdict::Unsealed);
+        for words in [&NO_CRC[..], &[], &[7]] {
+            let check = ImageCheck::new([&flash[0], &flash[1]], words);
+            assert_eq!(check.all(), Verdict::Unchecked);
         }
     }
 }

@@ -28,7 +28,7 @@ impl Sequence {
 pub enum Command {
     /// Opens a session.
     Hello(HostHello),
-    /// Leaves sealed mode: a person types.
+    /// Leaves checked mode: a person types.
     Hand,
     /// Asks for row `row` of the description table; the robot answers with one `describe` packet.
     Describe {
@@ -80,10 +80,10 @@ pub enum Command {
         /// Number for the acknowledgement.
         sequence: Sequence,
     },
-    /// Confirms every edge up to and including this number. The session handles it; it never reaches the firmware.
+    /// Confirms every event up to and including this number. The session handles it; it never reaches the firmware.
     Seen {
-        /// Number of the newest edge of an unbroken row.
-        edge: u16,
+        /// Number of the newest event of an unbroken row.
+        event: u16,
     },
     /// Asks for a full charge now, or forbids charging until it is asked for again. Acknowledged.
     Charge {

@@ -110,7 +110,7 @@ pub struct RobotHello {
     pub device: Name,
     /// Firmware version.
     pub firmware: Name,
-    /// Session number for the seal; 0 when no session is open.
+    /// Session number for the CRC; 0 when no session is open.
     pub session: u16,
     /// Largest packet the robot can take, in bytes without the separator.
     pub packet_max: u16,

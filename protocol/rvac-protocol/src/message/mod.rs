@@ -22,7 +22,7 @@ pub use probe::{
     ProbeTarget, Probed, ProbedContent, SerialProbe,
 };
 pub use report::{
-    Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Edge, EdgeKind, Gyro,
-    Info, LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, PROXIMITY_SENSORS, Refusal, Report, State,
-    WheelDrops,
+    Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Event, Gyro, Info,
+    LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, NumberedEvent, PROXIMITY_SENSORS, Refusal, Report,
+    State, WheelDrops,
 };

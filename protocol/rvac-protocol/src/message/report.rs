@@ -23,7 +23,7 @@ pub enum Report {
     /// Telemetry.
     State(State),
     /// Something happened.
-    Edge(Edge),
+    Event(NumberedEvent),
     /// Answer to a numbered command.
     Acknowledgement(Acknowledgement),
     /// A raw reading that was asked for.
@@ -61,15 +61,15 @@ pub struct Info {
 pub struct LinkCounters {
     /// Packets accepted.
     pub accepted: u32,
-    /// Packets whose seal was wrong.
-    pub bad_seal: u32,
+    /// Packets whose CRC was wrong.
+    pub bad_crc: u32,
     /// Bytes lost in the receiver.
     pub overrun: u32,
     /// Bytes with a wrong stop bit.
     pub framing: u32,
     /// Packets longer than the limit, or with a forbidden control byte.
     pub malformed: u32,
-    /// Well-sealed packets that were refused.
+    /// Packets with the right CRC that were refused.
     pub refused: u32,
     /// Times the receiver had to find the next separator again.
     pub resync: u32,
@@ -232,7 +232,7 @@ pub enum MoveEnd {
 
 /// Something happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EdgeKind {
+pub enum Event {
     /// A bumper changed: the new state of both.
     Bump(Bumpers),
     /// A cliff sensor changed: the new state of all.
@@ -256,15 +256,15 @@ pub enum EdgeKind {
     Stall(Motor),
 }
 
-/// An edge, numbered so that none is lost unseen: the robot repeats unconfirmed edges, the host drops those it has.
+/// An event, numbered so that none is lost unseen: the robot repeats unconfirmed events, the host drops those it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edge {
+pub struct NumberedEvent {
     /// Rising number.
     pub number: u16,
     /// When it happened.
     pub tick: Tick,
     /// What.
-    pub kind: EdgeKind,
+    pub kind: Event,
 }
 
 /// Why a command was refused.
@@ -280,8 +280,8 @@ pub enum Refusal {
     UnknownKey,
     /// The command or a name in it is not known.
     Unknown,
-    /// The seal is missing in sealed mode.
-    Unsealed,
+    /// The CRC is missing in checked mode.
+    NoCrc,
     /// Not newer than the last motion command.
     Old,
     /// The host's view of the robot is older than 400 ms.
@@ -306,7 +306,7 @@ impl Refusal {
         Self::Duplicate,
         Self::UnknownKey,
         Self::Unknown,
-        Self::Unsealed,
+        Self::NoCrc,
         Self::Old,
         Self::Stale,
         Self::Inhibited,
@@ -325,7 +325,7 @@ impl Refusal {
             Self::Duplicate => "duplicate",
             Self::UnknownKey => "key",
             Self::Unknown => "unknown",
-            Self::Unsealed => "unsealed",
+            Self::NoCrc => "unsealed",
             Self::Old => "old",
             Self::Stale => "stale",
             Self::Inhibited => "inhibited",

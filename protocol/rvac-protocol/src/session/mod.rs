@@ -27,5 +27,5 @@ const BAD_IN_ROW_MAX: u8 = 3;
 const COMMANDS_UNDER_WAY: usize = 8;
 /// Ten edges at the pace of the bits, for a robot that measures the baud rate. A packet of nothing else is empty.
 const BAUD_RATE_PATTERN: u8 = b'U';
-/// Edges that wait for their confirmation. When more come, the oldest is given up; the host sees the gap in the numbers.
-const EDGES_WAITING: usize = 16;
+/// Events that wait for their confirmation. When more come, the oldest is given up; the host sees the gap in the numbers.
+const EVENTS_WAITING: usize = 16;

@@ -13,8 +13,8 @@ use crate::span;
 /// How strict a packet must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Sealed mode: every key of a motion command is required, and the number of every command that has one.
-    Sealed,
+    /// Checked mode: every key of a motion command is required, and the number of every command that has one.
+    Checked,
     /// Hand mode: `ttl` (250), `n` (0), `t` (the present tick), `radius` (straight) may be absent.
     Hand {
         /// The present tick.
@@ -280,7 +280,7 @@ fn read_ping(text: &[u8], form: Form) -> Read {
 fn read_seen(text: &[u8]) -> Read {
     let fields = Fields::read(text, ["c", "n"], UnknownKeys::Ignore)?;
     Ok(Command::Seen {
-        edge: fields.word(1, span::WORD)?,
+        event: fields.word(1, span::WORD)?,
     })
 }
 

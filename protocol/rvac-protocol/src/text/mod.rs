@@ -1,14 +1,14 @@
 //! The text form: one JSON object a packet.
 //!
-//! Reading takes the text without its seal and gives a closed type or a [`Refusal`](crate::message::Refusal); writing
-//! appends the text without a seal. Seals and separators are the session's, see
-//! [`write_sealed_command`] and [`write_sealed_report`] for tools and tests.
+//! Reading takes the text without its CRC and gives a closed type or a [`Refusal`](crate::message::Refusal); writing
+//! appends the text without a CRC. CRCs and separators are the session's, see
+//! [`write_command_with_crc`] and [`write_report_with_crc`] for tools and tests.
 
 mod command_read;
 mod command_write;
 mod decimal;
 mod fields;
-mod report_edge;
+mod report_event;
 mod report_info;
 mod report_probe;
 mod report_read;
@@ -19,7 +19,7 @@ mod scan;
 mod write;
 
 pub use command_read::{Form, RefusedCommand, is_stop, read_command};
-pub use command_write::{write_command, write_sealed_command};
+pub use command_write::{write_command, write_command_with_crc};
 pub use report_info::{Firmware, InfoPart};
 pub use report_read::{ReportPacket, read_report};
-pub use report_write::{write_report, write_sealed_report};
+pub use report_write::{write_report, write_report_with_crc};

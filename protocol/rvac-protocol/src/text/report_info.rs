@@ -120,7 +120,7 @@ pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Res
 pub(super) fn write_link(link: &LinkCounters, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
     let totals = [
         link.accepted,
-        link.bad_seal,
+        link.bad_crc,
         link.overrun,
         link.framing,
         link.malformed,
@@ -194,7 +194,7 @@ fn read_charger(fields: &Fields<'_, 9>) -> Result<Option<ChargerStatus>, Refusal
 fn read_link(fields: &Fields<'_, 8>) -> Result<LinkCounters, Refusal> {
     Ok(LinkCounters {
         accepted: fields.total(1)?,
-        bad_seal: fields.total(2)?,
+        bad_crc: fields.total(2)?,
         overrun: fields.total(3)?,
         framing: fields.total(4)?,
         malformed: fields.total(5)?,

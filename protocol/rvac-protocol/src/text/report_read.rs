@@ -4,7 +4,7 @@ use super::fields::{Fields, UnknownKeys};
 use super::report_info::InfoPart;
 use super::report_write::level_name;
 use super::scan::{Members, Value};
-use super::{report_edge, report_info, report_probe, report_robot, report_state};
+use super::{report_event, report_info, report_probe, report_robot, report_state};
 use crate::message::{Acknowledgement, LogLevel, LogText, Refusal, Report, Sequence};
 use crate::span;
 
@@ -27,8 +27,8 @@ pub fn read_report(text: &[u8]) -> Result<ReportPacket, Refusal> {
         match key {
             b"c" => return read_named(text, value.text()?),
             b"e" => {
-                return report_edge::read(text, value.text()?)
-                    .map(|edge| ReportPacket::Report(Report::Edge(edge)));
+                return report_event::read(text, value.text()?)
+                    .map(|event| ReportPacket::Report(Report::Event(event)));
             }
             b"a" => {
                 return read_answer(text).map(|answer| ReportPacket::Report(Report::Acknowledgement(answer)));

@@ -1,4 +1,4 @@
-//! Telemetry as text. Keys are single letters, so that the longest report with its seal fits one packet.
+//! Telemetry as text. Keys are single letters, so that the longest report with its CRC fits one packet.
 
 use rvac_units::{Angle, AngularSpeed, Current, Tick, Voltage};
 

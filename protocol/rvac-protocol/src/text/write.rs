@@ -169,10 +169,10 @@ impl<'b> ObjectWriter<'b> {
         self.outcome
     }
 
-    /// Bytes that are left in the packet besides its seal and `bytes_left` more.
+    /// Bytes that are left in the packet besides its CRC and `bytes_left` more.
     fn room(&self, bytes_left: usize) -> usize {
         let used = self.buffer.length() - self.begin;
-        (crate::frame::PACKET_BYTES_MAX - crate::frame::TEXT_SEAL_BYTES).saturating_sub(used + bytes_left)
+        (crate::frame::PACKET_BYTES_MAX - crate::frame::TEXT_CRC_BYTES).saturating_sub(used + bytes_left)
     }
 
     fn key(&mut self, key: &str) {

@@ -1,7 +1,7 @@
 //! What the firmware told, and what the core makes of it.
 
 use rvac_api::LogLevel;
-use rvac_protocol::message::{Edge, EdgeKind, Info, RobotHello, State};
+use rvac_protocol::message::{Event, Info, NumberedEvent, RobotHello, State};
 
 use super::link_facts::Greeting;
 use super::{Core, recorder};
@@ -153,21 +153,21 @@ impl Core {
         self.facts.info = Some(info);
     }
 
-    fn take_edge(&mut self, now_us: u64, edge: &Edge, outputs: &mut Outputs) -> Option<String> {
+    fn take_edge(&mut self, now_us: u64, edge: &NumberedEvent, outputs: &mut Outputs) -> Option<String> {
         match edge.kind {
-            EdgeKind::Button { button, pressed } => {
+            Event::Button { button, pressed } => {
                 self.button_turned(now_us, (button, pressed), outputs);
                 pressed.then(|| format!("button {button} was pressed"))
             }
-            EdgeKind::Stall(motor) => Some(format!("{} was switched off for its load", motor.name())),
-            EdgeKind::Docked(true) => Some("on the dock".to_owned()),
-            EdgeKind::Docked(false) => Some("off the dock".to_owned()),
+            Event::Stall(motor) => Some(format!("{} was switched off for its load", motor.name())),
+            Event::Docked(true) => Some("on the dock".to_owned()),
+            Event::Docked(false) => Some("off the dock".to_owned()),
             // Levels of these come with each report, and the brain decides upon levels.
-            EdgeKind::Bump(_)
-            | EdgeKind::Cliff(_)
-            | EdgeKind::Lift(_)
-            | EdgeKind::MoveFinished(_)
-            | EdgeKind::Inhibits(_) => None,
+            Event::Bump(_)
+            | Event::Cliff(_)
+            | Event::Lift(_)
+            | Event::MoveFinished(_)
+            | Event::Inhibits(_) => None,
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    Beep, BinaryKinds, Capabilities, Command, Drive, Edge, Info, Inhibit, Led, LogLevel, LogText, Motor,
-    MotorCommand, Refusal, Report, RobotHello, Sequence, State,
+    Beep, BinaryKinds, Capabilities, Command, Drive, Info, Inhibit, Led, LogLevel, LogText, Motor,
+    MotorCommand, NumberedEvent, Refusal, Report, RobotHello, Sequence, State,
 };
 use rvac_protocol::quality::LinkQuality;
 use rvac_protocol::session::{HostEvent, HostSession, SendError};
@@ -32,7 +32,7 @@ pub enum FirmwareEvent {
     /// Slow facts.
     Info(Info),
     /// An edge.
-    Edge(Edge),
+    Edge(NumberedEvent),
     /// A line for people.
     Log {
         /// How grave.
@@ -292,7 +292,7 @@ impl OwnFirmware {
             }
             HostEvent::Report(Report::State(state)) => FirmwareEvent::State(state),
             HostEvent::Report(Report::Info(info)) => FirmwareEvent::Info(info),
-            HostEvent::Report(Report::Edge(edge)) => FirmwareEvent::Edge(edge),
+            HostEvent::Report(Report::Event(edge)) => FirmwareEvent::Edge(edge),
             HostEvent::Report(Report::Log { level, text }) => FirmwareEvent::Log { level, text },
             // The session keeps these to itself.
             HostEvent::Report(Report::Hello(_) | Report::Describe(_) | Report::Acknowledgement(_)) => return,
@@ -304,7 +304,7 @@ impl OwnFirmware {
                 refusal: Some(refusal),
             } => FirmwareEvent::Refused { sequence, refusal },
             HostEvent::Unanswered(sequence) => FirmwareEvent::Unanswered(sequence),
-            HostEvent::EdgesLost { count } => FirmwareEvent::EdgesLost(count),
+            HostEvent::EventsLost { count } => FirmwareEvent::EdgesLost(count),
             HostEvent::Closed(_) | HostEvent::Silent => FirmwareEvent::Closed,
             HostEvent::Incompatible {
                 version_min,

@@ -13,7 +13,7 @@ pub use parts::LIMITS;
 use parts::{Memory, board};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Command, Description, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
+    BinaryKinds, Command, Description, Drive, Event, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
     MoveEnd, Refusal, Report, Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession};
@@ -44,7 +44,7 @@ pub struct Rig {
     pub rims: [f64; 2],
     /// Ways of the rims in m.
     pub ways: [f64; 2],
-    pub edges: Vec<EdgeKind>,
+    pub edges: Vec<Event>,
     pub reports: Vec<Report>,
     pub refusals: Vec<Refusal>,
     pub described: Option<Description>,
@@ -338,7 +338,7 @@ impl Rig {
         }
         for event in events {
             match event {
-                HostEvent::Report(Report::Edge(edge)) => self.edges.push(edge.kind),
+                HostEvent::Report(Report::Event(edge)) => self.edges.push(edge.kind),
                 HostEvent::Report(report) => self.reports.push(report),
                 HostEvent::Described(table) => self.described = Some(table),
                 HostEvent::Answered {
@@ -399,7 +399,7 @@ impl Rig {
         self.edges
             .iter()
             .filter_map(|edge| match edge {
-                EdgeKind::MoveFinished(end) => Some(*end),
+                Event::MoveFinished(end) => Some(*end),
                 _ => None,
             })
             .collect()
@@ -409,7 +409,7 @@ impl Rig {
         self.edges
             .iter()
             .filter_map(|edge| match edge {
-                EdgeKind::Inhibits(set) => Some(*set),
+                Event::Inhibits(set) => Some(*set),
                 _ => None,
             })
             .collect()

@@ -6,7 +6,7 @@ use rvac_channel::{Channel, FaultRates, Pcg32, ReceivedByte, switched_on};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{BinaryKinds, Command, HostHello, ProtocolVersion, Report, State};
 use rvac_protocol::session::{Mode, RobotEvent, RobotSession};
-use rvac_protocol::text::write_sealed_command;
+use rvac_protocol::text::write_command_with_crc;
 use rvac_units::Tick;
 use serde::Serialize;
 
@@ -196,7 +196,7 @@ const fn line(name: &'static str, share: u32, rates: FaultRates) -> Kind {
 /// A whole packet goes after this many damaged ones: it keeps the session open and shows that the robot still listens.
 const VALID_EVERY: u64 = 16;
 
-/// Feeds `packets` damaged packets to a robot in sealed mode.
+/// Feeds `packets` damaged packets to a robot in checked mode.
 pub(crate) fn run(packets: u64, seed: u64) -> Corruption {
     let mut bench = Bench::new(seed);
     for index in 0..packets {
@@ -408,7 +408,7 @@ pub(crate) fn open_robot(now: Tick) -> RobotSession {
         binary: BinaryKinds::ALL,
     });
     let mut buffer = PacketBuffer::new();
-    write_sealed_command(&hello, 0, &mut buffer).expect("a hello fits");
+    write_command_with_crc(&hello, 0, &mut buffer).expect("a hello fits");
     for byte in buffer.as_bytes() {
         assert!(
             robot
@@ -416,7 +416,7 @@ pub(crate) fn open_robot(now: Tick) -> RobotSession {
                 .is_none_or(|event| event == RobotEvent::SessionOpened)
         );
     }
-    assert_eq!(robot.mode(), Mode::Sealed);
+    assert_eq!(robot.mode(), Mode::Checked);
     robot
 }
 

@@ -2,17 +2,17 @@
 
 use rvac_units::Tick;
 
-use super::edges::{Arrival, EdgeOrder};
+use super::event_order::{Arrival, EventOrder};
 use super::{
     Core, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, Phase,
     SILENCE_MS,
 };
 use crate::binary;
+use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, PACKET_BYTES_MAX, Poison};
 use crate::message::{
-    Acknowledgement, BinaryKinds, Edge, Info, ProtocolVersion, Report, RobotHello, Sequence, State,
+    Acknowledgement, BinaryKinds, Info, NumberedEvent, ProtocolVersion, Report, RobotHello, Sequence, State,
 };
-use crate::seal::{Direction, seal};
 use crate::session::BAD_IN_ROW_MAX;
 use crate::text::{InfoPart, ReportPacket, read_report};
 
@@ -20,15 +20,15 @@ impl Core {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<HostEvent> {
         self.now = now;
         match framed {
-            Framed::Sealed(text) => {
+            Framed::Checked(text) => {
                 self.good();
                 self.take_text(text)
             }
             Framed::Binary { kind, body } => self.take_binary(kind, body),
-            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
-            // A robot seals whatever it says; an open packet has lost its seal on the way.
-            Framed::Open(_) | Framed::BinaryMissealed => {
-                count(&mut self.counters.bad_seal);
+            Framed::BadCrc { text, crc } => self.take_bad_crc(text, crc),
+            // A robot sends a CRC with every packet: one that arrives without it was damaged on the line.
+            Framed::Unchecked(_) | Framed::BinaryBadCrc => {
+                count(&mut self.counters.bad_crc);
                 self.bad()
             }
             Framed::Poisoned(poison) => {
@@ -41,15 +41,15 @@ impl Core {
         }
     }
 
-    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
+    fn take_bad_crc(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
         if self.session != 0
-            && found == seal(Direction::RobotToHost, 0, text)
+            && found == packet_crc(Direction::RobotToHost, 0, text)
             && let Ok(ReportPacket::Report(Report::Hello(hello))) = read_report(text)
         {
             self.good();
             return self.take_hello(hello);
         }
-        count(&mut self.counters.bad_seal);
+        count(&mut self.counters.bad_crc);
         self.bad()
     }
 
@@ -81,7 +81,7 @@ impl Core {
                 self.binary_left |= self.binary.state;
                 self.take_state(state)
             }
-            Report::Edge(edge) => self.take_edge(edge),
+            Report::Event(event) => self.take_event(event),
             Report::Acknowledgement(answer) => self.take_answer(answer),
             Report::Info(_) | Report::Probed(_) | Report::Log { .. } => Some(HostEvent::Report(report)),
         }
@@ -93,12 +93,12 @@ impl Core {
         Some(HostEvent::Report(Report::State(state)))
     }
 
-    fn take_edge(&mut self, edge: Edge) -> Option<HostEvent> {
-        self.hear_tick(edge.tick);
-        match self.edges.take(edge.number, self.now) {
-            Arrival::Next => Some(HostEvent::Report(Report::Edge(edge))),
+    fn take_event(&mut self, event: NumberedEvent) -> Option<HostEvent> {
+        self.hear_tick(event.tick);
+        match self.event_order.take(event.number, self.now) {
+            Arrival::Next => Some(HostEvent::Report(Report::Event(event))),
             Arrival::Hold => None,
-            Arrival::Lost(count) => Some(HostEvent::EdgesLost { count }),
+            Arrival::Lost(count) => Some(HostEvent::EventsLost { count }),
         }
     }
 
@@ -129,11 +129,11 @@ impl Core {
             return;
         }
         let good = link.accepted.checked_sub(old.accepted);
-        let seals = link.bad_seal.checked_sub(old.bad_seal);
+        let bad_crcs = link.bad_crc.checked_sub(old.bad_crc);
         let resyncs = link.resync.checked_sub(old.resync);
-        if let (Some(good), Some(seals), Some(resyncs)) = (good, seals, resyncs) {
+        if let (Some(good), Some(bad_crcs), Some(resyncs)) = (good, bad_crcs, resyncs) {
             self.outbound
-                .record(good, seals.saturating_add(resyncs), self.now);
+                .record(good, bad_crcs.saturating_add(resyncs), self.now);
         }
     }
 
@@ -221,7 +221,7 @@ impl Core {
         self.binary_left = false;
         self.bad_in_row = 0;
         self.robot_tick = None;
-        self.edges = EdgeOrder::default();
+        self.event_order = EventOrder::default();
         self.gathering = Gathering::default();
         self.ping.under_way = None;
         self.state_wanted = false;
@@ -257,7 +257,7 @@ impl Core {
         }
     }
 
-    /// The newest tick counts; a repeated edge brings an old one.
+    /// The newest tick counts; a repeated event brings an old one.
     fn hear_tick(&mut self, tick: Tick) {
         let newer = self.robot_tick.is_none_or(|(known, _)| tick.reached(known));
         if newer {

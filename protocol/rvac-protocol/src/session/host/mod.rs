@@ -2,7 +2,7 @@
 
 mod delivery;
 mod description;
-mod edges;
+mod event_order;
 mod inbound;
 mod outbound;
 
@@ -11,15 +11,15 @@ use rvac_units::Tick;
 
 use self::delivery::Delivery;
 use self::description::Gathering;
-use self::edges::EdgeOrder;
+use self::event_order::EventOrder;
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::frame::{Framer, PACKET_BYTES_MAX, Poison};
 use crate::message::{
     Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
     RobotHello, Sequence,
 };
 use crate::quality::{LinkQuality, Window};
-use crate::seal::Direction;
 
 /// What the host learns.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub enum HostEvent {
     Opened(RobotHello),
     /// The robot has told everything about itself. Comes some packets after `Opened`.
     Described(Description),
-    /// `Info`, `State`, `Log`, or an `Edge` that was not delivered before. Edges come in order and once.
+    /// `Info`, `State`, `Log`, or an `Event` that was not delivered before. Events come in order and once.
     Report(Report),
     /// The robot has answered a numbered command: carried out (`None`) or refused. Refused `drive` and `motor` are
     /// answered too.
@@ -40,8 +40,8 @@ pub enum HostEvent {
     },
     /// A command that must arrive was not answered in time. It may or may not have been carried out.
     Unanswered(Sequence),
-    /// Edges were lost: the robot's queue overflowed. Levels are in the next `State`.
-    EdgesLost {
+    /// Events were lost: the robot's queue overflowed. Levels are in the next `State`.
+    EventsLost {
         /// How many.
         count: u16,
     },
@@ -113,7 +113,7 @@ struct Core {
     robot_tick: Option<(Tick, Tick)>,
     delivery: Delivery,
     gathering: Gathering,
-    edges: EdgeOrder,
+    event_order: EventOrder,
     ping: Ping,
     state_wanted: bool,
     info_battery: Option<Battery>,
@@ -161,7 +161,7 @@ impl HostSession {
             robot_tick: None,
             delivery: Delivery::default(),
             gathering: Gathering::default(),
-            edges: EdgeOrder::default(),
+            event_order: EventOrder::default(),
             ping: Ping {
                 due: now,
                 under_way: None,

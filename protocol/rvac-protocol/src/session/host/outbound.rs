@@ -6,7 +6,7 @@ use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::SEPARATOR;
 use crate::message::{Command, HostHello, ProtocolVersion, Sequence};
 use crate::session::{BAUD_RATE_PATTERN, FLUSH_AFTER_MS};
-use crate::text::write_sealed_command;
+use crate::text::write_command_with_crc;
 
 impl Core {
     pub(super) fn send(
@@ -128,12 +128,12 @@ impl Core {
             version_max: ProtocolVersion::CURRENT,
             binary: self.binary_wanted,
         });
-        write_sealed_command(&hello, 0, buffer).map(|()| true)
+        write_command_with_crc(&hello, 0, buffer).map(|()| true)
     }
 
     fn next_command(&mut self) -> Option<Command> {
-        if let Some(edge) = self.edges.take_confirmation() {
-            return Some(Command::Seen { edge });
+        if let Some(event) = self.event_order.take_confirmation() {
+            return Some(Command::Seen { event });
         }
         if let Some(command) = self.delivery.take_due(self.now) {
             return Some(command);
@@ -163,9 +163,9 @@ impl Core {
         let start = buffer.length();
         match command {
             Command::Drive(drive) if self.binary.drive && !self.binary_left => {
-                binary::write_sealed_drive(drive, self.session, buffer)
+                binary::write_drive_with_crc(drive, self.session, buffer)
             }
-            _ => write_sealed_command(command, self.session, buffer),
+            _ => write_command_with_crc(command, self.session, buffer),
         }?;
         // Stuffing and separator do not count, so this refuses a little too early rather than too late.
         if buffer.length() - start > self.packet_max + 1 {

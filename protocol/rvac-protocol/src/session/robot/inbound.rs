@@ -5,29 +5,29 @@ use rvac_units::Tick;
 use super::answers::{Known, MEMORY_MS};
 use super::{BAD_IN_ROW_MAX, Core, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
 use crate::binary;
+use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, Poison};
 use crate::message::{Acknowledgement, Command, HostHello, ProtocolVersion, Refusal, Sequence};
-use crate::seal::{Direction, seal};
 use crate::session::BAUD_RATE_PATTERN;
 use crate::text::{Form, RefusedCommand, is_stop, read_command};
 
-/// Whether the packet carried a right seal.
+/// Whether the packet carried the right CRC.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Trust {
-    Sealed,
-    Open,
+    Checked,
+    Unchecked,
 }
 
 impl Core {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<RobotEvent> {
         self.now = now;
         match framed {
-            Framed::Sealed(text) => self.take_sealed(text),
+            Framed::Checked(text) => self.take_checked(text),
             Framed::Binary { kind, body } => self.take_binary(kind, body),
-            Framed::Open(text) => self.take_open(text),
-            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
-            Framed::BinaryMissealed => {
-                count(&mut self.counters.bad_seal);
+            Framed::Unchecked(text) => self.take_unchecked(text),
+            Framed::BadCrc { text, crc } => self.take_bad_crc(text, crc),
+            Framed::BinaryBadCrc => {
+                count(&mut self.counters.bad_crc);
                 self.bad()
             }
             Framed::Poisoned(poison) => {
@@ -40,13 +40,13 @@ impl Core {
         }
     }
 
-    fn take_sealed(&mut self, text: &[u8]) -> Option<RobotEvent> {
+    fn take_checked(&mut self, text: &[u8]) -> Option<RobotEvent> {
         self.good();
         match read_command(text, self.form()) {
             Ok(command) => {
                 // A host that has agreed on a binary form and writes text has left it, and so do we.
                 self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
-                self.accept(command, Trust::Sealed)
+                self.accept(command, Trust::Checked)
             }
             Err(refused) => self.refuse(refused),
         }
@@ -58,46 +58,46 @@ impl Core {
             return self.refuse_with(None, Refusal::Unknown);
         }
         match binary::read_drive(body) {
-            Ok(drive) => self.accept(Command::Drive(drive), Trust::Sealed),
+            Ok(drive) => self.accept(Command::Drive(drive), Trust::Checked),
             Err(refusal) => self.refuse_with(None, refusal),
         }
     }
 
-    fn take_open(&mut self, text: &[u8]) -> Option<RobotEvent> {
+    fn take_unchecked(&mut self, text: &[u8]) -> Option<RobotEvent> {
         if text.iter().all(|byte| *byte == BAUD_RATE_PATTERN) {
             return None;
         }
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Open);
+            return self.accept(Command::Stop, Trust::Unchecked);
         }
-        if self.mode == Mode::Sealed {
+        if self.mode == Mode::Checked {
             self.bad();
-            return self.refuse_with(None, Refusal::Unsealed);
+            return self.refuse_with(None, Refusal::NoCrc);
         }
         match read_command(text, self.form()) {
-            Ok(command) => self.accept(command, Trust::Open),
+            Ok(command) => self.accept(command, Trust::Unchecked),
             Err(refused) => self.refuse(refused),
         }
     }
 
-    /// A seal that is not this session's: `stop` counts anyway, and a `hello` is always sealed for session 0.
-    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
+    /// The CRC is not that of this session. `stop` counts anyway, and a `hello` always has the CRC of session 0.
+    fn take_bad_crc(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Open);
+            return self.accept(Command::Stop, Trust::Unchecked);
         }
         if self.session != 0
-            && found == seal(Direction::HostToRobot, 0, text)
+            && found == packet_crc(Direction::HostToRobot, 0, text)
             && let Ok(command @ Command::Hello(_)) = read_command(text, self.form())
         {
-            return self.accept(command, Trust::Sealed);
+            return self.accept(command, Trust::Checked);
         }
-        count(&mut self.counters.bad_seal);
+        count(&mut self.counters.bad_crc);
         self.bad()
     }
 
     fn form(&self) -> Form {
         match self.mode {
-            Mode::Sealed => Form::Sealed,
+            Mode::Checked => Form::Checked,
             Mode::Hand => Form::Hand { now: self.now },
         }
     }
@@ -107,7 +107,7 @@ impl Core {
             Command::Hello(hello) => self.greet(hello, trust),
             Command::Hand => {
                 self.accepted();
-                (self.mode == Mode::Sealed).then(|| self.close(SessionEnd::Hand))
+                (self.mode == Mode::Checked).then(|| self.close(SessionEnd::Hand))
             }
             Command::Describe { row } => self.describe(row),
             Command::Ping { sequence } => {
@@ -115,9 +115,9 @@ impl Core {
                 self.reply_answer(Some(sequence), None);
                 None
             }
-            Command::Seen { edge } => {
+            Command::Seen { event } => {
                 self.accepted();
-                self.edges.confirm(edge);
+                self.events.confirm(event);
                 None
             }
             Command::Drive(drive) => {
@@ -143,7 +143,7 @@ impl Core {
     /// A command that must arrive: carried out once, answered as often as it is asked.
     fn accept_once(&mut self, command: Command) -> Option<RobotEvent> {
         let sequence = command.sequence()?;
-        if self.mode == Mode::Sealed {
+        if self.mode == Mode::Checked {
             match self.answers.note(sequence, self.now) {
                 Known::New => {}
                 Known::Pending => {
@@ -175,7 +175,7 @@ impl Core {
         self.accepted();
         Some(RobotEvent::Command(match self.mode {
             Mode::Hand => hand::clamp(command),
-            Mode::Sealed => command,
+            Mode::Checked => command,
         }))
     }
 
@@ -204,16 +204,16 @@ impl Core {
         let common =
             hello.version_min <= ProtocolVersion::CURRENT && hello.version_max >= ProtocolVersion::MIN;
         let repeated = self.opened_by == Some(hello);
-        if trust == Trust::Open || !common || repeated {
+        if trust == Trust::Unchecked || !common || repeated {
             return None;
         }
         self.session = self.new_session_number();
-        self.mode = Mode::Sealed;
+        self.mode = Mode::Checked;
         self.binary = hello.binary.common(self.identity.binary);
         self.binary_left = false;
         self.motion = None;
         self.answers.clear();
-        self.edges.restart();
+        self.events.restart();
         self.good();
         self.opened_by = Some(hello);
         Some(RobotEvent::SessionOpened)
@@ -223,7 +223,7 @@ impl Core {
     fn new_session_number(&self) -> u16 {
         let [s0, s1, s2, s3] = self.identity.session_seed.to_le_bytes();
         let [t0, t1, t2, t3] = self.now.0.to_le_bytes();
-        let mixed = seal(
+        let mixed = packet_crc(
             Direction::RobotToHost,
             self.session,
             &[s0, s1, s2, s3, t0, t1, t2, t3],
@@ -279,7 +279,7 @@ impl Core {
         self.replies.push_back(reply).ok();
     }
 
-    /// A valid sealed packet.
+    /// A valid checked packet.
     fn good(&mut self) {
         self.heard = self.now;
         self.bad_in_row = 0;

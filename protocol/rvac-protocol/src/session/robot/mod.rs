@@ -1,7 +1,7 @@
 //! The robot's end.
 
 mod answers;
-mod edges;
+mod event_queue;
 mod hand;
 mod inbound;
 mod outbound;
@@ -12,14 +12,14 @@ use heapless::Deque;
 use rvac_units::Tick;
 
 use self::answers::Answers;
-use self::edges::Edges;
+use self::event_queue::EventQueue;
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::frame::{Framer, Poison};
 use crate::message::{
-    Acknowledgement, BinaryKinds, Command, Description, EdgeKind, HostHello, LinkCounters, Name, Refusal,
+    Acknowledgement, BinaryKinds, Command, Description, Event, HostHello, LinkCounters, Name, Refusal,
     Report, ResetCause, Sequence,
 };
-use crate::seal::Direction;
 use crate::session::{BAD_IN_ROW_MAX, FLUSH_AFTER_MS};
 
 /// Who the robot is; fixed from reset on.
@@ -45,12 +45,12 @@ pub struct RobotIdentity {
 /// Who may command, and how far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// A person may type without seals; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of at
+    /// A person may type without CRCs; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of at
     /// most 500 ms, moves of at most 5 cm. The session has clamped what it can see; the speed of a `move` is the
     /// firmware's part ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
     Hand,
-    /// Only the host of this session, sealed.
-    Sealed,
+    /// Only the host of this session commands, and every packet has a CRC.
+    Checked,
 }
 
 /// Why a session ended.
@@ -58,14 +58,14 @@ pub enum Mode {
 pub enum SessionEnd {
     /// `{"c":"hand"}` was commanded.
     Hand,
-    /// No valid sealed packet for 2 s.
+    /// No valid checked packet for 2 s.
     Silence,
 }
 
 /// What the firmware has to act upon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RobotEvent {
-    /// Carry this out. It is checked: well-formed, in range, sealed as the mode wants it, fresh, not seen before, and in
+    /// Carry this out. It is checked: well-formed, in range, with the CRC that the mode requires, fresh, not seen before, and in
     /// hand mode clamped. Never `Hello`, `Hand`, `Describe`, `Ping` or `Seen`, which the session handles itself.
     ///
     /// A command that must arrive ([`Command::must_arrive`]) wants one call of [`RobotSession::answer`], a refused `drive`
@@ -77,7 +77,7 @@ pub enum RobotEvent {
     SessionClosed(SessionEnd),
 }
 
-/// A session ends after this long without a valid sealed packet.
+/// A session ends after this long without a valid checked packet.
 pub const SESSION_SILENCE_MS: u32 = 2_000;
 /// Motion whose `t` is older is refused.
 pub const FRESHNESS_MS: u32 = 400;
@@ -99,13 +99,13 @@ struct Core {
     session: u16,
     now: Tick,
     counters: LinkCounters,
-    /// When the last valid sealed packet came.
+    /// When the last valid checked packet came.
     heard: Tick,
-    /// What opened the session, until another sealed packet comes: a repeat of it does not open another one.
+    /// What opened the session, until another checked packet comes: a repeat of it does not open another one.
     opened_by: Option<HostHello>,
     motion: Option<(Sequence, Tick)>,
     answers: Answers,
-    edges: Edges,
+    events: EventQueue,
     replies: Deque<Reply, REPLIES>,
     binary: BinaryKinds,
     binary_left: bool,
@@ -134,7 +134,7 @@ impl RobotSession {
             opened_by: None,
             motion: None,
             answers: Answers::default(),
-            edges: Edges::default(),
+            events: EventQueue::default(),
             replies: Deque::new(),
             binary: BinaryKinds::NONE,
             binary_left: false,
@@ -170,7 +170,7 @@ impl RobotSession {
         self.framer.poison(Poison::Overrun);
     }
 
-    /// Lets time pass: silence ends a session, unconfirmed edges become due again. Cheap; call it in every pass of the main
+    /// Lets time pass: silence ends a session, unconfirmed events become due again. Cheap; call it in every pass of the main
     /// loop or at [`next_poll`](Self::next_poll).
     #[must_use]
     pub fn poll(&mut self, now: Tick) -> Option<RobotEvent> {
@@ -187,15 +187,15 @@ impl RobotSession {
     /// When `poll` or [`next_packet`](Self::next_packet) has something to do at the latest.
     #[must_use]
     pub fn next_poll(&self) -> Tick {
-        if self.core.edges.is_empty() && self.core.mode == Mode::Sealed {
+        if self.core.events.is_empty() && self.core.mode == Mode::Checked {
             self.core.heard.after(SESSION_SILENCE_MS + 1)
         } else {
-            self.core.now.after(edges::REPEAT_MS)
+            self.core.now.after(event_queue::REPEAT_MS)
         }
     }
 
     /// Writes the next packet that the session itself wants sent (handshake, acknowledgements, rows of the description,
-    /// edges) into `buffer`, replacing its content. `false` = nothing to send.
+    /// events) into `buffer`, replacing its content. `false` = nothing to send.
     #[must_use]
     pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
         buffer.clear();
@@ -205,7 +205,7 @@ impl RobotSession {
         self.core.write(&report, buffer).is_ok()
     }
 
-    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: sealed, in binary if
+    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: with its CRC, in binary if
     /// that is agreed, with a separator before it if the line was silent.
     ///
     /// # Errors
@@ -224,12 +224,12 @@ impl RobotSession {
         self.core.reply_answer(Some(sequence), refusal);
     }
 
-    /// Queues an edge. The session numbers it and repeats it until the host confirms it.
-    pub fn queue_edge(&mut self, kind: EdgeKind, tick: Tick) {
-        self.core.edges.queue(kind, tick);
+    /// Queues an event. The session numbers it and repeats it until the host confirms it.
+    pub fn queue_event(&mut self, kind: Event, tick: Tick) {
+        self.core.events.queue(kind, tick);
     }
 
-    /// Hand or sealed mode.
+    /// Hand or checked mode.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.core.mode

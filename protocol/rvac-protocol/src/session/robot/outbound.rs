@@ -5,7 +5,7 @@ use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::{PACKET_BYTES_MAX, SEPARATOR};
 use crate::message::{CommandNames, DescribeRow, Parameter, ProtocolVersion, Report, RobotHello, RowContent};
-use crate::text::write_sealed_report;
+use crate::text::write_report_with_crc;
 
 /// Rows of the description before the parameters.
 const FIRST_ROWS: u8 = 3;
@@ -19,7 +19,7 @@ impl Core {
             Some(Reply::Hello) => Some(Report::Hello(self.hello())),
             Some(Reply::Row(row)) => Some(Report::Describe(self.row(row))),
             Some(Reply::Answer(answer)) => Some(Report::Acknowledgement(answer)),
-            None => self.edges.take_due(self.mode, self.now).map(Report::Edge),
+            None => self.events.take_due(self.mode, self.now).map(Report::Event),
         }
     }
 
@@ -33,11 +33,11 @@ impl Core {
         self.sent = Some(self.now);
         match report {
             Report::State(state) if self.binary.state && !self.binary_left => {
-                binary::write_sealed_state(state, self.session, buffer)
+                binary::write_state_with_crc(state, self.session, buffer)
             }
             // The host must be able to read it whatever session it believes in.
-            Report::Hello(_) => write_sealed_report(report, 0, buffer),
-            _ => write_sealed_report(report, self.session, buffer),
+            Report::Hello(_) => write_report_with_crc(report, 0, buffer),
+            _ => write_report_with_crc(report, self.session, buffer),
         }
     }
 

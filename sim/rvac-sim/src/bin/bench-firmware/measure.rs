@@ -180,9 +180,9 @@ fn flood(shop: &Shop, ms: u64, report: &mut Report) -> anyhow::Result<()> {
     report.uart_flood_seconds = ms as f64 / 1e3;
     report.uart_bytes_checked = heard + sent;
     let in_robot =
-        after.overrun - before.overrun + after.framing - before.framing + after.bad_seal - before.bad_seal;
+        after.overrun - before.overrun + after.framing - before.framing + after.bad_crc - before.bad_crc;
     report.uart_bytes_lost = u64::from(in_robot + after.malformed - before.malformed)
-        + u64::from(host.bad_seal + host.framing + host.overrun + host.malformed);
+        + u64::from(host.bad_crc + host.framing + host.overrun + host.malformed);
     let latencies = desk
         .machine()
         .accounting()
