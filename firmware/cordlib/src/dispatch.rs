@@ -1,5 +1,5 @@
-//! What the host's commands do. They arrive checked: well-formed, with the right CRC, fresh. Here they meet the machine's limits and
-//! what inhibits.
+//! Executes the host's commands. The session has checked their form, CRC and freshness. Here the machine's limits and the
+//! inhibits apply.
 
 use rvac_protocol::message::{
     Beep, Command, Drive, Inhibit, Led, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Probe,
@@ -11,7 +11,7 @@ use rvac_units::Tick;
 use crate::board::Parts;
 use crate::cord::Cord;
 use crate::motion::{Ending, Pace, Path, Side, suits_drive, suits_path};
-use crate::permit::Standing;
+use crate::permit::MotionPermit;
 
 /// Largest turn of one `move`, in radians: ten turns.
 const MOVE_TURN_MAX: i32 = 63;
@@ -43,7 +43,7 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Leases of another session mean nothing.
+    /// Leases of another session are void.
     fn void_leases(&mut self) {
         if self.motion.is_active() {
             self.reflexes.host.lose_link();
@@ -52,7 +52,7 @@ impl<P: Parts> Cord<P> {
         self.probing.end(&mut self.board.probe);
     }
 
-    /// Carries out a command of the host and answers it as the wire wants it.
+    /// Executes a command of the host and answers it as the protocol requires.
     fn obey(&mut self, command: &Command, now: Tick) {
         let answer = self.carry_out(command, now);
         let Some(sequence) = command.sequence() else {
@@ -64,11 +64,11 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Carries out a wish of the board's own firmware (a button that starts spot cleaning, say). It meets the same limits
-    /// and the same gate as one from the wire, and the newest motion rules (S27).
+    /// Executes a command of the board's own firmware, for example of a button that starts spot cleaning. The same limits
+    /// and the same permit apply as for a command from the wire, and the newest motion wins (S27).
     ///
     /// # Errors
-    /// The named reason for which it is refused. `Hello`, `Hand`, `Describe`, `Ping` and `Seen` belong to the wire:
+    /// The reason why it is refused. `Hello`, `Hand`, `Describe`, `Ping` and `Seen` belong to the wire:
     /// `Unknown`.
     pub fn request(&mut self, command: &Command) -> Result<(), Refusal> {
         let now = self.senses.now;
@@ -101,10 +101,10 @@ impl<P: Parts> Cord<P> {
     }
 
     /// What a fresh motion command meets: it is the sign of life that ends `link-lost`.
-    fn standing_for_command(&self) -> Standing {
-        let mut standing = self.standing();
-        standing.inhibits.remove(Inhibit::LinkLost);
-        standing
+    fn permit_for_command(&self) -> MotionPermit {
+        let mut permit = self.motion_permit();
+        permit.inhibits.remove(Inhibit::LinkLost);
+        permit
     }
 
     fn drive(&mut self, drive: &Drive, now: Tick) -> Answer {
@@ -115,8 +115,8 @@ impl<P: Parts> Cord<P> {
         if drive.speed.magnitude() > limits.speed_max.0 || drive.turn.magnitude() > limits.turn_max.0 {
             return Err(Refusal::Range);
         }
-        let standing = self.standing_for_command();
-        if !standing.armed || !suits_drive(drive, &standing, &self.parameters) {
+        let permit = self.permit_for_command();
+        if !permit.armed || !suits_drive(drive, &permit, &self.parameters) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -131,13 +131,13 @@ impl<P: Parts> Cord<P> {
             Motor::WheelRight => Side::Right,
             _ => return self.cleaner(command, now),
         };
-        let standing = self.standing_for_command();
+        let permit = self.permit_for_command();
         let sign = command.throttle.millionths();
         let (left, right) = match side {
             Side::Left => (sign, 0),
             Side::Right => (0, sign),
         };
-        if !standing.armed || !standing.allows_direction(left, right) {
+        if !permit.armed || !permit.allows_direction(left, right) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -157,8 +157,8 @@ impl<P: Parts> Cord<P> {
         if !is_fitted {
             return Err(Refusal::Absent);
         }
-        let standing = self.standing_for_command();
-        self.cleaning.command(command, &standing, now)
+        let permit = self.permit_for_command();
+        self.cleaning.command(command, &permit, now)
     }
 
     fn follow(&mut self, movement: &Move, now: Tick) -> Answer {
@@ -180,8 +180,8 @@ impl<P: Parts> Cord<P> {
                 turn_urad_per_s: motion.move_turn.0,
             },
         };
-        let standing = self.standing_for_command();
-        if !standing.armed {
+        let permit = self.permit_for_command();
+        if !permit.armed {
             return Err(Refusal::Inhibited);
         }
         let start = (now, self.senses.gyro);
@@ -191,7 +191,7 @@ impl<P: Parts> Cord<P> {
             self.end(Some(Ending::Move(MoveEnd::Done)));
             return Ok(());
         };
-        if !suits_path(&path, &standing) {
+        if !suits_path(&path, &permit) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -228,7 +228,7 @@ impl<P: Parts> Cord<P> {
             return Err(Refusal::Inhibited);
         }
         self.arm_anew()?;
-        // What an earlier undock command allowed ends here: back on the contacts is an arrival (S19).
+        // An earlier undock command ends here: closing the contacts again is an arrival (S19).
         self.reflexes.dock.stay();
         Ok(())
     }
@@ -239,7 +239,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// Motion is allowed from here on; what was asked before is forgotten (S19).
+    /// Allows motion from now on and forgets earlier requests (S19).
     fn arm_anew(&mut self) -> Answer {
         if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.any_button() {
             return Err(Refusal::CauseRemains);
@@ -251,7 +251,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// Charging is asked for or forbidden on the dock only; coming to it anew is a question of its own.
+    /// Starts or forbids charging. Valid on the dock only: each new docking begins with the default.
     fn charge(&mut self, wanted: bool) -> Answer {
         if !self.fitted.charger {
             return Err(Refusal::Absent);
@@ -264,7 +264,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// One look while the robot must be armed before it moves, or looks under a lease.
+    /// One reading without a lease, which needs a robot that cannot move, or repeated readings under a lease.
     fn probe(&mut self, probe: &Probe, now: Tick) -> Answer {
         if !self.fitted.probe {
             return Err(Refusal::Absent);

@@ -32,7 +32,7 @@ impl Journal {
         self.lines.push_back(Line { level, what, which }).ok();
     }
 
-    /// The oldest line, with a word on lines that were lost before it.
+    /// The oldest line, with the number of lines that were lost before it.
     pub(crate) fn take(&mut self) -> Option<(LogLevel, LogText)> {
         let line = self.lines.pop_front()?;
         let mut text = LogText::new();

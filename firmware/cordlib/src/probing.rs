@@ -7,18 +7,18 @@ use rvac_protocol::message::{
 use rvac_units::Tick;
 
 use crate::board::Probe;
-use crate::timing::{Periodic, Until};
+use crate::timing::{Deadline, Periodic};
 
 /// Pause between two answers under a lease.
 const PERIOD_MS: u32 = 50;
 /// Bytes of a serial port wait this long for others to share their packet.
 const GATHER_MS: u32 = 20;
 
-/// What is looked at.
+/// The readings that are being reported.
 #[derive(Clone, Debug)]
 pub(crate) struct Probing {
     target: Option<ProbeTarget>,
-    lease: Until,
+    lease: Deadline,
     next: Periodic,
     gathered: Vec<u8, PROBE_BYTES>,
     gathered_at: Tick,
@@ -30,7 +30,7 @@ impl Probing {
     pub(crate) const fn starting_at(now: Tick) -> Self {
         Self {
             target: None,
-            lease: Until::NEVER,
+            lease: Deadline::NONE,
             next: Periodic::starting_at(now),
             gathered: Vec::new(),
             gathered_at: now,
@@ -38,10 +38,10 @@ impl Probing {
         }
     }
 
-    /// Begins to look, or goes on if it is the same.
+    /// Begins readings, or extends the lease if the target is the same.
     ///
     /// # Errors
-    /// What the board says to the serial port.
+    /// As the board refuses the serial port.
     pub(crate) fn begin<P: Probe>(
         &mut self,
         board: &mut P,
@@ -58,24 +58,24 @@ impl Probing {
         }
         self.target = Some(command.target);
         self.lease = match command.lease_ms {
-            0 => Until::NEVER,
-            lease_ms => Until::at(now.after(u32::from(lease_ms))),
+            0 => Deadline::NONE,
+            lease_ms => Deadline::at(now.after(u32::from(lease_ms))),
         };
         Ok(())
     }
 
-    /// Ends it, for a lease that is over or a session that is.
+    /// Ends the readings, when their lease or the session is over.
     pub(crate) fn end<P: Probe>(&mut self, board: &mut P) {
         if let Some(ProbeTarget::Serial { .. }) = self.target {
             board.close_serial();
         }
         self.target = None;
-        self.lease = Until::NEVER;
+        self.lease = Deadline::NONE;
         self.gathered.clear();
         self.at = 0;
     }
 
-    /// Takes what the serial port has received, and ends what is over.
+    /// Collects received bytes of the serial port, and ends readings whose lease is over.
     pub(crate) fn gather<P: Probe>(&mut self, board: &mut P, now: Tick) {
         if self.target.is_none() {
             return;

@@ -1,4 +1,4 @@
-//! Frequencies and bandwidths: events counted over a measured span, so that a late second does not double the figure.
+//! Frequencies and bandwidths: counts over a measured time, so that a late second does not distort the figure.
 
 use rvac_units::Tick;
 

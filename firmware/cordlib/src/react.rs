@@ -1,4 +1,4 @@
-//! What follows from findings: of the reflexes, of motion that ended, of motors that were overloaded.
+//! Reactions to findings of the reflexes, to motion that ended and to overloaded motors.
 
 use rvac_protocol::message::{Event, Inhibit, LogLevel, Motor, MoveEnd};
 use rvac_units::Tick;
@@ -8,12 +8,12 @@ use crate::cord::Cord;
 use crate::motion::Ending;
 use crate::reflex::{DockChange, Findings};
 
-/// A press is believed some 10 ms after the finger came down, more if the contact bounces: what moved then may have come to
-/// its end by itself since, and the person meant it all the same.
+/// Debouncing reports a press 10 ms after the finger came down, or later if the contact bounces. Motion may have ended in
+/// that time; the press still counts as one during motion.
 const PRESS_MS: u32 = 30;
 
 impl<P: Parts> Cord<P> {
-    /// Carries out what the contact rules found.
+    /// Acts on the findings of the contact rules.
     pub(crate) fn react(&mut self, findings: &Findings, now: Tick) {
         match findings.dock {
             Some(DockChange::Arrived | DockChange::TakenOff) => {

@@ -12,10 +12,10 @@ use rvac_protocol::message::ChargeEnd;
 const ALONE_SHARE: u64 = 25;
 /// The stops of the phase of full current.
 const STOPS: [ChargeEnd; 8] = [
-    ChargeEnd::Slope,
-    ChargeEnd::Drop,
-    ChargeEnd::Plateau,
-    ChargeEnd::Rise,
+    ChargeEnd::TemperatureSlope,
+    ChargeEnd::NegativeDeltaV,
+    ChargeEnd::ZeroDeltaV,
+    ChargeEnd::TemperatureRise,
     ChargeEnd::Hot,
     ChargeEnd::Voltage,
     ChargeEnd::Charge,

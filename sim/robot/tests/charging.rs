@@ -106,10 +106,10 @@ fn a_thermistor_that_freezes_before_the_pack_warms_up_is_found_in_time() {
 #[test]
 fn no_stop_alone_lets_a_cell_reach_55_degrees_or_a_charge_go_on_for_ever() {
     let stops = [
-        ChargeEnd::Slope,
-        ChargeEnd::Drop,
-        ChargeEnd::Plateau,
-        ChargeEnd::Rise,
+        ChargeEnd::TemperatureSlope,
+        ChargeEnd::NegativeDeltaV,
+        ChargeEnd::ZeroDeltaV,
+        ChargeEnd::TemperatureRise,
         ChargeEnd::Hot,
         ChargeEnd::Voltage,
         ChargeEnd::Charge,

@@ -1,4 +1,4 @@
-//! The part that is not there.
+//! The part that is absent.
 
 use rvac_protocol::message::{
     Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, PROBE_CHANNELS, PROBE_PORTS,

@@ -51,13 +51,13 @@ names! {
     /// What ended the last charge.
     ChargeEnd: 10 {
         /// The temperature rose fast (dT/dt).
-        Slope => "slope",
+        TemperatureSlope => "slope",
         /// The voltage fell from its peak.
-        Drop => "drop",
+        NegativeDeltaV => "drop",
         /// The voltage did not rise any more.
-        Plateau => "plateau",
+        ZeroDeltaV => "plateau",
         /// The pack is much warmer than at the start.
-        Rise => "rise",
+        TemperatureRise => "rise",
         /// The pack is too warm to go on.
         Hot => "hot",
         /// The voltage is higher than a sound pack's.
@@ -83,7 +83,7 @@ names! {
         /// Current flows though the charger is off: its transistor is shorted. Only driving off the dock cuts it.
         Shorted => "shorted",
         /// The current sensor shows current where none can flow.
-        CurrentZero => "current-zero",
+        CurrentOffset => "current-zero",
         /// The charger is on and no current is seen.
         NoCurrent => "no-current",
         /// The converter's readings are too old.

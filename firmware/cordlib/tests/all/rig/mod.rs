@@ -250,14 +250,14 @@ impl Rig {
             board.wheels.left.duty().millionths(),
             board.wheels.right.duty().millionths(),
         );
-        let standing = self.cord.standing();
+        let permit = self.cord.motion_permit();
         if left != 0 || right != 0 {
             assert!(
-                standing.armed && standing.fresh,
+                permit.armed && permit.fresh,
                 "unarmed or stale motion at {:?}",
                 self.now()
             );
-            let mut hard = standing.inhibits;
+            let mut hard = permit.inhibits;
             for telling in [
                 Inhibit::BatteryLow,
                 Inhibit::BatteryWeak,
@@ -279,7 +279,7 @@ impl Rig {
         }
         let cleaners = [&board.brush_main, &board.brush_sides, &board.vacuum];
         if cleaners.iter().any(|brush| brush.duty != Throttle::ZERO) {
-            assert!(standing.armed, "unarmed brush");
+            assert!(permit.armed, "unarmed brush");
             for inhibit in [
                 Inhibit::WheelDrop,
                 Inhibit::Stopped,
@@ -287,7 +287,7 @@ impl Rig {
                 Inhibit::Docked,
             ] {
                 assert!(
-                    !standing.inhibits.contains(inhibit),
+                    !permit.inhibits.contains(inhibit),
                     "brush in spite of {inhibit:?}"
                 );
             }
