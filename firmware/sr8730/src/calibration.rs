@@ -9,7 +9,7 @@ use crate::logic::dock_code::LeadingOnes;
 use crate::logic::gyro_frame::FrameKind;
 use crate::logic::ladder::Ladder;
 use crate::logic::proximity::ProximityScale;
-use crate::logic::quadrature::Order;
+use crate::logic::quadrature::PhaseOrder;
 
 /// Bytes of a record: header, values, check value.
 pub const RECORD_BYTES: usize = 8 + 4 * COUNT + 4;
@@ -25,13 +25,13 @@ pub struct Calibration {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WheelCalibration {
     /// Way of one count, in nanometres.
-    pub count_way_nm: u32,
+    pub distance_per_count_nm: u32,
     /// Distance between the wheels, in micrometres.
     pub track_um: i32,
     /// Lines of the left wheel.
-    pub left: Order,
+    pub left: PhaseOrder,
     /// Lines of the right wheel.
-    pub right: Order,
+    pub right: PhaseOrder,
     /// Duty below which no wheel turns, in thousandths.
     pub dead_band_permille: i32,
     /// Speed of the rims at full duty, in mm/s.
@@ -116,10 +116,10 @@ impl Calibration {
     pub fn wheels(&self) -> Option<WheelCalibration> {
         let order = |which| {
             self.measured(which)
-                .map(|value| Order::from_calibration(Some(value)))
+                .map(|value| PhaseOrder::from_calibration(Some(value)))
         };
         Some(WheelCalibration {
-            count_way_nm: u32::try_from(self.measured(Calibrated::WheelCountWay)?).ok()?,
+            distance_per_count_nm: u32::try_from(self.measured(Calibrated::WheelCountWay)?).ok()?,
             track_um: self.measured(Calibrated::WheelTrack)?,
             left: order(Calibrated::WheelLeftOrder)?,
             right: order(Calibrated::WheelRightOrder)?,

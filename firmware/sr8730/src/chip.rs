@@ -10,7 +10,7 @@ use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_crc,
 use sr8730::board::off;
 use sr8730::generated::pins;
 use sr8730::logic::image_check::NO_CRC;
-use sr8730::logic::reset_log::Trouble;
+use sr8730::logic::reset_log::FatalCause;
 use sr8730::robot::{self, Robot};
 
 /// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the first
@@ -34,15 +34,15 @@ fn main() -> ! {
 }
 
 fn on_exception(exception: &Exception) -> ! {
-    robot::give_up(match exception.kind() {
-        Kind::UnhandledInterrupt => Trouble::StrayInterrupt,
-        _ => Trouble::Exception,
+    robot::fail_safe_reset(match exception.kind() {
+        Kind::UnhandledInterrupt => FatalCause::StrayInterrupt,
+        _ => FatalCause::Exception,
     })
 }
 
 #[panic_handler]
 fn on_panic(_: &PanicInfo<'_>) -> ! {
-    robot::give_up(Trouble::Panic)
+    robot::fail_safe_reset(FatalCause::Panic)
 }
 
 global_asm!(

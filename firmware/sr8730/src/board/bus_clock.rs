@@ -12,7 +12,7 @@ pub struct BusClock(Timer<5>);
 #[cfg(not(feature = "link-sampled"))]
 impl BusClock {
     /// Half counts of the core timer in one of this clock: its prescaler is 256.
-    pub const HALVES_PER_COUNT: u32 = crate::logic::pace::HALVES_PER_COUNT;
+    pub const HALVES_PER_COUNT: u32 = crate::logic::clock_check::HALVES_PER_COUNT;
 
     /// Running.
     #[must_use]

@@ -17,7 +17,7 @@ use super::{contacts, converter, interlock, off, tick};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins;
-use crate::logic::dock_code::{DockCode, HALF_PERIOD_COUNTS, Half, LeadingOnes, REPEAT_MS};
+use crate::logic::dock_code::{CarrierHalf, DockCode, HALF_PERIOD_COUNTS, LeadingOnes, REPEAT_MS};
 use crate::logic::envelope::{Envelope, pulses_for};
 use crate::logic::guarded::Guarded;
 use crate::logic::pack::PackScale;
@@ -89,14 +89,14 @@ fn on_half_period(context: &mut Context<vector::TIMER_1>) {
         return;
     };
     match sender.code.next() {
-        Half::High => converter::put(pins::PROXIMITY_EMIT, true),
-        Half::Low => converter::put(pins::PROXIMITY_EMIT, false),
-        Half::Over if sender.timer.is_running() => {
+        CarrierHalf::High => converter::write_pin(pins::PROXIMITY_EMIT, true),
+        CarrierHalf::Low => converter::write_pin(pins::PROXIMITY_EMIT, false),
+        CarrierHalf::Over if sender.timer.is_running() => {
             sender.timer.stop();
             converter::return_emitter();
             SENDING.store(false, Ordering::Relaxed);
         }
-        Half::Over => {
+        CarrierHalf::Over => {
             sender.code = DockCode::start(sender.ones);
             sender
                 .timer

@@ -8,10 +8,10 @@ use pic32mx3_hal::{cpu, interrupt, memory, stack};
 use super::bus_clock::BusClock;
 use super::{off, tick};
 use crate::generated::pins::{self, Signal};
-use crate::logic::image_check::{ImageCheck, Verdict};
+use crate::logic::clock_check::{ClockAgreement, ClockCheck, ClockSample};
+use crate::logic::image_check::{ImageCheck, ImageState};
 use crate::logic::image_sums::{ImageSums, sum};
-use crate::logic::pace::{Look, Pace, PaceCheck};
-use crate::logic::reset_log::Trouble;
+use crate::logic::reset_log::FatalCause;
 
 /// Words of memory tested in one millisecond: 32 KiB in four seconds.
 const RAM_WORDS: u32 = 2;
@@ -41,7 +41,7 @@ pub enum Finding {
     /// Clocks disagree, or the crystal failed: nothing may move any more, but the host can be told.
     Clock,
     /// Neither code nor memory can be believed: everything off and a start from the beginning, which checks all of it.
-    Broken(Trouble),
+    Broken(FatalCause),
 }
 
 /// The checks.
@@ -54,7 +54,7 @@ pub struct SelfChecks {
     ram_size: u32,
     bus: BusClock,
     pulses: TimeBase<3>,
-    pace: PaceCheck,
+    pace: ClockCheck,
     started: bool,
 }
 
@@ -76,15 +76,15 @@ impl SelfChecks {
             ram_size: memory::ram_size(),
             bus,
             pulses: TimeBase::of(pulses),
-            pace: PaceCheck::new(Look::default(), BusClock::HALVES_PER_COUNT),
+            pace: ClockCheck::new(ClockSample::default(), BusClock::HALVES_PER_COUNT),
             started: false,
         }
     }
 
     /// The whole image, before anything moves: some 20 ms.
-    pub fn image_at_start(&mut self) -> Verdict {
-        let verdict = self.image.map_or(Verdict::Damaged, |image| image.all());
-        if verdict != Verdict::Whole {
+    pub fn image_at_start(&mut self) -> ImageState {
+        let verdict = self.image.map_or(ImageState::Damaged, |image| image.all());
+        if verdict != ImageState::Whole {
             self.image = None;
             // Who put the board together was damaged code: it may have switched on what nobody knows of.
             off::everything();
@@ -98,20 +98,20 @@ impl SelfChecks {
             off::everything();
         }
         let verdict = self.image.as_mut().map(ImageCheck::slice);
-        if !self.sums.is_next_whole(block_sum) || verdict == Some(Verdict::Damaged) {
-            return Some(Finding::Broken(Trouble::Flash));
+        if !self.sums.is_next_whole(block_sum) || verdict == Some(ImageState::Damaged) {
+            return Some(Finding::Broken(FatalCause::Flash));
         }
         if !self.ram_holds() {
-            return Some(Finding::Broken(Trouble::Memory));
+            return Some(Finding::Broken(FatalCause::Memory));
         }
         if !stack::canary_is_alive() {
-            return Some(Finding::Broken(Trouble::Stack));
+            return Some(Finding::Broken(FatalCause::Stack));
         }
         if !self.pulses_hold() {
-            return Some(Finding::Broken(Trouble::Register));
+            return Some(Finding::Broken(FatalCause::Register));
         }
         let clock_has_failed = off::clock_has_failed() || clock::has_failed();
-        let clock_is_other = clock::running() != Running::PrimaryPll || !self.pace_is_even();
+        let clock_is_other = clock::running() != Running::PrimaryPll || !self.clocks_agree();
         (clock_has_failed || clock_is_other).then_some(Finding::Clock)
     }
 
@@ -124,17 +124,17 @@ impl SelfChecks {
         self.pulses.holds() && PULSED.into_iter().all(obeys)
     }
 
-    fn pace_is_even(&mut self) -> bool {
-        let look = Look {
+    fn clocks_agree(&mut self) -> bool {
+        let look = ClockSample {
             tick: tick::ticks(),
             core: cpu::count(),
             bus: self.bus.count(),
         };
         if !self.started {
             self.started = true;
-            self.pace = PaceCheck::new(look, BusClock::HALVES_PER_COUNT);
+            self.pace = ClockCheck::new(look, BusClock::HALVES_PER_COUNT);
         }
-        self.pace.update(look) == Pace::Even
+        self.pace.update(look) == ClockAgreement::Even
     }
 
     /// The next words of memory, variables and stack alike: each is held back for some microseconds with interrupts off, so

@@ -8,7 +8,7 @@ use rvac_units::Throttle;
 
 use super::interlock::Motor;
 use super::link::by_edges::brush_pulses;
-use super::wheels::Bridge;
+use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;
 
 /// Above this a motor with a plain switch runs.
@@ -20,7 +20,7 @@ pub type BrushEnable = PwmChannel<2, 3, Pin<'D', 1, Output>>;
 /// The main brush.
 #[derive(Debug)]
 pub struct BrushMain {
-    bridge: Bridge<BrushEnable, Pin<'C', 2, Output>>,
+    bridge: MotorBridge<BrushEnable, Pin<'C', 2, Output>>,
     renewal: Renewal,
     has_pulses: bool,
 }
@@ -36,7 +36,7 @@ impl BrushMain {
     ) -> Self {
         decay.set_low();
         Self {
-            bridge: Bridge::new(enable, phase, Level::Low, Motor::BrushMain),
+            bridge: MotorBridge::new(enable, phase, Level::Low, Motor::BrushMain),
             renewal: Renewal::default(),
             has_pulses,
         }

@@ -11,14 +11,14 @@ use crate::logic::ladder::{self, Ladder};
 
 /// The bumper's two switches.
 #[derive(Debug)]
-pub struct Bumper {
+pub struct BumperContacts {
     /// RG9.
     pub left: Pin<'G', 9, Input>,
     /// RG15.
     pub right: Pin<'G', 15, Input>,
 }
 
-impl BumperSwitches for Bumper {
+impl BumperSwitches for BumperContacts {
     const ZONES: u8 = 2;
 
     fn pressed(&mut self) -> Bumpers {

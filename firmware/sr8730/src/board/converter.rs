@@ -14,7 +14,7 @@ use pic32mx3_hal::{cpu, interrupt};
 use super::off::{mask, port};
 use super::tick;
 use crate::generated::pins::{self, Signal};
-use crate::logic::proximity::{FRONT_CHANNEL, Look, SENSORS, Sweep};
+use crate::logic::proximity::{FRONT_CHANNEL, SENSORS, ScanTarget, Sweep};
 
 /// Channels of the chip.
 pub const CHANNELS: usize = 16;
@@ -86,7 +86,7 @@ fn next_look(sweep: Sweep) -> Sweep {
     match EMITTER.load(Ordering::Relaxed) {
         LENT => Sweep::new(),
         ASKED => {
-            aim(Look {
+            select_channel(ScanTarget {
                 channel: FRONT_CHANNEL,
                 lit: false,
             });
@@ -94,14 +94,14 @@ fn next_look(sweep: Sweep) -> Sweep {
             Sweep::new()
         }
         _ => {
-            let Look { channel, lit } = sweep.look();
+            let ScanTarget { channel, lit } = sweep.look();
             let seen = count(pins::PROXIMITY_RECEIVE);
             let readings = if lit { &LIT } else { &DARK };
             if let Some(reading) = readings.get(usize::from(channel)) {
                 reading.store(seen, Ordering::Relaxed);
             }
             let next = sweep.next();
-            aim(next.look());
+            select_channel(next.look());
             next
         }
     }
@@ -112,16 +112,16 @@ const LENT: u32 = Emitter::Lent as u32;
 
 /// Select lines move in the dark only. Writes latches by their set and clear registers, so neighbours on these ports are
 /// left alone.
-fn aim(look: Look) {
-    put(pins::PROXIMITY_EMIT, false);
-    put(pins::PROXIMITY_SELECT_A, look.channel & 1 != 0);
-    put(pins::PROXIMITY_SELECT_B, look.channel & 2 != 0);
-    put(pins::PROXIMITY_SELECT_C, look.channel & 4 != 0);
-    put(pins::PROXIMITY_EMIT, look.lit);
+fn select_channel(look: ScanTarget) {
+    write_pin(pins::PROXIMITY_EMIT, false);
+    write_pin(pins::PROXIMITY_SELECT_A, look.channel & 1 != 0);
+    write_pin(pins::PROXIMITY_SELECT_B, look.channel & 2 != 0);
+    write_pin(pins::PROXIMITY_SELECT_C, look.channel & 4 != 0);
+    write_pin(pins::PROXIMITY_EMIT, look.lit);
 }
 
 #[inline(always)]
-pub(super) fn put(signal: Signal, high: bool) {
+pub(super) fn write_pin(signal: Signal, high: bool) {
     let port: Port = port(signal);
     if high {
         port.set(mask(signal));
@@ -135,7 +135,7 @@ pub(super) fn put(signal: Signal, high: bool) {
 pub fn take(adc: Adc) -> (Scanner, Channels) {
     let (scanner, results) = adc.start(TIMING);
     let sweep = Sweep::new();
-    aim(sweep.look());
+    select_channel(sweep.look());
     // Given once, because `Peripherals` gives the converter once.
     HANDLER.hand_over(Scanning { results, sweep }).ok();
     interrupt::set_priority(Vector::Adc, Priority::Level3, SubPriority::Sub0).ok();
@@ -204,6 +204,6 @@ pub(super) fn emitter_is_lent() -> bool {
 
 /// Gives the emitters back to the sweep, dark.
 pub(super) fn return_emitter() {
-    put(pins::PROXIMITY_EMIT, false);
+    write_pin(pins::PROXIMITY_EMIT, false);
     EMITTER.store(Emitter::Sweeping as u32, Ordering::Relaxed);
 }

@@ -18,8 +18,8 @@ use super::off::{mask, port};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins::{self, Signal};
-use crate::logic::quadrature::{Levels, Order, Step, step};
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
+use crate::logic::quadrature::{Levels, PhaseOrder, Step, step};
 
 /// Edges of one line in a millisecond: a wheel at full speed makes one, so this is noise.
 const EDGES_PER_MS: u32 = 40;
@@ -35,7 +35,7 @@ struct WheelCount {
 
 static LEFT: WheelCount = WheelCount::new([pins::WHEEL_LEFT_ENCODER_1, pins::WHEEL_LEFT_ENCODER_2]);
 static RIGHT: WheelCount = WheelCount::new([pins::WHEEL_RIGHT_ENCODER_1, pins::WHEEL_RIGHT_ENCODER_2]);
-static BUDGETS: [Budget; 4] = [const { Budget::new(EDGES_PER_MS) }; 4];
+static RATE_LIMITS: [InterruptRateLimit; 4] = [const { InterruptRateLimit::new(EDGES_PER_MS) }; 4];
 
 type Line1 = Capture<1, Pin<'D', 8, Input>>;
 type Line2 = Capture<2, Pin<'D', 9, Input>>;
@@ -55,7 +55,7 @@ macro_rules! on_edge {
                 capture.drain();
             }
             Source::$source.clear();
-            if !BUDGETS[$budget].spend() {
+            if !RATE_LIMITS[$budget].spend() {
                 Source::$source.disable();
             }
             $wheel.look();
@@ -130,8 +130,8 @@ pub struct EncoderLines {
 /// Both encoders.
 #[derive(Debug)]
 pub struct WheelEncoders {
-    left: Order,
-    right: Order,
+    left: PhaseOrder,
+    right: PhaseOrder,
     calibrated: bool,
 }
 
@@ -164,15 +164,15 @@ impl WheelEncoders {
             source.enable();
         }
         Self {
-            left: Order::from_calibration(calibration.measured(Calibrated::WheelLeftOrder)),
-            right: Order::from_calibration(calibration.measured(Calibrated::WheelRightOrder)),
+            left: PhaseOrder::from_calibration(calibration.measured(Calibrated::WheelLeftOrder)),
+            right: PhaseOrder::from_calibration(calibration.measured(Calibrated::WheelRightOrder)),
             calibrated: calibration.wheels().is_some(),
         }
     }
 
     /// To be called once in a millisecond: lines that were switched off for noise get another chance.
     pub fn service(&mut self) {
-        for (budget, source) in BUDGETS.iter().zip(SOURCES) {
+        for (budget, source) in RATE_LIMITS.iter().zip(SOURCES) {
             if budget.renew() {
                 source.enable();
             }
@@ -211,16 +211,17 @@ pub(super) fn raw() -> EncoderProbe {
 
 /// Counts of both wheels together since the last call, whatever their direction: a measure of way.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct WayCounter {
+pub(super) struct Odometer {
     left: i32,
     right: i32,
 }
 
-impl WayCounter {
+impl Odometer {
     pub(super) fn take(&mut self) -> u32 {
         let (left, right) = (LEFT.total(), RIGHT.total());
-        let way = left.wrapping_sub(self.left).unsigned_abs() + right.wrapping_sub(self.right).unsigned_abs();
+        let counts =
+            left.wrapping_sub(self.left).unsigned_abs() + right.wrapping_sub(self.right).unsigned_abs();
         (self.left, self.right) = (left, right);
-        way
+        counts
     }
 }

@@ -51,7 +51,7 @@ impl Parts for Sr8730 {
     type Reset = resets::Starts;
     type Watchdog = resets::Supervised;
     type Encoders = encoders::WheelEncoders;
-    type Bumpers = contacts::Bumper;
+    type Bumpers = contacts::BumperContacts;
     type Cliffs = sensing::CliffReceivers;
     type WheelDrops = contacts::DropSwitches;
     type Proximity = sensing::ProximityReceivers;

@@ -13,7 +13,7 @@ use soft_uart::{Edge, EdgeRing, Level, Queued};
 
 use super::tick;
 use crate::logic::beam::{BeamCodes, BeamReceiver, Light};
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
 const RECEIVERS: usize = 4;
 /// Edges of one receiver in a millisecond; a code makes two at most.
@@ -22,7 +22,8 @@ const EDGES_PER_MS: u32 = 20;
 const EDGES: usize = 32;
 
 static HEARD: [EdgeRing<EDGES>; RECEIVERS] = [const { EdgeRing::new() }; RECEIVERS];
-static BUDGETS: [Budget; RECEIVERS] = [const { Budget::new(EDGES_PER_MS) }; RECEIVERS];
+static RATE_LIMITS: [InterruptRateLimit; RECEIVERS] =
+    [const { InterruptRateLimit::new(EDGES_PER_MS) }; RECEIVERS];
 
 type DockLeft = Pin<'A', 14, Input>;
 type DockRight = Pin<'A', 15, Input>;
@@ -51,7 +52,7 @@ macro_rules! on_edge {
                 let level = if heard { Level::Low } else { Level::High };
                 HEARD[$number].push(Edge { at, level });
             }
-            if !BUDGETS[$number].spend() {
+            if !RATE_LIMITS[$number].spend() {
                 SOURCES[$number].disable();
             }
         }
@@ -169,7 +170,7 @@ impl BeamReceivers {
             }
             *symbol = receiver.poll(count, now, &codes);
         }
-        for (budget, source) in BUDGETS.iter().zip(SOURCES) {
+        for (budget, source) in RATE_LIMITS.iter().zip(SOURCES) {
             if budget.renew() {
                 source.enable();
             }

@@ -8,7 +8,7 @@ use rvac_protocol::message::ResetCause;
 
 use super::{converter, tick};
 use crate::logic::life::SignsOfLife;
-use crate::logic::reset_log::{ResetLog, Trouble, WORDS};
+use crate::logic::reset_log::{FatalCause, ResetLog, WORDS};
 
 #[cfg_attr(target_arch = "mips", unsafe(link_section = ".noinit"))]
 static LOG: Persistent<WORDS> = Persistent::uninitialised();
@@ -33,14 +33,14 @@ pub fn cause_of(causes: Causes) -> ResetCause {
 }
 
 /// Notes what ended this run, for the next one to tell.
-pub fn note(trouble: Trouble) {
+pub fn note(fatal_cause: FatalCause) {
     let log = LOG.load().map(ResetLog::from_words);
     let log = log.unwrap_or(ResetLog {
         boots: 0,
         recent: 0,
-        trouble,
+        fatal_cause,
     });
-    LOG.store(ResetLog { trouble, ..log }.words());
+    LOG.store(ResetLog { fatal_cause, ..log }.words());
 }
 
 /// This start, and those before it.
@@ -48,7 +48,7 @@ pub fn note(trouble: Trouble) {
 pub struct Starts {
     cause: ResetCause,
     log: ResetLog,
-    trouble: Trouble,
+    fatal_cause: FatalCause,
 }
 
 impl Starts {
@@ -57,19 +57,23 @@ impl Starts {
     pub fn take() -> Self {
         let cause = cause_of(Causes::take());
         let log = ResetLog::after_start(LOG.load().map(ResetLog::from_words), cause);
-        let trouble = log.trouble;
+        let fatal_cause = log.fatal_cause;
         let log = ResetLog {
-            trouble: Trouble::None,
+            fatal_cause: FatalCause::None,
             ..log
         };
         LOG.store(log.words());
-        Self { cause, log, trouble }
+        Self {
+            cause,
+            log,
+            fatal_cause,
+        }
     }
 
     /// What ended the run before this one, if it could note it.
     #[must_use]
-    pub const fn trouble(&self) -> Trouble {
-        self.trouble
+    pub const fn fatal_cause(&self) -> FatalCause {
+        self.fatal_cause
     }
 }
 

@@ -14,7 +14,7 @@ use soft_uart::ByteRing;
 use super::tick;
 use crate::calibration::GyroCalibration;
 use crate::logic::gyro_frame::FrameReader;
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
 const BUS_HZ: u32 = 80_000_000;
 /// Bytes that wait for the main loop: 2 ms at a million baud.
@@ -26,7 +26,7 @@ const SILENT_MS: u32 = 100;
 
 static RECEIVED: [ByteRing<BYTES>; 2] = [const { ByteRing::new() }; 2];
 static LOST: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
-static BUDGETS: [Budget; 2] = [const { Budget::new(BYTES_PER_MS) }; 2];
+static RATE_LIMITS: [InterruptRateLimit; 2] = [const { InterruptRateLimit::new(BYTES_PER_MS) }; 2];
 static PORT_1: HandlerCell<vector::UART_1, Receiver<1, Pin<'F', 2, Input>>> = HandlerCell::empty();
 static PORT_2: HandlerCell<vector::UART_2, Receiver<2, Pin<'F', 4, Input>>> = HandlerCell::empty();
 const SOURCES: [Source; 2] = [Source::Uart1Received, Source::Uart2Received];
@@ -47,7 +47,7 @@ macro_rules! on_byte {
                 }
             }
             SOURCES[$number].clear();
-            if !BUDGETS[$number].spend() {
+            if !RATE_LIMITS[$number].spend() {
                 SOURCES[$number].disable();
             }
         }
@@ -169,7 +169,7 @@ impl SerialPorts {
     pub fn service(&mut self) {
         for (port, (budget, source)) in [PortNumber::One, PortNumber::Two]
             .into_iter()
-            .zip(BUDGETS.iter().zip(SOURCES))
+            .zip(RATE_LIMITS.iter().zip(SOURCES))
         {
             if budget.renew() && user(port) != User::Nobody {
                 source.enable();

@@ -9,12 +9,12 @@ use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
 use super::interlock::Motor;
-use crate::logic::bridge::{BridgeLines, BridgeSequence, Turn};
+use crate::logic::bridge::{BridgeLines, BridgeSequence, MotorDirection};
 use crate::logic::renewal::Renewal;
 
 /// A bridge with ENABLE and PHASE.
 #[derive(Debug)]
-pub struct Bridge<E, P> {
+pub struct MotorBridge<E, P> {
     enable: E,
     phase: P,
     forward: Level,
@@ -23,7 +23,7 @@ pub struct Bridge<E, P> {
     written: BridgeLines,
 }
 
-impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
+impl<E: SetDutyCycle, P: OutputPin> MotorBridge<E, P> {
     /// Braking. `forward` is the level of PHASE for forward.
     #[must_use]
     pub fn new(enable: E, phase: P, forward: Level, motor: Motor) -> Self {
@@ -35,7 +35,7 @@ impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
             sequence: BridgeSequence::new(),
             written: BridgeLines {
                 compare: 0,
-                turn: Turn::Backward,
+                turn: MotorDirection::Backward,
             },
         };
         bridge.write(BridgeLines::default());
@@ -62,8 +62,8 @@ impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
         }
         if lines.turn != self.written.turn {
             let level = match lines.turn {
-                Turn::Forward => self.forward,
-                Turn::Backward => self.forward.inverted(),
+                MotorDirection::Forward => self.forward,
+                MotorDirection::Backward => self.forward.inverted(),
             };
             // Pins of this chip cannot fail.
             match level {
@@ -87,8 +87,8 @@ pub type RightEnable = PwmChannel<4, 3, Pin<'D', 3, Output>>;
 /// Both wheels.
 #[derive(Debug)]
 pub struct Wheels {
-    left: Bridge<LeftEnable, Pin<'C', 1, Output>>,
-    right: Bridge<RightEnable, Pin<'G', 7, Output>>,
+    left: MotorBridge<LeftEnable, Pin<'C', 1, Output>>,
+    right: MotorBridge<RightEnable, Pin<'G', 7, Output>>,
     renewal: Renewal,
 }
 
@@ -108,8 +108,8 @@ impl Wheels {
         left_mode.set_high();
         right_mode.set_high();
         Self {
-            left: Bridge::new(left_enable, left_phase, Level::Low, Motor::WheelLeft),
-            right: Bridge::new(right_enable, right_phase, Level::High, Motor::WheelRight),
+            left: MotorBridge::new(left_enable, left_phase, Level::Low, Motor::WheelLeft),
+            right: MotorBridge::new(right_enable, right_phase, Level::High, Motor::WheelRight),
             renewal: Renewal::default(),
         }
     }
@@ -135,7 +135,7 @@ impl WheelMotors for Wheels {
 
 #[cfg(test)]
 mod tests {
-    use super::Bridge;
+    use super::MotorBridge;
     use crate::board::interlock::Motor;
     use core::cell::RefCell;
     use core::convert::Infallible;
@@ -205,7 +205,7 @@ mod tests {
     fn forward_is_the_level_that_the_wiring_says() {
         for (forward, phase) in [(Level::Low, false), (Level::High, true)] {
             let lines = RefCell::default();
-            let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), forward, Motor::WheelLeft);
+            let mut bridge = MotorBridge::new(Enable(&lines), Phase(&lines), forward, Motor::WheelLeft);
             bridge.command(duty(500_000));
             assert_eq!((lines.borrow().width, lines.borrow().phase), (2_000, phase));
             bridge.command(duty(-500_000));
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn no_order_of_commands_changes_phase_while_the_line_has_a_width() {
         let lines = RefCell::default();
-        let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), Level::High, Motor::WheelRight);
+        let mut bridge = MotorBridge::new(Enable(&lines), Phase(&lines), Level::High, Motor::WheelRight);
         let mut seed = 11_u32;
         for _ in 0..50_000 {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

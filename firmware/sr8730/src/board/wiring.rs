@@ -13,7 +13,7 @@ use super::bus_clock::BusClock;
 use super::charger::PackCharger;
 use super::checks::SelfChecks;
 use super::cleaners::{BrushMain, Switched};
-use super::contacts::{Adapter, Bumper, ButtonLines, DropSwitches, DustBoxSwitch};
+use super::contacts::{Adapter, BumperContacts, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
 use super::interlock::Motor;
 use super::link::{InputParts, SerialLink};
@@ -124,7 +124,7 @@ macro_rules! feelers {
                 },
                 $calibration,
             ),
-            Bumper {
+            BumperContacts {
                 left: pin!($p.rg9 is BUMPER_LEFT).into_input(),
                 right: pin!($p.rg15 is BUMPER_RIGHT).into_input(),
             },

@@ -17,7 +17,7 @@ const MILLIONTHS_PER_COUNT: i32 = 1_000_000 / PERIOD_COUNTS as i32;
 
 /// Way that a motor turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Turn {
+pub enum MotorDirection {
     /// As the robot drives forward, or the brush cleans.
     #[default]
     Forward,
@@ -31,7 +31,7 @@ pub struct BridgeLines {
     /// Counts of a PWM period in which ENABLE is high, 0..=4000. 0 brakes.
     pub compare: u16,
     /// Direction on PHASE.
-    pub turn: Turn,
+    pub turn: MotorDirection,
 }
 
 /// State of one bridge.
@@ -49,11 +49,11 @@ impl BridgeSequence {
         Self {
             lines: BridgeLines {
                 compare: 0,
-                turn: Turn::Forward,
+                turn: MotorDirection::Forward,
             },
             wanted: BridgeLines {
                 compare: 0,
-                turn: Turn::Forward,
+                turn: MotorDirection::Forward,
             },
             quiet: 0,
         }
@@ -64,9 +64,9 @@ impl BridgeSequence {
         self.wanted.compare = compare_for(duty);
         if duty.millionths() != 0 {
             self.wanted.turn = if duty.millionths() < 0 {
-                Turn::Backward
+                MotorDirection::Backward
             } else {
-                Turn::Forward
+                MotorDirection::Forward
             };
         }
         self.settle()
@@ -89,7 +89,8 @@ impl BridgeSequence {
     const fn settle(&mut self) -> BridgeLines {
         let turns = matches!(
             (self.lines.turn, self.wanted.turn),
-            (Turn::Forward, Turn::Backward) | (Turn::Backward, Turn::Forward)
+            (MotorDirection::Forward, MotorDirection::Backward)
+                | (MotorDirection::Backward, MotorDirection::Forward)
         );
         let compare = if turns && self.quiet < QUIET_CALLS {
             0
@@ -113,14 +114,14 @@ const fn compare_for(duty: Throttle) -> u16 {
 
 #[cfg(test)]
 mod tests {
-    use super::{BridgeLines, BridgeSequence, PERIOD_COUNTS, Turn};
+    use super::{BridgeLines, BridgeSequence, MotorDirection, PERIOD_COUNTS};
     use rvac_units::Throttle;
 
     fn duty(millionths: i32) -> Throttle {
         Throttle::from_millionths(millionths).unwrap()
     }
 
-    fn lines(compare: u16, turn: Turn) -> BridgeLines {
+    fn lines(compare: u16, turn: MotorDirection) -> BridgeLines {
         BridgeLines { compare, turn }
     }
 
@@ -135,7 +136,7 @@ mod tests {
         ] {
             assert_eq!(
                 BridgeSequence::new().command(duty(millionths)),
-                lines(compare, Turn::Forward)
+                lines(compare, MotorDirection::Forward)
             );
         }
     }
@@ -143,20 +144,26 @@ mod tests {
     #[test]
     fn a_reversal_is_quiet_for_a_whole_millisecond_before_phase_changes() {
         let mut bridge = BridgeSequence::new();
-        assert_eq!(bridge.command(duty(800_000)), lines(3_200, Turn::Forward));
-        assert_eq!(bridge.command(duty(-800_000)), lines(0, Turn::Forward));
-        assert_eq!(bridge.service(), lines(0, Turn::Forward));
-        assert_eq!(bridge.service(), lines(3_200, Turn::Backward));
+        assert_eq!(
+            bridge.command(duty(800_000)),
+            lines(3_200, MotorDirection::Forward)
+        );
+        assert_eq!(bridge.command(duty(-800_000)), lines(0, MotorDirection::Forward));
+        assert_eq!(bridge.service(), lines(0, MotorDirection::Forward));
+        assert_eq!(bridge.service(), lines(3_200, MotorDirection::Backward));
     }
 
     #[test]
     fn a_stop_between_two_directions_counts_as_quiet() {
         let mut bridge = BridgeSequence::new();
         bridge.command(duty(100_000));
-        assert_eq!(bridge.command(Throttle::ZERO), lines(0, Turn::Forward));
+        assert_eq!(bridge.command(Throttle::ZERO), lines(0, MotorDirection::Forward));
         bridge.service();
         bridge.service();
-        assert_eq!(bridge.command(duty(-100_000)), lines(400, Turn::Backward));
+        assert_eq!(
+            bridge.command(duty(-100_000)),
+            lines(400, MotorDirection::Backward)
+        );
     }
 
     #[test]

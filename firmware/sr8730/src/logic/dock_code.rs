@@ -7,7 +7,7 @@
 const CODE_SIX_ONES: u64 = 0x1_F8C3_0CC3;
 /// Bits of the code with six leading ones.
 const BITS_SIX_ONES: u8 = 33;
-/// Half periods of the carrier in one bit.
+/// CarrierHalf periods of the carrier in one bit.
 const HALVES_PER_BIT: u8 = 38;
 
 /// Time from one start of the code to the next.
@@ -46,7 +46,7 @@ pub struct DockCode {
 
 /// What the emitter's line does for a half period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Half {
+pub enum CarrierHalf {
     /// High: the emitter is lit.
     High,
     /// Low.
@@ -80,9 +80,9 @@ impl DockCode {
 
     /// The next half period.
     #[inline]
-    pub const fn next(&mut self) -> Half {
+    pub const fn next(&mut self) -> CarrierHalf {
         if self.bits == 0 {
-            return Half::Over;
+            return CarrierHalf::Over;
         }
         let carrier = self.rest >> 63 == 1 && self.halves & 1 == 0;
         self.halves += 1;
@@ -91,29 +91,43 @@ impl DockCode {
             self.bits -= 1;
             self.rest <<= 1;
         }
-        if carrier { Half::High } else { Half::Low }
+        if carrier {
+            CarrierHalf::High
+        } else {
+            CarrierHalf::Low
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{DockCode, HALF_PERIOD_COUNTS, HALVES_PER_BIT, Half, LeadingOnes};
+    use super::{CarrierHalf, DockCode, HALF_PERIOD_COUNTS, HALVES_PER_BIT, LeadingOnes};
     use std::string::String;
     use std::vec::Vec;
 
-    fn halves(ones: LeadingOnes) -> Vec<Half> {
+    fn halves(ones: LeadingOnes) -> Vec<CarrierHalf> {
         let mut code = DockCode::start(ones);
-        core::iter::from_fn(|| Some(code.next()).filter(|half| *half != Half::Over)).collect()
+        core::iter::from_fn(|| Some(code.next()).filter(|half| *half != CarrierHalf::Over)).collect()
     }
 
     /// One digit a bit, whose half periods must all agree.
-    fn digits(halves: &[Half]) -> String {
+    fn digits(halves: &[CarrierHalf]) -> String {
         halves
             .chunks(usize::from(HALVES_PER_BIT))
             .map(|bit| {
-                let carrier = bit.first() == Some(&Half::High);
+                let carrier = bit.first() == Some(&CarrierHalf::High);
                 for pair in bit.chunks(2) {
-                    assert_eq!(pair, [if carrier { Half::High } else { Half::Low }, Half::Low]);
+                    assert_eq!(
+                        pair,
+                        [
+                            if carrier {
+                                CarrierHalf::High
+                            } else {
+                                CarrierHalf::Low
+                            },
+                            CarrierHalf::Low
+                        ]
+                    );
                 }
                 if carrier { '1' } else { '0' }
             })

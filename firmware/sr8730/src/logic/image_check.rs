@@ -15,7 +15,7 @@ const SLICE_BYTES: usize = 16;
 
 /// What the checks have found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum ImageState {
     /// Nothing wrong so far.
     Whole,
     /// The image differs from its check value.
@@ -50,22 +50,26 @@ impl<'a> ImageCheck<'a> {
 
     /// Checks everything at once.
     #[must_use]
-    pub fn all(&self) -> Verdict {
+    pub fn all(&self) -> ImageState {
         if self.pieces.iter().map(|(_, check)| *check).eq(NO_CRC) {
-            return Verdict::Unchecked;
+            return ImageState::Unchecked;
         }
         let whole = self
             .pieces
             .iter()
             .all(|(bytes, check)| !crc32c(u32::MAX, bytes) == *check);
-        if whole { Verdict::Whole } else { Verdict::Damaged }
+        if whole {
+            ImageState::Whole
+        } else {
+            ImageState::Damaged
+        }
     }
 
     /// Checks the next few bytes. An image without check values is found by [`Self::all`].
-    pub fn slice(&mut self) -> Verdict {
+    pub fn slice(&mut self) -> ImageState {
         let Some((bytes, check)) = self.pieces.get(self.piece).copied() else {
             self.piece = 0;
-            return Verdict::Whole;
+            return ImageState::Whole;
         };
         let rest = bytes.get(self.place..).unwrap_or_default();
         if rest.is_empty() {
@@ -73,18 +77,22 @@ impl<'a> ImageCheck<'a> {
             self.piece += 1;
             self.place = 0;
             self.register = u32::MAX;
-            return if whole { Verdict::Whole } else { Verdict::Damaged };
+            return if whole {
+                ImageState::Whole
+            } else {
+                ImageState::Damaged
+            };
         }
         let slice = rest.get(..SLICE_BYTES).unwrap_or(rest);
         self.register = crc32c(self.register, slice);
         self.place += slice.len();
-        Verdict::Whole
+        ImageState::Whole
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ImageCheck, NO_CRC, Verdict};
+    use super::{ImageCheck, ImageState, NO_CRC};
     use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
@@ -102,9 +110,9 @@ mod tests {
     fn an_image_with_its_crcs_is_whole_round_after_round() {
         let flash = flash();
         let mut check = check_of(&flash, &flash);
-        assert_eq!(check.all(), Verdict::Whole);
+        assert_eq!(check.all(), ImageState::Whole);
         for _ in 0..1_000 {
-            assert_eq!(check.slice(), Verdict::Whole);
+            assert_eq!(check.slice(), ImageState::Whole);
         }
     }
 
@@ -115,9 +123,9 @@ mod tests {
             damaged[piece][place] ^= 0x10;
             let sound = flash();
             let mut check = check_of(&damaged, &sound);
-            assert_eq!(check.all(), Verdict::Damaged);
+            assert_eq!(check.all(), ImageState::Damaged);
             // 63 and 3 slices, two ends of a piece, and the turn to the first one.
-            let found = (0..69).any(|_| check.slice() == Verdict::Damaged);
+            let found = (0..69).any(|_| check.slice() == ImageState::Damaged);
             assert!(found, "{piece} {place}");
         }
     }
@@ -127,7 +135,7 @@ mod tests {
         let flash = flash();
         for words in [&NO_CRC[..], &[], &[7]] {
             let check = ImageCheck::new([&flash[0], &flash[1]], words);
-            assert_eq!(check.all(), Verdict::Unchecked);
+            assert_eq!(check.all(), ImageState::Unchecked);
         }
     }
 }

@@ -11,7 +11,7 @@ pub const FRONT_CHANNEL: u8 = 3;
 
 /// What one scan sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Look {
+pub struct ScanTarget {
     /// Channel of both multiplexers, 0..=6.
     pub channel: u8,
     /// Whether the emitter is lit.
@@ -34,8 +34,8 @@ impl Sweep {
 
     /// What is looked at now.
     #[must_use]
-    pub const fn look(self) -> Look {
-        Look {
+    pub const fn look(self) -> ScanTarget {
+        ScanTarget {
             channel: self.0 / 2,
             lit: self.0 & 1 == 1,
         }
@@ -84,7 +84,7 @@ impl ProximityScale {
 
 #[cfg(test)]
 mod tests {
-    use super::{Look, ProximityScale, SENSORS, Sweep};
+    use super::{ProximityScale, SENSORS, ScanTarget, Sweep};
 
     #[test]
     fn each_sensor_is_seen_dark_then_lit_and_the_channel_changes_only_into_the_dark() {
@@ -100,8 +100,8 @@ mod tests {
         }
         assert_eq!(sweep, Sweep::new());
         for channel in 0..7 {
-            assert!(looks.contains(&Look { channel, lit: false }));
-            assert!(looks.contains(&Look { channel, lit: true }));
+            assert!(looks.contains(&ScanTarget { channel, lit: false }));
+            assert!(looks.contains(&ScanTarget { channel, lit: true }));
         }
     }
 

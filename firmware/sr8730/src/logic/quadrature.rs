@@ -33,7 +33,7 @@ pub const fn step(before: Levels, now: Levels) -> Step {
 
 /// Which line leads when the wheel turns forward.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
+pub enum PhaseOrder {
     /// Line 1 (calibration value 0).
     #[default]
     FirstLeads,
@@ -41,7 +41,7 @@ pub enum Order {
     SecondLeads,
 }
 
-impl Order {
+impl PhaseOrder {
     /// From the calibration value; what is unknown is taken as the first, and then nothing that needs it is offered.
     #[must_use]
     pub const fn from_calibration(value: Option<i32>) -> Self {
@@ -63,7 +63,7 @@ impl Order {
 
 #[cfg(test)]
 mod tests {
-    use super::{Levels, Order, Step, step};
+    use super::{Levels, PhaseOrder, Step, step};
 
     const FORWARD: [Levels; 4] = [0b00, 0b01, 0b11, 0b10];
 
@@ -86,9 +86,9 @@ mod tests {
 
     #[test]
     fn the_order_turns_the_sign() {
-        assert_eq!(Order::from_calibration(Some(1)).forward(7), -7);
-        assert_eq!(Order::from_calibration(Some(0)).forward(7), 7);
-        assert_eq!(Order::from_calibration(None).forward(i32::MIN), i32::MIN);
-        assert_eq!(Order::SecondLeads.forward(i32::MIN), i32::MIN);
+        assert_eq!(PhaseOrder::from_calibration(Some(1)).forward(7), -7);
+        assert_eq!(PhaseOrder::from_calibration(Some(0)).forward(7), 7);
+        assert_eq!(PhaseOrder::from_calibration(None).forward(i32::MIN), i32::MIN);
+        assert_eq!(PhaseOrder::SecondLeads.forward(i32::MIN), i32::MIN);
     }
 }

@@ -15,7 +15,7 @@ use soft_uart::{Baud, Level, Queued, Receiver};
 use crate::board::off::mask;
 use crate::generated::pins;
 use crate::logic::edges::EdgeQueue;
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
 /// Counts of the core timer a second, by which edges are stamped.
 const CORE_HZ: u32 = 40_000_000;
@@ -25,7 +25,7 @@ const BRUSH_PER_MS: u32 = 20;
 /// Edges of the input, from the interrupt in `link.S` to the main loop.
 pub static EDGES: EdgeQueue = EdgeQueue::new();
 
-static BRUSH_BUDGET: Budget = Budget::new(BRUSH_PER_MS);
+static BRUSH_BUDGET: InterruptRateLimit = InterruptRateLimit::new(BRUSH_PER_MS);
 static BRUSH_PIN: HandlerCell<vector::CHANGE_NOTICE, Pin<'B', 5, Input>> = HandlerCell::empty();
 static BRUSH_LEVEL: AtomicU32 = AtomicU32::new(0);
 static BRUSH_PULSES: AtomicU32 = AtomicU32::new(0);

@@ -6,14 +6,14 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// Budget of one source.
+/// InterruptRateLimit of one source.
 #[derive(Debug)]
-pub struct Budget {
+pub struct InterruptRateLimit {
     left: AtomicU32,
     per_ms: u32,
 }
 
-impl Budget {
+impl InterruptRateLimit {
     /// So many interrupts in a millisecond.
     #[must_use]
     pub const fn new(per_ms: u32) -> Self {
@@ -23,7 +23,7 @@ impl Budget {
         }
     }
 
-    /// In the interrupt: takes one from the budget. False when it was the last one: switch the source off now.
+    /// In the interrupt: takes one from the limit. False when it was the last one: switch the source off now.
     #[inline(always)]
     pub fn spend(&self) -> bool {
         let left = self.left.load(Ordering::Relaxed).saturating_sub(1);
@@ -31,7 +31,7 @@ impl Budget {
         left != 0
     }
 
-    /// In the main loop, once in a millisecond: a new budget. True when the old one was spent: switch the source on again.
+    /// In the main loop, once in a millisecond: a new limit. True when the old one was spent: switch the source on again.
     pub fn renew(&self) -> bool {
         let spent = self.left.load(Ordering::Relaxed) == 0;
         self.left.store(self.per_ms, Ordering::Relaxed);
@@ -41,16 +41,16 @@ impl Budget {
 
 #[cfg(test)]
 mod tests {
-    use super::Budget;
+    use super::InterruptRateLimit;
 
     #[test]
     fn a_spent_budget_switches_off_until_it_is_renewed() {
-        let budget = Budget::new(3);
-        assert!(budget.spend() && budget.spend());
-        assert!(!budget.renew());
-        assert!(budget.spend() && budget.spend() && !budget.spend());
-        assert!(!budget.spend(), "a source that is already off stays off");
-        assert!(budget.renew());
-        assert!(budget.spend());
+        let limit = InterruptRateLimit::new(3);
+        assert!(limit.spend() && limit.spend());
+        assert!(!limit.renew());
+        assert!(limit.spend() && limit.spend() && !limit.spend());
+        assert!(!limit.spend(), "a source that is already off stays off");
+        assert!(limit.renew());
+        assert!(limit.spend());
     }
 }

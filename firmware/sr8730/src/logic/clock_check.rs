@@ -16,7 +16,7 @@ const TOLERANCE: u32 = 20;
 
 /// One look at all clocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Look {
+pub struct ClockSample {
     /// Milliseconds, counted by the interrupt.
     pub tick: u32,
     /// The core timer.
@@ -27,24 +27,24 @@ pub struct Look {
 
 /// Compares them.
 #[derive(Clone, Copy, Debug)]
-pub struct PaceCheck {
-    last: Look,
+pub struct ClockCheck {
+    last: ClockSample,
     halves_per_count: u32,
 }
 
 /// What a comparison says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
+pub enum ClockAgreement {
     /// They agree, or it is too early to say.
     Even,
     /// They do not.
     Uneven,
 }
 
-impl PaceCheck {
+impl ClockCheck {
     /// Starts now. `halves_per_count` is how many halves of a count of the core timer make one of the other.
     #[must_use]
-    pub const fn new(now: Look, halves_per_count: u32) -> Self {
+    pub const fn new(now: ClockSample, halves_per_count: u32) -> Self {
         Self {
             last: now,
             halves_per_count,
@@ -53,21 +53,21 @@ impl PaceCheck {
 
     /// To be called once in a millisecond. Later than 200 ms after the last call it says nothing, because Timer5 has
     /// wrapped, and the watchdog has more to say.
-    pub const fn update(&mut self, now: Look) -> Pace {
+    pub const fn update(&mut self, now: ClockSample) -> ClockAgreement {
         let ticks = now.tick.wrapping_sub(self.last.tick);
         let core = now.core.wrapping_sub(self.last.core);
         if ticks < WINDOW_MS && core < 2 * WINDOW_MS * CORE_PER_MS {
-            return Pace::Even;
+            return ClockAgreement::Even;
         }
         let bus = now.bus.wrapping_sub(self.last.bus) as u32 * self.halves_per_count / 2;
         self.last = now;
         if ticks > 2 * WINDOW_MS {
-            return Pace::Even;
+            return ClockAgreement::Even;
         }
         if agree(core, ticks * CORE_PER_MS) && agree(core, bus) {
-            Pace::Even
+            ClockAgreement::Even
         } else {
-            Pace::Uneven
+            ClockAgreement::Uneven
         }
     }
 }
@@ -78,51 +78,54 @@ const fn agree(left: u32, right: u32) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{HALVES_PER_COUNT, Look, Pace, PaceCheck};
+    use super::{ClockAgreement, ClockCheck, ClockSample, HALVES_PER_COUNT};
 
     /// Runs for a second with the given counts in each millisecond.
-    fn run(core_per_ms: u32, bus_per_16_ms: u32, ticks_per_16_ms: u32) -> Pace {
-        let start = Look {
+    fn run(core_per_ms: u32, bus_per_16_ms: u32, ticks_per_16_ms: u32) -> ClockAgreement {
+        let start = ClockSample {
             tick: u32::MAX - 50,
             core: u32::MAX - 1_000_000,
             bus: 65_000,
         };
-        let mut check = PaceCheck::new(start, HALVES_PER_COUNT);
+        let mut check = ClockCheck::new(start, HALVES_PER_COUNT);
         let verdicts = (1..=1_000).map(|ms| {
-            check.update(Look {
+            check.update(ClockSample {
                 tick: start.tick.wrapping_add(ms * ticks_per_16_ms / 16),
                 core: start.core.wrapping_add(ms * core_per_ms),
                 bus: start.bus.wrapping_add((ms * bus_per_16_ms / 16) as u16),
             })
         });
-        verdicts.fold(
-            Pace::Even,
-            |worst, verdict| if verdict == Pace::Even { worst } else { verdict },
-        )
+        verdicts.fold(ClockAgreement::Even, |worst, verdict| {
+            if verdict == ClockAgreement::Even {
+                worst
+            } else {
+                verdict
+            }
+        })
     }
 
     #[test]
     fn clocks_of_one_crystal_agree_across_all_wraps() {
-        assert_eq!(run(40_000, 5_000, 16), Pace::Even);
+        assert_eq!(run(40_000, 5_000, 16), ClockAgreement::Even);
     }
 
     #[test]
     fn each_clock_that_goes_astray_is_noticed() {
-        assert_eq!(run(43_000, 5_000, 16), Pace::Uneven);
-        assert_eq!(run(40_000, 4_600, 16), Pace::Uneven);
-        assert_eq!(run(40_000, 5_000, 15), Pace::Uneven);
-        assert_eq!(run(40_000, 0, 16), Pace::Uneven);
-        assert_eq!(run(40_000, 5_000, 0), Pace::Uneven);
+        assert_eq!(run(43_000, 5_000, 16), ClockAgreement::Uneven);
+        assert_eq!(run(40_000, 4_600, 16), ClockAgreement::Uneven);
+        assert_eq!(run(40_000, 5_000, 15), ClockAgreement::Uneven);
+        assert_eq!(run(40_000, 0, 16), ClockAgreement::Uneven);
+        assert_eq!(run(40_000, 5_000, 0), ClockAgreement::Uneven);
     }
 
     #[test]
     fn a_late_look_is_no_verdict() {
-        let mut check = PaceCheck::new(Look::default(), HALVES_PER_COUNT);
-        let late = Look {
+        let mut check = ClockCheck::new(ClockSample::default(), HALVES_PER_COUNT);
+        let late = ClockSample {
             tick: 500,
             core: 500 * 40_000,
             bus: 0,
         };
-        assert_eq!(check.update(late), Pace::Even);
+        assert_eq!(check.update(late), ClockAgreement::Even);
     }
 }
