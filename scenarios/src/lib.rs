@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
-use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
+use rvac_sim::{GyroFitted, Household, CalibrationChoice, Scene, SceneSettings};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];
@@ -86,7 +86,7 @@ fn scene_with(robot: &str, home: PathBuf, noise: &str) -> Scene {
         robot: robot.to_owned(),
         noise: noise.to_owned(),
         firmware: None,
-        record: Record::Complete,
+        record: CalibrationChoice::Complete,
         gyro: GyroFitted::default(),
     })
     .expect("the project's homes suit the project's robot")

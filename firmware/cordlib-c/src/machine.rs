@@ -9,7 +9,7 @@ use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
 /// The machine as told so far.
 #[derive(Debug)]
-pub(crate) struct Machine {
+pub(crate) struct MachineDescription {
     pub(crate) boot_count: u32,
     pub(crate) recent_resets: u8,
     pub(crate) cliffs: u8,
@@ -27,8 +27,8 @@ const SMALL_ROUND_ROBOT: Limits = Limits {
     swath: Length(300_000),
 };
 
-static MACHINE: LazyLock<Mutex<Machine>> = LazyLock::new(|| {
-    Mutex::new(Machine {
+static MACHINE: LazyLock<Mutex<MachineDescription>> = LazyLock::new(|| {
+    Mutex::new(MachineDescription {
         boot_count: 0,
         recent_resets: 0,
         cliffs: 0,
@@ -41,7 +41,7 @@ static MACHINE: LazyLock<Mutex<Machine>> = LazyLock::new(|| {
 });
 
 /// A part that can be declared.
-type Declaration = fn(&mut Machine, u8);
+type Declaration = fn(&mut MachineDescription, u8);
 
 const PARTS: [(&str, u8, Declaration); 12] = [
     ("bumpers", 2, |machine, count| machine.fitted.bumpers = count),
@@ -70,11 +70,11 @@ const PARTS: [(&str, u8, Declaration); 12] = [
 ];
 
 /// The machine. Never hold this while a callback runs.
-pub(crate) fn machine() -> MutexGuard<'static, Machine> {
+pub(crate) fn machine() -> MutexGuard<'static, MachineDescription> {
     MACHINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Machine {
+impl MachineDescription {
     /// All of it, for the main loop.
     pub(crate) const fn parameters(&self) -> Parameters {
         let mut parameters = self.parameters;

@@ -25,7 +25,7 @@ use crate::report::Reporter;
 use crate::senses::Senses;
 use crate::sound::Sound;
 use crate::timing::{HoldTimer, LongClock};
-use crate::transmitter::Transmitter;
+use crate::transmitter::PacketSender;
 use crate::watch::{Supervisor, Watch};
 
 /// Most bytes taken from the link in one pass, so that a flood cannot delay the reflexes. At 230,400 baud 23 bytes arrive
@@ -47,7 +47,7 @@ pub struct Cord<P: Parts> {
     pub(crate) lights: LightPatterns,
     pub(crate) journal: Journal,
     pub(crate) reporter: Reporter,
-    pub(crate) transmitter: Transmitter,
+    pub(crate) transmitter: PacketSender,
     pub(crate) senses: Senses,
     pub(crate) clock: LongClock,
     pub(crate) heard: Tick,
@@ -91,7 +91,7 @@ impl<P: Parts> Cord<P> {
             lights: LightPatterns::new(now),
             journal: Journal::default(),
             reporter: Reporter::new(&reflexes, now),
-            transmitter: Transmitter::default(),
+            transmitter: PacketSender::default(),
             senses: Senses {
                 now,
                 counts,

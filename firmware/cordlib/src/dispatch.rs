@@ -10,18 +10,18 @@ use rvac_units::Tick;
 
 use crate::board::Parts;
 use crate::cord::Cord;
-use crate::motion::{Ending, Pace, Path, Side, suits_drive, suits_path};
+use crate::motion::{Ending, MoveLimits, Path, WheelSide, suits_drive, suits_path};
 use crate::permit::MotionPermit;
 
 /// Largest turn of one `move`, in radians: ten turns.
 const MOVE_TURN_MAX: i32 = 63;
 /// Speed of a `move` that a person types.
-const HAND_PACE: Pace = Pace {
+const HAND_PACE: MoveLimits = MoveLimits {
     speed_um_per_s: HAND_SPEED_MAX.0,
     turn_urad_per_s: HAND_TURN_MAX.0,
 };
 
-type Answer = Result<(), Refusal>;
+type CommandResult = Result<(), Refusal>;
 
 impl<P: Parts> Cord<P> {
     /// Carries out one event of the session.
@@ -75,7 +75,7 @@ impl<P: Parts> Cord<P> {
         self.carry_out(command, now)
     }
 
-    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> Answer {
+    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> CommandResult {
         match command {
             Command::Info => self.reporter.want_info(),
             Command::State => self.reporter.want_state(),
@@ -107,7 +107,7 @@ impl<P: Parts> Cord<P> {
         permit
     }
 
-    fn drive(&mut self, drive: &Drive, now: Tick) -> Answer {
+    fn drive(&mut self, drive: &Drive, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -125,17 +125,17 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn motor(&mut self, command: &MotorCommand, now: Tick) -> Answer {
+    fn motor(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
         let side = match command.motor {
-            Motor::WheelLeft => Side::Left,
-            Motor::WheelRight => Side::Right,
+            Motor::WheelLeft => WheelSide::Left,
+            Motor::WheelRight => WheelSide::Right,
             _ => return self.cleaner(command, now),
         };
         let permit = self.permit_for_command();
         let sign = command.throttle.millionths();
         let (left, right) = match side {
-            Side::Left => (sign, 0),
-            Side::Right => (0, sign),
+            WheelSide::Left => (sign, 0),
+            WheelSide::Right => (0, sign),
         };
         if !permit.armed || !permit.allows_direction(left, right) {
             return Err(Refusal::Inhibited);
@@ -147,7 +147,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> Answer {
+    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
         let is_fitted = match command.motor {
             Motor::BrushMain => self.fitted.brush_main,
             Motor::BrushSides => self.fitted.brush_sides,
@@ -161,7 +161,7 @@ impl<P: Parts> Cord<P> {
         self.cleaning.command(command, &permit, now)
     }
 
-    fn follow(&mut self, movement: &Move, now: Tick) -> Answer {
+    fn follow(&mut self, movement: &Move, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -175,7 +175,7 @@ impl<P: Parts> Cord<P> {
         let motion = &self.parameters.motion;
         let pace = match self.session.mode() {
             Mode::Hand => HAND_PACE,
-            Mode::Checked => Pace {
+            Mode::Checked => MoveLimits {
                 speed_um_per_s: motion.move_speed.0,
                 turn_urad_per_s: motion.move_turn.0,
             },
@@ -207,7 +207,7 @@ impl<P: Parts> Cord<P> {
         self.stop_all(MoveEnd::Inhibited);
     }
 
-    fn beep(&mut self, beep: Beep) -> Answer {
+    fn beep(&mut self, beep: Beep) -> CommandResult {
         if !self.fitted.beeper {
             return Err(Refusal::Absent);
         }
@@ -218,12 +218,12 @@ impl<P: Parts> Cord<P> {
         Err(Refusal::Busy)
     }
 
-    fn light(&mut self, led: &Led) -> Answer {
+    fn light(&mut self, led: &Led) -> CommandResult {
         let is_there = led.led < self.fitted.leds && self.lights.set(&mut self.board.lights, led);
         if is_there { Ok(()) } else { Err(Refusal::Absent) }
     }
 
-    fn arm(&mut self) -> Answer {
+    fn arm(&mut self) -> CommandResult {
         if self.reflexes.dock.inhibits() {
             return Err(Refusal::Inhibited);
         }
@@ -233,14 +233,14 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn undock(&mut self) -> Answer {
+    fn undock(&mut self) -> CommandResult {
         self.arm_anew()?;
         self.reflexes.dock.undock();
         Ok(())
     }
 
     /// Allows motion from now on and forgets earlier requests (S19).
-    fn arm_anew(&mut self) -> Answer {
+    fn arm_anew(&mut self) -> CommandResult {
         if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.any_button() {
             return Err(Refusal::CauseRemains);
         }
@@ -252,7 +252,7 @@ impl<P: Parts> Cord<P> {
     }
 
     /// Starts or forbids charging. Valid on the dock only: each new docking begins with the default.
-    fn charge(&mut self, wanted: bool) -> Answer {
+    fn charge(&mut self, wanted: bool) -> CommandResult {
         if !self.fitted.charger {
             return Err(Refusal::Absent);
         }
@@ -265,7 +265,7 @@ impl<P: Parts> Cord<P> {
     }
 
     /// One reading without a lease, which needs a robot that cannot move, or repeated readings under a lease.
-    fn probe(&mut self, probe: &Probe, now: Tick) -> Answer {
+    fn probe(&mut self, probe: &Probe, now: Tick) -> CommandResult {
         if !self.fitted.probe {
             return Err(Refusal::Absent);
         }
@@ -275,7 +275,7 @@ impl<P: Parts> Cord<P> {
         self.probing.begin(&mut self.board.probe, probe, now)
     }
 
-    fn clear(&mut self, inhibit: Inhibit) -> Answer {
+    fn clear(&mut self, inhibit: Inhibit) -> CommandResult {
         if matches!(inhibit, Inhibit::ChargerFault | Inhibit::ChargerShorted) {
             let cleared = !self.inhibits().contains(inhibit) || self.charger.clear();
             self.reflexes.charger_fault = self.charger.status().fault;
@@ -294,7 +294,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn set(&mut self, parameter: Parameter, value: i32, now: Tick) -> Answer {
+    fn set(&mut self, parameter: Parameter, value: i32, now: Tick) -> CommandResult {
         let (least, most) = parameter.range();
         if value != 0 && !(least..=most).contains(&value) {
             return Err(Refusal::Range);

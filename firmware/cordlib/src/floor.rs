@@ -16,7 +16,7 @@ const TEST_PERIOD_MS: u32 = 900;
 const SETTLE_MS: u32 = 2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum EmitterPhase {
     Lit,
     Dark,
     Relighting,
@@ -27,7 +27,7 @@ enum Phase {
 pub(crate) struct FloorWatch {
     fitted: bool,
     floor_level_min: u16,
-    phase: Phase,
+    phase: EmitterPhase,
     phase_end: Deadline,
     ambient: CliffLevels,
     lit: CliffLevels,
@@ -43,7 +43,7 @@ impl FloorWatch {
         Self {
             fitted: floor_level_min.is_some() && C::FITTED != Cliffs::default(),
             floor_level_min: floor_level_min.unwrap_or(u16::MAX).max(1),
-            phase: Phase::Dark,
+            phase: EmitterPhase::Dark,
             phase_end: Deadline::at(now.after(SETTLE_MS)),
             ambient: CliffLevels::default(),
             lit: CliffLevels::default(),
@@ -69,32 +69,32 @@ impl FloorWatch {
         }
         let phase_over = self.phase_end.has_come(now);
         match self.phase {
-            Phase::Lit if phase_over => {
+            EmitterPhase::Lit if phase_over => {
                 sensors.set_emitters(Emitters::Off);
-                self.enter(Phase::Dark, now.after(SETTLE_MS));
+                self.enter(EmitterPhase::Dark, now.after(SETTLE_MS));
             }
-            Phase::Dark if phase_over => {
+            EmitterPhase::Dark if phase_over => {
                 self.ambient = sensors.levels();
                 sensors.set_emitters(Emitters::On);
-                self.enter(Phase::Relighting, now.after(SETTLE_MS));
+                self.enter(EmitterPhase::Relighting, now.after(SETTLE_MS));
             }
-            Phase::Relighting if phase_over => {
+            EmitterPhase::Relighting if phase_over => {
                 self.judge(sensors.levels(), C::FITTED);
                 self.blinded = self.lit_without_emitter(C::FITTED);
-                self.enter(Phase::Lit, now.after(TEST_PERIOD_MS));
+                self.enter(EmitterPhase::Lit, now.after(TEST_PERIOD_MS));
             }
-            Phase::Lit => self.judge(sensors.levels(), C::FITTED),
-            Phase::Dark | Phase::Relighting => {}
+            EmitterPhase::Lit => self.judge(sensors.levels(), C::FITTED),
+            EmitterPhase::Dark | EmitterPhase::Relighting => {}
         }
     }
 
-    fn enter(&mut self, phase: Phase, end: Tick) {
+    fn enter(&mut self, phase: EmitterPhase, end: Tick) {
         self.phase = phase;
         self.phase_end = Deadline::at(end);
     }
 
     fn judge(&mut self, lit: CliffLevels, fitted: Cliffs) {
-        if self.lit == lit && self.phase == Phase::Lit {
+        if self.lit == lit && self.phase == EmitterPhase::Lit {
             return;
         }
         self.lit = lit;

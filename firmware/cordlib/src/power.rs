@@ -4,7 +4,7 @@ use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, Inh
 use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
-use crate::charge::{ChargeContext, ChargeOutput, Motors};
+use crate::charge::{ChargeContext, ChargeOutput, MotorActivity};
 use crate::cord::Cord;
 use crate::reflex::PackView;
 
@@ -69,7 +69,7 @@ impl<P: Parts> Cord<P> {
             .fold(0, |sum: i32, (_, ma)| sum.saturating_add(i32::from(ma)));
         ChargeContext {
             docked: self.reflexes.dock.inhibits(),
-            motors: if idle { Motors::Idle } else { Motors::Running },
+            motors: if idle { MotorActivity::Idle } else { MotorActivity::Running },
             load_ma,
         }
     }

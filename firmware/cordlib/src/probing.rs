@@ -2,11 +2,11 @@
 
 use heapless::Vec;
 use rvac_protocol::message::{
-    PROBE_BYTES, Probe as ProbeCommand, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe,
+    PROBE_BYTES, Probe, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe,
 };
 use rvac_units::Tick;
 
-use crate::board::Probe;
+use crate::board::PinProbe;
 use crate::timing::{Deadline, Periodic};
 
 /// Pause between two answers under a lease.
@@ -42,10 +42,10 @@ impl Probing {
     ///
     /// # Errors
     /// As the board refuses the serial port.
-    pub(crate) fn begin<P: Probe>(
+    pub(crate) fn begin<P: PinProbe>(
         &mut self,
         board: &mut P,
-        command: &ProbeCommand,
+        command: &Probe,
         now: Tick,
     ) -> Result<(), Refusal> {
         let goes_on = self.lease.is_running() && self.target == Some(command.target);
@@ -65,7 +65,7 @@ impl Probing {
     }
 
     /// Ends the readings, when their lease or the session is over.
-    pub(crate) fn end<P: Probe>(&mut self, board: &mut P) {
+    pub(crate) fn end<P: PinProbe>(&mut self, board: &mut P) {
         if let Some(ProbeTarget::Serial { .. }) = self.target {
             board.close_serial();
         }
@@ -76,7 +76,7 @@ impl Probing {
     }
 
     /// Collects received bytes of the serial port, and ends readings whose lease is over.
-    pub(crate) fn gather<P: Probe>(&mut self, board: &mut P, now: Tick) {
+    pub(crate) fn gather<P: PinProbe>(&mut self, board: &mut P, now: Tick) {
         if self.target.is_none() {
             return;
         }
@@ -97,7 +97,7 @@ impl Probing {
     }
 
     /// The answer that is due.
-    pub(crate) fn take<P: Probe>(&mut self, board: &mut P, now: Tick) -> Option<Probed> {
+    pub(crate) fn take<P: PinProbe>(&mut self, board: &mut P, now: Tick) -> Option<Probed> {
         let target = self.target?;
         let content = match target {
             ProbeTarget::Serial { .. } => {
@@ -119,7 +119,7 @@ impl Probing {
         Some(Probed { tick: now, content })
     }
 
-    fn take_serial<P: Probe>(&mut self, board: &mut P) -> SerialProbe {
+    fn take_serial<P: PinProbe>(&mut self, board: &mut P) -> SerialProbe {
         let bytes = core::mem::take(&mut self.gathered);
         let at = self.at;
         self.at = at.wrapping_add(u32::try_from(bytes.len()).unwrap_or(0));

@@ -24,14 +24,14 @@ pub(crate) struct Reporter {
     pub(crate) bytes_out: Rate,
     steps: Rate,
     rates: Periodic,
-    state: Schedule,
-    info: Schedule,
+    state: ReportSchedule,
+    info: ReportSchedule,
     reported: ReportedFacts,
 }
 
 /// One kind of report: its period (0 = only on request) and whether one waits for the link.
 #[derive(Clone, Copy, Debug)]
-struct Schedule {
+struct ReportSchedule {
     period_ms: u32,
     next: Periodic,
     waits: bool,
@@ -47,7 +47,7 @@ struct ReportedFacts {
     inhibits: Inhibits,
 }
 
-impl Schedule {
+impl ReportSchedule {
     const fn every(period_ms: u32, now: Tick) -> Self {
         Self {
             period_ms,
@@ -87,8 +87,8 @@ impl Reporter {
             bytes_out: Rate::starting_at(now),
             steps: Rate::starting_at(now),
             rates: Periodic::starting_at(now.after(RATE_PERIOD_MS)),
-            state: Schedule::every(STATE_PERIOD_MS, now),
-            info: Schedule::every(INFO_PERIOD_MS, now),
+            state: ReportSchedule::every(STATE_PERIOD_MS, now),
+            info: ReportSchedule::every(INFO_PERIOD_MS, now),
             reported: ReportedFacts::of(reflexes),
         }
     }
@@ -105,12 +105,12 @@ impl Reporter {
 
     /// Changes the pause between `state` reports; 0 = only when asked.
     pub(crate) const fn set_state_period(&mut self, period_ms: u32, now: Tick) {
-        self.state = Schedule::every(period_ms, now);
+        self.state = ReportSchedule::every(period_ms, now);
     }
 
     /// Changes the pause between `info` reports; 0 = only when asked.
     pub(crate) const fn set_info_period(&mut self, period_ms: u32, now: Tick) {
-        self.info = Schedule::every(period_ms, now);
+        self.info = ReportSchedule::every(period_ms, now);
     }
 
     /// Counts a pass that reports nothing.

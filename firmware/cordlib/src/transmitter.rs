@@ -7,12 +7,12 @@ use crate::board::Link;
 
 /// The packet that is being sent.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Transmitter {
+pub(crate) struct PacketSender {
     packet: PacketBuffer,
     sent: usize,
 }
 
-impl Transmitter {
+impl PacketSender {
     /// Where to write the next packet, if the last one is gone.
     pub(crate) fn next(&mut self) -> Option<&mut PacketBuffer> {
         if self.sent < self.packet.as_bytes().len() {

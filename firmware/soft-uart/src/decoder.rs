@@ -31,17 +31,17 @@ const NOISE_NUMERATOR: u32 = 2;
 const NOISE_DENOMINATOR: u32 = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum DecoderPhase {
     /// A falling edge begins a frame.
     Idle,
     /// After a wrong stop bit: only a line that became high again can be idle.
     AwaitHigh,
-    Frame(Frame),
+    Frame(DecodedFrame),
 }
 
 /// A frame under way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Frame {
+struct DecodedFrame {
     /// When the last edge was.
     anchor: u32,
     /// Which boundary it was at.
@@ -54,7 +54,7 @@ struct Frame {
 
 /// What is known of the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Signal {
+enum LineState {
     /// Nothing: before the first edge, and after edges were lost.
     Unknown,
     /// Its level; all edges so far were believed.
@@ -77,8 +77,8 @@ pub struct Decoder {
     noise: u32,
     /// From each boundary to the middle of the stop bit, in counts.
     ends: [u32; BOUNDARIES],
-    signal: Signal,
-    phase: Phase,
+    signal: LineState,
+    phase: DecoderPhase,
 }
 
 impl Decoder {
@@ -92,8 +92,8 @@ impl Decoder {
             bits_per_count: ((1_u64 << 40) / u64::from(parts)).min(u64::from(u32::MAX)) as u32,
             noise: bit.counts() * NOISE_NUMERATOR / NOISE_DENOMINATOR,
             ends: core::array::from_fn(|boundary| (parts * halves(boundary)) >> 9),
-            signal: Signal::Unknown,
-            phase: Phase::Idle,
+            signal: LineState::Unknown,
+            phase: DecoderPhase::Idle,
         }
     }
 
@@ -121,39 +121,39 @@ impl Decoder {
     }
 
     pub(crate) fn forget(&mut self) {
-        self.signal = Signal::Unknown;
-        self.phase = Phase::Idle;
+        self.signal = LineState::Unknown;
+        self.phase = DecoderPhase::Idle;
     }
 
     pub(crate) fn take_edge(&mut self, edge: Edge) -> Option<Received> {
-        if let Signal::Edge(pending) = self.signal {
+        if let LineState::Edge(pending) = self.signal {
             if edge.level == pending.level {
                 // Two edges came so close that the interrupt saw only the level after both.
                 return None;
             }
             if since(pending.at, edge.at) < self.noise {
-                self.signal = Signal::Back(pending, edge.at);
+                self.signal = LineState::Back(pending, edge.at);
                 return None;
             }
             self.believe(pending);
         } else if !self.is_news(edge) {
             return None;
         }
-        self.signal = Signal::Edge(edge);
+        self.signal = LineState::Edge(edge);
         self.finish_before(edge.at)
     }
 
     /// Whether the edge begins something when no edge is waiting to be believed, or a pulse to be judged.
     fn is_news(&mut self, edge: Edge) -> bool {
         match self.signal {
-            Signal::Unknown => true,
-            Signal::Level(level) | Signal::Edge(Edge { level, .. }) => edge.level != level,
-            Signal::Back(pending, _) if edge.level != pending.level => false,
+            LineState::Unknown => true,
+            LineState::Level(level) | LineState::Edge(Edge { level, .. }) => edge.level != level,
+            LineState::Back(pending, _) if edge.level != pending.level => false,
             // The line went there, back, and there again: the shorter of the two pulses was noise.
-            Signal::Back(pending, back) => {
+            LineState::Back(pending, back) => {
                 let is_second_shorter = since(back, edge.at) < since(pending.at, back);
                 if is_second_shorter {
-                    self.signal = Signal::Edge(pending);
+                    self.signal = LineState::Edge(pending);
                 }
                 !is_second_shorter
             }
@@ -162,20 +162,20 @@ impl Decoder {
 
     pub(crate) fn take_time(&mut self, now: u32) -> Option<Received> {
         match self.signal {
-            Signal::Edge(pending) => {
+            LineState::Edge(pending) => {
                 if since(pending.at, now) < self.noise {
                     return None;
                 }
-                self.signal = Signal::Level(pending.level);
+                self.signal = LineState::Level(pending.level);
                 self.believe(pending);
             }
-            Signal::Back(pending, back) => {
+            LineState::Back(pending, back) => {
                 if since(back, now) < self.noise {
                     return None;
                 }
-                self.signal = Signal::Level(pending.level.inverted());
+                self.signal = LineState::Level(pending.level.inverted());
             }
-            Signal::Unknown | Signal::Level(_) => {}
+            LineState::Unknown | LineState::Level(_) => {}
         }
         self.finish_before(now)
     }
@@ -184,7 +184,7 @@ impl Decoder {
     #[inline(always)]
     fn believe(&mut self, edge: Edge) {
         match (&mut self.phase, edge.level) {
-            (Phase::Frame(frame), level) => {
+            (DecoderPhase::Frame(frame), level) => {
                 let counts = since(frame.anchor, edge.at) + self.half;
                 let bits = (u64::from(counts) * u64::from(self.bits_per_count)) >> 32;
                 let boundary = (frame.position + bits as u32).min(STOP + 1);
@@ -196,27 +196,27 @@ impl Decoder {
                     frame.end = edge.at.wrapping_add(rest);
                 } else if boundary == 0 && level == Level::High {
                     // A start bit of less than half a bit is none.
-                    self.phase = Phase::Idle;
+                    self.phase = DecoderPhase::Idle;
                 }
             }
-            (Phase::Idle, Level::Low) => {
+            (DecoderPhase::Idle, Level::Low) => {
                 let [whole, ..] = self.ends;
-                self.phase = Phase::Frame(Frame {
+                self.phase = DecoderPhase::Frame(DecodedFrame {
                     anchor: edge.at,
                     position: 0,
                     bits: 0,
                     end: edge.at.wrapping_add(whole),
                 });
             }
-            (Phase::AwaitHigh, Level::High) => self.phase = Phase::Idle,
-            (Phase::Idle, Level::High) | (Phase::AwaitHigh, Level::Low) => {}
+            (DecoderPhase::AwaitHigh, Level::High) => self.phase = DecoderPhase::Idle,
+            (DecoderPhase::Idle, Level::High) | (DecoderPhase::AwaitHigh, Level::Low) => {}
         }
     }
 
     /// Ends the frame under way when its end lies at or before `now`.
     #[inline(always)]
     fn finish_before(&mut self, now: u32) -> Option<Received> {
-        let Phase::Frame(frame) = &self.phase else {
+        let DecoderPhase::Frame(frame) = &self.phase else {
             return None;
         };
         if (now.wrapping_sub(frame.end) as i32) < 0 {
@@ -224,11 +224,11 @@ impl Decoder {
         }
         let data = (frame.bits >> 1) as u8;
         let (received, phase) = if frame.bits & (1 << STOP) != 0 {
-            (Received::Byte(data), Phase::Idle)
+            (Received::Byte(data), DecoderPhase::Idle)
         } else if data == 0 {
-            (Received::Break, Phase::AwaitHigh)
+            (Received::Break, DecoderPhase::AwaitHigh)
         } else {
-            (Received::FramingError, Phase::AwaitHigh)
+            (Received::FramingError, DecoderPhase::AwaitHigh)
         };
         self.phase = phase;
         Some(received)

@@ -32,7 +32,7 @@ pub(crate) type Packet = Vec<u8, { STATE_BYTES + 1 }>;
 /// [`Refusal::Syntax`] for a wrong length, [`Refusal::Range`] for a number that text would not allow either.
 #[inline]
 pub fn read_drive(body: &[u8]) -> Result<Drive, Refusal> {
-    let mut reader = Reader::new::<DRIVE_BYTES>(body)?;
+    let mut reader = BodyReader::new::<DRIVE_BYTES>(body)?;
     Ok(Drive {
         speed: Speed(within(reader.i32(), span::SPEED)?),
         turn: AngularSpeed(within(reader.i32(), span::TURN)?),
@@ -147,7 +147,7 @@ pub fn write_state(state: &State) -> Vec<u8, { STATE_BYTES + 1 }> {
 /// [`Refusal::Syntax`] for a wrong length, [`Refusal::Unknown`] for a charge or motion code of a newer robot,
 /// [`Refusal::Range`] for a current that the text would not allow either.
 pub fn read_state(body: &[u8]) -> Result<State, Refusal> {
-    let mut reader = Reader::new::<STATE_BYTES>(body)?;
+    let mut reader = BodyReader::new::<STATE_BYTES>(body)?;
     let tick = Tick(reader.u32());
     let count_left = reader.i32();
     let count_right = reader.i32();
@@ -238,11 +238,11 @@ fn motion_from_code(code: u8) -> Result<MotionPhase, Refusal> {
 }
 
 /// Reads fixed parts one after another from a body whose length was checked once.
-struct Reader<'a> {
+struct BodyReader<'a> {
     rest: &'a [u8],
 }
 
-impl<'a> Reader<'a> {
+impl<'a> BodyReader<'a> {
     fn new<const LENGTH: usize>(body: &'a [u8]) -> Result<Self, Refusal> {
         if body.len() == LENGTH {
             Ok(Self { rest: body })

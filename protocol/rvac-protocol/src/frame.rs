@@ -73,7 +73,7 @@ pub enum Poison {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
+enum PacketForm {
     Text,
     Binary,
     BinaryStuffing,
@@ -94,7 +94,7 @@ pub struct Framer {
     digest: Digest,
     start: Digest,
     direction: Direction,
-    form: Form,
+    form: PacketForm,
 }
 
 impl Framer {
@@ -111,7 +111,7 @@ impl Framer {
             digest: start,
             start,
             direction,
-            form: Form::Text,
+            form: PacketForm::Text,
         }
     }
 
@@ -143,27 +143,27 @@ impl Framer {
             return self.finish();
         }
         match self.form {
-            Form::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
-                self.form = Form::Binary;
+            PacketForm::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
+                self.form = PacketForm::Binary;
                 self.plain_below = STUFFING;
                 self.take(byte);
             }
-            Form::Text if byte < PLAIN_FROM => self.poison(Poison::ControlByte),
-            Form::Binary if byte == STUFFING => {
-                self.form = Form::BinaryStuffing;
+            PacketForm::Text if byte < PLAIN_FROM => self.poison(Poison::ControlByte),
+            PacketForm::Binary if byte == STUFFING => {
+                self.form = PacketForm::BinaryStuffing;
                 self.plain_until = 0;
             }
-            Form::Text | Form::Binary => self.take(byte),
-            Form::BinaryStuffing => self.unstuff(byte),
-            Form::Poisoned(_) => {}
+            PacketForm::Text | PacketForm::Binary => self.take(byte),
+            PacketForm::BinaryStuffing => self.unstuff(byte),
+            PacketForm::Poisoned(_) => {}
         }
         None
     }
 
     /// Drops everything up to the next separator.
     pub fn poison(&mut self, poison: Poison) {
-        if !matches!(self.form, Form::Poisoned(_)) {
-            self.form = Form::Poisoned(poison);
+        if !matches!(self.form, PacketForm::Poisoned(_)) {
+            self.form = PacketForm::Poisoned(poison);
             self.plain_until = 0;
         }
     }
@@ -171,13 +171,13 @@ impl Framer {
     /// Whether a packet has begun.
     #[must_use]
     pub fn is_inside_packet(&self) -> bool {
-        self.length != 0 || self.form != Form::Text
+        self.length != 0 || self.form != PacketForm::Text
     }
 
     fn unstuff(&mut self, byte: u8) {
         let original = byte ^ STUFFED_BIT;
         if matches!(original, STUFFING | SEPARATOR | SEPARATOR_2016) {
-            self.form = Form::Binary;
+            self.form = PacketForm::Binary;
             self.take(original);
         } else {
             self.poison(Poison::ControlByte);
@@ -192,7 +192,7 @@ impl Framer {
         };
         *slot = byte;
         self.length += 1;
-        let crc_bytes = if self.form == Form::Binary {
+        let crc_bytes = if self.form == PacketForm::Binary {
             BINARY_CRC_BYTES
         } else {
             TEXT_CRC_BYTES
@@ -217,14 +217,14 @@ impl Framer {
         let form = self.form;
         let length = self.length;
         match form {
-            Form::Text if length == 0 => None,
-            Form::Text => Some(self.finish_text(length)),
-            Form::Binary => Some(self.finish_binary(length)),
-            Form::BinaryStuffing => {
+            PacketForm::Text if length == 0 => None,
+            PacketForm::Text => Some(self.finish_text(length)),
+            PacketForm::Binary => Some(self.finish_binary(length)),
+            PacketForm::BinaryStuffing => {
                 self.restart();
                 Some(Framed::Poisoned(Poison::ControlByte))
             }
-            Form::Poisoned(poison) => {
+            PacketForm::Poisoned(poison) => {
                 self.restart();
                 Some(Framed::Poisoned(poison))
             }
@@ -278,6 +278,6 @@ impl Framer {
         self.plain_until = 0;
         self.plain_below = 0;
         self.digest = self.start;
-        self.form = Form::Text;
+        self.form = PacketForm::Text;
     }
 }

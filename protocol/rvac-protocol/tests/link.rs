@@ -7,7 +7,7 @@ use rvac_protocol::message::{
     BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move, Name,
     Parameter, Refusal, Report, Sequence,
 };
-use rvac_protocol::quality::Verdict;
+use rvac_protocol::quality::LinkVerdict;
 use rvac_protocol::session::{HostEvent, Mode, RobotEvent, SendError, SessionEnd};
 use rvac_protocol::text::write_command_with_crc;
 use rvac_protocol::{PacketBuffer, message::LinkCounters};
@@ -417,7 +417,7 @@ fn info_arrives_whole_although_it_takes_three_packets() {
 fn bad_packets_lower_the_verdict_and_time_heals_it() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     pair.run_ms(4_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Good);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
     assert_eq!(pair.host.quality().round_trip_ms, Some(0));
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
@@ -427,7 +427,7 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(2_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Poor);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Poor);
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
         count += 1;
@@ -436,10 +436,10 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(3_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Bad);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Bad);
     pair.to_host = Box::new(|_| {});
     pair.run_ms(6_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Good);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
 }
 
 #[test]

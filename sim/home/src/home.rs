@@ -249,7 +249,7 @@ fn without_black(draft: &Draft, mut grid: Grid) -> Grid {
 }
 
 /// Region, dock and start that belong together.
-struct Place {
+struct Placement {
     region: u32,
     dock: Option<Pose>,
     start: Pose,
@@ -264,7 +264,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn place(&self, wish: DockWish) -> Result<Place, HomeError> {
+    fn place(&self, wish: DockWish) -> Result<Placement, HomeError> {
         let biggest = self.regions.biggest().ok_or_else(|| self.no_place())?;
         let radius_m = self.model.body.radius_m;
         let docks = DockSearch {
@@ -282,7 +282,7 @@ impl Search<'_> {
             Some(dock) if on_dock => docked_pose(dock, radius_m),
             _ => self.roomiest(region),
         };
-        Ok(Place { region, dock, start })
+        Ok(Placement { region, dock, start })
     }
 
     /// The region in front of the dock.

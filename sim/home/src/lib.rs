@@ -24,12 +24,12 @@ mod pose;
 pub mod traps;
 mod world;
 
-pub use digest::Digest;
+pub use digest::Fnv1a;
 pub use home::Home;
 pub use linux_board::{Beacons, BoardGyro, Measured};
 pub use load::HomeError;
 pub use model::{
-    Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,
+    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel, LidarModel, ModelError, ProximityModel,
     ReceiverMount, RobotModel, WheelMotor, robot_names,
 };
 pub use noise::{Noise, NoiseError};

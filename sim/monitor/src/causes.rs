@@ -1,6 +1,6 @@
 //! What stands against motion, and for how long.
 
-use crate::charging::{ChargeStanding, Charging};
+use crate::charging::{ChargeTimes, Charging};
 
 /// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Drives {
 
 /// Milliseconds for which each cause has stood without a gap; 0 = it does not stand.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Standing {
+pub(crate) struct CauseTimes {
     pub(crate) bumper_ms: u32,
     /// Pressed off the dock, by which it may be pressed for ever.
     pub(crate) bumper_stuck_ms: u32,
@@ -77,7 +77,7 @@ pub(crate) struct Standing {
     /// Each wheel: driven hard while its encoder stands still.
     pub(crate) stalled_ms: [u32; 2],
     pub(crate) fallen: bool,
-    pub(crate) charge: ChargeStanding,
+    pub(crate) charge: ChargeTimes,
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
@@ -93,7 +93,7 @@ const DOCK_CLEAR_MS: u32 = 300;
 /// Long enough ago for every rule.
 const LONG_AGO_MS: u32 = 1_000_000;
 
-impl Default for Standing {
+impl Default for CauseTimes {
     fn default() -> Self {
         Self {
             bumper_ms: 0,
@@ -108,7 +108,7 @@ impl Default for Standing {
             button_ms: 0,
             stalled_ms: [0; 2],
             fallen: false,
-            charge: ChargeStanding::default(),
+            charge: ChargeTimes::default(),
             cleaners_start: false,
             cleaners_were_on: false,
             counts: [0; 2],
@@ -116,7 +116,7 @@ impl Default for Standing {
     }
 }
 
-impl Standing {
+impl CauseTimes {
     /// What a firmware that has just started cannot know: how long something had stood before.
     pub(crate) fn reset(&mut self) {
         self.bumper_stuck_ms = 0;

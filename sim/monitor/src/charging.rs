@@ -19,7 +19,7 @@ pub struct Charging {
 
 /// Milliseconds for which each cause has stood while the switch was driven.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ChargeStanding {
+pub(crate) struct ChargeTimes {
     pub(crate) unsupplied_ms: u32,
     pub(crate) driving_ms: u32,
     pub(crate) temperature_ms: u32,
@@ -51,7 +51,7 @@ const LEAK_MA: i32 = 150;
 const LEAK_MS: u32 = 1_000;
 const LEAVING_MS: u32 = 20_000;
 
-impl ChargeStanding {
+impl ChargeTimes {
     /// Whether a robot may leave the dock though nobody asked it to: nothing else ends the current.
     pub(crate) const fn may_leave(&self) -> bool {
         self.leaving_ms > 0
@@ -99,7 +99,7 @@ impl ChargeStanding {
 /// Judges a charger alone, in steps of any length: for campaigns of thousands of charges.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChargeMonitor {
-    standing: ChargeStanding,
+    standing: ChargeTimes,
     broken: u32,
     count: u32,
     longest_ms: u32,

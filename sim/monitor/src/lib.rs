@@ -24,8 +24,8 @@ pub use causes::{Drives, Pins};
 pub use charging::{ChargeMonitor, Charging};
 pub use verdict::{Rule, Violation};
 
-use causes::Standing;
-use permission::Permission;
+use causes::CauseTimes;
+use permission::HostPermission;
 use rvac_protocol::message::ResetCause;
 
 /// Wheel bridges of a simulated robot: sound ones, or a broken machine to see whether the monitor notices.
@@ -44,8 +44,8 @@ const KEPT_MAX: usize = 32;
 /// The judge.
 #[derive(Clone, Debug)]
 pub struct Monitor {
-    permission: Permission,
-    standing: Standing,
+    permission: HostPermission,
+    standing: CauseTimes,
     /// Rules that are broken right now, bit by rule.
     broken: u32,
     kept: Vec<Violation>,
@@ -63,8 +63,8 @@ impl Monitor {
     #[must_use]
     pub fn new() -> Self {
         Self {
-            permission: Permission::default(),
-            standing: Standing::default(),
+            permission: HostPermission::default(),
+            standing: CauseTimes::default(),
             broken: 0,
             kept: Vec::new(),
             count: 0,

@@ -2,7 +2,7 @@
 
 use rvac_protocol::message::ResetCause;
 
-use super::causes::Standing;
+use super::causes::CauseTimes;
 use super::said::{Heard, Said, read_heard, read_said};
 use super::wire::Splitter;
 
@@ -42,7 +42,7 @@ struct Arming {
 
 /// What the host has allowed.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Permission {
+pub(crate) struct HostPermission {
     to_robot: Splitter,
     from_robot: Splitter,
     session: u16,
@@ -65,7 +65,7 @@ pub(crate) struct Permission {
     button_while_running: bool,
 }
 
-impl Permission {
+impl HostPermission {
     pub(crate) fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
         // A packet belongs to the session in which it began, even if silence ends that while it is under way.
         if self.to_robot.is_between_packets() {
@@ -195,7 +195,7 @@ impl Permission {
         self.clock_ms = now_ms;
     }
 
-    pub(crate) fn update(&mut self, now_ms: u64, standing: &Standing) {
+    pub(crate) fn update(&mut self, now_ms: u64, standing: &CauseTimes) {
         if standing.button_ms == 1 {
             self.button_while_running = self.motors_ran;
         }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::wire::{CrcCheck, Direction, checked_binary, split_crc};
+use super::wire::{CrcCheck, WireDirection, checked_binary, split_crc};
 
 /// A packet to the robot whose CRC is right or absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,13 +60,13 @@ const LEASE_MAX_MS: u64 = 1_000;
 /// Reads a packet to the robot; `None` when its CRC is wrong or it is no packet at all.
 pub(crate) fn read_heard(packet: &[u8], session: u16) -> Option<HeardPacket> {
     if packet[0] >= 0x80 {
-        let body = checked_binary(packet, Direction::ToRobot, session)?;
+        let body = checked_binary(packet, WireDirection::ToRobot, session)?;
         return Some(HeardPacket {
             word: word_of_binary(&body),
             checked: true,
         });
     }
-    let (json, crc) = split_crc(packet, Direction::ToRobot, session);
+    let (json, crc) = split_crc(packet, WireDirection::ToRobot, session);
     if crc == CrcCheck::Wrong {
         return None;
     }
@@ -155,7 +155,7 @@ pub(crate) fn read_said(packet: &[u8], session: u16) -> Option<Said> {
         return None;
     }
     // The hello that opens a session may have the CRC of the old session or of the one that it opens.
-    let (json, _) = split_crc(packet, Direction::FromRobot, session);
+    let (json, _) = split_crc(packet, WireDirection::FromRobot, session);
     let object: Value = serde_json::from_slice(json).ok()?;
     if hello {
         return number_of(&object, "session").map(Said::Session);

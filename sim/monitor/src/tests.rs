@@ -2,7 +2,7 @@
 
 use rvac_protocol::message::ResetCause;
 
-use super::wire::{Direction, packet_crc};
+use super::wire::{WireDirection, packet_crc};
 use super::{Charging, Drives, Monitor, Pins, Rule};
 
 const SESSION: u16 = 0x1234;
@@ -52,7 +52,7 @@ impl Scene {
     }
 
     fn host(&mut self, json: &str) {
-        let crc = packet_crc(json.as_bytes(), Direction::ToRobot, SESSION);
+        let crc = packet_crc(json.as_bytes(), WireDirection::ToRobot, SESSION);
         for byte in format!("{json}*{crc:08X}\u{1F}").bytes() {
             self.monitor.heard(self.now_ms, Some(byte));
         }
@@ -352,7 +352,7 @@ fn a_binary_drive_covers_its_lease() {
     let body = [
         0x81, 0x40, 0x0D, 0x03, 0, 0x1F, 0, 0, 0, 250, 0, 7, 0, 100, 0, 0, 0,
     ];
-    let crc = packet_crc(&body, Direction::ToRobot, SESSION).to_le_bytes();
+    let crc = packet_crc(&body, WireDirection::ToRobot, SESSION).to_le_bytes();
     for byte in body.into_iter().chain(crc) {
         if matches!(byte, 0x1D..=0x1F) {
             scene.monitor.heard(scene.now_ms, Some(0x1D));

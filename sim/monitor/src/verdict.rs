@@ -1,8 +1,8 @@
 //! The rules, as far as they can be judged from outside.
 
-use super::causes::{Drives, Pins, Standing};
-use super::charging::ChargeStanding;
-use super::permission::Permission;
+use super::causes::{Drives, Pins, CauseTimes};
+use super::charging::ChargeTimes;
+use super::permission::HostPermission;
 
 /// A line of SAFETY.md that the monitor judges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -181,7 +181,7 @@ const CHARGE_SLOW_MS: u32 = 2_000;
 const CHARGE_CURRENT_MS: u32 = 200;
 const CHARGE_TIME_MS: u32 = 12_960_000;
 
-fn charger_verdicts(standing: &ChargeStanding) -> [(Rule, bool); 6] {
+fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
     [
         (Rule::ChargeUnsupplied, standing.unsupplied_ms > CHARGE_MS),
         (Rule::ChargeDriving, standing.driving_ms > CHARGE_MS),
@@ -193,7 +193,7 @@ fn charger_verdicts(standing: &ChargeStanding) -> [(Rule, bool); 6] {
 }
 
 /// The rules that are broken now, bit by rule.
-pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, drives: &Drives) -> u32 {
+pub(crate) fn broken(now_ms: u64, permission: &HostPermission, standing: &CauseTimes, drives: &Drives) -> u32 {
     let wheels = drives.wheels_on();
     let cleaners = drives.cleaners_on();
     let any = wheels || cleaners;
@@ -243,7 +243,7 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
 }
 
 /// The rules that the charger breaks now, bit by rule.
-pub(crate) fn broken_by_charger(standing: &ChargeStanding) -> u32 {
+pub(crate) fn broken_by_charger(standing: &ChargeTimes) -> u32 {
     bits(charger_verdicts(standing))
 }
 

@@ -46,12 +46,12 @@ impl Splitter {
 
 /// Direction of a packet, as the byte that the CRC covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Direction {
+pub(crate) enum WireDirection {
     ToRobot,
     FromRobot,
 }
 
-impl Direction {
+impl WireDirection {
     fn byte(self) -> u8 {
         match self {
             Self::ToRobot => b'>',
@@ -72,7 +72,7 @@ pub(crate) enum CrcCheck {
 }
 
 /// The JSON bytes of a text packet and whether its CRC fits.
-pub(crate) fn split_crc(packet: &[u8], direction: Direction, session: u16) -> (&[u8], CrcCheck) {
+pub(crate) fn split_crc(packet: &[u8], direction: WireDirection, session: u16) -> (&[u8], CrcCheck) {
     let Some((json, crc)) = packet
         .len()
         .checked_sub(CRC_LEN)
@@ -94,7 +94,7 @@ pub(crate) fn split_crc(packet: &[u8], direction: Direction, session: u16) -> (&
 }
 
 /// Kind and body of a binary packet, unstuffed; `None` when its CRC is wrong.
-pub(crate) fn checked_binary(packet: &[u8], direction: Direction, session: u16) -> Option<Vec<u8>> {
+pub(crate) fn checked_binary(packet: &[u8], direction: WireDirection, session: u16) -> Option<Vec<u8>> {
     let whole = unstuff(packet)?;
     let (body, crc) = whole.split_last_chunk::<4>()?;
     (u32::from_le_bytes(*crc) == packet_crc(body, direction, session)).then(|| body.to_vec())
@@ -115,7 +115,7 @@ fn unstuff(packet: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// The CRC-32C over direction, session, body and its length.
-pub(crate) fn packet_crc(body: &[u8], direction: Direction, session: u16) -> u32 {
+pub(crate) fn packet_crc(body: &[u8], direction: WireDirection, session: u16) -> u32 {
     let length = u16::try_from(body.len()).unwrap_or(u16::MAX);
     let head = [
         direction.byte(),
@@ -138,7 +138,7 @@ fn crc32c(crc: u32, bytes: &[u8]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CrcCheck, Direction, Splitter, crc32c, packet_crc, split_crc};
+    use super::{CrcCheck, WireDirection, Splitter, crc32c, packet_crc, split_crc};
 
     #[test]
     fn the_check_value_of_castagnoli() {
@@ -166,15 +166,15 @@ mod tests {
         let json = br#"{"c":"stop"}"#;
         let packet = [
             json.as_slice(),
-            format!("*{:08X}", packet_crc(json, Direction::ToRobot, 7)).as_bytes(),
+            format!("*{:08X}", packet_crc(json, WireDirection::ToRobot, 7)).as_bytes(),
         ]
         .concat();
         assert_eq!(
-            split_crc(&packet, Direction::ToRobot, 7),
+            split_crc(&packet, WireDirection::ToRobot, 7),
             (json.as_slice(), CrcCheck::Right)
         );
-        assert_eq!(split_crc(&packet, Direction::ToRobot, 8).1, CrcCheck::Wrong);
-        assert_eq!(split_crc(&packet, Direction::FromRobot, 7).1, CrcCheck::Wrong);
-        assert_eq!(split_crc(json, Direction::ToRobot, 7).1, CrcCheck::Absent);
+        assert_eq!(split_crc(&packet, WireDirection::ToRobot, 8).1, CrcCheck::Wrong);
+        assert_eq!(split_crc(&packet, WireDirection::FromRobot, 7).1, CrcCheck::Wrong);
+        assert_eq!(split_crc(json, WireDirection::ToRobot, 7).1, CrcCheck::Absent);
     }
 }

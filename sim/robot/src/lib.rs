@@ -1,6 +1,6 @@
 //! The firmware of a robot as a host process: cordlib on simulated pins, "one more board".
 //!
-//! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`Line`]) and cordlib. One
+//! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`SerialLine`]) and cordlib. One
 //! [`SimulatedRobot::tick`] is one millisecond. It knows no clock, no thread and no device: the same calls give the same
 //! bits, at any speed. The [`monitor::Monitor`] judges every millisecond whether motors ran that must not.
 #![forbid(unsafe_code)]
@@ -14,7 +14,7 @@ mod power;
 mod robot;
 
 pub use board::{Outfit, Relax, Sr8730};
-pub use line::Line;
+pub use line::SerialLine;
 pub use parameters::parameters_for;
 pub use power::ChargeSwitch;
 pub use robot::{RobotSettings, SimulatedRobot};

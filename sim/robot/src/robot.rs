@@ -2,14 +2,14 @@
 
 use cordlib::Cord;
 use cordlib::board::{ChargeDrive, CliffLevels, DockRequest, Emitters, Received, WheelCounts, WheelDrive};
-use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
+use home::{Actuation, Bridge, Fnv1a, RobotModel, Sensors, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
-use crate::board::{self, OneLine, Outfit, Persistent, SimulatedParts, Sr8730, WATCHDOG_MS};
-use crate::line::Line;
+use crate::board::{self, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730, WATCHDOG_MS};
+use crate::line::SerialLine;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
 
@@ -41,8 +41,8 @@ pub struct SimulatedRobot<O: Outfit = Sr8730> {
     one_line: OneLine,
     model: RobotModel,
     world: World,
-    to_robot: Line,
-    to_host: Line,
+    to_robot: SerialLine,
+    to_host: SerialLine,
     monitor: Monitor,
     bridges: Bridges,
     driven: [WheelDrive; 2],
@@ -54,7 +54,7 @@ pub struct SimulatedRobot<O: Outfit = Sr8730> {
     resets: u32,
     cliff_settled_ms: u32,
     cliff_seen: bool,
-    digest: Digest,
+    digest: Fnv1a,
 }
 
 /// Time after a change of the emitters in which levels mean nothing.
@@ -67,12 +67,12 @@ impl<O: Outfit> SimulatedRobot<O> {
     #[must_use]
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
-            cord: Cord::new(board::fresh(Persistent::first()), parameters_for(O::NAME, model)),
+            cord: Cord::new(board::fresh(PersistentMemory::first()), parameters_for(O::NAME, model)),
             one_line: OneLine::default(),
             model: model.clone(),
             world,
-            to_robot: Line::new(settings.baud, settings.seed),
-            to_host: Line::new(settings.baud, settings.seed.wrapping_add(1)),
+            to_robot: SerialLine::new(settings.baud, settings.seed),
+            to_host: SerialLine::new(settings.baud, settings.seed.wrapping_add(1)),
             monitor: Monitor::new(),
             bridges: settings.bridges,
             driven: [WheelDrive::Brake; 2],
@@ -83,7 +83,7 @@ impl<O: Outfit> SimulatedRobot<O> {
             resets: 0,
             cliff_settled_ms: 0,
             cliff_seen: false,
-            digest: Digest::default(),
+            digest: Fnv1a::default(),
         }
     }
 

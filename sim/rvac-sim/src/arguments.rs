@@ -10,7 +10,7 @@ use rvac_api::CleaningPattern;
 use rvac_sim::baseline::{Origin, title};
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::{RadioSettings, ServeSettings};
-use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
+use rvac_sim::{GyroFitted, PoseSource, CalibrationChoice, SceneSettings};
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
@@ -76,9 +76,9 @@ impl SceneArguments {
             noise: self.noise.clone(),
             firmware: self.firmware.clone(),
             record: if self.uncalibrated {
-                Record::Absent
+                CalibrationChoice::Absent
             } else {
-                Record::Complete
+                CalibrationChoice::Complete
             },
             gyro: self.gyro.unwrap_or(if self.uncalibrated {
                 GyroFitted::Unknown(1)

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::page::LONGEST;
 use crate::run::{RunEnd, RunSettings, household, run_until};
 use crate::trace::KeptRun;
-use crate::{GyroFitted, Record, Scene, SceneSettings};
+use crate::{GyroFitted, CalibrationChoice, Scene, SceneSettings};
 
 /// In what a kept run was made: the same for a run of `bounce` that it can be compared with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,7 +61,7 @@ impl Origin {
             robot: self.robot.clone(),
             noise: self.noise.clone(),
             firmware: None,
-            record: Record::Complete,
+            record: CalibrationChoice::Complete,
             gyro: GyroFitted::Placeholder,
         }
     }

@@ -37,7 +37,7 @@ pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use host_cost::{HostCost, thread_processor_s};
 pub use household::{Household, PoseSource, TICK_US};
-pub use pic32::board::{GyroFitted, Record};
+pub use pic32::board::{GyroFitted, CalibrationChoice};
 pub use report::{Report, StuckWatch};
 pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};

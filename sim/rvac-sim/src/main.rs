@@ -23,7 +23,7 @@ use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError, explain};
+use rvac_sim::{Firmware, Host, Household, CalibrationChoice, Report, Scene, SceneError, explain};
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -165,7 +165,7 @@ fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let model = RobotModel::by_name(&arguments.robot)?;
-    let firmware = Firmware::load(arguments.firmware.as_deref(), &Record::Complete)?;
+    let firmware = Firmware::load(arguments.firmware.as_deref(), &CalibrationChoice::Complete)?;
     if !firmware.suits(&model.name) {
         bail!(SceneError::NoBoard(model.name));
     }

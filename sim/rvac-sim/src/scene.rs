@@ -6,7 +6,7 @@ use std::sync::Arc;
 use home::generate::GeneratedHome;
 use home::traps::{Trap, TrapKind};
 use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, NoiseError, Pose, RobotModel, World};
-use pic32::board::{GyroFitted, Record};
+use pic32::board::{GyroFitted, CalibrationChoice};
 use robot::RobotSettings;
 
 use crate::{Firmware, FirmwareError, Robot};
@@ -23,7 +23,7 @@ pub struct SceneSettings {
     /// File of the firmware image; `None` = the firmware that is built in.
     pub firmware: Option<PathBuf>,
     /// The calibration record in the robot's flash, which only an image for the chip reads.
-    pub record: Record,
+    pub record: CalibrationChoice,
     /// The gyro module on the board of an emulated chip.
     pub gyro: GyroFitted,
 }

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
-use crate::stage::{Stage, StageError, Workshop};
-use crate::trial::{Outcome, Scene, Trial};
+use crate::testbed::{Testbed, TestbedError, Fixture};
+use crate::trial::{TrialOutcome, OperatingState, Trial};
 
 /// Robots of each scene: each with another phase between its core and its surroundings.
 const CAST: u64 = 8;
@@ -15,7 +15,7 @@ const SPREAD_MS: u64 = 100;
 
 /// What came of one trial at all its phases.
 #[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
+pub struct TrialSummary {
     /// Rule of SAFETY.md.
     pub rule: &'static str,
     /// What happened.
@@ -38,26 +38,26 @@ pub struct Verdict {
 
 /// Robots in all scenes that the trials need.
 #[derive(Debug)]
-pub struct Theatre {
-    casts: Vec<(Scene, Vec<Stage>)>,
+pub struct Campaign {
+    casts: Vec<(OperatingState, Vec<Testbed>)>,
 }
 
-impl Theatre {
+impl Campaign {
     /// Brings robots into the scenes of `trials`.
     ///
     /// # Errors
     /// When one does not get there.
-    pub fn open(workshop: &Workshop, trials: &[Trial], phases: usize) -> Result<Self, StageError> {
+    pub fn open(fixture: &Fixture, trials: &[Trial], phases: usize) -> Result<Self, TestbedError> {
         let size = CAST.min(phases as u64).max(1);
-        let wanted = |scene: &Scene| trials.iter().any(|trial| trial.scene == *scene);
-        let cast = |scene: Scene| -> Result<_, StageError> {
-            let stages = (0..size)
+        let wanted = |scene: &OperatingState| trials.iter().any(|trial| trial.scene == *scene);
+        let cast = |scene: OperatingState| -> Result<_, TestbedError> {
+            let testbeds = (0..size)
                 .into_par_iter()
-                .map(|number| scene.set(workshop, number + 1, number * CYCLES_PER_MS / size))
+                .map(|number| scene.set(fixture, number + 1, number * CYCLES_PER_MS / size))
                 .collect::<Result<_, _>>()?;
-            Ok((scene, stages))
+            Ok((scene, testbeds))
         };
-        let casts = Scene::ALL.into_iter().filter(wanted).map(cast);
+        let casts = OperatingState::ALL.into_iter().filter(wanted).map(cast);
         Ok(Self {
             casts: casts.collect::<Result<_, _>>()?,
         })
@@ -65,30 +65,30 @@ impl Theatre {
 
     /// Lets a trial happen at `phases` moments that `seed` chooses.
     #[must_use]
-    pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> Verdict {
+    pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> TrialSummary {
         let mut random = home::Pcg::new(seed, 0);
-        let stages = self
+        let testbeds = self
             .casts
             .iter()
             .find(|(scene, _)| *scene == trial.scene)
-            .map_or(&[][..], |(_, stages)| stages.as_slice());
+            .map_or(&[][..], |(_, testbeds)| testbeds.as_slice());
         let mut phase = || (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
-        let moments: Vec<(&Stage, u64)> = stages
+        let moments: Vec<(&Testbed, u64)> = testbeds
             .iter()
             .cycle()
             .take(phases)
-            .map(|stage| (stage, phase()))
+            .map(|testbed| (testbed, phase()))
             .collect();
-        let outcomes: Vec<Outcome> = moments
+        let outcomes: Vec<TrialOutcome> = moments
             .into_par_iter()
-            .map(|(stage, phase)| trial.run(stage.clone(), phase))
+            .map(|(testbed, phase)| trial.run(testbed.clone(), phase))
             .collect();
-        Verdict::of(trial, &outcomes)
+        TrialSummary::of(trial, &outcomes)
     }
 }
 
-impl Verdict {
-    fn of(trial: &Trial, outcomes: &[Outcome]) -> Self {
+impl TrialSummary {
+    fn of(trial: &Trial, outcomes: &[TrialOutcome]) -> Self {
         let reactions: Option<Vec<f64>> = outcomes.iter().map(|outcome| outcome.reaction_ms).collect();
         let known: Vec<f64> = outcomes
             .iter()

@@ -6,7 +6,7 @@ use home::{Pack, PackMake, Pcg};
 use monitor::Bridges;
 use serde::Serialize;
 
-use crate::stage::{Stage, StageError, Workshop};
+use crate::testbed::{Testbed, TestbedError, Fixture};
 
 const PACKS: u64 = 0xC4A6;
 /// A charge begins within this time on the dock.
@@ -28,7 +28,7 @@ const CONVERTER_ENABLE: u32 = 1 << 1;
 /// What goes wrong while the pack is charged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Trouble {
+pub enum ChargeDisturbance {
     /// Nothing; a pack as they come.
     None,
     /// Nothing; a worn pack.
@@ -45,7 +45,7 @@ pub enum Trouble {
     ConverterStopped,
 }
 
-impl Trouble {
+impl ChargeDisturbance {
     const ALL: [Self; 7] = [
         Self::None,
         Self::ThermistorOpen,
@@ -70,9 +70,9 @@ impl Trouble {
         }
     }
 
-    fn begin(self, stage: &mut Stage) {
-        let now = stage.robot().cycle();
-        let robot = stage.robot_mut();
+    fn begin(self, testbed: &mut Testbed) {
+        let now = testbed.robot().cycle();
+        let robot = testbed.robot_mut();
         match self {
             Self::None | Self::WornPack => {}
             Self::ThermistorOpen => robot.hold_analog(THERMISTOR, OPEN, (now, u64::MAX)),
@@ -86,11 +86,11 @@ impl Trouble {
 
 /// How a charge went.
 #[derive(Clone, Debug, Serialize)]
-pub struct Charge {
+pub struct ChargeResult {
     /// Of the pack and of the moment.
     pub seed: u64,
     /// What went wrong.
-    pub trouble: Trouble,
+    pub trouble: ChargeDisturbance,
     /// Capacity of the pack, Ah.
     pub capacity_ah: f64,
     /// Whether the charge began at all: a pack with a failed cell may be refused.
@@ -105,7 +105,7 @@ pub struct Charge {
     pub violations: u32,
 }
 
-impl Charge {
+impl ChargeResult {
     /// Whether all is as it must be.
     #[must_use]
     pub fn is_good(&self) -> bool {
@@ -114,7 +114,7 @@ impl Charge {
             (Some(_), None) => !self.began,
             (Some(limit_ms), Some(ended_ms)) => ended_ms <= limit_ms,
         };
-        let began = self.began || self.trouble == Trouble::WornPack;
+        let began = self.began || self.trouble == ChargeDisturbance::WornPack;
         ended && began && self.violations == 0 && self.hottest_c < 55.0
     }
 }
@@ -123,20 +123,20 @@ impl Charge {
 ///
 /// # Errors
 /// When the robot does not answer.
-pub fn charge(workshop: &Workshop, seed: u64) -> Result<Charge, StageError> {
+pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError> {
     let mut random = Pcg::new(seed, PACKS);
-    let kinds = Trouble::ALL.len() as u64;
-    let trouble = Trouble::ALL
+    let kinds = ChargeDisturbance::ALL.len() as u64;
+    let trouble = ChargeDisturbance::ALL
         .get((seed % kinds) as usize)
         .copied()
-        .unwrap_or(Trouble::None);
+        .unwrap_or(ChargeDisturbance::None);
     let make = match trouble {
-        Trouble::WornPack => PackMake::worn(&mut random),
+        ChargeDisturbance::WornPack => PackMake::worn(&mut random),
         _ => PackMake::sound(&mut random),
     };
     let (left, ambient_c) = (0.1 + 0.6 * random.unit(), 9.0 + 25.0 * random.unit());
-    let mut stage = on_the_dock(workshop, seed, Pack::new(make, left, ambient_c))?;
-    let mut charge = Charge {
+    let mut testbed = on_the_dock(fixture, seed, Pack::new(make, left, ambient_c))?;
+    let mut charge = ChargeResult {
         seed,
         trouble,
         capacity_ah: make.capacity_ah,
@@ -147,48 +147,48 @@ pub fn charge(workshop: &Workshop, seed: u64) -> Result<Charge, StageError> {
         violations: 0,
     };
     charge.began = (0..BEGINS_MS).any(|_| {
-        stage.tick();
-        current_a(&stage) > CHARGING_A
+        testbed.tick();
+        current_a(&testbed) > CHARGING_A
     });
     let calm_ms = match trouble.limit_ms() {
         Some(_) => CALM_MS + u64::from(random.below(1_000)),
         None => WATCH_MS,
     };
     for _ in 0..calm_ms {
-        stage.tick();
-        charge.highest_a = charge.highest_a.max(current_a(&stage));
+        testbed.tick();
+        charge.highest_a = charge.highest_a.max(current_a(&testbed));
     }
     if let Some(limit_ms) = trouble.limit_ms().filter(|_| charge.began) {
-        trouble.begin(&mut stage);
-        charge.ended_ms = time_of_end(&mut stage, 2 * limit_ms);
+        trouble.begin(&mut testbed);
+        charge.ended_ms = time_of_end(&mut testbed, 2 * limit_ms);
     }
-    charge.hottest_c = stage.robot().world().truth().battery_hottest_c;
-    charge.violations = stage.robot().monitor().count();
+    charge.hottest_c = testbed.robot().world().truth().battery_hottest_c;
+    charge.violations = testbed.robot().monitor().count();
     Ok(charge)
 }
 
-fn on_the_dock(workshop: &Workshop, seed: u64, pack: Pack) -> Result<Stage, StageError> {
-    let mut stage = workshop.stage(seed, Bridges::Sound, seed * 9_973);
-    let world = stage.robot_mut().world_mut();
+fn on_the_dock(fixture: &Fixture, seed: u64, pack: Pack) -> Result<Testbed, TestbedError> {
+    let mut testbed = fixture.testbed(seed, Bridges::Sound, seed * 9_973);
+    let world = testbed.robot_mut().world_mut();
     let dock = world.home().start();
     world.put_down_at(dock);
     world.set_pack(pack);
-    stage.connect()?;
-    Ok(stage)
+    testbed.connect()?;
+    Ok(testbed)
 }
 
 /// When the last current flowed within `watched_ms`, if it does not still flow.
-fn time_of_end(stage: &mut Stage, watched_ms: u64) -> Option<u64> {
+fn time_of_end(testbed: &mut Testbed, watched_ms: u64) -> Option<u64> {
     let mut last_ms = 0;
     for ms in 1..=watched_ms {
-        stage.tick();
-        if current_a(stage) > CHARGING_A {
+        testbed.tick();
+        if current_a(testbed) > CHARGING_A {
             last_ms = ms;
         }
     }
     (last_ms < watched_ms).then_some(last_ms)
 }
 
-fn current_a(stage: &Stage) -> f64 {
-    stage.robot().world().truth().battery_a
+fn current_a(testbed: &Testbed) -> f64 {
+    testbed.robot().world().truth().battery_a
 }

@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use crate::stage::StageError;
+use crate::testbed::TestbedError;
 
 /// Why a campaign has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum CampaignError {
     /// The robot does not get where the trials begin.
     #[error(transparent)]
-    Stage(#[from] StageError),
+    Testbed(#[from] TestbedError),
     /// The result cannot be written.
     #[error("cannot write the result: {0}")]
     Output(#[from] io::Error),

@@ -9,7 +9,7 @@ use rvac_units::{Frequency, Ratio, Throttle};
 use super::{
     Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
     CliffSensors, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
-    HeadingSensor, Lights, Probe, ProximitySensors, WheelCounts, WheelDropSwitches,
+    HeadingSensor, Lights, PinProbe, ProximitySensors, WheelCounts, WheelDropSwitches,
 };
 
 /// Stands for a part the machine lacks. Commands to it are refused as `absent`, and the description says so.
@@ -97,7 +97,7 @@ impl Charger for Absent {
     fn ask_dock(&mut self, _: DockRequest) {}
 }
 
-impl Probe for Absent {
+impl PinProbe for Absent {
     const PRESENT: bool = false;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {

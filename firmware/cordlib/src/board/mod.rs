@@ -35,7 +35,7 @@ pub use ground::{CliffLevels, CliffSensors, Emitters};
 pub use link::{Link, Received};
 pub use panel::{Beeper, Buttons, Lights};
 pub use power::{ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, ThermistorFault};
-pub use probe::Probe;
+pub use probe::PinProbe;
 pub use ranging::{HeadingSensor, ProximitySensors};
 pub use supervision::{HardwareFault, ResetRecord, Watchdog};
 pub use wheels::{Encoders, WheelCounts, WheelDrive, WheelMotors};
@@ -91,7 +91,7 @@ pub trait Parts {
     /// Buttons.
     type Buttons: Buttons;
     /// Raw readings.
-    type Probe: Probe;
+    type Probe: PinProbe;
 }
 
 /// The parts of one machine.

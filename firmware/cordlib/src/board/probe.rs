@@ -3,7 +3,7 @@
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
 /// Raw readings of the pins, without threshold or unit. Reading them changes nothing in the machine.
-pub trait Probe {
+pub trait PinProbe {
     /// Whether raw readings can be had.
     const PRESENT: bool;
 

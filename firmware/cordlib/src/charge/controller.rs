@@ -9,12 +9,12 @@ use crate::parameters::PackParameters;
 use super::current_offset::CurrentOffset;
 use super::faults::FaultWatch;
 use super::gauge::{Gauge, PackLoad};
-use super::guard::{AGE_MAX_MS, Guard, View};
+use super::guard::{AGE_MAX_MS, Guard, ChargeConditions};
 use super::history::History;
-use super::meter::{Averages, CompletedWindows, Meter, Window};
-use super::phases::{Charge, Pulse, Rest};
+use super::meter::{Averages, CompletedWindows, Meter, AveragingWindow};
+use super::phases::{ChargeRecord, MaintenancePulse, Rest};
 use super::regulate::Regulator;
-use super::scale::PackScale;
+use super::scale::PackLimits;
 use super::stops::{AllStops, Detectors, Stops};
 use super::thermometer::Thermometer;
 
@@ -25,7 +25,7 @@ const ASKED_MS: u32 = 2_000;
 
 /// Whether anything on the robot turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motors {
+pub enum MotorActivity {
     /// No motor is driven and no wheel turns.
     Idle,
     /// Something is driven or turns.
@@ -38,7 +38,7 @@ pub struct ChargeContext {
     /// The contacts are closed, debounced, and the robot is not about to leave.
     pub docked: bool,
     /// Whether anything turns.
-    pub motors: Motors,
+    pub motors: MotorActivity,
     /// Estimated load of the parts that are switched on, in mA.
     pub load_ma: i32,
 }
@@ -56,7 +56,7 @@ pub struct ChargeOutput {
 #[derive(Clone, Debug)]
 pub struct ChargeController<S = AllStops> {
     pub(super) pack: PackParameters,
-    pub(super) scale: PackScale,
+    pub(super) scale: PackLimits,
     pub(super) stops: S,
     pub(super) phase: ChargePhase,
     pub(super) fault: Option<ChargeFault>,
@@ -68,8 +68,8 @@ pub struct ChargeController<S = AllStops> {
     pub(super) current_offset: CurrentOffset,
     pub(super) watch: FaultWatch,
     pub(super) detectors: Detectors,
-    pub(super) charge: Charge,
-    pub(super) pulse: Pulse,
+    pub(super) charge: ChargeRecord,
+    pub(super) pulse: MaintenancePulse,
     pub(super) rest: Rest,
     pub(super) regulator: Regulator,
     pub(super) history: History,
@@ -99,7 +99,7 @@ impl<S: Stops> ChargeController<S> {
     pub fn with_stops(pack: PackParameters, stops: S) -> Self {
         Self {
             pack,
-            scale: PackScale::of(&pack),
+            scale: PackLimits::of(&pack),
             stops,
             phase: ChargePhase::Idle,
             fault: None,
@@ -110,8 +110,8 @@ impl<S: Stops> ChargeController<S> {
             current_offset: CurrentOffset::default(),
             watch: FaultWatch::default(),
             detectors: Detectors::default(),
-            charge: Charge::default(),
-            pulse: Pulse::default(),
+            charge: ChargeRecord::default(),
+            pulse: MaintenancePulse::default(),
             rest: Rest::default(),
             regulator: Regulator::default(),
             history: History::new(),
@@ -169,11 +169,11 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn measure(&mut self, windows: &CompletedWindows, context: ChargeContext) {
-        if let Some(averages) = windows.of(Window::Tenth) {
+        if let Some(averages) = windows.of(AveragingWindow::Tenth) {
             self.thermometer.each_tenth(&averages);
             self.tenth = Some(self.current_offset.correct(averages));
         }
-        if let Some(averages) = windows.of(Window::Second) {
+        if let Some(averages) = windows.of(AveragingWindow::Second) {
             self.thermometer.each_second(&averages);
             let no_supply = !self.meter.adapter() && !context.docked;
             if no_supply && self.off_ms >= averages.elapsed_ms {
@@ -202,17 +202,17 @@ impl<S: Stops> ChargeController<S> {
         let ready = wanted
             && self.supplied_ms >= SUPPLIED_MS
             && self.asked_ms >= ASKED_MS
-            && context.motors == Motors::Idle;
+            && context.motors == MotorActivity::Idle;
         if !ready {
             self.regulator.restart();
         } else {
             self.charge.want(elapsed_ms);
-            if let Some(averages) = windows.of(Window::Envelope) {
+            if let Some(averages) = windows.of(AveragingWindow::Envelope) {
                 let current_ma = self.current_offset.correct(averages).current_ma;
                 self.regulator
                     .fold_back(current_ma, self.scale.fold_back_ma(), target_ma);
             }
-            if let (Some(_), Some(averages)) = (windows.of(Window::Tenth), self.tenth) {
+            if let (Some(_), Some(averages)) = (windows.of(AveragingWindow::Tenth), self.tenth) {
                 self.regulator.control(averages.current_ma, target_ma);
             }
         }
@@ -236,10 +236,10 @@ impl<S: Stops> ChargeController<S> {
         self.output
     }
 
-    fn view(&self, context: ChargeContext) -> View {
-        View {
+    fn view(&self, context: ChargeContext) -> ChargeConditions {
+        ChargeConditions {
             supplied: context.docked && self.meter.adapter(),
-            motors_idle: context.motors == Motors::Idle,
+            motors_idle: context.motors == MotorActivity::Idle,
             age_ms: self.meter.age_ms(),
             temperature_cc: self.thermometer.cc(),
             pack_mv: self.tenth.map(|averages| averages.pack_mv),

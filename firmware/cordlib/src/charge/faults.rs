@@ -7,7 +7,7 @@ use crate::board::ThermistorFault;
 use super::controller::{ChargeContext, ChargeController};
 use super::frozen_sensor::FrozenSensorDetector;
 use super::guard::AGE_MAX_MS;
-use super::meter::{Averages, CompletedWindows, Window};
+use super::meter::{Averages, CompletedWindows, AveragingWindow};
 use super::stops::Stops;
 
 const TOO_HOT_CC: i32 = 5_500;
@@ -102,7 +102,7 @@ impl<S: Stops> ChargeController<S> {
             return None;
         }
         let leak = windows
-            .of(Window::Tenth)
+            .of(AveragingWindow::Tenth)
             .and_then(|averages| self.find_leak(&averages));
         if self.phase == ChargePhase::Fault {
             return leak.filter(|_| self.fault != Some(ChargeFault::Shorted));
@@ -123,14 +123,14 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn find_in_envelope(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
-        let averages = windows.of(Window::Envelope)?;
+        let averages = windows.of(AveragingWindow::Envelope)?;
         let current_ma = self.current_offset.correct(averages).current_ma;
         let over = self.off_ms == 0 && current_ma > self.scale.over_current_ma();
         lasts(&mut self.watch.over_ms, over, averages.elapsed_ms, OVER_MS).then_some(ChargeFault::OverCurrent)
     }
 
     fn find_in_tenth(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
-        let averages = windows.of(Window::Tenth)?;
+        let averages = windows.of(AveragingWindow::Tenth)?;
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
         if averages.input_mv > ADAPTER_MAX_MV {
             return Some(ChargeFault::Adapter);
@@ -158,7 +158,7 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn find_in_second(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
-        let averages = self.current_offset.correct(windows.of(Window::Second)?);
+        let averages = self.current_offset.correct(windows.of(AveragingWindow::Second)?);
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
         if at_work && averages.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
             return Some(ChargeFault::TooHot);
@@ -188,7 +188,7 @@ impl<S: Stops> ChargeController<S> {
 
     /// Ten seconds of rest show a current that cannot flow.
     fn find_wrong_offset(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
-        let averages = self.current_offset.correct(windows.of(Window::TenSeconds)?);
+        let averages = self.current_offset.correct(windows.of(AveragingWindow::TenSeconds)?);
         let needed = self.phase == ChargePhase::Idle && averages.pack_mv < self.scale.recharge_mv();
         let rested = self.off_ms >= averages.elapsed_ms.saturating_add(SETTLE_MS);
         let docked = self.docked_ms >= averages.elapsed_ms;

@@ -17,7 +17,7 @@ pub(super) const REST_MS: u32 = 1_860_000;
 
 /// The readings that the guard checks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct ChargeConditions {
     /// On the dock's contacts, which carry a supply, and not about to leave.
     pub(super) supplied: bool,
     /// No motor is driven and no wheel turns.
@@ -38,7 +38,7 @@ pub(super) struct Guard {
 
 impl Guard {
     /// The part of the request that may reach the switch. `elapsed_ms` is the time since the last call.
-    pub(super) fn permit(&mut self, request: ChargeDrive, view: &View, elapsed_ms: u32) -> ChargeDrive {
+    pub(super) fn permit(&mut self, request: ChargeDrive, view: &ChargeConditions, elapsed_ms: u32) -> ChargeDrive {
         let drive = if self.allows(view) {
             request
         } else {
@@ -52,7 +52,7 @@ impl Guard {
         drive
     }
 
-    fn allows(&self, view: &View) -> bool {
+    fn allows(&self, view: &ChargeConditions) -> bool {
         let (least_mv, most_mv) = view.pack_range_mv;
         view.supplied
             && view.motors_idle
@@ -79,11 +79,11 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use super::{FLOW_MAX_MS, Guard, View};
+    use super::{FLOW_MAX_MS, Guard, ChargeConditions};
     use crate::board::ChargeDrive;
     use rvac_units::Ratio;
 
-    const GOOD: View = View {
+    const GOOD: ChargeConditions = ChargeConditions {
         supplied: true,
         motors_idle: true,
         age_ms: 20,
@@ -101,36 +101,36 @@ mod tests {
         let request = duty(500_000);
         assert_eq!(Guard::default().permit(request, &GOOD, 1), request);
         let bad = [
-            View {
+            ChargeConditions {
                 supplied: false,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 motors_idle: false,
                 ..GOOD
             },
-            View { age_ms: 201, ..GOOD },
-            View {
+            ChargeConditions { age_ms: 201, ..GOOD },
+            ChargeConditions {
                 temperature_cc: None,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 temperature_cc: Some(5_101),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 temperature_cc: Some(-101),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: None,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: Some(8_999),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: Some(20_601),
                 ..GOOD
             },

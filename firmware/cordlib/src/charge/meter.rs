@@ -16,7 +16,7 @@ const NEVER_MS: u32 = u32::MAX;
 
 /// One of the windows, by its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Window {
+pub(super) enum AveragingWindow {
     Envelope = 0,
     Tenth = 1,
     Second = 2,
@@ -69,7 +69,7 @@ pub(super) struct Meter {
 
 impl CompletedWindows {
     /// The averages of this window, if it was completed just now and had a sample.
-    pub(super) fn of(&self, window: Window) -> Option<Averages> {
+    pub(super) fn of(&self, window: AveragingWindow) -> Option<Averages> {
         self.averages.get(window as usize).copied().flatten()
     }
 }
@@ -208,7 +208,7 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
-    use super::{Meter, Window};
+    use super::{Meter, AveragingWindow};
     use crate::board::{ChargerReadings, ThermistorFault};
     use rvac_units::{Temperature, Tick};
 
@@ -231,7 +231,7 @@ mod tests {
         for ms in 1..=1_000_u32 {
             let counts = if ms % 4 == 0 { 500 } else { 501 };
             let windows = meter.take(Some(readings(counts * 32, 0)), 1, Tick(start.wrapping_add(ms)));
-            averages = windows.of(Window::Second).or(averages);
+            averages = windows.of(AveragingWindow::Second).or(averages);
         }
         let averages = averages.unwrap();
         assert_eq!((averages.pack_mv, averages.temperature_cc), (16_024, Some(2_500)));
@@ -250,7 +250,7 @@ mod tests {
                 1,
                 Tick(ms),
             );
-            if let Some(averages) = windows.of(Window::Envelope) {
+            if let Some(averages) = windows.of(AveragingWindow::Envelope) {
                 assert_eq!(averages.pack_mv, 10_000);
             }
         }
@@ -262,7 +262,7 @@ mod tests {
         let mut meter = Meter::new();
         for ms in 1..=300_u32 {
             let windows = meter.take(None, 1, Tick(ms));
-            assert_eq!(windows.of(Window::Tenth), None);
+            assert_eq!(windows.of(AveragingWindow::Tenth), None);
         }
         assert!(meter.age_ms() > 200);
     }
@@ -278,7 +278,7 @@ mod tests {
         for ms in 1..=20_u32 {
             averages = meter
                 .take(Some(broken), 1, Tick(ms))
-                .of(Window::Envelope)
+                .of(AveragingWindow::Envelope)
                 .or(averages);
         }
         let averages = averages.unwrap();

@@ -5,9 +5,9 @@ use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use super::controller::{ChargeContext, ChargeController};
 use super::faults::OFFSET_FAULT_MA;
 use super::guard;
-use super::meter::{Averages, CompletedWindows, Window};
-use super::scale::PackScale;
-use super::stops::{Detectors, Progress, Stops, TIME_MS};
+use super::meter::{Averages, CompletedWindows, AveragingWindow};
+use super::scale::PackLimits;
+use super::stops::{Detectors, ChargeProgress, Stops, TIME_MS};
 
 /// The contacts must be closed this long before a charge begins.
 const DOCKED_MS: u32 = 1_000;
@@ -40,7 +40,7 @@ const PULSE_REST_MS: u32 = 100_000;
 
 /// Counts of one charge.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Charge {
+pub(super) struct ChargeRecord {
     /// Time in which current was wanted and could flow.
     flowed_ms: u32,
     charged_mas: u32,
@@ -53,7 +53,7 @@ pub(super) struct Charge {
     flowing: bool,
 }
 
-impl Charge {
+impl ChargeRecord {
     pub(super) const fn pass(&mut self, charging: bool, elapsed_ms: u32) {
         self.paused_ms = self.paused_ms.saturating_add(elapsed_ms);
         if !charging && self.paused_ms >= AWAY_MS {
@@ -113,8 +113,8 @@ impl Charge {
         self.flowed_ms < span_ms
     }
 
-    fn progress(&self, scale: PackScale) -> Progress {
-        Progress {
+    fn progress(&self, scale: PackLimits) -> ChargeProgress {
+        ChargeProgress {
             phase_ms: self.phase_ms,
             flowed_ms: self.flowed_ms,
             charged_mas: self.charged_mas,
@@ -127,7 +127,7 @@ impl Charge {
 
 /// Pulses of `maintain`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Pulse {
+pub(super) struct MaintenancePulse {
     on: bool,
     ms: u32,
     from_mas: u32,
@@ -197,7 +197,7 @@ impl<S: Stops> ChargeController<S> {
             self.detectors.restart();
             self.charge.phase_ms = 0;
         }
-        if let Some(averages) = windows.of(Window::Second) {
+        if let Some(averages) = windows.of(AveragingWindow::Second) {
             let averages = self.current_offset.correct(averages);
             match self.phase {
                 ChargePhase::Idle => self.consider(&averages),
@@ -208,7 +208,7 @@ impl<S: Stops> ChargeController<S> {
                 ChargePhase::Fault => {}
             }
         }
-        if let (Some(averages), ChargePhase::Fast) = (windows.of(Window::TenSeconds), self.phase) {
+        if let (Some(averages), ChargePhase::Fast) = (windows.of(AveragingWindow::TenSeconds), self.phase) {
             let averages = self.current_offset.correct(averages);
             let progress = self.charge.progress(self.scale);
             let found = self.detectors.each_ten_seconds(&averages, &progress, &self.stops);
@@ -341,9 +341,9 @@ impl<S: Stops> ChargeController<S> {
         };
         self.rest.wait(self.rest.recharge_ms);
         self.charge.finish();
-        self.pulse = Pulse {
+        self.pulse = MaintenancePulse {
             cool_ms: REST_MS,
-            ..Pulse::default()
+            ..MaintenancePulse::default()
         };
         self.full = true;
         self.gauge.fill();
@@ -374,7 +374,7 @@ impl<S: Stops> ChargeController<S> {
             self.pulse.on = false;
         } else if !self.pulse.on && self.pulse.ms >= PULSE_PERIOD_MS {
             let due = in_window && drain_mas > 0 && self.pulse.cool_ms == 0 && self.history.may_maintain();
-            self.pulse = Pulse {
+            self.pulse = MaintenancePulse {
                 on: due,
                 ms: 0,
                 from_mas: self.charge.charged_mas,

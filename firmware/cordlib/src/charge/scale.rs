@@ -6,13 +6,13 @@ use crate::parameters::PackParameters;
 
 /// Limits of a pack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PackScale {
+pub(super) struct PackLimits {
     cells: i32,
     capacity_mah: i32,
     current_max_ma: i32,
 }
 
-impl PackScale {
+impl PackLimits {
     pub(super) fn of(pack: &PackParameters) -> Self {
         Self {
             cells: i32::from(pack.cells),

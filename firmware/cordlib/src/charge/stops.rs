@@ -6,7 +6,7 @@ use rvac_protocol::message::ChargeEnd;
 use crate::limit::within;
 
 use super::meter::Averages;
-use super::scale::PackScale;
+use super::scale::PackLimits;
 
 /// Which stops apply. The firmware uses [`AllStops`]; the campaign that tests each one alone uses its own.
 pub trait Stops {
@@ -53,7 +53,7 @@ const FINE: i32 = 16;
 
 /// The state of a charge that the stops need.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress {
+pub(super) struct ChargeProgress {
     /// Time since the current began to flow at this rate, in ms.
     pub(super) phase_ms: u32,
     /// Time in which current was wanted, in the whole charge, in ms.
@@ -64,7 +64,7 @@ pub(super) struct Progress {
     pub(super) start_cc: i32,
     /// The full current flows, so that 0dV is meaningful.
     pub(super) full_rate: bool,
-    pub(super) scale: PackScale,
+    pub(super) scale: PackLimits,
 }
 
 /// The stops that need a history.
@@ -88,7 +88,7 @@ impl Detectors {
     /// The limits, checked once a second.
     pub(super) fn each_second(
         averages: &Averages,
-        progress: &Progress,
+        progress: &ChargeProgress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
         let temperature_cc = averages.temperature_cc;
@@ -118,7 +118,7 @@ impl Detectors {
     pub(super) fn each_ten_seconds(
         &mut self,
         averages: &Averages,
-        progress: &Progress,
+        progress: &ChargeProgress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
         let temperature_slope = self.is_temperature_slope(averages, progress);
@@ -135,7 +135,7 @@ impl Detectors {
             .find_map(|(end, is_found)| (is_found && stops.applies(end)).then_some(end))
     }
 
-    fn is_temperature_slope(&mut self, averages: &Averages, progress: &Progress) -> bool {
+    fn is_temperature_slope(&mut self, averages: &Averages, progress: &ChargeProgress) -> bool {
         let Some(newest_cc) = averages.temperature_cc else {
             self.temperatures_cc.clear();
             return false;
@@ -165,7 +165,7 @@ impl Detectors {
         self.smooth = Some(smooth);
     }
 
-    fn is_negative_delta_v(&mut self, current_ma: i32, progress: &Progress) -> bool {
+    fn is_negative_delta_v(&mut self, current_ma: i32, progress: &ChargeProgress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
         let changed = current_ma.saturating_sub(self.peak_current_ma).saturating_abs() > SAME_CURRENT_MA;
         if smooth > self.peak || changed || progress.phase_ms < NEGATIVE_DELTA_V_HOLD_OFF_MS {
@@ -185,7 +185,7 @@ impl Detectors {
     }
 
     /// Applies at full current only: at C/10 the voltage is flat all the time.
-    fn is_zero_delta_v(&mut self, progress: &Progress) -> bool {
+    fn is_zero_delta_v(&mut self, progress: &ChargeProgress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
         let rise = smooth.saturating_sub(self.zero_delta_v_from);
         if rise >= progress.scale.zero_delta_v_mv().saturating_mul(FINE) || !progress.full_rate {

@@ -6,7 +6,7 @@ mod base;
 mod path;
 mod wheel;
 
-pub(crate) use path::{Pace, Path};
+pub(crate) use path::{MoveLimits, Path};
 pub(crate) use wheel::{CONTROL_MS, WheelStatus};
 
 use rvac_protocol::message::{Drive, Gyro, MotionPhase, MoveEnd};
@@ -22,7 +22,7 @@ use wheel::{WheelController, WheelGoal};
 
 /// One of the two driven wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub(crate) enum WheelSide {
     Left,
     Right,
 }
@@ -121,7 +121,7 @@ impl Motion {
     }
 
     /// Starts or renews a directly commanded duty. The other wheel keeps its duty.
-    pub(crate) fn direct(&mut self, side: Side, duty: Throttle, lease_end: Tick) -> Option<Ending> {
+    pub(crate) fn direct(&mut self, side: WheelSide, duty: Throttle, lease_end: Tick) -> Option<Ending> {
         let lease = Deadline::at(lease_end);
         let new = DirectDuty { duty, lease };
         let (mut left, mut right) = match self.activity {
@@ -129,8 +129,8 @@ impl Motion {
             _ => <(DirectDuty, DirectDuty)>::default(),
         };
         match side {
-            Side::Left => left = new,
-            Side::Right => right = new,
+            WheelSide::Left => left = new,
+            WheelSide::Right => right = new,
         }
         let goes_on = matches!(self.activity, Activity::Direct { .. });
         let next = Activity::Direct { left, right };

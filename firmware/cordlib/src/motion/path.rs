@@ -24,7 +24,7 @@ const TIMEOUT_SLACK_MS: i64 = 2_000;
 
 /// Limits of one move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Pace {
+pub(crate) struct MoveLimits {
     /// Speed of the centre, in µm/s.
     pub(crate) speed_um_per_s: i32,
     /// Turn rate, in µrad/s.
@@ -68,7 +68,7 @@ impl Path {
     /// Plans a move. `None` if there is nothing to do.
     pub(crate) fn plan(
         movement: &Move,
-        pace: Pace,
+        pace: MoveLimits,
         parameters: &Parameters,
         start: (Tick, Option<Gyro>),
     ) -> Option<Self> {

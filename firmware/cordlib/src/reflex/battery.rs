@@ -45,7 +45,7 @@ pub(crate) struct PackView {
 
 /// One threshold of the voltage.
 #[derive(Clone, Copy, Debug, Default)]
-struct Level {
+struct VoltageLevel {
     active: bool,
     below: HoldTimer,
     charged: HoldTimer,
@@ -55,7 +55,7 @@ struct Level {
 /// State of the battery rules.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BatteryRule {
-    levels: [Level; LEVELS.len()],
+    levels: [VoltageLevel; LEVELS.len()],
     hot: bool,
     hot_for: HoldTimer,
     overheated_for: HoldTimer,
@@ -120,7 +120,7 @@ impl BatteryRule {
     }
 }
 
-impl Level {
+impl VoltageLevel {
     fn fall(&mut self, above_mv: i32, now: Tick, span_ms: u32) {
         self.active |= self.below.for_at_least(above_mv < 0, now, span_ms);
     }

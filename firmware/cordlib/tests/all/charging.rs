@@ -2,7 +2,7 @@
 
 use crate::dock::Dock;
 use cordlib::board::ChargeDrive;
-use cordlib::charge::Motors;
+use cordlib::charge::MotorActivity;
 use rvac_protocol::message::{ChargeEnd, ChargePhase};
 
 const MINUTE_S: u32 = 60;
@@ -392,10 +392,10 @@ fn current_stops_in_the_same_pass_when_the_supply_goes_or_a_motor_runs() {
     assert!(dock.is_off(), "the contacts must hold for a second");
     dock.run_s(30.0);
     assert!(dock.current_ma() > 900);
-    dock.motors = Motors::Running;
+    dock.motors = MotorActivity::Running;
     dock.step();
     assert!(dock.is_off());
-    dock.motors = Motors::Idle;
+    dock.motors = MotorActivity::Idle;
     dock.run_s(1.0);
     dock.docked = false;
     dock.step();

@@ -4,7 +4,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 /// A motor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motor {
+pub enum InterlockedMotor {
     /// Left wheel.
     WheelLeft = 1,
     /// Right wheel.
@@ -20,7 +20,7 @@ pub enum Motor {
 /// Which motors may draw current. The main program writes, handlers read.
 #[derive(Debug)]
 struct Interlock {
-    /// A bit for each, as [`Motor`] numbers them.
+    /// A bit for each, as [`InterlockedMotor`] numbers them.
     driven: AtomicU32,
 }
 
@@ -35,7 +35,7 @@ impl Interlock {
     }
 
     #[inline(always)]
-    fn note(&self, motor: Motor, driven: bool) {
+    fn note(&self, motor: InterlockedMotor, driven: bool) {
         let motors = self.driven.load(Ordering::Relaxed);
         let changed = if driven {
             motors | motor as u32
@@ -51,7 +51,7 @@ impl Interlock {
     }
 }
 
-impl Motor {
+impl InterlockedMotor {
     /// Notes whether it may draw current. Called from the main program only.
     pub(super) fn note(self, driven: bool) {
         INTERLOCK.note(self, driven);
@@ -67,14 +67,14 @@ pub(super) fn any_motor_driven() -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Interlock, Motor};
+    use super::{Interlock, InterlockedMotor};
 
-    const MOTORS: [Motor; 5] = [
-        Motor::WheelLeft,
-        Motor::WheelRight,
-        Motor::BrushMain,
-        Motor::BrushSides,
-        Motor::Vacuum,
+    const MOTORS: [InterlockedMotor; 5] = [
+        InterlockedMotor::WheelLeft,
+        InterlockedMotor::WheelRight,
+        InterlockedMotor::BrushMain,
+        InterlockedMotor::BrushSides,
+        InterlockedMotor::Vacuum,
     ];
 
     #[test]

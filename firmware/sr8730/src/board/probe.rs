@@ -1,6 +1,6 @@
 //! Raw readings for a person who calibrates: what stands on the pins, before any threshold or unit.
 
-use cordlib::board::Probe;
+use cordlib::board::PinProbe;
 use pic32mx3_hal::gpio::Port;
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
@@ -27,7 +27,7 @@ impl RawReadings {
     }
 }
 
-impl Probe for RawReadings {
+impl PinProbe for RawReadings {
     const PRESENT: bool = true;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {

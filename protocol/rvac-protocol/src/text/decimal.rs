@@ -28,7 +28,7 @@ const POWERS: [u64; 20] = {
 impl Decimal {
     /// Reads the number at the beginning of `bytes`; gives it and its length. `None` if JSON has no such number.
     pub(crate) fn read(bytes: &[u8]) -> Option<(Self, usize)> {
-        let mut reader = Reader {
+        let mut reader = DecimalReader {
             bytes,
             at: 0,
             digits: 0,
@@ -76,14 +76,14 @@ impl Decimal {
     }
 }
 
-struct Reader<'a> {
+struct DecimalReader<'a> {
     bytes: &'a [u8],
     at: usize,
     digits: u32,
     number: Decimal,
 }
 
-impl Reader<'_> {
+impl DecimalReader<'_> {
     fn peek(&self) -> Option<u8> {
         self.bytes.get(self.at).copied()
     }

@@ -20,6 +20,6 @@ mod write;
 
 pub use command_read::{Form, RefusedCommand, is_stop, read_command};
 pub use command_write::{write_command, write_command_with_crc};
-pub use report_info::{Firmware, InfoPart};
+pub use report_info::{FirmwareInfo, InfoPart};
 pub use report_read::{ReportPacket, read_report};
 pub use report_write::{write_report, write_report_with_crc};

@@ -16,7 +16,7 @@ use crate::span;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InfoPart {
     /// Versions and rates.
-    pub firmware: Option<Firmware>,
+    pub firmware: Option<FirmwareInfo>,
     /// Battery readings.
     pub battery: Option<Battery>,
     /// Link counters of the robot.
@@ -25,7 +25,7 @@ pub struct InfoPart {
 
 /// Versions and rates.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Firmware {
+pub struct FirmwareInfo {
     /// `firmware-version`
     pub firmware_version: Name,
     /// `cordlib-version`
@@ -146,8 +146,8 @@ pub(super) fn read(text: &[u8]) -> Result<InfoPart, Refusal> {
     })
 }
 
-fn read_firmware(fields: &Fields<'_, 6>) -> Result<Firmware, Refusal> {
-    Ok(Firmware {
+fn read_firmware(fields: &Fields<'_, 6>) -> Result<FirmwareInfo, Refusal> {
+    Ok(FirmwareInfo {
         firmware_version: read_name(fields.text(1)?)?,
         cordlib_version: read_name(fields.text(2)?)?,
         main_steps_hz: fields.total(3)?,

@@ -37,7 +37,7 @@ pub enum Measured {
 
 /// What the radio measures.
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum RadioKind {
     Ranges,
     Strengths(Air),
 }
@@ -46,7 +46,7 @@ enum Kind {
 #[derive(Clone, Debug)]
 pub struct Beacons {
     places: Vec<(f64, f64)>,
-    kind: Kind,
+    kind: RadioKind,
     delays: u64,
     random: Pcg,
     steps: u64,
@@ -81,7 +81,7 @@ impl Beacons {
             .collect();
         Self {
             places,
-            kind: Kind::Ranges,
+            kind: RadioKind::Ranges,
             delays: u64::from(random.next_u32()) << 32 | u64::from(random.next_u32()),
             random,
             steps: 0,
@@ -92,7 +92,7 @@ impl Beacons {
     #[must_use]
     pub fn by_strength(self) -> Self {
         Self {
-            kind: Kind::Strengths(Air::new(self.delays)),
+            kind: RadioKind::Strengths(Air::new(self.delays)),
             ..self
         }
     }
@@ -113,8 +113,8 @@ impl Beacons {
         let place = *self.places.get(turn)?;
         let number = u16::try_from(turn).ok()?;
         let measured = match self.kind {
-            Kind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
-            Kind::Strengths(air) => {
+            RadioKind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
+            RadioKind::Strengths(air) => {
                 Measured::Strength(air.receive((home, pose), (number, place), &mut self.random)?)
             }
         };

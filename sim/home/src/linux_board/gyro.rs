@@ -1,12 +1,12 @@
 //! A MEMS gyro on the Linux board: the noise of [`crate::Noise`], and a bias that follows the board as it warms up.
 
 use crate::world::{DRIFT_STEPS, WALK_STEPS, WorldGyro};
-use crate::{Gyro, Noise, Pcg, wrap_angle};
+use crate::{GyroModel, Noise, Pcg, wrap_angle};
 
 /// Stream of random numbers, beside those of the world.
 const STREAM: u64 = 5;
 /// The smallest step of the total: what the daemon's reader sends are microradians.
-const PART: Gyro = Gyro { resolution_rad: 1e-6 };
+const PART: GyroModel = GyroModel { resolution_rad: 1e-6 };
 /// How much a small Linux board warms up in a closed robot, kelvin, and the time constant in seconds. Placeholders: no robot
 /// was measured.
 const WARMING_K: f64 = 18.0;

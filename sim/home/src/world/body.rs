@@ -36,7 +36,7 @@ pub(crate) struct Body {
     /// No solid thing is nearer to the rim than this, metres.
     pub(crate) free_m: f64,
     /// Direction of the present contact from straight ahead.
-    pub(crate) contact: Option<Contact>,
+    pub(crate) contact: Option<BodyContact>,
     left_until_ms: u64,
     right_until_ms: u64,
     last_contact_ms: Option<u64>,
@@ -45,7 +45,7 @@ pub(crate) struct Body {
 
 /// What the body touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Contact {
+pub(crate) struct BodyContact {
     /// Cosine of its direction from straight ahead.
     pub(crate) forward: f64,
     /// Sine of its direction from straight ahead, left positive.
@@ -173,7 +173,7 @@ impl Body {
         } else {
             1.0
         };
-        self.contact = Some(Contact {
+        self.contact = Some(BodyContact {
             forward,
             left,
             compression,

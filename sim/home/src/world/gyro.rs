@@ -28,7 +28,7 @@ pub(crate) struct Gyro {
 }
 
 impl Gyro {
-    pub(crate) fn new(part: &model::Gyro, noise: &Noise, random: &mut Pcg) -> Self {
+    pub(crate) fn new(part: &model::GyroModel, noise: &Noise, random: &mut Pcg) -> Self {
         Self {
             steps_per_rad: 1.0 / part.resolution_rad,
             step_urad: part.resolution_rad * 1e6,

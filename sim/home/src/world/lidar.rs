@@ -14,7 +14,7 @@ const HIT_M: f64 = 0.003;
 /// The lidar: measures a few beams in every step, so a scan is taken while the robot moves, as a real one is.
 #[derive(Clone, Debug)]
 pub(crate) struct Lidar {
-    part: model::Lidar,
+    part: model::LidarModel,
     beams_per_step: f64,
     due: f64,
     next: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Lidar {
 }
 
 impl Lidar {
-    pub(crate) fn new(part: model::Lidar) -> Self {
+    pub(crate) fn new(part: model::LidarModel) -> Self {
         let beams = usize::from(part.beams);
         Self {
             part,

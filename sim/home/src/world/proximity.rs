@@ -51,7 +51,7 @@ pub(crate) struct Proximity {
 }
 
 impl Proximity {
-    pub(crate) fn new(part: &model::Proximity, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
+    pub(crate) fn new(part: &model::ProximityModel, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
         let skin_m = radius_m - part.mount_radius_m;
         let near_light = part
             .near_m

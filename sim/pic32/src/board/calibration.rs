@@ -31,7 +31,7 @@ struct RawValue {
     _unit: String,
     range: [i32; 2],
     #[serde(rename = "confidence")]
-    _confidence: super::pinout::Confidence,
+    _confidence: super::pinout::RowConfidence,
     #[serde(rename = "assumed")]
     _assumed: Option<i32>,
     #[serde(rename = "needed-for")]
@@ -43,11 +43,11 @@ struct RawValue {
 
 /// The calibration values of a robot, in the order of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Calibration {
+pub struct CalibrationValues {
     values: Vec<(String, i32)>,
 }
 
-impl Calibration {
+impl CalibrationValues {
     /// Reads the calibration table out of the text of a `robot.toml`.
     ///
     /// # Errors
@@ -202,7 +202,7 @@ impl Particulars {
     ///
     /// # Errors
     /// [`BoardError::NoValue`].
-    pub fn of(calibration: &Calibration) -> Result<Self, BoardError> {
+    pub fn of(calibration: &CalibrationValues) -> Result<Self, BoardError> {
         let value = |name| calibration.value(name);
         // The ranges of the file keep these within their types; what does not fit saturates.
         let small = |name| Ok::<u8, BoardError>(value(name)?.clamp(0, 255) as u8);
@@ -239,7 +239,7 @@ impl Particulars {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, Particulars, crc32c};
+    use super::{CalibrationValues, Particulars, crc32c};
     use crate::board::BoardError;
 
     const ROW: &str = "[[calibration]]\nname = 'way'\nunit = 'nm'\nrange = [1, 9]\nconfidence = 'unknown'\nneeded-for = 'n'\nmeasure = 'm'\nsimulated = 5\n";
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn a_record_is_laid_out_as_the_firmware_reads_it() {
         let text = format!("{ROW}{}", ROW.replace("way", "track").replace('5', "2"));
-        let calibration = Calibration::parse(&text).unwrap();
+        let calibration = CalibrationValues::parse(&text).unwrap();
         let record = calibration.record();
         assert_eq!(record[..16], *b"RCAL\x01\0\x02\0\x05\0\0\0\x02\0\0\0");
         assert_eq!(record[16..], crc32c(&record[..16]).to_le_bytes());
@@ -268,14 +268,14 @@ mod tests {
             (String::new(), "calibration"),
             (ROW.repeat(1025), "1025"),
         ] {
-            let message = Calibration::parse(&text).unwrap_err().to_string();
+            let message = CalibrationValues::parse(&text).unwrap_err().to_string();
             assert!(message.contains(named), "{message} does not name {named}");
         }
     }
 
     #[test]
     fn the_project_s_own_robot_has_all_that_the_circuits_need() {
-        let calibration = Calibration::sr8730().unwrap();
+        let calibration = CalibrationValues::sr8730().unwrap();
         let particulars = Particulars::of(&calibration).unwrap();
         assert_eq!(particulars.ladder.len(), 3);
         assert_eq!(calibration.value("no-such"), Err(BoardError::NoValue("no-such")));

@@ -5,8 +5,8 @@
 
 use home::{Pcg, Sensors};
 
-use super::encoder::Edge;
-use super::wiring::{Line, Wiring};
+use super::encoder::ScheduledEdge;
+use super::wiring::{DigitalLine, Wiring};
 use super::{CYCLES_PER_MS, CYCLES_PER_S};
 
 /// A switch.
@@ -40,7 +40,7 @@ impl Contact {
         Self::Adapter,
     ];
 
-    fn line(self, wiring: &Wiring) -> Line {
+    fn line(self, wiring: &Wiring) -> DigitalLine {
         match self {
             Self::BumperLeft => wiring.bumpers[0],
             Self::BumperRight => wiring.bumpers[1],
@@ -78,7 +78,7 @@ pub enum Hold {
 
 /// From now on, or from a cycle to come, somebody else says how a switch stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Plan {
+struct ContactOverride {
     cycle: u64,
     contact: Contact,
     hold: Hold,
@@ -87,12 +87,12 @@ struct Plan {
 /// All switches.
 #[derive(Clone, Debug)]
 pub(super) struct Contacts {
-    lines: [Line; Contact::ALL.len()],
+    lines: [DigitalLine; Contact::ALL.len()],
     on: [bool; Contact::ALL.len()],
     /// How they stood at the beginning of the millisecond.
     before: [bool; Contact::ALL.len()],
     holds: [Hold; Contact::ALL.len()],
-    plans: Vec<Plan>,
+    plans: Vec<ContactOverride>,
     bounce_cycles: u64,
     random: Pcg,
 }
@@ -116,7 +116,7 @@ impl Contacts {
     }
 
     /// The levels now, as edges at `cycle`.
-    pub(super) fn levels(&self, cycle: u64) -> [Edge; Contact::ALL.len()] {
+    pub(super) fn levels(&self, cycle: u64) -> [ScheduledEdge; Contact::ALL.len()] {
         Contact::ALL.map(|contact| {
             let line = self.lines[contact as usize];
             (cycle, line.pin, line.level(self.on[contact as usize]))
@@ -125,7 +125,7 @@ impl Contacts {
 
     /// Somebody else says how the switch stands, from this cycle on.
     pub(super) fn plan(&mut self, contact: Contact, hold: Hold, cycle: u64) {
-        self.plans.push(Plan { cycle, contact, hold });
+        self.plans.push(ContactOverride { cycle, contact, hold });
     }
 
     /// Whether the switch is on, bounces left out.
@@ -139,7 +139,7 @@ impl Contacts {
     }
 
     /// Edges of the millisecond that begins at `from`.
-    pub(super) fn pass_ms(&mut self, from: u64, sensors: &Sensors, edges: &mut Vec<Edge>) {
+    pub(super) fn pass_ms(&mut self, from: u64, sensors: &Sensors, edges: &mut Vec<ScheduledEdge>) {
         for contact in Contact::ALL {
             let on = self.wanted(contact, sensors);
             self.switch(contact, (on, from), edges);
@@ -167,7 +167,7 @@ impl Contacts {
         }
     }
 
-    fn switch(&mut self, contact: Contact, (on, cycle): (bool, u64), edges: &mut Vec<Edge>) {
+    fn switch(&mut self, contact: Contact, (on, cycle): (bool, u64), edges: &mut Vec<ScheduledEdge>) {
         let place = contact as usize;
         if on == self.on[place] {
             return;

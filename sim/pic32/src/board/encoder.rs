@@ -1,11 +1,11 @@
 //! Encoders: two lines a wheel in quadrature, and the pulses of the main brush.
 
 use super::CYCLES_PER_MS;
-use super::wiring::Line;
+use super::wiring::DigitalLine;
 use crate::pins::{Level, Pin};
 
 /// An edge that is to come: cycle, pin, level after it.
-pub(super) type Edge = (u64, Pin, Level);
+pub(super) type ScheduledEdge = (u64, Pin, Level);
 
 /// Where a wheel's encoder stands, in counts: exactly, and what it shows. The two differ for ever once a sensor has lied.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,14 +35,14 @@ impl Encoder {
     }
 
     /// The levels now, as edges at `cycle`.
-    pub(super) fn levels(&self, cycle: u64) -> [Edge; 2] {
+    pub(super) fn levels(&self, cycle: u64) -> [ScheduledEdge; 2] {
         let levels = QUADRATURE[self.before.shown.rem_euclid(4) as usize];
         [0, 1].map(|line| (cycle, self.lines[line], Level::of(levels[line])))
     }
 
     /// The wheel moves to `after` in the millisecond that begins at `from`; its edges come at the moments at which whole
     /// counts are passed.
-    pub(super) fn turn(&mut self, after: Position, from: u64, edges: &mut Vec<Edge>) {
+    pub(super) fn turn(&mut self, after: Position, from: u64, edges: &mut Vec<ScheduledEdge>) {
         let steps = after.shown.wrapping_sub(self.before.shown);
         let forward = steps >= 0;
         let count = steps.unsigned_abs();
@@ -84,7 +84,7 @@ impl Encoder {
 /// The main brush's encoder: as many pulses as the brush turns, half of each with the line on.
 #[derive(Clone, Debug)]
 pub(super) struct BrushEncoder {
-    line: Line,
+    line: DigitalLine,
     pulses_per_ms: f64,
     /// Half pulses so far.
     halves: f64,
@@ -94,7 +94,7 @@ pub(super) struct BrushEncoder {
 const BRUSH_DEAD_BAND: f64 = 0.15;
 
 impl BrushEncoder {
-    pub(super) fn new(line: Line, pulses_per_s: f64) -> Self {
+    pub(super) fn new(line: DigitalLine, pulses_per_s: f64) -> Self {
         Self {
             line,
             pulses_per_ms: pulses_per_s / 1000.0,
@@ -103,7 +103,7 @@ impl BrushEncoder {
     }
 
     /// The level now, as an edge at `cycle`.
-    pub(super) fn level(&self, cycle: u64) -> Edge {
+    pub(super) fn level(&self, cycle: u64) -> ScheduledEdge {
         (cycle, self.line.pin, self.line.level(self.is_on()))
     }
 
@@ -112,7 +112,7 @@ impl BrushEncoder {
     }
 
     /// The brush is driven with this mean duty for the millisecond that begins at `from`.
-    pub(super) fn turn(&mut self, duty: f64, from: u64, edges: &mut Vec<Edge>) {
+    pub(super) fn turn(&mut self, duty: f64, from: u64, edges: &mut Vec<ScheduledEdge>) {
         let turning = (duty.abs() - BRUSH_DEAD_BAND).max(0.0) / (1.0 - BRUSH_DEAD_BAND);
         let step = 2.0 * self.pulses_per_ms * turning;
         let before = self.halves;
@@ -130,8 +130,8 @@ impl BrushEncoder {
 
 #[cfg(test)]
 mod tests {
-    use super::{BrushEncoder, Edge, Encoder, Position};
-    use crate::board::wiring::Line;
+    use super::{BrushEncoder, ScheduledEdge, Encoder, Position};
+    use crate::board::wiring::DigitalLine;
     use crate::pins::{Level, Pin};
 
     fn pin(name: &str) -> Pin {
@@ -143,7 +143,7 @@ mod tests {
     }
 
     /// Counts as a firmware does: line 1 leading is up.
-    fn decode(edges: &[Edge]) -> i32 {
+    fn decode(edges: &[ScheduledEdge]) -> i32 {
         let order = [0b00, 0b01, 0b11, 0b10];
         let (mut levels, mut total) = (0, 0);
         for (_, line, level) in edges {
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_brush_at_full_drive_gives_its_pulses() {
-        let line = Line {
+        let line = DigitalLine {
             pin: pin("RB5"),
             active: Level::Low,
         };

@@ -20,12 +20,12 @@ mod robot;
 pub mod serial;
 pub mod wiring;
 
-pub use calibration::{Calibration, Particulars, RECORD_ADDRESS, put_record};
+pub use calibration::{CalibrationValues, Particulars, RECORD_ADDRESS, put_record};
 pub use contacts::{Contact, Hold};
 pub use error::BoardError;
 pub use gyro_frame::{GyroCheck, GyroFitted, GyroLayout};
-pub use motors::{Drive, Motor, Reaction, reaction};
-pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, Record};
+pub use motors::{DriveInterval, MotorOutput, Reaction, reaction};
+pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, CalibrationChoice};
 
 /// Cycles of the chip's system clock in a second.
 pub const CYCLES_PER_S: u64 = 80_000_000;

@@ -41,8 +41,8 @@ pub use exception::{Exception, ExceptionCode};
 
 use multiplier::Multiplier;
 use prefetch::PrefetchUnit;
-use registers::{Registers, Source, Target};
-use system::System;
+use registers::{Registers, Source, WriteTarget};
+use system::Coprocessor0;
 use timer::CoreTimer;
 
 /// What the interrupt controller asks for at the moment (EIC mode).
@@ -110,7 +110,7 @@ pub struct Cpu {
     other_registers: Registers,
     is_shadow_active: bool,
     multiplier: Multiplier,
-    system: System,
+    system: Coprocessor0,
     timer: CoreTimer,
     prefetch: PrefetchUnit,
     /// The line of flash at which the last jump ended; nothing when the core came here otherwise.
@@ -141,7 +141,7 @@ impl Cpu {
             other_registers: Registers::new(),
             is_shadow_active: false,
             multiplier: Multiplier::default(),
-            system: System::new(),
+            system: Coprocessor0::new(),
             timer: CoreTimer::new(),
             prefetch: PrefetchUnit::new(),
             line: None,
@@ -233,7 +233,7 @@ impl Cpu {
 
     /// Changes a general register of the set in use; register 0 stays zero.
     pub fn set_register(&mut self, number: u8, value: u32) {
-        self.registers.set(Target::new(u32::from(number)), value);
+        self.registers.set(WriteTarget::new(u32::from(number)), value);
     }
 
     /// HI and LO.

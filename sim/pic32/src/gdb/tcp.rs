@@ -1,6 +1,6 @@
 //! The socket of the debugger.
 
-use super::{Session, Target};
+use super::{Session, DebugTarget};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
 
@@ -8,7 +8,7 @@ use std::net::{TcpListener, TcpStream};
 ///
 /// # Errors
 /// What the operating system says about the socket.
-pub fn serve(listener: &TcpListener, target: &mut dyn Target) -> std::io::Result<()> {
+pub fn serve(listener: &TcpListener, target: &mut dyn DebugTarget) -> std::io::Result<()> {
     let (mut stream, _) = listener.accept()?;
     stream.set_nodelay(true)?;
     let mut session = Session::new();

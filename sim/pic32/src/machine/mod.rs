@@ -26,7 +26,7 @@ use crate::memory::{BOOT_START, FLASH_START, Memory};
 pub use crate::peripheral::ResetSource;
 
 use crate::peripheral::{
-    Chip, Irq, Misuse, MisuseRecord, Operation, Order, PAGE_BYTES, ROW_BYTES, UnknownAccess,
+    Chip, Irq, Misuse, MisuseRecord, NvmOperation, Order, PAGE_BYTES, ROW_BYTES, UnknownAccess,
 };
 use core_clock::CoreClock;
 use view::View;
@@ -70,7 +70,7 @@ pub enum StopAt {
 
 /// A reset and where it came in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ResetRecord {
+pub struct ResetEvent {
     /// What caused it.
     pub source: ResetSource,
     /// When.
@@ -99,7 +99,7 @@ pub struct Machine {
     stalled_until: u64,
     stop_at: StopAt,
     accounting: Accounting,
-    resets: Vec<ResetRecord>,
+    resets: Vec<ResetEvent>,
     reset_count: u64,
     untold_resets: Vec<ResetSource>,
     exceptions: Vec<ExceptionRecord>,
@@ -142,7 +142,7 @@ impl Machine {
             self.untold_resets.push(source);
         }
         if self.resets.len() < KEPT {
-            self.resets.push(ResetRecord {
+            self.resets.push(ResetEvent {
                 source,
                 cycle: self.cycle,
                 pc: self.cpu.pc(),
@@ -235,18 +235,18 @@ impl Machine {
     }
 
     /// Flash changes when the operation begins, so that a reset in its midst finds it done, as the chip would have it.
-    fn program(&mut self, operation: Operation) {
+    fn program(&mut self, operation: NvmOperation) {
         let done = match operation {
-            Operation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
-            Operation::Row { address, source } => {
+            NvmOperation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
+            NvmOperation::Row { address, source } => {
                 let mut row = [0; ROW_BYTES as usize];
                 self.memory
                     .read(source, &mut row)
                     .is_ok_and(|()| source < FLASH_START)
                     && self.write_flash(address, &row)
             }
-            Operation::Page { address } => self.erase(address),
-            Operation::All => (0..FLASH_PAGES).all(|page| self.erase(FLASH_START + page * PAGE_BYTES)),
+            NvmOperation::Page { address } => self.erase(address),
+            NvmOperation::All => (0..FLASH_PAGES).all(|page| self.erase(FLASH_START + page * PAGE_BYTES)),
         };
         if !done {
             self.chip.flash_failed();
@@ -421,7 +421,7 @@ impl Machine {
     }
 
     /// The first 64 resets after power-on.
-    pub fn resets(&self) -> &[ResetRecord] {
+    pub fn resets(&self) -> &[ResetEvent] {
         &self.resets
     }
 

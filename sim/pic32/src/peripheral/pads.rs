@@ -2,7 +2,7 @@
 
 use super::analog::Trigger;
 use super::capture::{self, Captured};
-use super::inputs::Inputs;
+use super::inputs::InputQueue;
 use super::ports::{Changes, Field, bits};
 use super::schedule::Slot;
 use super::timers::Ticked;
@@ -83,7 +83,7 @@ impl Chip {
 
     /// Forgets what was scheduled.
     pub(crate) fn clear_inputs(&mut self) {
-        self.inputs = Inputs::default();
+        self.inputs = InputQueue::default();
         self.schedule.set(Slot::Input, self.inputs.next());
     }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// One port.
 #[derive(Clone, Copy, Debug)]
-struct State {
+struct PortState {
     tris: u16,
     lat: u16,
     open_drain: u16,
@@ -27,8 +27,8 @@ struct State {
     level: u16,
 }
 
-impl State {
-    const RESET: State = State {
+impl PortState {
+    const RESET: PortState = PortState {
         tris: 0xFFFF,
         lat: 0,
         open_drain: 0,
@@ -90,7 +90,7 @@ pub(crate) struct Changes {
 /// All ports.
 #[derive(Clone, Debug)]
 pub(crate) struct Ports {
-    states: [State; 7],
+    states: [PortState; 7],
     high_cycles: [u64; PIN_PLACES],
     high_since: [u64; PIN_PLACES],
     changed: [u64; PIN_PLACES],
@@ -101,7 +101,7 @@ pub(crate) struct Ports {
 impl Ports {
     pub(crate) fn new() -> Ports {
         Ports {
-            states: [State::RESET; 7],
+            states: [PortState::RESET; 7],
             high_cycles: [0; PIN_PLACES],
             high_since: [0; PIN_PLACES],
             changed: [0; PIN_PLACES],
@@ -114,11 +114,11 @@ impl Ports {
     pub(crate) fn reset(&mut self, cycle: u64) -> [Changes; 7] {
         Port::ALL.map(|port| {
             self.change(port, cycle, |state| {
-                *state = State {
+                *state = PortState {
                     outside: state.outside,
                     outside_high: state.outside_high,
                     board_pull_up: state.board_pull_up,
-                    ..State::RESET
+                    ..PortState::RESET
                 };
             })
         })
@@ -177,7 +177,7 @@ impl Ports {
         })
     }
 
-    fn change(&mut self, port: Port, cycle: u64, change: impl FnOnce(&mut State)) -> Changes {
+    fn change(&mut self, port: Port, cycle: u64, change: impl FnOnce(&mut PortState)) -> Changes {
         let state = &mut self.states[port.index()];
         let before = *state;
         change(state);

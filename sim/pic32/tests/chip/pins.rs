@@ -1,7 +1,7 @@
 //! Ports, change notice, external interrupts and who drives what.
 
 use crate::program::{CLR, IEC1, IFS0, IFS1, INTCON, INV, Program, SET, WAIT_FOREVER, bare, pin, run};
-use pic32::peripheral::{Direction, Misuse};
+use pic32::peripheral::{AccessDirection, Misuse};
 use pic32::pins::{Level, Output};
 
 const TRISA: u32 = 0xBF88_6000;
@@ -233,8 +233,8 @@ fn unknown_registers_read_zero_and_are_told_with_their_place() {
         .iter()
         .map(|one| (one.address, one.direction, one.pc, one.count))
         .collect();
-    let read = (0x1F80_6800, Direction::Read, 0xBFC0_0008, 2);
-    assert_eq!(told, [read, (0x1F80_6810, Direction::Write, 0xBFC0_0010, 1)]);
+    let read = (0x1F80_6800, AccessDirection::Read, 0xBFC0_0008, 2);
+    assert_eq!(told, [read, (0x1F80_6810, AccessDirection::Write, 0xBFC0_0010, 1)]);
 }
 
 #[test]

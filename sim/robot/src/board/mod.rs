@@ -11,12 +11,12 @@ mod persistent;
 mod sensors;
 mod serial;
 
-pub use actuators::{Cleaner, Sounder, Supervisor, WheelBridges};
+pub use actuators::{Cleaner, Sounder, SimulatedWatchdog, WheelBridges};
 pub use outfit::{Outfit, Relax, Sr8730};
-pub use persistent::Persistent;
+pub use persistent::PersistentMemory;
 pub use sensors::{
-    BumperPins, ButtonPins, CliffReceivers, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
-    GyroReading, PackPins, ProximityReadings, WheelDropPins,
+    BumperPins, ButtonPins, SimulatedCliffs, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
+    GyroSensor, PackPins, ProximityReadings, WheelDropPins,
 };
 pub use serial::SerialPort;
 
@@ -36,14 +36,14 @@ impl<O: Outfit> Parts for SimulatedParts<O> {
     type Clock = TickCounter;
     type Link = SerialPort;
     type Wheels = WheelBridges;
-    type Reset = Persistent;
-    type Watchdog = Supervisor;
+    type Reset = PersistentMemory;
+    type Watchdog = SimulatedWatchdog;
     type Encoders = EncoderCounters;
     type Bumpers = BumperPins;
-    type Cliffs = CliffReceivers;
+    type Cliffs = SimulatedCliffs;
     type WheelDrops = WheelDropPins<O>;
     type Proximity = ProximityReadings<O>;
-    type Gyro = GyroReading<O>;
+    type Gyro = GyroSensor<O>;
     type Currents = CurrentReadings<O>;
     type BrushMain = Cleaner;
     type BrushSides = Cleaner;
@@ -71,19 +71,19 @@ impl Clock for TickCounter {
 }
 
 /// A board whose every output is off, as it stands the moment after a reset.
-pub(crate) fn fresh<O: Outfit>(persistent: Persistent) -> Board<SimulatedParts<O>> {
+pub(crate) fn fresh<O: Outfit>(persistent: PersistentMemory) -> Board<SimulatedParts<O>> {
     Board {
         clock: TickCounter::default(),
         link: SerialPort::default(),
         wheels: WheelBridges::default(),
         reset: persistent,
-        watchdog: Supervisor::default(),
+        watchdog: SimulatedWatchdog::default(),
         encoders: EncoderCounters::default(),
         bumpers: BumperPins::default(),
-        cliffs: CliffReceivers::default(),
+        cliffs: SimulatedCliffs::default(),
         wheel_drops: WheelDropPins::default(),
         proximity: ProximityReadings::default(),
-        gyro: GyroReading::default(),
+        gyro: GyroSensor::default(),
         currents: CurrentReadings::default(),
         brush_main: Cleaner::default(),
         brush_sides: Cleaner::default(),

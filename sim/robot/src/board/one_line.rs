@@ -10,8 +10,8 @@ const REVERSAL_MS: u8 = 100;
 /// Both wheels' lines.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OneLine {
-    left: Line,
-    right: Line,
+    left: WheelLine,
+    right: WheelLine,
 }
 
 impl OneLine {
@@ -28,7 +28,7 @@ impl OneLine {
 
 /// One wheel's line.
 #[derive(Clone, Copy, Debug, Default)]
-struct Line {
+struct WheelLine {
     edges: Option<i32>,
     total: i32,
     /// Last direction that was commanded: 1, -1, or 0 before the first.
@@ -37,7 +37,7 @@ struct Line {
     unsure_ms: u8,
 }
 
-impl Line {
+impl WheelLine {
     fn take(&mut self, edges: i32, driven: WheelDrive) -> i32 {
         let commanded = driven.duty().millionths().signum();
         if commanded != 0 && commanded != self.direction {
@@ -61,7 +61,7 @@ impl Line {
 
 #[cfg(test)]
 mod tests {
-    use super::{Line, REVERSAL_MS};
+    use super::{WheelLine, REVERSAL_MS};
     use cordlib::board::WheelDrive;
     use rvac_units::Throttle;
 
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn edges_have_the_sign_of_the_command_and_those_of_a_reversal_none() {
-        let mut line = Line::default();
+        let mut line = WheelLine::default();
         line.take(10, drive(0));
         assert_eq!(line.take(14, drive(300_000)), 4);
         assert_eq!(
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn the_count_of_the_line_may_wrap() {
-        let mut line = Line::default();
+        let mut line = WheelLine::default();
         line.take(i32::MAX, drive(300_000));
         assert_eq!(line.take(i32::MIN + 1, drive(300_000)), 2);
     }

@@ -7,7 +7,7 @@ const CONDITIONS: u64 = 0xC4A1;
 
 /// Something that goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
+pub enum InjectedFault {
     /// Nothing.
     None,
     /// The thermistor's wire breaks at this second.
@@ -34,7 +34,7 @@ pub enum Trouble {
     SupplyHigh(f64),
 }
 
-impl Trouble {
+impl InjectedFault {
     /// A name for tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -54,7 +54,7 @@ impl Trouble {
         }
     }
 
-    /// The kinds of trouble, in the order of [`Trouble::drawn`].
+    /// The kinds of trouble, in the order of [`InjectedFault::drawn`].
     pub const KINDS: u32 = 12;
 
     /// The kind with this number, with figures of its own.
@@ -103,7 +103,7 @@ pub struct Conditions {
     /// Mismatch of the two dividers, relative.
     pub mismatch: f64,
     /// What goes wrong.
-    pub trouble: Trouble,
+    pub trouble: InjectedFault,
 }
 
 impl Conditions {
@@ -125,8 +125,8 @@ impl Conditions {
                 conditions.pack_c = conditions.ambient_c + 8.0 * random.unit();
             }
             _ => {
-                let kind = 1 + random.below(Trouble::KINDS - 1);
-                conditions.trouble = Trouble::drawn(kind, random);
+                let kind = 1 + random.below(InjectedFault::KINDS - 1);
+                conditions.trouble = InjectedFault::drawn(kind, random);
                 if random.below(3) == 0 {
                     conditions.make = PackMake::worn(random);
                 }
@@ -164,7 +164,7 @@ impl Conditions {
             noise_counts,
             gain,
             mismatch,
-            trouble: Trouble::None,
+            trouble: InjectedFault::None,
         }
     }
 
@@ -182,7 +182,7 @@ impl Conditions {
             self.make.capacity_ah >= 1.6 && self.make.odd.is_none() && self.make.resistance_ohm <= 0.6;
         let temperate =
             self.ambient_c >= 9.0 && (9.0..=37.0).contains(&self.pack_c) && self.ambient_c <= 34.0;
-        sound && temperate && self.trouble == Trouble::None
+        sound && temperate && self.trouble == InjectedFault::None
     }
 
     /// Whether a cell has failed.

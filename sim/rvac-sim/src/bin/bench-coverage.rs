@@ -17,7 +17,7 @@ use anyhow::Context;
 use brain::command::StrategyName;
 use clap::Parser;
 use home::{Home, RobotModel};
-use pic32::board::Record;
+use pic32::board::CalibrationChoice;
 use progress::Progress;
 use rvac_sim::run::{RunSettings, household, run};
 use rvac_sim::{Firmware, Report, Scene};
@@ -109,7 +109,7 @@ const STUDENT_MANY: f64 = 2.12;
 
 fn main() -> anyhow::Result<ExitCode> {
     let arguments = Arguments::parse();
-    let firmware = Firmware::load(Some(&arguments.firmware), &Record::Complete)?;
+    let firmware = Firmware::load(Some(&arguments.firmware), &CalibrationChoice::Complete)?;
     let mut is_close = true;
     for path in &arguments.home {
         let comparison = compare(&arguments, &firmware, path)?;

@@ -8,7 +8,7 @@ mod workshop;
 
 use std::fs;
 
-use pic32::board::{Calibration, GyroLayout};
+use pic32::board::{CalibrationValues, GyroLayout};
 use serde_json::{Value, json};
 use workshop::{Terminal, Workshop};
 
@@ -148,7 +148,7 @@ fn calibrate(name: &str, wanted: &[(&'static str, i32)]) {
     assert_eq!(screen.end(), (true, String::new()));
     let record = fs::read_to_string(&file).unwrap();
     drop(workshop);
-    let built_with = Calibration::sr8730().unwrap();
+    let built_with = CalibrationValues::sr8730().unwrap();
     for (name, tolerance) in wanted {
         let row = record.lines().find_map(|line| line.strip_prefix(name));
         let found: i32 = row.unwrap()[3..].split(' ').next().unwrap().parse().unwrap();

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use trials::flips::{Breach, Fate, Plan, Storage, Tally, flip_bits};
-use trials::{CampaignError, Workshop, conclude};
+use trials::flips::{Breach, Fate, FlipPlan, BitStorage, FlipTally, flip_bits};
+use trials::{CampaignError, Fixture, conclude};
 
 /// Flips bits of a firmware's memory.
 #[derive(Debug, Parser)]
@@ -45,15 +45,15 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
-    let workshop = Workshop::open(&arguments.firmware)?;
-    let plan = Plan {
+    let fixture = Fixture::open(&arguments.firmware)?;
+    let plan = FlipPlan {
         count: arguments.count,
         seed: arguments.seed,
         courses: arguments.courses,
         image_checks: arguments.image_checks,
     };
     let mut told = 0;
-    let tally = flip_bits(&workshop, &plan, |tally| {
+    let tally = flip_bits(&fixture, &plan, |tally| {
         if arguments.progress {
             let (flips, tried) = (tally.flips, tally.tried);
             writeln!(io::stderr(), "{flips} flips, {tried} tried").ok();
@@ -71,7 +71,7 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     Ok(tally.is_safe())
 }
 
-fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
+fn print(out: &mut impl Write, tally: &FlipTally) -> io::Result<()> {
     let row = |fates: &std::collections::BTreeMap<Fate, u32>| -> String {
         let number = |fate| fates.get(fate).copied().unwrap_or_default();
         Fate::ALL
@@ -84,7 +84,7 @@ fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
         .map(|fate| format!("{:>12}", format!("{fate:?}").to_lowercase()))
         .collect();
     writeln!(out, "{:<16}{names}", "")?;
-    for storage in Storage::ALL {
+    for storage in BitStorage::ALL {
         if let Some(fates) = tally.fates.get(&storage) {
             writeln!(out, "{:<16}{}", storage.name(), row(fates))?;
         }

@@ -19,12 +19,12 @@ use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
 pub use course::{Fate, Situation};
-pub use place::{Place, Storage};
+pub use place::{BitLocation, BitStorage};
 
-use crate::stage::{StageError, Workshop};
+use crate::testbed::{TestbedError, Fixture};
 use course::{Course, FLIP_MS};
 use idle_code::idle_code;
-use place::Places;
+use place::BitLocations;
 
 const DRAWS: u64 = 0xF11B;
 /// Of the flips that need not be tried so many are tried all the same, one in so many.
@@ -36,7 +36,7 @@ const STARTS_OVER: u64 = 10;
 
 /// How a campaign is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
+pub struct FlipPlan {
     /// Flips.
     pub count: u32,
     /// Of everything random.
@@ -57,7 +57,7 @@ pub struct Breach {
     /// Millisecond of the course.
     pub at_ms: usize,
     /// The bit.
-    pub place: Place,
+    pub place: BitLocation,
     /// The function or variable that it belongs to.
     pub name: String,
     /// What it came to.
@@ -72,7 +72,7 @@ pub struct Breach {
 #[derive(Clone, Debug, Serialize)]
 pub struct Unreported {
     /// Which bit.
-    pub place: Place,
+    pub place: BitLocation,
     /// The function or variable that it belongs to.
     pub name: String,
     /// Resets of the chip since the flip.
@@ -83,13 +83,13 @@ pub struct Unreported {
 
 /// What came of a campaign.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Tally {
+pub struct FlipTally {
     /// Flips.
     pub flips: u32,
     /// Flips that were tried in the emulator; those of the others are certain without.
     pub tried: u32,
     /// Flips by storage and fate.
-    pub fates: BTreeMap<Storage, BTreeMap<Fate, u32>>,
+    pub fates: BTreeMap<BitStorage, BTreeMap<Fate, u32>>,
     /// Flips by situation and fate.
     pub situations: BTreeMap<Situation, BTreeMap<Fate, u32>>,
     /// Flips that were certain and were tried all the same, and how many of them were not as foreseen.
@@ -105,7 +105,7 @@ pub struct Tally {
     pub breaches: Vec<Breach>,
 }
 
-impl Tally {
+impl FlipTally {
     /// Flips with this fate.
     #[must_use]
     pub fn of(&self, fate: Fate) -> u32 {
@@ -118,7 +118,7 @@ impl Tally {
         self.of(Fate::Unsafe) == 0 && self.foreseen_checked.1 == 0 && self.image_missed.is_empty()
     }
 
-    fn count(&mut self, situation: Situation, storage: Storage, fate: Fate) {
+    fn count(&mut self, situation: Situation, storage: BitStorage, fate: Fate) {
         self.flips += 1;
         *self.fates.entry(storage).or_default().entry(fate).or_default() += 1;
         *self
@@ -135,27 +135,27 @@ impl Tally {
 /// # Errors
 /// When the robot does not get into a situation without any fault.
 pub fn flip_bits(
-    workshop: &Workshop,
-    plan: &Plan,
-    mut progress: impl FnMut(&Tally),
-) -> Result<Tally, StageError> {
+    fixture: &Fixture,
+    plan: &FlipPlan,
+    mut progress: impl FnMut(&FlipTally),
+) -> Result<FlipTally, TestbedError> {
     let mut random = Pcg::new(plan.seed, DRAWS);
-    let mut tally = Tally::default();
+    let mut tally = FlipTally::default();
     let all = plan.courses * Situation::ALL.len();
-    let idle_code = idle_code(workshop);
+    let idle_code = idle_code(fixture);
     for number in 0..all {
         let Some(situation) = Situation::ALL.get(number % Situation::ALL.len()) else {
             continue;
         };
-        let variables_end = variables_end(workshop.image());
+        let variables_end = variables_end(fixture.image());
         let mut places = None;
-        let course = Course::live(workshop, *situation, number / Situation::ALL.len(), |machine| {
-            let found = Places::of(machine, variables_end);
+        let course = Course::live(fixture, *situation, number / Situation::ALL.len(), |machine| {
+            let found = BitLocations::of(machine, variables_end);
             places.insert(found).chip().to_vec()
         })?;
         let Some(places) = places else { continue };
-        let ground = Ground {
-            image: workshop.image(),
+        let ground = FlipContext {
+            image: fixture.image(),
             course: &course,
             places: &places,
             idle_code: &idle_code,
@@ -173,24 +173,24 @@ pub fn flip_bits(
 }
 
 /// A stretch of life and the bits that can flip in it.
-struct Ground<'a> {
+struct FlipContext<'a> {
     image: &'a Image,
     course: &'a Course,
-    places: &'a Places,
+    places: &'a BitLocations,
     idle_code: &'a HashSet<u32>,
 }
 
-impl Ground<'_> {
+impl FlipContext<'_> {
     /// What a flip surely comes to without trying it.
-    fn foreseen(&self, place: Place, at_ms: usize) -> Option<Fate> {
+    fn foreseen(&self, place: BitLocation, at_ms: usize) -> Option<Fate> {
         let is_only_checked = self.idle_code.contains(&place.address) && !self.course.executes(place);
         match self.course.foreseen(place, at_ms) {
-            None if place.storage == Storage::Flash && is_only_checked => Some(Fate::Detected),
+            None if place.storage == BitStorage::Flash && is_only_checked => Some(Fate::Detected),
             foreseen => foreseen,
         }
     }
 
-    fn flip_one(&self, random: &mut Pcg, tally: &mut Tally) {
+    fn flip_one(&self, random: &mut Pcg, tally: &mut FlipTally) {
         let course = self.course;
         let place = self.places.draw(random);
         let at_ms = random.below(FLIP_MS as u32) as usize;
@@ -230,26 +230,26 @@ impl Ground<'_> {
     }
 
     /// Leaves a flipped bit alone until the robot reports it; what became of the robot if it does not.
-    fn leave(&self, place: Place) -> Option<Unreported> {
-        let mut stage = self.course.first()?;
-        let resets = stage.robot().machine().reset_count();
-        place.flip(stage.robot_mut().machine_mut());
+    fn leave(&self, place: BitLocation) -> Option<Unreported> {
+        let mut testbed = self.course.first()?;
+        let resets = testbed.robot().machine().reset_count();
+        place.flip(testbed.robot_mut().machine_mut());
         for _ in 0..FOUND_MS {
-            stage.tick();
-            if stage.inhibits().contains(Inhibit::Memory) {
+            testbed.tick();
+            if testbed.inhibits().contains(Inhibit::Memory) {
                 return None;
             }
         }
         Some(Unreported {
             place,
             name: name_of(self.image, place),
-            resets: stage.robot().machine().reset_count() - resets,
-            is_off: course::is_off(&stage),
+            resets: testbed.robot().machine().reset_count() - resets,
+            is_off: course::is_off(&testbed),
         })
     }
 
     /// Leaves flipped bits of flash alone until the robot has found them.
-    fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut Tally) {
+    fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut FlipTally) {
         while left > 0 {
             let place = self.places.draw(random);
             // What is behind the image is no part of it: the calibration record has a check of its own, at the start.
@@ -281,10 +281,10 @@ fn variables_end(image: &Image) -> u32 {
 }
 
 /// The function or variable that the bit belongs to.
-fn name_of(image: &Image, place: Place) -> String {
+fn name_of(image: &Image, place: BitLocation) -> String {
     let segment = match place.storage {
-        Storage::Ram | Storage::Flash => 0x8000_0000,
-        Storage::Core | Storage::Chip => return format!("{} {:#x}", place.storage.name(), place.address),
+        BitStorage::Ram | BitStorage::Flash => 0x8000_0000,
+        BitStorage::Core | BitStorage::Chip => return format!("{} {:#x}", place.storage.name(), place.address),
     };
     let address = segment + place.address;
     let holds = |start: u32, size: u32| (start..start + size.max(4)).contains(&address);

@@ -4,7 +4,7 @@ use brain::action::{Decision, Tone};
 use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{LogLevel, Topic, Update};
-use rvac_protocol::quality::Verdict;
+use rvac_protocol::quality::LinkVerdict;
 
 use super::standstill::is_standstill;
 use super::{Core, recorder, refusal};
@@ -25,9 +25,9 @@ impl Core {
             .map(|device| device.quality().verdict)
             .unwrap_or_default();
         let speed_share = match verdict {
-            Verdict::Good => 1.0,
-            Verdict::Poor => 0.5,
-            Verdict::Bad => 0.0,
+            LinkVerdict::Good => 1.0,
+            LinkVerdict::Poor => 0.5,
+            LinkVerdict::Bad => 0.0,
         };
         LinkView { up, speed_share }
     }

@@ -29,7 +29,7 @@ const COUNTED_MANY: u64 = 11_000;
 
 /// What is measured.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Reader {
+enum MeasuredReader {
     Motor2016,
     Motor2016Serde,
     Motor2016Session,
@@ -43,7 +43,7 @@ enum Reader {
     DriveBinarySession,
 }
 
-impl Reader {
+impl MeasuredReader {
     const ALL: [Self; 11] = [
         Self::Motor2016,
         Self::Motor2016Serde,
@@ -106,11 +106,11 @@ pub(crate) struct Cost {
 
 /// Measures all readers.
 pub(crate) fn measure() -> Result<Vec<Cost>> {
-    Reader::ALL.into_iter().map(measure_one).collect()
+    MeasuredReader::ALL.into_iter().map(measure_one).collect()
 }
 
-fn measure_one(reader: Reader) -> Result<Cost> {
-    let mut work = Work::new(reader);
+fn measure_one(reader: MeasuredReader) -> Result<Cost> {
+    let mut work = MeasuredWork::new(reader);
     work.repeat(TIMED / 10);
     // The best of several runs: on a shared machine the others measure the neighbours.
     let mut best_ns = f64::INFINITY;
@@ -130,22 +130,22 @@ fn measure_one(reader: Reader) -> Result<Cost> {
 
 /// Reads a packet `count` times.
 pub(crate) fn repeat(reader: &str, count: u64) -> Result<()> {
-    let Some(reader) = Reader::ALL.into_iter().find(|known| known.name() == reader) else {
+    let Some(reader) = MeasuredReader::ALL.into_iter().find(|known| known.name() == reader) else {
         bail!("{reader}: no such reader; the table of costs lists them");
     };
-    Work::new(reader).repeat(count);
+    MeasuredWork::new(reader).repeat(count);
     Ok(())
 }
 
 /// Two runs of different length: what is before and after the loop cancels out.
-fn count_instructions(reader: Reader) -> Result<Option<u64>> {
+fn count_instructions(reader: MeasuredReader) -> Result<Option<u64>> {
     let (Some(few), Some(many)) = (collected(reader, COUNTED_FEW)?, collected(reader, COUNTED_MANY)?) else {
         return Ok(None);
     };
     Ok(Some((many - few) / (COUNTED_MANY - COUNTED_FEW)))
 }
 
-fn collected(reader: Reader, count: u64) -> Result<Option<u64>> {
+fn collected(reader: MeasuredReader, count: u64) -> Result<Option<u64>> {
     let program = std::env::current_exe().context("cannot find this program to run it under valgrind")?;
     let run = Process::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
@@ -206,17 +206,17 @@ struct DriveSerde<'a> {
 }
 
 /// Packets and what reads them.
-struct Work {
-    reader: Reader,
+struct MeasuredWork {
+    reader: MeasuredReader,
     packets: Vec<Vec<u8>>,
     robot: RobotSession,
     start: Digest,
     next: usize,
 }
 
-impl Work {
-    fn new(reader: Reader) -> Self {
-        let robot = if reader == Reader::Motor2016Session {
+impl MeasuredWork {
+    fn new(reader: MeasuredReader) -> Self {
+        let robot = if reader == MeasuredReader::Motor2016Session {
             switched_on(NOW)
         } else {
             open_robot(NOW)
@@ -242,15 +242,15 @@ impl Work {
             let packet = &self.packets[self.next];
             self.next = (self.next + 1) % self.packets.len();
             match self.reader {
-                Reader::Motor2016 => read_checked(packet, self.start, Form::Hand { now: NOW }),
-                Reader::MotorText | Reader::DriveText => read_checked(packet, self.start, Form::Checked),
-                Reader::Motor2016Serde | Reader::MotorSerde => read_motor_serde(packet),
-                Reader::DriveSerde => read_drive_serde(packet),
-                Reader::DriveBinary => read_drive_binary(packet, self.start),
-                Reader::Motor2016Session
-                | Reader::MotorSession
-                | Reader::DriveTextSession
-                | Reader::DriveBinarySession => {
+                MeasuredReader::Motor2016 => read_checked(packet, self.start, Form::Hand { now: NOW }),
+                MeasuredReader::MotorText | MeasuredReader::DriveText => read_checked(packet, self.start, Form::Checked),
+                MeasuredReader::Motor2016Serde | MeasuredReader::MotorSerde => read_motor_serde(packet),
+                MeasuredReader::DriveSerde => read_drive_serde(packet),
+                MeasuredReader::DriveBinary => read_drive_binary(packet, self.start),
+                MeasuredReader::Motor2016Session
+                | MeasuredReader::MotorSession
+                | MeasuredReader::DriveTextSession
+                | MeasuredReader::DriveBinarySession => {
                     let mut events = 0;
                     for byte in packet {
                         events += u32::from(self.robot.receive(black_box(*byte), NOW).is_some());
@@ -262,7 +262,7 @@ impl Work {
     }
 }
 
-fn packet(reader: Reader, sequence: Sequence, session: u16) -> Vec<u8> {
+fn packet(reader: MeasuredReader, sequence: Sequence, session: u16) -> Vec<u8> {
     let motor = Command::Motor(MotorCommand {
         motor: Motor::WheelLeft,
         throttle: Throttle::saturating_from_millionths(750_000),
@@ -279,17 +279,17 @@ fn packet(reader: Reader, sequence: Sequence, session: u16) -> Vec<u8> {
     };
     let mut buffer = PacketBuffer::new();
     let written = match reader {
-        Reader::Motor2016 => return with_text_crc(MOTOR_2016, SESSION),
-        Reader::Motor2016Session => return [with_text_crc(MOTOR_2016, 0).as_slice(), &[0x1F]].concat(),
-        Reader::Motor2016Serde => return MOTOR_2016.to_vec(),
-        Reader::DriveBinary => return with_binary_crc(&drive),
-        Reader::MotorText => return with_text_crc(&text(&motor), SESSION),
-        Reader::DriveText => return with_text_crc(&text(&Command::Drive(drive)), SESSION),
-        Reader::MotorSerde => return text(&motor),
-        Reader::DriveSerde => return text(&Command::Drive(drive)),
-        Reader::MotorSession => write_command_with_crc(&motor, session, &mut buffer),
-        Reader::DriveTextSession => write_command_with_crc(&Command::Drive(drive), session, &mut buffer),
-        Reader::DriveBinarySession => write_drive_with_crc(&drive, session, &mut buffer),
+        MeasuredReader::Motor2016 => return with_text_crc(MOTOR_2016, SESSION),
+        MeasuredReader::Motor2016Session => return [with_text_crc(MOTOR_2016, 0).as_slice(), &[0x1F]].concat(),
+        MeasuredReader::Motor2016Serde => return MOTOR_2016.to_vec(),
+        MeasuredReader::DriveBinary => return with_binary_crc(&drive),
+        MeasuredReader::MotorText => return with_text_crc(&text(&motor), SESSION),
+        MeasuredReader::DriveText => return with_text_crc(&text(&Command::Drive(drive)), SESSION),
+        MeasuredReader::MotorSerde => return text(&motor),
+        MeasuredReader::DriveSerde => return text(&Command::Drive(drive)),
+        MeasuredReader::MotorSession => write_command_with_crc(&motor, session, &mut buffer),
+        MeasuredReader::DriveTextSession => write_command_with_crc(&Command::Drive(drive), session, &mut buffer),
+        MeasuredReader::DriveBinarySession => write_drive_with_crc(&drive, session, &mut buffer),
     };
     written.expect("the packets of the benchmark are within their ranges");
     buffer.as_bytes().to_vec()

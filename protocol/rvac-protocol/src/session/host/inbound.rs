@@ -4,7 +4,7 @@ use rvac_units::Tick;
 
 use super::event_order::{Arrival, EventOrder};
 use super::{
-    Core, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, Phase,
+    HostCore, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, HostPhase,
     SILENCE_MS,
 };
 use crate::binary;
@@ -16,7 +16,7 @@ use crate::message::{
 use crate::session::BAD_IN_ROW_MAX;
 use crate::text::{InfoPart, ReportPacket, read_report};
 
-impl Core {
+impl HostCore {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<HostEvent> {
         self.now = now;
         match framed {
@@ -161,13 +161,13 @@ impl Core {
         if !common {
             return self.take_incompatible(&hello);
         }
-        if hello.session == self.session && self.phase == Phase::Open {
+        if hello.session == self.session && self.phase == HostPhase::Open {
             return None;
         }
         if hello.session != 0 {
             return Some(self.open(hello));
         }
-        let was_open = self.phase == Phase::Open;
+        let was_open = self.phase == HostPhase::Open;
         if was_open {
             self.close();
             return Some(HostEvent::Closed(hello));
@@ -178,13 +178,13 @@ impl Core {
     fn take_incompatible(&mut self, hello: &RobotHello) -> Option<HostEvent> {
         let told = matches!(
             self.phase,
-            Phase::Greeting {
+            HostPhase::Greeting {
                 told_incompatible: true,
                 ..
             }
         );
         self.close();
-        self.phase = Phase::Greeting {
+        self.phase = HostPhase::Greeting {
             due: self.now.after(GREETING_INCOMPATIBLE_MS),
             told_incompatible: true,
         };
@@ -196,7 +196,7 @@ impl Core {
 
     fn open(&mut self, hello: RobotHello) -> HostEvent {
         self.close();
-        self.phase = Phase::Open;
+        self.phase = HostPhase::Open;
         self.session = hello.session;
         self.packet_max = usize::from(hello.packet_max);
         self.binary = self.binary_wanted.common(hello.binary);
@@ -211,7 +211,7 @@ impl Core {
         while let Some(sequence) = self.delivery.take_any() {
             self.events.push_back(HostEvent::Unanswered(sequence)).ok();
         }
-        self.phase = Phase::Greeting {
+        self.phase = HostPhase::Greeting {
             due: self.now,
             told_incompatible: false,
         };
@@ -235,7 +235,7 @@ impl Core {
         if let Some(event) = self.events.pop_front() {
             return Some(event);
         }
-        if self.phase != Phase::Open {
+        if self.phase != HostPhase::Open {
             return None;
         }
         if now.since(self.heard) > SILENCE_MS {
@@ -250,10 +250,10 @@ impl Core {
             return self.now;
         }
         match self.phase {
-            Phase::Greeting { due, .. } => due,
-            Phase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
-            Phase::Open if !self.gathering.is_finished() => self.now.after(super::description::ASK_AGAIN_MS),
-            Phase::Open => self.ping.due,
+            HostPhase::Greeting { due, .. } => due,
+            HostPhase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
+            HostPhase::Open if !self.gathering.is_finished() => self.now.after(super::description::ASK_AGAIN_MS),
+            HostPhase::Open => self.ping.due,
         }
     }
 

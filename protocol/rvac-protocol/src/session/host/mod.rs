@@ -19,7 +19,7 @@ use crate::message::{
     Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
     RobotHello, Sequence,
 };
-use crate::quality::{LinkQuality, Window};
+use crate::quality::{LinkQuality, QualityWindow};
 
 /// What the host learns.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,14 +94,14 @@ const EVENTS: usize = 12;
 #[derive(Clone, Debug)]
 pub struct HostSession {
     framer: Framer,
-    core: Core,
+    core: HostCore,
 }
 
 /// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
 #[derive(Clone, Debug)]
-struct Core {
+struct HostCore {
     binary_wanted: BinaryKinds,
-    phase: Phase,
+    phase: HostPhase,
     session: u16,
     /// Longest command the robot takes, in bytes without the separator.
     packet_max: usize,
@@ -118,8 +118,8 @@ struct Core {
     state_wanted: bool,
     info_battery: Option<Battery>,
     info_link: LinkCounters,
-    inbound: Window,
-    outbound: Window,
+    inbound: QualityWindow,
+    outbound: QualityWindow,
     round_trip_ms: Option<u32>,
     binary: BinaryKinds,
     binary_left: bool,
@@ -129,7 +129,7 @@ struct Core {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum HostPhase {
     Greeting { due: Tick, told_incompatible: bool },
     Open,
 }
@@ -144,11 +144,11 @@ impl HostSession {
     /// A session that is about to send `U`, a separator and its `hello`. `binary` are the kinds to agree upon.
     #[must_use]
     pub fn new(binary: BinaryKinds, now: Tick) -> Self {
-        let mut inbound = Window::default();
+        let mut inbound = QualityWindow::default();
         inbound.turn(now);
-        let core = Core {
+        let core = HostCore {
             binary_wanted: binary,
-            phase: Phase::Greeting {
+            phase: HostPhase::Greeting {
                 due: now,
                 told_incompatible: false,
             },
@@ -248,7 +248,7 @@ impl HostSession {
     /// Whether a session is open.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        self.core.phase == Phase::Open
+        self.core.phase == HostPhase::Open
     }
 
     /// Number of the open session, 0 = none.

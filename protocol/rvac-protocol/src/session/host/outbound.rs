@@ -1,6 +1,6 @@
 //! What goes to the robot.
 
-use super::{Core, PING_MS, Phase, SendError, TICK_OLD_MS};
+use super::{HostCore, PING_MS, HostPhase, SendError, TICK_OLD_MS};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::SEPARATOR;
@@ -8,7 +8,7 @@ use crate::message::{Command, HostHello, ProtocolVersion, Sequence};
 use crate::session::{BAUD_RATE_PATTERN, FLUSH_AFTER_MS};
 use crate::text::write_command_with_crc;
 
-impl Core {
+impl HostCore {
     pub(super) fn send(
         &mut self,
         command: Command,
@@ -18,7 +18,7 @@ impl Core {
             return Err(SendError::Reserved);
         }
         let always = matches!(command, Command::Stop | Command::Info);
-        if self.phase != Phase::Open && !always {
+        if self.phase != HostPhase::Open && !always {
             return Err(SendError::NotOpen);
         }
         if command.must_arrive() && self.delivery.is_full() {
@@ -94,7 +94,7 @@ impl Core {
 
     /// What the session itself has to send: `Ok(false)` = nothing.
     pub(super) fn next_packet(&mut self, buffer: &mut PacketBuffer) -> Result<bool, EncodeError> {
-        if let Phase::Greeting {
+        if let HostPhase::Greeting {
             due,
             told_incompatible,
         } = self.phase
@@ -116,7 +116,7 @@ impl Core {
         if !self.now.reached(due) {
             return Ok(false);
         }
-        self.phase = Phase::Greeting {
+        self.phase = HostPhase::Greeting {
             due: self.now.after(Self::greeting_pause_ms(told_incompatible)),
             told_incompatible,
         };

@@ -14,11 +14,11 @@ pub(super) const MEMORY_MS: u32 = 10_000;
 struct Remembered {
     sequence: Sequence,
     since: Tick,
-    answer: Answer,
+    answer: StoredAnswer,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Answer {
+enum StoredAnswer {
     Pending,
     Given(Option<Refusal>),
 }
@@ -48,14 +48,14 @@ impl Answers {
         self.remembered.retain(|entry| now.since(entry.since) < MEMORY_MS);
         if let Some(entry) = self.remembered.iter().find(|entry| entry.sequence == sequence) {
             return match entry.answer {
-                Answer::Pending => Known::Pending,
-                Answer::Given(refusal) => Known::Answered(refusal),
+                StoredAnswer::Pending => Known::Pending,
+                StoredAnswer::Given(refusal) => Known::Answered(refusal),
             };
         }
         let entry = Remembered {
             sequence,
             since: now,
-            answer: Answer::Pending,
+            answer: StoredAnswer::Pending,
         };
         if let Err(entry) = self.remembered.push(entry) {
             match self.lowest_below(sequence) {
@@ -73,7 +73,7 @@ impl Answers {
             .iter_mut()
             .find(|entry| entry.sequence == sequence);
         if let Some(entry) = entry {
-            entry.answer = Answer::Given(refusal);
+            entry.answer = StoredAnswer::Given(refusal);
         }
     }
 

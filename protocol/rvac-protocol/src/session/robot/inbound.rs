@@ -3,7 +3,7 @@
 use rvac_units::Tick;
 
 use super::answers::{Known, MEMORY_MS};
-use super::{BAD_IN_ROW_MAX, Core, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
+use super::{BAD_IN_ROW_MAX, RobotCore, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
 use crate::binary;
 use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, Poison};
@@ -13,12 +13,12 @@ use crate::text::{Form, RefusedCommand, is_stop, read_command};
 
 /// Whether the packet carried the right CRC.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Trust {
+enum PacketTrust {
     Checked,
     Unchecked,
 }
 
-impl Core {
+impl RobotCore {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<RobotEvent> {
         self.now = now;
         match framed {
@@ -46,7 +46,7 @@ impl Core {
             Ok(command) => {
                 // A host that has agreed on a binary form and writes text has left it, and so do we.
                 self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
-                self.accept(command, Trust::Checked)
+                self.accept(command, PacketTrust::Checked)
             }
             Err(refused) => self.refuse(refused),
         }
@@ -58,7 +58,7 @@ impl Core {
             return self.refuse_with(None, Refusal::Unknown);
         }
         match binary::read_drive(body) {
-            Ok(drive) => self.accept(Command::Drive(drive), Trust::Checked),
+            Ok(drive) => self.accept(Command::Drive(drive), PacketTrust::Checked),
             Err(refusal) => self.refuse_with(None, refusal),
         }
     }
@@ -68,14 +68,14 @@ impl Core {
             return None;
         }
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Unchecked);
+            return self.accept(Command::Stop, PacketTrust::Unchecked);
         }
         if self.mode == Mode::Checked {
             self.bad();
             return self.refuse_with(None, Refusal::NoCrc);
         }
         match read_command(text, self.form()) {
-            Ok(command) => self.accept(command, Trust::Unchecked),
+            Ok(command) => self.accept(command, PacketTrust::Unchecked),
             Err(refused) => self.refuse(refused),
         }
     }
@@ -83,13 +83,13 @@ impl Core {
     /// The CRC is not that of this session. `stop` counts anyway, and a `hello` always has the CRC of session 0.
     fn take_bad_crc(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Unchecked);
+            return self.accept(Command::Stop, PacketTrust::Unchecked);
         }
         if self.session != 0
             && found == packet_crc(Direction::HostToRobot, 0, text)
             && let Ok(command @ Command::Hello(_)) = read_command(text, self.form())
         {
-            return self.accept(command, Trust::Checked);
+            return self.accept(command, PacketTrust::Checked);
         }
         count(&mut self.counters.bad_crc);
         self.bad()
@@ -102,7 +102,7 @@ impl Core {
         }
     }
 
-    fn accept(&mut self, command: Command, trust: Trust) -> Option<RobotEvent> {
+    fn accept(&mut self, command: Command, trust: PacketTrust) -> Option<RobotEvent> {
         match command {
             Command::Hello(hello) => self.greet(hello, trust),
             Command::Hand => {
@@ -198,13 +198,13 @@ impl Core {
         Ok(())
     }
 
-    fn greet(&mut self, hello: HostHello, trust: Trust) -> Option<RobotEvent> {
+    fn greet(&mut self, hello: HostHello, trust: PacketTrust) -> Option<RobotEvent> {
         self.accepted();
         self.reply(Reply::Hello);
         let common =
             hello.version_min <= ProtocolVersion::CURRENT && hello.version_max >= ProtocolVersion::MIN;
         let repeated = self.opened_by == Some(hello);
-        if trust == Trust::Unchecked || !common || repeated {
+        if trust == PacketTrust::Unchecked || !common || repeated {
             return None;
         }
         self.session = self.new_session_number();

@@ -88,12 +88,12 @@ const REPLIES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct RobotSession {
     framer: Framer,
-    core: Core,
+    core: RobotCore,
 }
 
 /// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
 #[derive(Clone, Debug)]
-struct Core {
+struct RobotCore {
     identity: RobotIdentity,
     mode: Mode,
     session: u16,
@@ -124,7 +124,7 @@ impl RobotSession {
     /// A session after reset, in hand mode. The first packets are a separator and an unasked `hello`.
     #[must_use]
     pub fn new(identity: RobotIdentity, now: Tick) -> Self {
-        let mut core = Core {
+        let mut core = RobotCore {
             identity,
             mode: Mode::Hand,
             session: 0,

@@ -1,6 +1,6 @@
 //! What goes to the host.
 
-use super::{Core, FLUSH_AFTER_MS, Reply};
+use super::{RobotCore, FLUSH_AFTER_MS, Reply};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::{PACKET_BYTES_MAX, SEPARATOR};
@@ -12,7 +12,7 @@ const FIRST_ROWS: u8 = 3;
 /// Rows of the description.
 pub(super) const ROWS: u8 = FIRST_ROWS + Parameter::ALL.len() as u8;
 
-impl Core {
+impl RobotCore {
     /// The next report that the session itself has to send.
     pub(super) fn next_report(&mut self) -> Option<Report> {
         match self.replies.pop_front() {

@@ -79,7 +79,7 @@ impl PackMake {
 
     /// The pack of a robot's description.
     #[must_use]
-    pub fn of(part: &model::Battery) -> Self {
+    pub fn of(part: &model::BatteryModel) -> Self {
         Self {
             cells: part.cells,
             capacity_ah: part.capacity_ah,

@@ -8,7 +8,7 @@ use rvac_protocol::message::ResetCause;
 use super::EmulatedRobot;
 use crate::board::CYCLES_PER_MS;
 use crate::board::contacts::{Contact, Hold};
-use crate::board::motors::{Drive, Motor};
+use crate::board::motors::{DriveInterval, MotorOutput};
 use crate::board::wiring::Wiring;
 use crate::machine::{Machine, ResetSource};
 
@@ -145,20 +145,20 @@ impl EmulatedRobot {
     /// Whether a wheel was driven in the last millisecond.
     #[must_use]
     pub fn wheels_driven(&self) -> bool {
-        [Motor::WheelLeft, Motor::WheelRight]
+        [MotorOutput::WheelLeft, MotorOutput::WheelRight]
             .into_iter()
             .any(|motor| self.duty(motor) != 0.0)
     }
 
     /// Mean duty of a motor in the last millisecond, -1..=1, forward positive.
     #[must_use]
-    pub fn duty(&self, motor: Motor) -> f64 {
+    pub fn duty(&self, motor: MotorOutput) -> f64 {
         self.motors.duty(motor, &self.machine)
     }
 
     /// When the motor was driven, to the cycle, since [`Self::watch_motors`].
     #[must_use]
-    pub fn drives(&self, motor: Motor) -> &[Drive] {
+    pub fn drives(&self, motor: MotorOutput) -> &[DriveInterval] {
         self.motors.drives(motor)
     }
 

@@ -3,9 +3,9 @@
 mod handles;
 mod settings;
 
-pub use settings::{Blueprint, BlueprintError, EmulatedSettings, Record};
+pub use settings::{Blueprint, BlueprintError, EmulatedSettings, CalibrationChoice};
 
-use home::{Actuation, Digest, RobotModel, World};
+use home::{Actuation, Fnv1a, RobotModel, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::ReceivedByte;
 
@@ -14,12 +14,12 @@ use crate::board::beams::Beams;
 use crate::board::circuit::Circuit;
 use crate::board::contacts::{Contact, Contacts};
 use crate::board::dock_code::DockEar;
-use crate::board::encoder::{BrushEncoder, Edge, Encoder, Position};
-use crate::board::gyro::GyroModule;
-use crate::board::light::{Lights, Sound};
-use crate::board::motors::{Motor, Motors};
+use crate::board::encoder::{BrushEncoder, ScheduledEdge, Encoder, Position};
+use crate::board::gyro::EmulatedGyro;
+use crate::board::light::{LampTimes, SpeakerTone};
+use crate::board::motors::{MotorOutput, MotorOutputs};
 use crate::board::power::{Feed, SLICE, SwitchUse};
-use crate::board::serial::{HostPort, Receiver, Sender};
+use crate::board::serial::{HostPort, BitReceiver, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
 use crate::pins::Level;
@@ -50,19 +50,19 @@ pub struct EmulatedRobot {
     encoders: [Encoder; 2],
     brush: BrushEncoder,
     beams: Beams,
-    gyro: GyroModule,
-    motors: Motors,
+    gyro: EmulatedGyro,
+    motors: MotorOutputs,
     ear: DockEar,
     emitter_selected: bool,
-    lights: Lights,
-    sound: Sound,
+    lights: LampTimes,
+    sound: SpeakerTone,
     to_robot: Sender,
-    robot_hears: Receiver,
+    robot_hears: BitReceiver,
     to_host: HostPort,
     monitor: Monitor,
-    digest: Digest,
+    digest: Fnv1a,
     actuation: Actuation,
-    edges: Vec<Edge>,
+    edges: Vec<ScheduledEdge>,
     line_edges: Vec<(u64, Level)>,
     charge_cycles: u64,
     /// The last millisecond in which the charging switch was closed.
@@ -93,17 +93,17 @@ impl EmulatedRobot {
             encoders: [encoder(0), encoder(1)],
             brush: BrushEncoder::new(wiring.brush_encoder, particulars.brush_pulses_per_s),
             beams: Beams::new(wiring.beam_receivers, particulars.beams, particulars.beam_unit_us),
-            gyro: GyroModule::new(wiring, (particulars, blueprint.gyro), seed),
-            motors: Motors::new(wiring, settings.bridges == Bridges::DeafToBrake),
+            gyro: EmulatedGyro::new(wiring, (particulars, blueprint.gyro), seed),
+            motors: MotorOutputs::new(wiring, settings.bridges == Bridges::DeafToBrake),
             ear: DockEar::new(particulars.dock_code_ones),
             emitter_selected: false,
-            lights: Lights::new(wiring),
-            sound: Sound::new(wiring),
+            lights: LampTimes::new(wiring),
+            sound: SpeakerTone::new(wiring),
             to_robot: Sender::new(settings.rate, seed),
-            robot_hears: Receiver::new(settings.rate.bit_cycles()),
+            robot_hears: BitReceiver::new(settings.rate.bit_cycles()),
             to_host: HostPort::new(settings.rate, seed.wrapping_add(1)),
             monitor: Monitor::new(),
-            digest: Digest::default(),
+            digest: Fnv1a::default(),
             actuation: Actuation {
                 charge_a: Some(0.0),
                 ..Actuation::default()
@@ -337,11 +337,11 @@ impl EmulatedRobot {
         let machine = &self.machine;
         let emitters = self.wiring.cliff_emitters;
         self.actuation = Actuation {
-            wheel_left: self.motors.bridge(Motor::WheelLeft, machine),
-            wheel_right: self.motors.bridge(Motor::WheelRight, machine),
-            brush_main: self.motors.duty(Motor::BrushMain, machine),
-            brush_sides: self.motors.duty(Motor::BrushSides, machine) != 0.0,
-            vacuum: self.motors.duty(Motor::Vacuum, machine) != 0.0,
+            wheel_left: self.motors.bridge(MotorOutput::WheelLeft, machine),
+            wheel_right: self.motors.bridge(MotorOutput::WheelRight, machine),
+            brush_main: self.motors.duty(MotorOutput::BrushMain, machine),
+            brush_sides: self.motors.duty(MotorOutput::BrushSides, machine) != 0.0,
+            vacuum: self.motors.duty(MotorOutput::Vacuum, machine) != 0.0,
             // The circuit knows whether they are lit at the moment of a sample; the home tells both levels.
             cliff_emitter: true,
             dock_signal: self.ear.is_content(end),
@@ -413,8 +413,8 @@ impl EmulatedRobot {
     fn driven(&self) -> Drives {
         let millionths = |motor| (self.motors.duty(motor, &self.machine) * 1e6) as i32;
         Drives {
-            wheels: [Motor::WheelLeft, Motor::WheelRight].map(millionths),
-            cleaners: [Motor::BrushMain, Motor::BrushSides, Motor::Vacuum].map(millionths),
+            wheels: [MotorOutput::WheelLeft, MotorOutput::WheelRight].map(millionths),
+            cleaners: [MotorOutput::BrushMain, MotorOutput::BrushSides, MotorOutput::Vacuum].map(millionths),
         }
     }
 }

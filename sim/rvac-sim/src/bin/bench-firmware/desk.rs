@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use home::{Home, Noise, Pose, RobotModel, World};
-use pic32::board::serial::Rate;
-use pic32::board::{Blueprint, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::serial::HostRate;
+use pic32::board::{Blueprint, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, CalibrationChoice};
 use pic32::image::Image;
 use pic32::machine::Machine;
 use rvac_protocol::PacketBuffer;
@@ -55,7 +55,7 @@ impl Shop {
             Image::from_elf(&bytes).with_context(|| format!("the firmware {}", firmware.display()))?;
         let model = RobotModel::by_name("sr8730")?;
         Ok(Self {
-            blueprint: Blueprint::sr8730(image.clone(), &Record::Complete)?,
+            blueprint: Blueprint::sr8730(image.clone(), &CalibrationChoice::Complete)?,
             image,
             home: Arc::new(Home::load(home, &model)?),
             model,
@@ -72,7 +72,7 @@ impl Shop {
             Some(START),
         );
         let settings = EmulatedSettings {
-            rate: Rate::exact(baud),
+            rate: HostRate::exact(baud),
             ..EmulatedSettings::default()
         };
         let robot = EmulatedRobot::new(&self.blueprint, world, &settings);

@@ -19,7 +19,7 @@ use brain::command::StrategyName;
 use clap::Parser;
 use robot::RobotSettings;
 use rvac_sim::run::{core_config, keep_working, start_cleaning};
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings, thread_processor_s};
+use rvac_sim::{GyroFitted, Host, Household, CalibrationChoice, Scene, SceneSettings, thread_processor_s};
 use vthal_core::{CoreConfig, Recording};
 
 use apart::{Parts, clock_s};
@@ -104,7 +104,7 @@ fn main() -> anyhow::Result<()> {
         robot: arguments.robot.clone(),
         noise: "nominal".to_owned(),
         firmware: None,
-        record: Record::Complete,
+        record: CalibrationChoice::Complete,
         gyro: GyroFitted::Placeholder,
     })?;
     let progress = Progress::new("simulator");
