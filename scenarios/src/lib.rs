@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
-use rvac_sim::{GyroFitted, Household, CalibrationChoice, Scene, SceneSettings};
+use rvac_sim::{CalibrationChoice, GyroFitted, Household, Scene, SceneSettings};
 
 /// The project's own homes.
 pub const HOMES: [&str; 3] = ["furnished-room", "stairs", "two-room-flat"];

@@ -69,7 +69,11 @@ impl<P: Parts> Cord<P> {
             .fold(0, |sum: i32, (_, ma)| sum.saturating_add(i32::from(ma)));
         ChargeContext {
             docked: self.reflexes.dock.inhibits(),
-            motors: if idle { MotorActivity::Idle } else { MotorActivity::Running },
+            motors: if idle {
+                MotorActivity::Idle
+            } else {
+                MotorActivity::Running
+            },
             load_ma,
         }
     }

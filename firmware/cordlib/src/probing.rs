@@ -1,9 +1,7 @@
 //! Raw readings on request: one answer, or a stream under a lease that ends by itself.
 
 use heapless::Vec;
-use rvac_protocol::message::{
-    PROBE_BYTES, Probe, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe,
-};
+use rvac_protocol::message::{PROBE_BYTES, Probe, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe};
 use rvac_units::Tick;
 
 use crate::board::PinProbe;

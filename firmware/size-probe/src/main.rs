@@ -9,8 +9,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use cordlib::board::{
     Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord, Watchdog,
-    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
+    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use cordlib::{Cord, Parameters};
 use rvac_protocol::message::{

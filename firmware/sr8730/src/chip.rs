@@ -4,7 +4,7 @@ use core::arch::global_asm;
 use core::panic::PanicInfo;
 
 use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
-use pic32mx3_hal::exception::{Exception, Kind};
+use pic32mx3_hal::exception::{Exception, ExceptionKind};
 use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_crc, reset};
 
 use sr8730::board::off;
@@ -35,7 +35,7 @@ fn main() -> ! {
 
 fn on_exception(exception: &Exception) -> ! {
     robot::fail_safe_reset(match exception.kind() {
-        Kind::UnhandledInterrupt => FatalCause::StrayInterrupt,
+        ExceptionKind::UnhandledInterrupt => FatalCause::StrayInterrupt,
         _ => FatalCause::Exception,
     })
 }

@@ -29,14 +29,14 @@ pub use home::Home;
 pub use linux_board::{Beacons, BoardGyro, Measured};
 pub use load::HomeError;
 pub use model::{
-    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel, LidarModel, ModelError, ProximityModel,
-    ReceiverMount, RobotModel, WheelMotor, robot_names,
+    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel,
+    LidarModel, ModelError, ProximityModel, ReceiverMount, RobotModel, WheelMotor, robot_names,
 };
 pub use noise::{Noise, NoiseError};
 pub use pcg::Pcg;
 pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};
 pub use world::{
-    Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, DockBeams, GyroReading, LidarScan, OddCell, Pack,
-    PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
+    Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell,
+    Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
 };

@@ -1,6 +1,6 @@
 //! The rules, as far as they can be judged from outside.
 
-use super::causes::{Drives, Pins, CauseTimes};
+use super::causes::{CauseTimes, Drives, Pins};
 use super::charging::ChargeTimes;
 use super::permission::HostPermission;
 
@@ -193,7 +193,12 @@ fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
 }
 
 /// The rules that are broken now, bit by rule.
-pub(crate) fn broken(now_ms: u64, permission: &HostPermission, standing: &CauseTimes, drives: &Drives) -> u32 {
+pub(crate) fn broken(
+    now_ms: u64,
+    permission: &HostPermission,
+    standing: &CauseTimes,
+    drives: &Drives,
+) -> u32 {
     let wheels = drives.wheels_on();
     let cleaners = drives.cleaners_on();
     let any = wheels || cleaners;

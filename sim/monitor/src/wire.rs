@@ -138,7 +138,7 @@ fn crc32c(crc: u32, bytes: &[u8]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CrcCheck, WireDirection, Splitter, crc32c, packet_crc, split_crc};
+    use super::{CrcCheck, Splitter, WireDirection, crc32c, packet_crc, split_crc};
 
     #[test]
     fn the_check_value_of_castagnoli() {

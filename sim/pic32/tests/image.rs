@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
 use pic32::board::serial::HostRate;
-use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, MotorOutput, CalibrationChoice};
+use pic32::board::{Blueprint, CalibrationChoice, EmulatedRobot, EmulatedSettings, MotorOutput};
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, Machine};
 use pic32::pins::{Level, Pin};
@@ -67,7 +67,8 @@ fn robot() -> Option<EmulatedRobot> {
 }
 
 fn robot_with(image: Image, settings: &EmulatedSettings) -> EmulatedRobot {
-    let blueprint = Blueprint::sr8730(image, &CalibrationChoice::Complete).expect("the project's board is sound");
+    let blueprint =
+        Blueprint::sr8730(image, &CalibrationChoice::Complete).expect("the project's board is sound");
     let model = RobotModel::by_name("sr8730").expect("it comes with the project");
     let home = Arc::new(Home::from_floorplan("room", ROOM, &model).expect("a valid home"));
     let world = World::new(home, &model, &Noise::nominal(), 1, None);

@@ -5,7 +5,7 @@
 use std::process::ExitCode;
 use std::thread;
 
-use robot::charging::{Conditions, ChargeTally, ChargeTrial};
+use robot::charging::{ChargeTally, ChargeTrial, Conditions};
 use rvac_protocol::message::ChargeEnd;
 
 /// Each stop alone is tried on so many times fewer charges than all together.
@@ -33,11 +33,12 @@ fn main() -> ExitCode {
     let mut rows = vec![("all".to_owned(), everything.clone())];
     if !has("--everything-only") {
         let last = first + ((last - first) / ALONE_SHARE).max(1);
-        rows.extend(
-            STOPS
-                .into_iter()
-                .map(|stop| (stop.name().to_owned(), tally(ChargeTrial::Only(stop), first, last))),
-        );
+        rows.extend(STOPS.into_iter().map(|stop| {
+            (
+                stop.name().to_owned(),
+                tally(ChargeTrial::Only(stop), first, last),
+            )
+        }));
     }
     if has("--json") {
         let rows: Vec<String> = rows.iter().map(|(name, tally)| json(name, tally)).collect();

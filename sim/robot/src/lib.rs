@@ -13,7 +13,7 @@ mod parameters;
 mod power;
 mod robot;
 
-pub use board::{Outfit, Relax, Sr8730};
+pub use board::{Outfit, Relax, Sr8730Outfit};
 pub use line::SerialLine;
 pub use parameters::parameters_for;
 pub use power::ChargeSwitch;

@@ -8,7 +8,7 @@ use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
-use crate::board::{self, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730, WATCHDOG_MS};
+use crate::board::{self, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730Outfit, WATCHDOG_MS};
 use crate::line::SerialLine;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
@@ -36,7 +36,7 @@ impl Default for RobotSettings {
 
 /// cordlib on a simulated board in a simulated home, with a paced serial line and the safety monitor.
 #[derive(Debug)]
-pub struct SimulatedRobot<O: Outfit = Sr8730> {
+pub struct SimulatedRobot<O: Outfit = Sr8730Outfit> {
     cord: Cord<SimulatedParts<O>>,
     one_line: OneLine,
     model: RobotModel,
@@ -67,7 +67,10 @@ impl<O: Outfit> SimulatedRobot<O> {
     #[must_use]
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
-            cord: Cord::new(board::fresh(PersistentMemory::first()), parameters_for(O::NAME, model)),
+            cord: Cord::new(
+                board::fresh(PersistentMemory::first()),
+                parameters_for(O::NAME, model),
+            ),
             one_line: OneLine::default(),
             model: model.clone(),
             world,

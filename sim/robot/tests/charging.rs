@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
-use robot::charging::{Conditions, ChargeTally, ChargeTrial};
+use robot::charging::{ChargeTally, ChargeTrial, Conditions};
 use robot::{ChargeSwitch, RobotSettings, SimulatedRobot};
 use rvac_protocol::message::{ChargeEnd, Inhibit};
 

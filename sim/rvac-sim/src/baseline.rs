@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::page::LONGEST;
 use crate::run::{RunEnd, RunSettings, household, run_until};
 use crate::trace::KeptRun;
-use crate::{GyroFitted, CalibrationChoice, Scene, SceneSettings};
+use crate::{CalibrationChoice, GyroFitted, Scene, SceneSettings};
 
 /// In what a kept run was made: the same for a run of `bounce` that it can be compared with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,9 +6,11 @@ use std::sync::Arc;
 
 use home::World;
 use pic32::board::serial::HostRate;
-use pic32::board::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, GyroFitted, CalibrationChoice};
+use pic32::board::{
+    Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings, GyroFitted,
+};
 use pic32::image::{Image, ImageError};
-use robot::{Outfit, Relax, RobotSettings, SimulatedRobot, Sr8730};
+use robot::{Outfit, Relax, RobotSettings, SimulatedRobot, Sr8730Outfit};
 
 use crate::Robot;
 
@@ -81,8 +83,8 @@ impl Firmware {
     #[must_use]
     pub fn suits(&self, robot: &str) -> bool {
         match self {
-            Self::HostBuilt => [Sr8730::NAME, Relax::NAME].contains(&robot),
-            Self::Image(_) => robot == Sr8730::NAME,
+            Self::HostBuilt => [Sr8730Outfit::NAME, Relax::NAME].contains(&robot),
+            Self::Image(_) => robot == Sr8730Outfit::NAME,
         }
     }
 

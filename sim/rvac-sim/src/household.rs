@@ -6,11 +6,11 @@ use brain::mapping::StoredMap;
 use home::{Beacons, BoardGyro, Home, Pose};
 
 use crate::carpet_quality;
-use crate::figures::{Belief, Collector, Floor};
+use crate::figures::{Belief, Collector, MeasuredFloor};
 use crate::known_map::known_map;
 use crate::linux_board::LinuxBoard;
 use crate::map_quality::judge;
-use crate::report::{Driven, Report, StuckWatch};
+use crate::report::{Driven, RunReport, StuckWatch};
 use crate::trace::{Drawing, KeptRun, Trace};
 use crate::{Figures, Host, Robot};
 
@@ -57,7 +57,7 @@ impl Household {
     pub fn new(robot: Robot, host: Host) -> Self {
         let map_from_plan = robot.world().truth().pose.inverse();
         let home = robot.world().home();
-        let floor = Floor {
+        let floor = MeasuredFloor {
             reachable_m2: home.reachable_area_m2(),
             t0_s: home.t0_s(),
             cruise_m_per_s: robot.model().drive.cruise_m_per_s,
@@ -315,11 +315,11 @@ impl Household {
 
     /// The figures so far.
     #[must_use]
-    pub fn report(&self) -> Report {
-        Report {
+    pub fn report(&self) -> RunReport {
+        RunReport {
             pose_rmse_m: self.figures.pose_rmse_m(),
             figures: Some(Box::new(self.all_figures())),
-            ..Report::of(&self.robot, &self.stuck)
+            ..RunReport::of(&self.robot, &self.stuck)
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::{Figures, HostCost, Robot};
 
 /// The figures of a run, as one JSON object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct RunReport {
     /// Name of the home.
     pub home: String,
     /// All floor, square metres.
@@ -44,7 +44,7 @@ pub struct Report {
     pub host_cost: Option<HostCost>,
 }
 
-impl Report {
+impl RunReport {
     /// The figures of `robot` up to now, without those that only others know.
     #[must_use]
     pub fn of(robot: &Robot, stuck: &StuckWatch) -> Self {
@@ -71,7 +71,7 @@ impl Report {
     }
 }
 
-impl std::fmt::Display for Report {
+impl std::fmt::Display for RunReport {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(formatter, "home          {}", self.home)?;
         writeln!(

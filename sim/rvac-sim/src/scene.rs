@@ -6,7 +6,7 @@ use std::sync::Arc;
 use home::generate::GeneratedHome;
 use home::traps::{Trap, TrapKind};
 use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, NoiseError, Pose, RobotModel, World};
-use pic32::board::{GyroFitted, CalibrationChoice};
+use pic32::board::{CalibrationChoice, GyroFitted};
 use robot::RobotSettings;
 
 use crate::{Firmware, FirmwareError, Robot};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::baseline::Origin;
 use crate::figures::Belief;
-use crate::{Host, Report};
+use crate::{Host, RunReport};
 
 /// The way of a run. All places are in the plan frame.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -171,7 +171,7 @@ impl KeptRun {
     ///
     /// # Errors
     /// When the report cannot be written as JSON.
-    pub fn new(title: String, report: &Report, home: &Home) -> anyhow::Result<Self> {
+    pub fn new(title: String, report: &RunReport, home: &Home) -> anyhow::Result<Self> {
         Ok(Self {
             title,
             origin: None,

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
-use crate::testbed::{Testbed, TestbedError, Fixture};
-use crate::trial::{TrialOutcome, OperatingState, Trial};
+use crate::testbed::{Fixture, Testbed, TestbedError};
+use crate::trial::{OperatingState, Trial, TrialOutcome};
 
 /// Robots of each scene: each with another phase between its core and its surroundings.
 const CAST: u64 = 8;

@@ -57,7 +57,9 @@ fn hold(testbed: &mut Testbed, contact: Contact, cycle: u64) {
 }
 
 fn read(testbed: &mut Testbed, channel: u8, counts: u16, cycle: u64) {
-    testbed.robot_mut().hold_analog(channel, counts, (cycle, u64::MAX));
+    testbed
+        .robot_mut()
+        .hold_analog(channel, counts, (cycle, u64::MAX));
 }
 
 fn fault(testbed: &mut Testbed, sensor: SensorId, fault: SensorFault) {
@@ -384,7 +386,10 @@ fn battery() -> [Trial; 6] {
             ("S17", "pack above 60 °C"),
             OperatingState::Cleaning,
             heat_up,
-            (Expectation::AllOffSaying(Inhibit::BatteryOverheated), HEATING_MS + 1_000),
+            (
+                Expectation::AllOffSaying(Inhibit::BatteryOverheated),
+                HEATING_MS + 1_000,
+            ),
         ),
         trial(
             ("S17", "thermistor unplugged"),

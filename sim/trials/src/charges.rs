@@ -6,7 +6,7 @@ use home::{Pack, PackMake, Pcg};
 use monitor::Bridges;
 use serde::Serialize;
 
-use crate::testbed::{Testbed, TestbedError, Fixture};
+use crate::testbed::{Fixture, Testbed, TestbedError};
 
 const PACKS: u64 = 0xC4A6;
 /// A charge begins within this time on the dock.

@@ -17,5 +17,5 @@ mod trial;
 pub use campaign::{Campaign, TrialSummary};
 pub use catalog::trials;
 pub use ending::{CampaignError, conclude};
-pub use testbed::{Testbed, TestbedError, Fixture};
-pub use trial::{Expectation, TrialOutcome, OperatingState, Trial};
+pub use testbed::{Fixture, Testbed, TestbedError};
+pub use trial::{Expectation, OperatingState, Trial, TrialOutcome};

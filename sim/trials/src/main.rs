@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use serde::Serialize;
-use trials::{CampaignError, Campaign, Trial, TrialSummary, Fixture, conclude, trials};
+use trials::{Campaign, CampaignError, Fixture, Trial, TrialSummary, conclude, trials};
 
 /// Tries every safety rule on a firmware.
 #[derive(Debug, Parser)]

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use monitor::Bridges;
-use pic32::board::{Blueprint, BlueprintError, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, CalibrationChoice};
+use pic32::board::{
+    Blueprint, BlueprintError, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings,
+};
 use pic32::image::{Image, ImageError};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{

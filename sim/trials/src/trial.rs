@@ -4,7 +4,7 @@ use pic32::board::{CYCLES_PER_MS, MotorOutput};
 use rvac_protocol::message::{Inhibit, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
 
-use crate::testbed::{Testbed, TestbedError, Fixture};
+use crate::testbed::{Fixture, Testbed, TestbedError};
 use monitor::Bridges;
 
 /// Time in a scene before anything happens: the wheels have come to speed.

@@ -7,7 +7,7 @@ use crate::board::ThermistorFault;
 use super::controller::{ChargeContext, ChargeController};
 use super::frozen_sensor::FrozenSensorDetector;
 use super::guard::AGE_MAX_MS;
-use super::meter::{Averages, CompletedWindows, AveragingWindow};
+use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::stops::Stops;
 
 const TOO_HOT_CC: i32 = 5_500;
@@ -188,7 +188,9 @@ impl<S: Stops> ChargeController<S> {
 
     /// Ten seconds of rest show a current that cannot flow.
     fn find_wrong_offset(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
-        let averages = self.current_offset.correct(windows.of(AveragingWindow::TenSeconds)?);
+        let averages = self
+            .current_offset
+            .correct(windows.of(AveragingWindow::TenSeconds)?);
         let needed = self.phase == ChargePhase::Idle && averages.pack_mv < self.scale.recharge_mv();
         let rested = self.off_ms >= averages.elapsed_ms.saturating_add(SETTLE_MS);
         let docked = self.docked_ms >= averages.elapsed_ms;

@@ -38,7 +38,12 @@ pub(super) struct Guard {
 
 impl Guard {
     /// The part of the request that may reach the switch. `elapsed_ms` is the time since the last call.
-    pub(super) fn permit(&mut self, request: ChargeDrive, view: &ChargeConditions, elapsed_ms: u32) -> ChargeDrive {
+    pub(super) fn permit(
+        &mut self,
+        request: ChargeDrive,
+        view: &ChargeConditions,
+        elapsed_ms: u32,
+    ) -> ChargeDrive {
         let drive = if self.allows(view) {
             request
         } else {
@@ -79,7 +84,7 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use super::{FLOW_MAX_MS, Guard, ChargeConditions};
+    use super::{ChargeConditions, FLOW_MAX_MS, Guard};
     use crate::board::ChargeDrive;
     use rvac_units::Ratio;
 

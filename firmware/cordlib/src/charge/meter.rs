@@ -208,7 +208,7 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
-    use super::{Meter, AveragingWindow};
+    use super::{AveragingWindow, Meter};
     use crate::board::{ChargerReadings, ThermistorFault};
     use rvac_units::{Temperature, Tick};
 

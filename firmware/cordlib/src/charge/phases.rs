@@ -5,9 +5,9 @@ use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use super::controller::{ChargeContext, ChargeController};
 use super::faults::OFFSET_FAULT_MA;
 use super::guard;
-use super::meter::{Averages, CompletedWindows, AveragingWindow};
+use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::scale::PackLimits;
-use super::stops::{Detectors, ChargeProgress, Stops, TIME_MS};
+use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
 
 /// The contacts must be closed this long before a charge begins.
 const DOCKED_MS: u32 = 1_000;

@@ -1,7 +1,7 @@
 //! The rate: found from `U`, found again after a restart of either side, kept when there is noise.
 
 use crate::line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
-use soft_uart::{Baud, BitTime, Level, Received, Receiver, RateTrust};
+use soft_uart::{Baud, BitTime, Level, RateTrust, Received, Receiver};
 
 /// What a host sends until it is answered, and what follows.
 const GREETING: &[u8] = b"U\nhello 3 17 a9c2\n";
@@ -155,7 +155,11 @@ fn one_letter_at_a_third_of_the_rate_is_remembered() {
         line.pause_ms(2.0);
         let mut receiver = automatic();
         hear(&line, &mut receiver, 0);
-        assert_eq!(receiver.trust(), RateTrust::Locked(before), "nothing was wrong yet");
+        assert_eq!(
+            receiver.trust(),
+            RateTrust::Locked(before),
+            "nothing was wrong yet"
+        );
         line.edges.clear();
         line.bytes(after, b"\nhello 3 17 a9c2\n");
         line.pause_ms(2.0);

@@ -2,7 +2,7 @@
 
 use crate::line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
 use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
-use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, Received, Receiver, RateTrust};
+use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, RateTrust, Received, Receiver};
 
 const LATE: f64 = 0.25;
 const ERROR: f64 = 0.025;

@@ -1,7 +1,7 @@
 //! Finds places for furniture: at a wall or freely, away from doors and from each other.
 
 use super::draw::Draw;
-use super::shape::{WallFrame, Point, Rect, RoomSide};
+use super::shape::{Point, Rect, RoomSide, WallFrame};
 use super::sizes::Size;
 use super::things::{Piece, Rug, Things};
 

@@ -22,8 +22,8 @@ use draw::Draw;
 use furnisher::Furnisher;
 pub use half::Half;
 use layout::{HomeSize, draw_rooms};
-use shape::{WallFrame, Rect, RoomSide};
-use things::{Piece, Room, RoomKind, Things, Visitor, PlacedWalker};
+use shape::{Rect, RoomSide, WallFrame};
+use things::{Piece, PlacedWalker, Room, RoomKind, Things, Visitor};
 use write::Turn;
 
 /// Which generated home.

@@ -1,7 +1,7 @@
 //! What stands in which room.
 
 use super::furnisher::{Furnisher, LEG_M, Where};
-use super::shape::{WallFrame, Rect, RoomSide};
+use super::shape::{Rect, RoomSide, WallFrame};
 use super::sizes::{
     ARMCHAIR, BED_NARROW, BED_WIDE, BOX, COFFEE_TABLE, COUNTER_DEPTH_M, DESK, DINING_TABLE, DOG_BED, DRESSER,
     FLOOR_LAMP, FRIDGE, GARBAGE_CAN, HAMPER, HOUSE_PLANT, SHELF, SIDE_TABLE, SOFA, STOOL, Size, TOILET,

@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::shape::{Point, Rect};
-use super::things::{PlacedLine, Piece, Rug, Things};
+use super::things::{Piece, PlacedLine, Rug, Things};
 
 /// How the drawn home is laid on the paper, so that not every home has its corridor from left to right.
 #[derive(Clone, Copy, Debug, Default)]

@@ -129,7 +129,11 @@ fn grey(value: u64, white: u64) -> Option<u8> {
     Some((value.min(white) * 255 / white) as u8)
 }
 
-fn binary_pixels(reader: &PnmReader<'_>, count: usize, white: u64) -> Result<Vec<Option<u8>>, GreyImageError> {
+fn binary_pixels(
+    reader: &PnmReader<'_>,
+    count: usize,
+    white: u64,
+) -> Result<Vec<Option<u8>>, GreyImageError> {
     let wide = if white > 255 { 2 } else { 1 };
     // One white space ends the header.
     let raster = reader.bytes.get(reader.position + 1..).unwrap_or(&[]);
@@ -151,7 +155,11 @@ fn binary_pixels(reader: &PnmReader<'_>, count: usize, white: u64) -> Result<Vec
         .collect())
 }
 
-fn text_pixels(reader: &mut PnmReader<'_>, count: usize, white: u64) -> Result<Vec<Option<u8>>, GreyImageError> {
+fn text_pixels(
+    reader: &mut PnmReader<'_>,
+    count: usize,
+    white: u64,
+) -> Result<Vec<Option<u8>>, GreyImageError> {
     // Two bytes a pixel at least, so a lying header cannot make us take more memory than the file allows.
     if reader.bytes.len() < count {
         return Err(GreyImageError::Truncated(format!(

@@ -6,8 +6,8 @@ use super::raw::{
     RawProximity, RawReceivers, RawWheelMotor,
 };
 use super::{
-    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, DriveModel, GyroModel, LidarModel, ModelError, ProximityModel, ReceiverMount,
-    RobotModel, WheelMotor,
+    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, DriveModel, GyroModel, LidarModel,
+    ModelError, ProximityModel, ReceiverMount, RobotModel, WheelMotor,
 };
 
 /// Names the file in every complaint.
@@ -176,7 +176,11 @@ fn bumper(reader: &ModelReader<'_>, raw: &RawBumper) -> Result<BumperModel, Mode
     })
 }
 
-fn cliffs(reader: &ModelReader<'_>, raw: &RawPlaces, body: &BodyModel) -> Result<Vec<CliffMount>, ModelError> {
+fn cliffs(
+    reader: &ModelReader<'_>,
+    raw: &RawPlaces,
+    body: &BodyModel,
+) -> Result<Vec<CliffMount>, ModelError> {
     let span = -body.radius_m..=body.radius_m;
     let x = reader.list(&raw.x, "cliffs.x [m]", span.clone())?;
     let y = reader.list(&raw.y, "cliffs.y [m]", span)?;
@@ -199,7 +203,11 @@ const CLIFFS_MAX: usize = 4;
 /// Most dock receivers.
 const RECEIVERS_MAX: usize = 4;
 
-fn proximity(reader: &ModelReader<'_>, raw: &RawProximity, body: &BodyModel) -> Result<ProximityModel, ModelError> {
+fn proximity(
+    reader: &ModelReader<'_>,
+    raw: &RawProximity,
+    body: &BodyModel,
+) -> Result<ProximityModel, ModelError> {
     let headings = reader.list(&raw.headings, "proximity.headings [deg]", -180.0..=180.0)?;
     Ok(ProximityModel {
         headings_rad: headings.into_iter().map(radians).collect(),

@@ -17,13 +17,13 @@ pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
     match kind {
         TrapKind::Airer => airer(sketch),
         TrapKind::Bed => bed(sketch),
-        TrapKind::BlackIsland => black(sketch, Exit::None),
-        TrapKind::BlackRug => black(sketch, Exit::AlongTheWall),
+        TrapKind::BlackIsland => black(sketch, ExitKind::None),
+        TrapKind::BlackRug => black(sketch, ExitKind::AlongTheWall),
         TrapKind::Cables => cables(sketch),
         TrapKind::Carpet => carpet(sketch),
         TrapKind::Chairs => chairs(sketch),
-        TrapKind::Closet => closet(sketch, Exit::None),
-        TrapKind::Door => closet(sketch, Exit::Later),
+        TrapKind::Closet => closet(sketch, ExitKind::None),
+        TrapKind::Door => closet(sketch, ExitKind::Later),
         TrapKind::DoorLeaf => door_leaf(sketch),
         TrapKind::Landing => landing(sketch),
         TrapKind::Mirror => mirror(sketch),
@@ -42,7 +42,7 @@ pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
 
 /// Whether there is a way out.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Exit {
+enum ExitKind {
     None,
     AlongTheWall,
     Later,
@@ -95,14 +95,14 @@ fn bed(sketch: &mut Sketch) {
     sketch.end_at([0.0, 0.0], [east, north]);
 }
 
-fn black(sketch: &mut Sketch, way: Exit) {
+fn black(sketch: &mut Sketch, way: ExitKind) {
     let (low, high) = ([0.9, 1.0], [sketch.number(1.6, 1.9), sketch.number(1.8, 2.1)]);
     let lane_m = sketch.number(0.55, 0.75);
     let north = high[1] + 0.45;
     let south = low[1] - 0.45;
     // With a way out, the island reaches the wall in the west, and a lane leads along that wall.
     match way {
-        Exit::AlongTheWall => {
+        ExitKind::AlongTheWall => {
             sketch.black_rug(&[
                 [0.0, south],
                 [2.4, south],
@@ -115,7 +115,7 @@ fn black(sketch: &mut Sketch, way: Exit) {
             ]);
             sketch.end_at([0.0, south], [2.4, north]);
         }
-        Exit::None | Exit::Later => {
+        ExitKind::None | ExitKind::Later => {
             let outer = [
                 [0.3, south],
                 [2.4, south],
@@ -185,12 +185,12 @@ fn chairs(sketch: &mut Sketch) {
     );
 }
 
-fn closet(sketch: &mut Sketch, way: Exit) {
+fn closet(sketch: &mut Sketch, way: ExitKind) {
     let (east, north) = (sketch.number(0.8, 1.2), sketch.number(1.1, 2.2));
     sketch.wall([[east, 0.0], [east, north]]);
     sketch.wall([[0.0, north], [east + 0.05, north]]);
     let start = sketch.number(0.1, north - 0.95);
-    let opens_s = (way == Exit::Later).then(|| sketch.number(90.0, 300.0));
+    let opens_s = (way == ExitKind::Later).then(|| sketch.number(90.0, 300.0));
     sketch.shut_door([[east, start], [east, start + 0.75]], opens_s);
     let heading_deg = any_heading(sketch);
     sketch.start([0.4 * east, 0.5 * north], heading_deg);

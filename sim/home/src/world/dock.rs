@@ -27,7 +27,7 @@ const SIGHT_MAX: usize = 200;
 
 /// What becomes of the dock's beams on their way; all zero is a dock in a dark room with black walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DockBeams {
+pub struct BeamStrengths {
     /// Share of the words that a receiver misses.
     pub lost: f64,
     /// Share of the words in which a receiver that looks elsewhere hears one of the lobes from a wall.
@@ -36,7 +36,7 @@ pub struct DockBeams {
     pub ragged_rad: f64,
 }
 
-impl DockBeams {
+impl BeamStrengths {
     /// A sunny room with white walls.
     pub const POOR: Self = Self {
         lost: 0.1,
@@ -52,7 +52,7 @@ pub(crate) struct Dock {
     plan_cos: f64,
     plan_sin: f64,
     docked: Pose,
-    beams: DockBeams,
+    beams: BeamStrengths,
     random: Pcg,
     /// What the receivers hear.
     pub(crate) symbols: [u8; 4],
@@ -68,7 +68,7 @@ impl Dock {
             plan_cos: 0.0,
             plan_sin: 0.0,
             docked: pose,
-            beams: DockBeams::default(),
+            beams: BeamStrengths::default(),
             random,
             symbols: [0; 4],
             docked_now: false,
@@ -90,7 +90,7 @@ impl Dock {
         self.stand_at(Pose::new(x_m, y_m, self.pose.heading_rad + turn_rad), model);
     }
 
-    pub(crate) fn set_beams(&mut self, beams: DockBeams) {
+    pub(crate) fn set_beams(&mut self, beams: BeamStrengths) {
         self.beams = beams;
     }
 
@@ -135,7 +135,7 @@ impl Dock {
             if wrap_angle(direction - mount.heading_rad).abs() <= mount.half_angle_rad {
                 *heard = symbol;
             }
-            if self.beams != DockBeams::default() {
+            if self.beams != BeamStrengths::default() {
                 *heard = self.beams.heard(*heard, symbol, &mut self.random);
             }
         }
@@ -151,7 +151,7 @@ impl Dock {
     }
 }
 
-impl DockBeams {
+impl BeamStrengths {
     /// What a receiver hears that should hear `heard` where the beams say `symbol`.
     fn heard(self, heard: u8, symbol: u8, random: &mut Pcg) -> u8 {
         let (fate, lobe) = (random.unit(), random.below(2));

@@ -15,7 +15,7 @@ const DRIFT_PERIOD_S: f64 = DRIFT_STEPS as f64 * STEP_S;
 
 /// The gyro.
 #[derive(Clone, Debug)]
-pub(crate) struct Gyro {
+pub(crate) struct SimulatedGyro {
     steps_per_rad: f64,
     step_urad: f64,
     scale: f64,
@@ -27,7 +27,7 @@ pub(crate) struct Gyro {
     rate_rad_per_s: f64,
 }
 
-impl Gyro {
+impl SimulatedGyro {
     pub(crate) fn new(part: &model::GyroModel, noise: &Noise, random: &mut Pcg) -> Self {
         Self {
             steps_per_rad: 1.0 / part.resolution_rad,

@@ -21,12 +21,12 @@ use std::sync::Arc;
 
 pub use actuation::{Actuation, Bridge};
 pub use battery::{OddCell, Pack, PackMake, Supply};
-pub use dock::DockBeams;
+pub use dock::BeamStrengths;
 pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
 
-pub(crate) use gyro::{DRIFT_STEPS, Gyro as WorldGyro, WALK_STEPS};
+pub(crate) use gyro::{DRIFT_STEPS, SimulatedGyro, WALK_STEPS};
 
 use crate::{Home, Noise, Pcg, Pose, RobotModel};
 use body::Body;
@@ -34,7 +34,7 @@ use dirt::Dirt;
 use dock::Dock;
 use fault::Faults;
 use floor::Underneath;
-use gyro::Gyro;
+
 use lidar::Lidar;
 use proximity::Proximity;
 use slip::Slip;
@@ -53,7 +53,7 @@ pub struct World {
     slip: Slip,
     underneath: Underneath,
     proximity: Option<Proximity>,
-    gyro: Option<Gyro>,
+    gyro: Option<SimulatedGyro>,
     dock: Option<Dock>,
     battery: Pack,
     charging_speed: f64,
@@ -112,7 +112,10 @@ impl World {
                 .proximity
                 .as_ref()
                 .map(|part| Proximity::new(part, model.body.radius_m, noise, random)),
-            gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
+            gyro: model
+                .gyro
+                .as_ref()
+                .map(|part| SimulatedGyro::new(part, noise, random)),
             dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             charging_speed: 1.0,
@@ -179,7 +182,7 @@ impl World {
     /// What the gyro's turns must be multiplied by, less 1, to be true; `None` without a gyro.
     #[must_use]
     pub fn gyro_scale_error(&self) -> Option<f64> {
-        self.gyro.as_ref().map(Gyro::scale_error)
+        self.gyro.as_ref().map(SimulatedGyro::scale_error)
     }
 
     /// The home as it is now, doors included.
@@ -210,7 +213,7 @@ impl World {
     }
 
     /// What becomes of the dock's beams on their way.
-    pub fn set_dock_beams(&mut self, beams: DockBeams) {
+    pub fn set_dock_beams(&mut self, beams: BeamStrengths) {
         if let Some(dock) = &mut self.dock {
             dock.set_beams(beams);
         }

@@ -325,7 +325,7 @@ impl World {
         let in_air = self.is_in_air();
         self.sensors.count_left = self.left.count;
         self.sensors.count_right = self.right.count;
-        self.sensors.gyro = self.gyro.as_ref().map(super::Gyro::reading);
+        self.sensors.gyro = self.gyro.as_ref().map(super::SimulatedGyro::reading);
         (self.sensors.bumper_left, self.sensors.bumper_right) = self.body.pressed(now_ms);
         self.sensors.cliff_levels = self.underneath.levels(actuation.cliff_emitter);
         self.sensors.cliff_dark = self.underneath.levels(false);

@@ -7,7 +7,7 @@ use super::calibration::Particulars;
 use super::power::{ChargeCurrent, divider_counts, thermistor_counts};
 use super::wiring::{Wiring, selected};
 use crate::machine::{Outputs, Surroundings};
-use crate::pins::Output;
+use crate::pins::PinDriver;
 
 /// Highest reading of the converter.
 const FULL_SCALE: f64 = 1023.0;
@@ -91,7 +91,7 @@ impl Circuit {
     }
 
     /// Whether the cliff sensors' emitters shine, by what the chip does to the line that may switch them.
-    pub(super) fn emitters_lit(&self, line: Output) -> bool {
+    pub(super) fn emitters_lit(&self, line: PinDriver) -> bool {
         !self.particulars.cliff_emitters_switched || self.wiring.cliff_emitters.is_on(line)
     }
 

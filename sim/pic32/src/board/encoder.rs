@@ -130,7 +130,7 @@ impl BrushEncoder {
 
 #[cfg(test)]
 mod tests {
-    use super::{BrushEncoder, ScheduledEdge, Encoder, Position};
+    use super::{BrushEncoder, Encoder, Position, ScheduledEdge};
     use crate::board::wiring::DigitalLine;
     use crate::pins::{Level, Pin};
 

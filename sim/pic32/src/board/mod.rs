@@ -25,7 +25,7 @@ pub use contacts::{Contact, Hold};
 pub use error::BoardError;
 pub use gyro_frame::{GyroCheck, GyroFitted, GyroLayout};
 pub use motors::{DriveInterval, MotorOutput, Reaction, reaction};
-pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, CalibrationChoice};
+pub use robot::{Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 
 /// Cycles of the chip's system clock in a second.
 pub const CYCLES_PER_S: u64 = 80_000_000;

@@ -241,11 +241,12 @@ mod tests {
 
     #[test]
     fn a_reaction_is_the_time_from_the_event_to_the_end_of_the_drive() {
-        let drives = [(10, Some(50)), (10_000, Some(18_000)), (30_000, None)].map(|(from, until)| DriveInterval {
-            from,
-            until,
-            forward: true,
-        });
+        let drives =
+            [(10, Some(50)), (10_000, Some(18_000)), (30_000, None)].map(|(from, until)| DriveInterval {
+                from,
+                until,
+                forward: true,
+            });
         for (event, wanted) in [
             (5, Reaction::NotDriven),
             (5_000, Reaction::NotDriven),

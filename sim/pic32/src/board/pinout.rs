@@ -219,7 +219,7 @@ fn signal(row: RawSignal) -> Result<PinoutSignal, BoardError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{SignalLevel, SignalKind, Pinout};
+    use super::{Pinout, SignalKind, SignalLevel};
     use crate::board::BoardError;
     use crate::pins::Level;
 

@@ -1,8 +1,8 @@
 //! Which pin ends in which part of the robot.
 
 use super::BoardError;
-use super::pinout::{SignalLevel, Pinout, Pull};
-use crate::pins::{Level, Output, Pin};
+use super::pinout::{Pinout, Pull, SignalLevel};
+use crate::pins::{Level, Pin, PinDriver};
 
 /// A digital line: its pin, and the level that means "on".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,8 +36,8 @@ impl DigitalLine {
     /// Whether the chip switches the line on. A line that the chip leaves alone is off: the bridges and transistors
     /// behind the outputs hold it there.
     #[must_use]
-    pub fn is_on(self, output: Output) -> bool {
-        output == Output::from(self.active)
+    pub fn is_on(self, output: PinDriver) -> bool {
+        output == PinDriver::from(self.active)
     }
 }
 
@@ -259,7 +259,7 @@ impl Wiring {
 
 /// The number that the select lines of a multiplexer show, bit 0 first.
 #[must_use]
-pub fn selected(lines: &[DigitalLine; 3], output: impl Fn(Pin) -> Output) -> u8 {
+pub fn selected(lines: &[DigitalLine; 3], output: impl Fn(Pin) -> PinDriver) -> u8 {
     lines.iter().rev().fold(0, |number, line| {
         number << 1 | u8::from(line.is_on(output(line.pin)))
     })
@@ -270,7 +270,7 @@ mod tests {
     use super::{DigitalLine, Wiring, selected};
     use crate::board::BoardError;
     use crate::board::pinout::Pinout;
-    use crate::pins::{Level, Output};
+    use crate::pins::{Level, PinDriver};
 
     #[test]
     fn every_part_of_the_robot_has_its_pin() {
@@ -294,7 +294,7 @@ mod tests {
         let pin = "RA4".parse().unwrap();
         for active in [Level::Low, Level::High] {
             let line = DigitalLine { pin, active };
-            assert!(!line.is_on(Output::Floating));
+            assert!(!line.is_on(PinDriver::Floating));
             assert!(line.is_on(line.level(true).into()));
             assert!(!line.is_on(line.level(false).into()));
         }
@@ -311,7 +311,7 @@ mod tests {
             (vec![a, b], 3),
             (vec![c, b], 6),
         ] {
-            let output = |pin| Output::from(Level::of(on.iter().any(|line| line.pin == pin)));
+            let output = |pin| PinDriver::from(Level::of(on.iter().any(|line| line.pin == pin)));
             assert_eq!(selected(&wiring.sensor_select, output), number);
         }
     }

@@ -70,7 +70,11 @@ impl Cpu {
         Ok(())
     }
 
-    fn transfer_out<B: Bus>(&mut self, operation: Operation, port: &mut AddressSpace<'_, B>) -> Result<(), InstructionFault> {
+    fn transfer_out<B: Bus>(
+        &mut self,
+        operation: Operation,
+        port: &mut AddressSpace<'_, B>,
+    ) -> Result<(), InstructionFault> {
         match operation {
             Operation::Sb { rt, base, offset } => {
                 let value = self.registers.get(rt) & 0xFF;
@@ -108,7 +112,11 @@ impl Cpu {
     }
 
     /// The word around an address, for a store of a part of it.
-    fn load_for_store<B: Bus>(&mut self, port: &mut AddressSpace<'_, B>, address: u32) -> Result<u32, InstructionFault> {
+    fn load_for_store<B: Bus>(
+        &mut self,
+        port: &mut AddressSpace<'_, B>,
+        address: u32,
+    ) -> Result<u32, InstructionFault> {
         let before = self.cycle;
         let word = self.load(port, address & !3, Width::Word);
         self.cycle = before;

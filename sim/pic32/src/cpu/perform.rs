@@ -1,6 +1,6 @@
 //! One instruction of the inner loop: a flat `match`, of which the compiler makes one jump table.
 
-use super::inner::{After, Region, ExecutionContext};
+use super::inner::{After, ExecutionContext, Region};
 use super::multiplier::{Multiplier, product};
 use super::operation::{Loaded, Operation};
 use super::registers::{Registers, Source, WriteTarget};

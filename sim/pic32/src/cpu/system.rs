@@ -73,7 +73,7 @@ const INTERRUPT_OFFSET: u32 = 0x200;
 
 /// A write to the system registers that others must hear of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SystemWrite {
+pub(super) enum Coprocessor0Write {
     /// Nothing more to do.
     Plain,
     /// Count was set.
@@ -163,13 +163,13 @@ impl Coprocessor0 {
         }
     }
 
-    pub(super) fn write(&mut self, register: u8, select: u8, value: u32) -> SystemWrite {
+    pub(super) fn write(&mut self, register: u8, select: u8, value: u32) -> Coprocessor0Write {
         match (register, select) {
             (7, 0) => self.hardware_enable = value & 0xF,
-            (9, 0) => return SystemWrite::Count(value),
+            (9, 0) => return Coprocessor0Write::Count(value),
             (11, 0) => {
                 self.cause &= !CAUSE_TI;
-                return SystemWrite::Compare(value);
+                return Coprocessor0Write::Compare(value);
             }
             (12, 0) => self.write_status(value),
             (12, 1) => self.interrupt_control = value & INTCTL_SPACING,
@@ -177,7 +177,7 @@ impl Coprocessor0 {
             (12, 3) => self.shadow_map = value,
             (13, 0) => {
                 self.cause = self.cause & !CAUSE_WRITABLE | value & CAUSE_WRITABLE;
-                return SystemWrite::Cause;
+                return Coprocessor0Write::Cause;
             }
             (14, 0) => self.epc = value,
             (15, 1) => self.exception_base = EBASE_FIXED | value & EBASE_WRITABLE,
@@ -187,7 +187,7 @@ impl Coprocessor0 {
             (31, 0) => self.debug_save = value,
             _ => {}
         }
-        SystemWrite::Plain
+        Coprocessor0Write::Plain
     }
 
     fn write_status(&mut self, value: u32) {

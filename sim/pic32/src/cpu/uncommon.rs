@@ -5,7 +5,7 @@ use super::data::AddressSpace;
 use super::exception::{ExceptionCode, InstructionFault, REFILL_CYCLES};
 use super::operation::{Operation, Uncommon};
 use super::registers::{Source, WriteTarget};
-use super::system::SystemWrite;
+use super::system::Coprocessor0Write;
 use super::{Bus, Cpu, Width};
 use crate::memory::Memory;
 
@@ -35,7 +35,9 @@ impl Cpu {
         bus: &mut B,
     ) -> Result<Flow, InstructionFault> {
         match operation {
-            Operation::Uncommon(uncommon) => self.execute_uncommon(uncommon, &mut AddressSpace { memory, bus }),
+            Operation::Uncommon(uncommon) => {
+                self.execute_uncommon(uncommon, &mut AddressSpace { memory, bus })
+            }
             _ => self.transfer(operation, memory, bus).map(|()| Flow::Next),
         }
     }
@@ -148,10 +150,10 @@ impl Cpu {
     /// Writes a register of coprocessor 0 as `mtc0` does.
     pub fn set_system_register(&mut self, register: u8, select: u8, value: u32) {
         match self.system.write(register, select, value) {
-            SystemWrite::Plain => {}
-            SystemWrite::Count(value) => self.timer.set_count(self.cycle, value),
-            SystemWrite::Compare(value) => self.timer.set_compare(self.cycle, value),
-            SystemWrite::Cause => self.timer.set_stopped(self.cycle, self.system.is_count_stopped()),
+            Coprocessor0Write::Plain => {}
+            Coprocessor0Write::Count(value) => self.timer.set_count(self.cycle, value),
+            Coprocessor0Write::Compare(value) => self.timer.set_compare(self.cycle, value),
+            Coprocessor0Write::Cause => self.timer.set_stopped(self.cycle, self.system.is_count_stopped()),
         }
     }
 

@@ -1,6 +1,6 @@
 //! A machine as a target of the debugger.
 
-use super::{NoMemory, GdbRegister, Stop, DebugTarget};
+use super::{DebugTarget, GdbRegister, NoMemory, Stop};
 use crate::cpu::ExceptionCode;
 use crate::machine::{Fault, Halt, Machine, StopAt, Surroundings};
 use crate::peripheral::ResetSource;

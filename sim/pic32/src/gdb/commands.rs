@@ -2,7 +2,7 @@
 
 use super::description::{by_number, registers, told, xml};
 use super::packet::{PACKET_BYTES, from_hex, hex, number, unescaped};
-use super::{NoMemory, Stop, DebugTarget};
+use super::{DebugTarget, NoMemory, Stop};
 
 /// What becomes of a packet.
 #[derive(Clone, Debug, PartialEq, Eq)]

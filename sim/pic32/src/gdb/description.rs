@@ -1,6 +1,6 @@
 //! The target description: which registers there are, in which order.
 
-use super::{GdbRegister, DebugTarget};
+use super::{DebugTarget, GdbRegister};
 use std::fmt::Write;
 
 /// Registers of the floating point unit, which GDB wants to hear of for any MIPS: 32 and two of control. They are told as

@@ -130,7 +130,7 @@ fn digit(letter: u8) -> Option<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PacketEvent, PacketFramer, PACKET_BYTES, framed, unescaped};
+    use super::{PACKET_BYTES, PacketEvent, PacketFramer, framed, unescaped};
 
     fn events(bytes: &[u8]) -> Vec<PacketEvent> {
         let mut framer = PacketFramer::default();
@@ -146,7 +146,10 @@ mod tests {
             (b"$g#68", vec![PacketEvent::Damaged]),
             (b"$g#6z$?#3F", vec![PacketEvent::Damaged, packet("?")]),
             (b"$half$?#3f", vec![packet("?")]),
-            (b"\x03$#00-", vec![PacketEvent::Interrupt, packet(""), PacketEvent::Refused]),
+            (
+                b"\x03$#00-",
+                vec![PacketEvent::Interrupt, packet(""), PacketEvent::Refused],
+            ),
             (b"noise#67", vec![]),
         ];
         for (bytes, expected) in cases {

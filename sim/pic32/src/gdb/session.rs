@@ -2,7 +2,7 @@
 
 use super::commands::{PacketReply, answer};
 use super::packet::{PacketEvent, PacketFramer, framed};
-use super::{Stop, DebugTarget};
+use super::{DebugTarget, Stop};
 
 /// The state of the conversation.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! The socket of the debugger.
 
-use super::{Session, DebugTarget};
+use super::{DebugTarget, Session};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
 

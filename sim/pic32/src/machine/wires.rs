@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::peripheral::{CYCLES_PER_S, Sent};
-use crate::pins::{Level, Output, Pin, Port, known};
+use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// One of the two UARTs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -61,7 +61,7 @@ impl Machine {
     }
 
     /// What the chip does to this pin now.
-    pub fn output(&self, pin: Pin) -> Output {
+    pub fn output(&self, pin: Pin) -> PinDriver {
         self.chip.output(pin, self.cycle)
     }
 

@@ -5,7 +5,7 @@ use super::ports::Field;
 use super::register::{Block, Register, Via};
 use super::system::SystemWrite;
 use super::timers::TimerWrite;
-use super::{Chip, AccessDirection, Misuse, Order, ResetSource, Slot, Unmodelled};
+use super::{AccessDirection, Chip, Misuse, Order, ResetSource, Slot, Unmodelled};
 use crate::cpu::{Access, Width};
 use crate::pins::Port;
 

@@ -1,6 +1,6 @@
 //! The 10-bit converter: sampling, converting, scanning, alternating and its buffer.
 
-use super::rate::{NEVER, Now, Rate, CountSpan};
+use super::rate::{CountSpan, NEVER, Now, Rate};
 
 const ON: u32 = 1 << 15;
 const STOP_AFTER_SEQUENCE: u32 = 1 << 4;

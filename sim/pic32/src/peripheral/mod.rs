@@ -67,7 +67,7 @@ use notice::ChangeNotice;
 use nvm::Nvm;
 use ports::Ports;
 use rate::Now;
-use record::{AccessSite, AccessRecord};
+use record::{AccessRecord, AccessSite};
 use schedule::{Schedule, Slot};
 use serial::Serial;
 use std::ops::Range;

@@ -3,7 +3,7 @@
 //! *Outside* is what the circuit around the chip does to a pin. *Owned* pins are driven by a peripheral instead of LAT and
 //! TRIS; *pulsed* ones among them change by a rule (PWM), so that their level is asked for and not stored here.
 
-use crate::pins::{Level, Output, PIN_PLACES, Pin, Port};
+use crate::pins::{Level, PIN_PLACES, Pin, PinDriver, Port};
 use std::collections::BTreeMap;
 
 /// One port.
@@ -249,10 +249,10 @@ impl Ports {
         self.states[port.index()].inputs() & port.present()
     }
 
-    pub(crate) fn output(&self, pin: Pin) -> Output {
+    pub(crate) fn output(&self, pin: Pin) -> PinDriver {
         let state = &self.states[pin.port().index()];
         if state.driven & pin.mask() == 0 {
-            Output::Floating
+            PinDriver::Floating
         } else {
             Level::of(state.driven_high & pin.mask() != 0).into()
         }
@@ -267,8 +267,8 @@ impl Ports {
     pub(crate) fn high_cycles(&self, pin: Pin, cycle: u64) -> u64 {
         let place = pin.index();
         let now = match self.output(pin) {
-            Output::High => cycle.saturating_sub(self.high_since[place]),
-            Output::Low | Output::Floating => 0,
+            PinDriver::High => cycle.saturating_sub(self.high_since[place]),
+            PinDriver::Low | PinDriver::Floating => 0,
         };
         self.high_cycles[place] + now
     }

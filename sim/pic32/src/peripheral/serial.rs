@@ -1,6 +1,6 @@
 //! UART 1 and 2 (here 0 and 1): queues, bit times, framing, both as levels on their pins.
 
-use super::rate::{NEVER, Now, CountSpan};
+use super::rate::{CountSpan, NEVER, Now};
 use crate::pins::{Level, Pin, Port, known};
 use std::collections::VecDeque;
 

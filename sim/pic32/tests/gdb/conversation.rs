@@ -1,7 +1,7 @@
 //! What the debugger says and hears, packet by packet.
 
 use crate::program::{COUNTER, FUNCTION, LOOP, machine};
-use pic32::gdb::{DebugChip, Session, DebugTarget};
+use pic32::gdb::{DebugChip, DebugTarget, Session};
 use pic32::machine::Grounded;
 
 /// A packet around a text without special characters.

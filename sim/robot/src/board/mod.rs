@@ -11,12 +11,12 @@ mod persistent;
 mod sensors;
 mod serial;
 
-pub use actuators::{Cleaner, Sounder, SimulatedWatchdog, WheelBridges};
-pub use outfit::{Outfit, Relax, Sr8730};
+pub use actuators::{Cleaner, SimulatedWatchdog, Sounder, WheelBridges};
+pub use outfit::{Outfit, Relax, Sr8730Outfit};
 pub use persistent::PersistentMemory;
 pub use sensors::{
-    BumperPins, ButtonPins, SimulatedCliffs, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
-    GyroSensor, PackPins, ProximityReadings, WheelDropPins,
+    BumperPins, ButtonPins, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters, GyroSensor, PackPins,
+    ProximityReadings, SimulatedCliffs, WheelDropPins,
 };
 pub use serial::SerialPort;
 

@@ -61,7 +61,7 @@ impl WheelLine {
 
 #[cfg(test)]
 mod tests {
-    use super::{WheelLine, REVERSAL_MS};
+    use super::{REVERSAL_MS, WheelLine};
     use cordlib::board::WheelDrive;
     use rvac_units::Throttle;
 

@@ -22,9 +22,9 @@ pub trait Outfit: Copy + Default + Debug {
 
 /// Samsung Navibot SR8730.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sr8730;
+pub struct Sr8730Outfit;
 
-impl Outfit for Sr8730 {
+impl Outfit for Sr8730Outfit {
     const NAME: &'static str = "sr8730";
     const WHEEL_DROPS: u8 = 2;
     const PROXIMITY: u8 = 7;

@@ -124,7 +124,8 @@ impl<S: Stops> ChargeBench<S> {
         let duty = self.duty();
         let net_v = self.pack.terminal_v(self.current_a - self.conditions.drain_a);
         self.current_a = if self.is_supplied() {
-            let asked = self.output.request == DockRequest::Current || self.is_past(InjectedFault::shorted_at);
+            let asked =
+                self.output.request == DockRequest::Current || self.is_past(InjectedFault::shorted_at);
             let mut supply = self.conditions.supply;
             supply.open_v *= self.supply_share;
             if self.is_past(InjectedFault::high_at) {
@@ -195,9 +196,13 @@ impl<S: Stops> ChargeBench<S> {
         let last = self.last.unwrap_or(fresh);
         let mut shown = fresh;
         match self.conditions.trouble {
-            InjectedFault::ThermistorFrozen(at_s) if self.seconds() >= at_s => shown.temperature = last.temperature,
+            InjectedFault::ThermistorFrozen(at_s) if self.seconds() >= at_s => {
+                shown.temperature = last.temperature
+            }
             InjectedFault::VoltageFrozen(at_s) if self.seconds() >= at_s => shown.pack_mv = last.pack_mv,
-            InjectedFault::CurrentFrozen(at_s) if self.seconds() >= at_s => shown.current_ma = last.current_ma,
+            InjectedFault::CurrentFrozen(at_s) if self.seconds() >= at_s => {
+                shown.current_ma = last.current_ma
+            }
             InjectedFault::CurrentDead(at_s) if self.seconds() >= at_s => shown.current_ma = 0,
             InjectedFault::ConverterStalled(at_s) if self.seconds() >= at_s => {
                 self.stalled_ms += STEP_MS;

@@ -20,17 +20,17 @@ use crate::Firmware;
 pub use draw::FaultKind;
 use homes::Homes;
 pub use summary::Summary;
-pub use trial::{Outcome, TrialSettings};
+pub use trial::{FaultOutcome, TrialSettings};
 
 /// What all trials have in common: the homes, the model of robot and its firmware.
 #[derive(Clone, Debug)]
-pub struct Campaign {
+pub struct FaultCampaign {
     homes: Homes,
     model: RobotModel,
     firmware: Firmware,
 }
 
-impl Campaign {
+impl FaultCampaign {
     /// Prepares trials of this model with this firmware.
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl Campaign {
 
     /// Runs one seed.
     #[must_use]
-    pub fn trial(&self, settings: TrialSettings) -> Outcome {
+    pub fn trial(&self, settings: TrialSettings) -> FaultOutcome {
         trial::run(self, settings)
     }
 }
@@ -53,10 +53,10 @@ impl Campaign {
 /// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the order
 /// of their seeds.
 pub fn trials(
-    campaign: &Campaign,
+    campaign: &FaultCampaign,
     (seeds, duration_ms): (Range<u64>, u64),
     progress: &(dyn Fn(u64) + Sync),
-) -> Vec<Outcome> {
+) -> Vec<FaultOutcome> {
     let done = AtomicU64::new(0);
     seeds
         .into_par_iter()

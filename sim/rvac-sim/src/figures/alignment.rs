@@ -18,12 +18,12 @@ pub(super) struct Alignment {
     /// Of the products along, and of those across.
     dot: f64,
     cross: f64,
-    kept: Vec<Kept>,
+    kept: Vec<AlignmentSample>,
 }
 
 /// One moment.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct AlignmentSample {
     time_ms: u64,
     believed: [f64; 2],
     is: [f64; 2],
@@ -50,7 +50,7 @@ impl Alignment {
         self.cross += a * y - b * x;
         let last = self.kept.last();
         if last.is_none_or(|last| now_ms >= last.time_ms + KEEP_MS) {
-            self.kept.push(Kept {
+            self.kept.push(AlignmentSample {
                 time_ms: now_ms,
                 believed: [a, b],
                 is: [x, y],

@@ -124,7 +124,7 @@ pub(crate) struct Belief {
 
 /// What the figures are of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Floor {
+pub(crate) struct MeasuredFloor {
     pub(crate) reachable_m2: f64,
     pub(crate) t0_s: f64,
     /// Speed at which the robot cleans.
@@ -134,8 +134,8 @@ pub(crate) struct Floor {
 /// Collects what the figures need.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
-    floor: Floor,
-    job: Job,
+    floor: MeasuredFloor,
+    job: JobFigures,
     reached_s: [Option<f64>; SHARES.len()],
     share_at: [Option<f64>; MULTIPLES.len()],
     begun_at: Option<Pose>,
@@ -162,7 +162,7 @@ struct Told {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Job {
+struct JobFigures {
     begun_ms: Option<u64>,
     ended_ms: Option<u64>,
     /// Time on the charger in the middle of the job.
@@ -171,7 +171,7 @@ struct Job {
     charges: bool,
 }
 
-impl Job {
+impl JobFigures {
     fn follow(&mut self, now_ms: u64, belief: &Belief) {
         use BehaviorState::{Cleaning, Docked, Docking, Error, Idle, Spot, Stuck};
         let passed_ms = now_ms - self.last_ms.replace(now_ms).unwrap_or(now_ms);
@@ -206,10 +206,10 @@ impl Job {
 }
 
 impl Collector {
-    pub(crate) fn new(floor: Floor) -> Self {
+    pub(crate) fn new(floor: MeasuredFloor) -> Self {
         Self {
             floor,
-            job: Job::default(),
+            job: JobFigures::default(),
             reached_s: [None; SHARES.len()],
             share_at: [None; MULTIPLES.len()],
             begun_at: None,
@@ -378,7 +378,7 @@ impl Collector {
 
 #[cfg(test)]
 mod tests {
-    use super::{Belief, Collector, Floor};
+    use super::{Belief, Collector, MeasuredFloor};
     use brain::BehaviorState;
     use home::{Home, Noise, Pose, RobotModel, Truth, World};
     use std::sync::Arc;
@@ -393,7 +393,7 @@ mod tests {
     }
 
     fn collector() -> Collector {
-        Collector::new(Floor {
+        Collector::new(MeasuredFloor {
             reachable_m2: 2.0,
             t0_s: 10.0,
             cruise_m_per_s: 0.25,

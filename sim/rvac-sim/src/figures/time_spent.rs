@@ -6,7 +6,7 @@
 use home::Truth;
 use serde::Serialize;
 
-use super::Floor;
+use super::MeasuredFloor;
 
 /// Seconds by cause. All but `again_s` add up to the length of the job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -51,7 +51,7 @@ pub(super) struct TimeWatch {
 }
 
 impl TimeWatch {
-    pub(super) fn new(floor: &Floor) -> Self {
+    pub(super) fn new(floor: &MeasuredFloor) -> Self {
         Self {
             swath_m: floor.reachable_m2 / (floor.t0_s * floor.cruise_m_per_s),
             cruise_m_per_s: floor.cruise_m_per_s,
@@ -106,7 +106,7 @@ impl TimeWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Floor, TimeWatch};
+    use super::{MeasuredFloor, TimeWatch};
     use home::{Home, Noise, Pose, RobotModel, Truth, World};
     use std::sync::Arc;
 
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn each_second_of_the_job_has_one_cause() {
-        let mut watch = TimeWatch::new(&Floor {
+        let mut watch = TimeWatch::new(&MeasuredFloor {
             reachable_m2: 3.0,
             t0_s: 40.0,
             cruise_m_per_s: 0.25,

@@ -23,15 +23,15 @@ use robot::RobotSettings;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rvac_api::Update;
 
-use crate::report::{Driven, Report, StuckWatch};
+use crate::report::{Driven, RunReport, StuckWatch};
 use crate::{Robot, Scene, SceneError, plan};
 use clients::{Clients, Number};
-use hand::{End, Hand, Way};
-use pace::Pace;
+use hand::{Hand, HandPath, PathEnd};
+use pace::Pacer;
 use pty::{Peer, Pty, PtyError};
 use radio::Radio;
-use request::{Answer, SimulatorRequest, blocked};
-use socket::{Listener, SocketError};
+use request::{RequestReply, SimulatorRequest, blocked};
+use socket::{SocketError, SocketListener};
 use speedometer::Speedometer;
 
 /// What the server is told.
@@ -109,9 +109,9 @@ struct Server {
     robot: Robot,
     pty: Pty,
     radio: Option<Radio>,
-    listener: Listener,
+    listener: SocketListener,
     clients: Clients,
-    pace: Pace,
+    pace: Pacer,
     speedometer: Speedometer,
     map_from_plan: Pose,
     stuck: StuckWatch,
@@ -141,10 +141,10 @@ impl Server {
         let started = Instant::now();
         Ok(Self {
             radio: radio.transpose()?,
-            listener: Listener::open(&settings.socket)?,
+            listener: SocketListener::open(&settings.socket)?,
             pty: Pty::open(&settings.link)?,
             clients: Clients::new(&greeting),
-            pace: Pace::starting(started, settings.speed),
+            pace: Pacer::starting(started, settings.speed),
             speedometer: Speedometer::starting(started, settings.speed),
             robot,
             map_from_plan,
@@ -259,8 +259,8 @@ impl Server {
         };
         let answer = match hand.follow(self.robot.world_mut()) {
             None => return,
-            Some(End::Done) => Answer::Done,
-            Some(End::Blocked) => blocked("something is in the way"),
+            Some(PathEnd::Done) => RequestReply::Done,
+            Some(PathEnd::Blocked) => blocked("something is in the way"),
         };
         self.clients.answer(*client, &answer);
         self.hand = None;
@@ -270,19 +270,19 @@ impl Server {
         for (client, request) in self.clients.requests() {
             match request {
                 Ok(request) => self.obey(client, request),
-                Err(refusal) => self.clients.answer(client, &Answer::Failed(refusal)),
+                Err(refusal) => self.clients.answer(client, &RequestReply::Failed(refusal)),
             }
         }
     }
 
     fn obey(&mut self, client: Number, request: SimulatorRequest) {
         match request {
-            SimulatorRequest::Report => {
-                let report = Report {
+            SimulatorRequest::RunReport => {
+                let report = RunReport {
                     wall_seconds: self.started.elapsed().as_secs_f64(),
-                    ..Report::of(&self.robot, &self.stuck)
+                    ..RunReport::of(&self.robot, &self.stuck)
                 };
-                self.clients.answer(client, &Answer::Report(report));
+                self.clients.answer(client, &RequestReply::RunReport(report));
             }
             SimulatorRequest::Truth => {
                 let truth = plan::truth(&self.robot, self.map_from_plan);
@@ -291,11 +291,12 @@ impl Server {
             SimulatorRequest::Meters => {
                 let truth = self.robot.world().truth();
                 let (pack_v, drawn_a) = (truth.battery_v, -truth.battery_a);
-                self.clients.answer(client, &Answer::Meters { pack_v, drawn_a });
+                self.clients
+                    .answer(client, &RequestReply::Meters { pack_v, drawn_a });
             }
-            SimulatorRequest::Push { way } => self.grip(client, Way::Push(way)),
-            SimulatorRequest::Turn { turns } => self.grip(client, Way::Turn(turns)),
-            SimulatorRequest::Roll { wheel, way } => self.grip(client, Way::Roll(wheel, way)),
+            SimulatorRequest::Push { way } => self.grip(client, HandPath::Push(way)),
+            SimulatorRequest::Turn { turns } => self.grip(client, HandPath::Turn(turns)),
+            SimulatorRequest::Roll { wheel, way } => self.grip(client, HandPath::Roll(wheel, way)),
             SimulatorRequest::Lift
             | SimulatorRequest::PutDown
             | SimulatorRequest::Press { .. }
@@ -304,7 +305,7 @@ impl Server {
             | SimulatorRequest::Hair { .. }
             | SimulatorRequest::Place { .. } => {
                 self.touch(request);
-                self.clients.answer(client, &Answer::Done);
+                self.clients.answer(client, &RequestReply::Done);
             }
         }
     }
@@ -350,7 +351,7 @@ impl Server {
         }
     }
 
-    fn grip(&mut self, client: Number, way: Way) {
+    fn grip(&mut self, client: Number, way: HandPath) {
         if self.hand.is_some() {
             self.clients
                 .answer(client, &blocked("the hand is still on its way"));

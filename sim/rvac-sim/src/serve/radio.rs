@@ -72,7 +72,7 @@ impl Radio {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Mode {
+enum RadioMode {
     #[default]
     Binary,
     Shell,
@@ -81,7 +81,7 @@ enum Mode {
 /// What the module's firmware does with bytes and distances.
 #[derive(Debug, Default)]
 struct Module {
-    mode: Mode,
+    mode: RadioMode,
     returned_ms: Option<u64>,
     command: Vec<u8>,
     last: Vec<u8>,
@@ -95,8 +95,8 @@ impl Module {
     fn take(&mut self, now_ms: u64, bytes: &[u8]) {
         for &byte in bytes {
             match self.mode {
-                Mode::Binary => self.take_binary(now_ms, byte),
-                Mode::Shell => self.take_letter(byte),
+                RadioMode::Binary => self.take_binary(now_ms, byte),
+                RadioMode::Shell => self.take_letter(byte),
             }
         }
     }
@@ -110,7 +110,7 @@ impl Module {
         let before_ms = self.returned_ms.replace(now_ms);
         if before_ms.is_some_and(|before_ms| now_ms <= before_ms + TOGETHER_MS) {
             self.returned_ms = None;
-            self.mode = Mode::Shell;
+            self.mode = RadioMode::Shell;
             self.say("\r\n DWM1001 TWR Real Time Location System\r\n\r\ndwm> ");
         }
     }
@@ -131,13 +131,13 @@ impl Module {
         match self.last.as_slice() {
             b"lec" => self.prints = !self.prints,
             b"quit" => {
-                self.mode = Mode::Binary;
+                self.mode = RadioMode::Binary;
                 self.last.clear();
             }
             b"" => {}
             _ => self.say("unknown command\r\n"),
         }
-        if self.mode == Mode::Shell {
+        if self.mode == RadioMode::Shell {
             self.say("dwm> ");
         }
     }
@@ -170,7 +170,7 @@ impl Module {
 
 #[cfg(test)]
 mod tests {
-    use super::{Mode, Module, REFUSAL};
+    use super::{Module, REFUSAL, RadioMode};
 
     fn said(module: &mut Module) -> String {
         String::from_utf8(std::mem::take(&mut module.said)).unwrap()
@@ -182,7 +182,7 @@ mod tests {
         module.take(0, b"lec\r");
         assert_eq!(module.said, REFUSAL.repeat(3));
         module.take(1_500, b"\r");
-        assert_eq!(module.mode, Mode::Binary, "too late");
+        assert_eq!(module.mode, RadioMode::Binary, "too late");
         module.take(1_600, b"\r");
         assert!(said(&mut module).ends_with("dwm> "));
         module.take(1_700, b"lec\r");
@@ -199,6 +199,6 @@ mod tests {
         module.print();
         assert_eq!(said(&mut module), "", "switched off again");
         module.take(1_900, b"quit\r");
-        assert_eq!(module.mode, Mode::Binary);
+        assert_eq!(module.mode, RadioMode::Binary);
     }
 }

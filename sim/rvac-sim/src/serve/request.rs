@@ -3,14 +3,14 @@
 use rvac_api::Failure;
 use serde::{Deserialize, Serialize};
 
-use crate::Report;
+use crate::RunReport;
 
 /// A request, for example `{"c":"report"}`, `{"c":"lift"}` or `{"c":"press","button":0}`; the book has them all.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(tag = "c", rename_all = "kebab-case")]
 pub(crate) enum SimulatorRequest {
     /// The figures so far.
-    Report,
+    RunReport,
     /// Where the robot is now, without waiting for the next of the ten words a second.
     Truth,
     /// Lifts the robot.
@@ -38,7 +38,7 @@ pub(crate) enum SimulatorRequest {
     /// Turns a wheel of a lifted robot.
     Roll {
         /// Which.
-        wheel: Wheel,
+        wheel: WheelChoice,
         /// Way of the rim, forward positive, metres.
         way: f64,
     },
@@ -74,7 +74,7 @@ pub(crate) enum SimulatorRequest {
 /// A wheel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Wheel {
+pub(crate) enum WheelChoice {
     /// The left one.
     Left,
     /// The right one.
@@ -84,9 +84,9 @@ pub(crate) enum Wheel {
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "e", rename_all = "kebab-case", rename_all_fields = "kebab-case")]
-pub(crate) enum Answer {
+pub(crate) enum RequestReply {
     /// To `report`.
-    Report(Report),
+    RunReport(RunReport),
     /// To `meters`.
     Meters {
         /// At the pack's contacts, volts.
@@ -101,8 +101,8 @@ pub(crate) enum Answer {
 }
 
 /// The answer to a hand that met a wall, or to a second hand.
-pub(crate) fn blocked(text: &str) -> Answer {
-    Answer::Failed(Failure {
+pub(crate) fn blocked(text: &str) -> RequestReply {
+    RequestReply::Failed(Failure {
         id: None,
         reason: "blocked".to_owned(),
         text: text.to_owned(),
@@ -125,7 +125,7 @@ impl SimulatorRequest {
 
 #[cfg(test)]
 mod tests {
-    use super::{SimulatorRequest, Wheel};
+    use super::{SimulatorRequest, WheelChoice};
 
     #[test]
     fn requests_are_read_exactly() {
@@ -140,7 +140,7 @@ mod tests {
         assert_eq!(
             SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#),
             Ok(SimulatorRequest::Roll {
-                wheel: Wheel::Left,
+                wheel: WheelChoice::Left,
                 way: -0.1
             })
         );

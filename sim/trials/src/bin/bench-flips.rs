@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use trials::flips::{Breach, Fate, FlipPlan, BitStorage, FlipTally, flip_bits};
+use trials::flips::{BitStorage, Breach, Fate, FlipPlan, FlipTally, flip_bits};
 use trials::{CampaignError, Fixture, conclude};
 
 /// Flips bits of a firmware's memory.

@@ -9,7 +9,7 @@ use rvac_protocol::message::{Command, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
 use serde::Serialize;
 
-use crate::testbed::{Testbed, TestbedError, Fixture};
+use crate::testbed::{Fixture, Testbed, TestbedError};
 use crate::trial::OperatingState;
 
 use super::place::{BitLocation, BitStorage};
@@ -117,7 +117,9 @@ impl Situation {
                 testbed.say(Command::Stop);
             }
             (Self::Driving | Self::Cleaning, 2) => {
-                testbed.robot_mut().hold_contact(Contact::BumperLeft, Hold::On, now);
+                testbed
+                    .robot_mut()
+                    .hold_contact(Contact::BumperLeft, Hold::On, now);
             }
             (Self::Driving | Self::Cleaning, _) => testbed.set_speaking(false),
             (Self::Charging, 0 | 2) => testbed.robot_mut().world_mut().lift(),
@@ -314,7 +316,9 @@ impl Course {
             for (address, touch) in noted.robot_mut().machine_mut().take_touches() {
                 course.touches.entry(address).or_default().push((ms, touch));
             }
-            course.looks.push(Snapshot::of(testbed.robot_mut(), &course.registers));
+            course
+                .looks
+                .push(Snapshot::of(testbed.robot_mut(), &course.registers));
             if course.inhibits.last() != Some(&testbed.inhibits()) {
                 course.inhibits.push(testbed.inhibits());
             }

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use monitor::Bridges;
 use pic32::image::{Image, SymbolKind};
 
-use crate::testbed::{Testbed, Fixture};
+use crate::testbed::{Fixture, Testbed};
 
 /// A robot starts, greets and describes itself within this time.
 const START_MS: u64 = 600;

@@ -21,7 +21,7 @@ use serde::Serialize;
 pub use course::{Fate, Situation};
 pub use place::{BitLocation, BitStorage};
 
-use crate::testbed::{TestbedError, Fixture};
+use crate::testbed::{Fixture, TestbedError};
 use course::{Course, FLIP_MS};
 use idle_code::idle_code;
 use place::BitLocations;
@@ -284,7 +284,9 @@ fn variables_end(image: &Image) -> u32 {
 fn name_of(image: &Image, place: BitLocation) -> String {
     let segment = match place.storage {
         BitStorage::Ram | BitStorage::Flash => 0x8000_0000,
-        BitStorage::Core | BitStorage::Chip => return format!("{} {:#x}", place.storage.name(), place.address),
+        BitStorage::Core | BitStorage::Chip => {
+            return format!("{} {:#x}", place.storage.name(), place.address);
+        }
     };
     let address = segment + place.address;
     let holds = |start: u32, size: u32| (start..start + size.max(4)).contains(&address);

@@ -6,8 +6,8 @@ use std::collections::VecDeque;
 use cordlib::board::{
     Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord, Watchdog,
-    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
+    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{
     Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS,

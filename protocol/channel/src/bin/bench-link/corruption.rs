@@ -240,7 +240,10 @@ impl CorruptionBench {
             last: Vec::new(),
             received: Vec::new(),
             result: Corruption {
-                kinds: KINDS.iter().map(|kind| (kind.name, CorruptionOutcome::default())).collect(),
+                kinds: KINDS
+                    .iter()
+                    .map(|kind| (kind.name, CorruptionOutcome::default()))
+                    .collect(),
                 valid_packets: 0,
                 valid_packets_lost: 0,
             },

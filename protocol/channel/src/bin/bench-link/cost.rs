@@ -130,7 +130,10 @@ fn measure_one(reader: MeasuredReader) -> Result<Cost> {
 
 /// Reads a packet `count` times.
 pub(crate) fn repeat(reader: &str, count: u64) -> Result<()> {
-    let Some(reader) = MeasuredReader::ALL.into_iter().find(|known| known.name() == reader) else {
+    let Some(reader) = MeasuredReader::ALL
+        .into_iter()
+        .find(|known| known.name() == reader)
+    else {
         bail!("{reader}: no such reader; the table of costs lists them");
     };
     MeasuredWork::new(reader).repeat(count);
@@ -243,7 +246,9 @@ impl MeasuredWork {
             self.next = (self.next + 1) % self.packets.len();
             match self.reader {
                 MeasuredReader::Motor2016 => read_checked(packet, self.start, Form::Hand { now: NOW }),
-                MeasuredReader::MotorText | MeasuredReader::DriveText => read_checked(packet, self.start, Form::Checked),
+                MeasuredReader::MotorText | MeasuredReader::DriveText => {
+                    read_checked(packet, self.start, Form::Checked)
+                }
                 MeasuredReader::Motor2016Serde | MeasuredReader::MotorSerde => read_motor_serde(packet),
                 MeasuredReader::DriveSerde => read_drive_serde(packet),
                 MeasuredReader::DriveBinary => read_drive_binary(packet, self.start),
@@ -280,7 +285,9 @@ fn packet(reader: MeasuredReader, sequence: Sequence, session: u16) -> Vec<u8> {
     let mut buffer = PacketBuffer::new();
     let written = match reader {
         MeasuredReader::Motor2016 => return with_text_crc(MOTOR_2016, SESSION),
-        MeasuredReader::Motor2016Session => return [with_text_crc(MOTOR_2016, 0).as_slice(), &[0x1F]].concat(),
+        MeasuredReader::Motor2016Session => {
+            return [with_text_crc(MOTOR_2016, 0).as_slice(), &[0x1F]].concat();
+        }
         MeasuredReader::Motor2016Serde => return MOTOR_2016.to_vec(),
         MeasuredReader::DriveBinary => return with_binary_crc(&drive),
         MeasuredReader::MotorText => return with_text_crc(&text(&motor), SESSION),
@@ -288,7 +295,9 @@ fn packet(reader: MeasuredReader, sequence: Sequence, session: u16) -> Vec<u8> {
         MeasuredReader::MotorSerde => return text(&motor),
         MeasuredReader::DriveSerde => return text(&Command::Drive(drive)),
         MeasuredReader::MotorSession => write_command_with_crc(&motor, session, &mut buffer),
-        MeasuredReader::DriveTextSession => write_command_with_crc(&Command::Drive(drive), session, &mut buffer),
+        MeasuredReader::DriveTextSession => {
+            write_command_with_crc(&Command::Drive(drive), session, &mut buffer)
+        }
         MeasuredReader::DriveBinarySession => write_drive_with_crc(&drive, session, &mut buffer),
     };
     written.expect("the packets of the benchmark are within their ranges");

@@ -4,7 +4,7 @@ use rvac_units::Tick;
 
 use super::event_order::{Arrival, EventOrder};
 use super::{
-    HostCore, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, HostPhase,
+    GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostCore, HostEvent, HostPhase, LinkCounters, PING_MS,
     SILENCE_MS,
 };
 use crate::binary;
@@ -252,7 +252,9 @@ impl HostCore {
         match self.phase {
             HostPhase::Greeting { due, .. } => due,
             HostPhase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
-            HostPhase::Open if !self.gathering.is_finished() => self.now.after(super::description::ASK_AGAIN_MS),
+            HostPhase::Open if !self.gathering.is_finished() => {
+                self.now.after(super::description::ASK_AGAIN_MS)
+            }
             HostPhase::Open => self.ping.due,
         }
     }

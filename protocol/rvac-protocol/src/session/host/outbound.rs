@@ -1,6 +1,6 @@
 //! What goes to the robot.
 
-use super::{HostCore, PING_MS, HostPhase, SendError, TICK_OLD_MS};
+use super::{HostCore, HostPhase, PING_MS, SendError, TICK_OLD_MS};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::SEPARATOR;

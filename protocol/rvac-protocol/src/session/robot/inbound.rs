@@ -3,7 +3,7 @@
 use rvac_units::Tick;
 
 use super::answers::{Known, MEMORY_MS};
-use super::{BAD_IN_ROW_MAX, RobotCore, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
+use super::{BAD_IN_ROW_MAX, FRESHNESS_MS, Mode, Reply, RobotCore, RobotEvent, SessionEnd, count, hand};
 use crate::binary;
 use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, Poison};

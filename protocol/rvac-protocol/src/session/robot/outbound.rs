@@ -1,6 +1,6 @@
 //! What goes to the host.
 
-use super::{RobotCore, FLUSH_AFTER_MS, Reply};
+use super::{FLUSH_AFTER_MS, Reply, RobotCore};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::{PACKET_BYTES_MAX, SEPARATOR};

@@ -3,7 +3,7 @@
 mod handles;
 mod settings;
 
-pub use settings::{Blueprint, BlueprintError, EmulatedSettings, CalibrationChoice};
+pub use settings::{Blueprint, BlueprintError, CalibrationChoice, EmulatedSettings};
 
 use home::{Actuation, Fnv1a, RobotModel, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
@@ -14,12 +14,12 @@ use crate::board::beams::Beams;
 use crate::board::circuit::Circuit;
 use crate::board::contacts::{Contact, Contacts};
 use crate::board::dock_code::DockEar;
-use crate::board::encoder::{BrushEncoder, ScheduledEdge, Encoder, Position};
+use crate::board::encoder::{BrushEncoder, Encoder, Position, ScheduledEdge};
 use crate::board::gyro::EmulatedGyro;
 use crate::board::light::{LampTimes, SpeakerTone};
 use crate::board::motors::{MotorOutput, MotorOutputs};
 use crate::board::power::{Feed, SLICE, SwitchUse};
-use crate::board::serial::{HostPort, BitReceiver, Sender};
+use crate::board::serial::{BitReceiver, HostPort, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
 use crate::pins::Level;
@@ -414,7 +414,12 @@ impl EmulatedRobot {
         let millionths = |motor| (self.motors.duty(motor, &self.machine) * 1e6) as i32;
         Drives {
             wheels: [MotorOutput::WheelLeft, MotorOutput::WheelRight].map(millionths),
-            cleaners: [MotorOutput::BrushMain, MotorOutput::BrushSides, MotorOutput::Vacuum].map(millionths),
+            cleaners: [
+                MotorOutput::BrushMain,
+                MotorOutput::BrushSides,
+                MotorOutput::Vacuum,
+            ]
+            .map(millionths),
         }
     }
 }

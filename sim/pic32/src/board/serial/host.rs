@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use rvac_channel::{Channel, FaultRates, ReceivedByte};
 
 use super::receiver::TimedByte;
-use super::{HostRate, BitReceiver};
+use super::{BitReceiver, HostRate};
 use crate::pins::Level;
 
 /// A UART on the robot's transmit pin, a driver behind it, and the damage between.
@@ -92,7 +92,7 @@ impl HostPort {
 
 #[cfg(test)]
 mod tests {
-    use super::{HostPort, Level, HostRate};
+    use super::{HostPort, HostRate, Level};
 
     /// The edges of an `x` that begins at `from`, 115,200 bits per second.
     fn letter(from: u64) -> Vec<(u64, Level)> {

@@ -88,7 +88,7 @@ impl BitReceiver {
 
 #[cfg(test)]
 mod tests {
-    use super::{TimedByte, Level, ReceivedByte, BitReceiver};
+    use super::{BitReceiver, Level, ReceivedByte, TimedByte};
 
     const BIT: f64 = 347.2;
 

@@ -141,7 +141,7 @@ impl Sender {
 mod tests {
     use rvac_channel::ReceivedByte;
 
-    use super::{CYCLES_PER_MS, FaultRates, Level, HostRate, Sender};
+    use super::{CYCLES_PER_MS, FaultRates, HostRate, Level, Sender};
     use crate::board::serial::BitReceiver;
 
     /// What a perfect receiver hears of `sender` in so many milliseconds, by millisecond.

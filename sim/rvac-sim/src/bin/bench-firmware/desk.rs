@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context, bail};
 use home::{Home, Noise, Pose, RobotModel, World};
 use pic32::board::serial::HostRate;
-use pic32::board::{Blueprint, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, CalibrationChoice};
+use pic32::board::{Blueprint, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 use pic32::image::Image;
 use pic32::machine::Machine;
 use rvac_protocol::PacketBuffer;

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use measure::Plan;
+use measure::MeasurementPlan;
 
 /// Measures a firmware in the emulated chip.
 #[derive(Debug, Parser)]
@@ -39,7 +39,7 @@ struct Arguments {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let plan = Plan {
+    let plan = MeasurementPlan {
         firmware: arguments.firmware,
         free_running: arguments.free_running,
         home: arguments.home,

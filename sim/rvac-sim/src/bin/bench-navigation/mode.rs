@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A way of cleaning, and what the robot knows of the home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Mode {
+pub(crate) enum CleaningMode {
     Bounce,
     KnownMap,
     OldMap,
@@ -16,7 +16,7 @@ pub(crate) enum Mode {
     PerfectPose,
 }
 
-impl Mode {
+impl CleaningMode {
     const ALL: [Self; 6] = [
         Self::Bounce,
         Self::KnownMap,

@@ -10,7 +10,7 @@ use serde::Serialize;
 use vthal_core::Record;
 
 /// A household that works, and copies of two of its parts that do the same as they.
-pub(crate) struct Parts {
+pub(crate) struct HouseholdCopies {
     household: Household,
     world: World,
     world_s: f64,
@@ -45,7 +45,7 @@ pub(crate) fn clock_s() -> f64 {
     (last_s - began_s) / f64::from(READINGS)
 }
 
-impl Parts {
+impl HouseholdCopies {
     /// A household that is asked to clean.
     pub(crate) fn begin(mut household: Household, strategy: StrategyName) -> Self {
         start_cleaning(&mut household, strategy);
