@@ -6,7 +6,7 @@ use pic32mx3_hal::gpio::{Level, Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::interlock::Motor;
+use super::interlock::InterlockedMotor;
 use super::link::by_edges::brush_pulses;
 use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;
@@ -36,7 +36,7 @@ impl BrushMain {
     ) -> Self {
         decay.set_low();
         Self {
-            bridge: MotorBridge::new(enable, phase, Level::Low, Motor::BrushMain),
+            bridge: MotorBridge::new(enable, phase, Level::Low, InterlockedMotor::BrushMain),
             renewal: Renewal::default(),
             has_pulses,
         }
@@ -68,14 +68,14 @@ impl CleaningMotor for BrushMain {
 #[derive(Debug)]
 pub struct Switched<P> {
     pin: P,
-    motor: Motor,
+    motor: InterlockedMotor,
     renewal: Renewal,
 }
 
 impl<P: OutputPin> Switched<P> {
     /// Off.
     #[must_use]
-    pub fn take(pin: P, motor: Motor) -> Self {
+    pub fn take(pin: P, motor: InterlockedMotor) -> Self {
         let mut switched = Self {
             pin,
             motor,

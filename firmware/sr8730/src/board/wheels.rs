@@ -8,7 +8,7 @@ use pic32mx3_hal::gpio::{Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::interlock::Motor;
+use super::interlock::InterlockedMotor;
 use crate::logic::bridge::{BridgeLines, BridgeSequence, MotorDirection};
 use crate::logic::renewal::Renewal;
 
@@ -18,7 +18,7 @@ pub struct MotorBridge<E, P> {
     enable: E,
     phase: P,
     forward: Level,
-    motor: Motor,
+    motor: InterlockedMotor,
     sequence: BridgeSequence,
     written: BridgeLines,
 }
@@ -26,7 +26,7 @@ pub struct MotorBridge<E, P> {
 impl<E: SetDutyCycle, P: OutputPin> MotorBridge<E, P> {
     /// Braking. `forward` is the level of PHASE for forward.
     #[must_use]
-    pub fn new(enable: E, phase: P, forward: Level, motor: Motor) -> Self {
+    pub fn new(enable: E, phase: P, forward: Level, motor: InterlockedMotor) -> Self {
         let mut bridge = Self {
             enable,
             phase,
@@ -108,8 +108,13 @@ impl Wheels {
         left_mode.set_high();
         right_mode.set_high();
         Self {
-            left: MotorBridge::new(left_enable, left_phase, Level::Low, Motor::WheelLeft),
-            right: MotorBridge::new(right_enable, right_phase, Level::High, Motor::WheelRight),
+            left: MotorBridge::new(left_enable, left_phase, Level::Low, InterlockedMotor::WheelLeft),
+            right: MotorBridge::new(
+                right_enable,
+                right_phase,
+                Level::High,
+                InterlockedMotor::WheelRight,
+            ),
             renewal: Renewal::default(),
         }
     }
@@ -136,7 +141,7 @@ impl WheelMotors for Wheels {
 #[cfg(test)]
 mod tests {
     use super::MotorBridge;
-    use crate::board::interlock::Motor;
+    use crate::board::interlock::InterlockedMotor;
     use core::cell::RefCell;
     use core::convert::Infallible;
     use embedded_hal::digital::{self, OutputPin};
@@ -205,7 +210,12 @@ mod tests {
     fn forward_is_the_level_that_the_wiring_says() {
         for (forward, phase) in [(Level::Low, false), (Level::High, true)] {
             let lines = RefCell::default();
-            let mut bridge = MotorBridge::new(Enable(&lines), Phase(&lines), forward, Motor::WheelLeft);
+            let mut bridge = MotorBridge::new(
+                Enable(&lines),
+                Phase(&lines),
+                forward,
+                InterlockedMotor::WheelLeft,
+            );
             bridge.command(duty(500_000));
             assert_eq!((lines.borrow().width, lines.borrow().phase), (2_000, phase));
             bridge.command(duty(-500_000));
@@ -219,7 +229,12 @@ mod tests {
     #[test]
     fn no_order_of_commands_changes_phase_while_the_line_has_a_width() {
         let lines = RefCell::default();
-        let mut bridge = MotorBridge::new(Enable(&lines), Phase(&lines), Level::High, Motor::WheelRight);
+        let mut bridge = MotorBridge::new(
+            Enable(&lines),
+            Phase(&lines),
+            Level::High,
+            InterlockedMotor::WheelRight,
+        );
         let mut seed = 11_u32;
         for _ in 0..50_000 {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

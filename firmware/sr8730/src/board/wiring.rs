@@ -15,7 +15,7 @@ use super::checks::SelfChecks;
 use super::cleaners::{BrushMain, Switched};
 use super::contacts::{Adapter, BumperContacts, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
-use super::interlock::Motor;
+use super::interlock::InterlockedMotor;
 use super::link::{InputParts, SerialLink};
 use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
@@ -84,8 +84,8 @@ macro_rules! motors {
                 pin!($p.rc3 is BRUSH_MAIN_DECAY).into_output(Low),
                 $calibration.brush_gives_pulses(),
             ),
-            Switched::take(pin!($p.ra4 is BRUSH_SIDES).into_output(Low), Motor::BrushSides),
-            Switched::take(pin!($p.rd5 is VACUUM).into_output(Low), Motor::Vacuum),
+            Switched::take(pin!($p.ra4 is BRUSH_SIDES).into_output(Low), InterlockedMotor::BrushSides),
+            Switched::take(pin!($p.rd5 is VACUUM).into_output(Low), InterlockedMotor::Vacuum),
         )
     };
 }
