@@ -1,4 +1,5 @@
-//! What the chip runs: start-up before memory has values, the program, and what happens when it breaks.
+//! Entry points of the chip: start-up before memory is initialised, the program, and the handlers for panics and
+//! exceptions.
 
 use core::arch::global_asm;
 use core::panic::PanicInfo;
@@ -13,8 +14,8 @@ use sr8730::logic::image_check::NO_CRC;
 use sr8730::logic::reset_log::FatalCause;
 use sr8730::robot::{self, Robot};
 
-/// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the first
-/// instruction on and that no flipped bit can stop.
+/// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the
+/// first instruction and cannot be stopped by a flipped bit.
 const CONFIGURATION: Configuration = Configuration::new()
     .primary_oscillator(PrimaryOscillator::HighSpeed, 8_000_000)
     .pll_to_80_mhz()
@@ -58,11 +59,12 @@ global_asm!(
     runs = sym sr8730::board::link::RUNS,
 );
 
-// Before any variable has its value: the levels of all outputs, then a march over memory (S21). It runs in registers only,
-// because it overwrites all that it tests, the stack included; what a reset shall not clear is left out.
+// Before variables are initialised: the levels of all outputs, then a march test of memory (S21). It runs in registers
+// only, because it overwrites all memory that it tests, the stack included. Memory that survives a reset is left out.
 //
-// Up with 0 written; up reading 0 writing 1; up reading 1 writing 0; down reading 0 writing 1; down reading 1 writing 0; reading 0
-// (March C-). A cell that does not hold its value ends the start here, with all outputs safe: the watchdog tries again.
+// Up with 0 written; up reading 0 writing 1; up reading 1 writing 0; down reading 0 writing 1; down reading 1 writing
+// 0; reading 0 (March C-). A faulty cell stops the start here, with all outputs safe, until the watchdog resets the
+// chip.
 global_asm!(
     ".set push",
     ".set noreorder",
@@ -142,7 +144,7 @@ global_asm!(
     options(raw)
 );
 
-/// Called by the code above, first of all: every output gets its safe level, then its direction.
+/// Called first by the code above: sets every output to its safe level, then sets its direction.
 #[unsafe(no_mangle)]
 extern "C" fn sr8730_safe_outputs() {
     for start in pins::START {

@@ -19,7 +19,7 @@ use crate::logic::reset_log::FatalCause;
 
 const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
 
-/// The robot, put together.
+/// The whole robot.
 #[derive(Debug)]
 pub struct Robot {
     cord: Cord<Sr8730>,
@@ -27,7 +27,7 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// From the chip, as the start-up code has left it: all outputs off.
+    /// Builds the robot from the chip as the start-up code leaves it: all outputs off.
     #[must_use]
     pub fn new(chip: Peripherals) -> Self {
         let starts = Starts::take();
@@ -69,7 +69,7 @@ impl Robot {
         self.cord.hardware_fault(fault);
     }
 
-    /// The main loop. Interrupts go on here.
+    /// Enables interrupts and runs the main loop.
     pub fn run(mut self) -> ! {
         interrupt::start();
         loop {
@@ -107,14 +107,14 @@ fn record(flash: &DataFlash) -> [u8; RECORD_BYTES] {
     record
 }
 
-/// Everything off, noted for the next run, and a reset, which makes every pin an input.
+/// Switches everything off, notes the cause for the next start, and resets the chip, which makes every pin an input.
 pub fn fail_safe_reset(fatal_cause: FatalCause) -> ! {
     crate::board::off::everything();
     resets::note(fatal_cause);
     reset::software_reset()
 }
 
-/// What cordlib must know of this machine. What nobody has measured on this robot is not fitted.
+/// The parameters of this robot for cordlib. Parts that are not calibrated are not fitted.
 #[must_use]
 pub fn parameters(calibration: &Calibration) -> Parameters {
     let wheels = calibration.wheels();
@@ -142,7 +142,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
     parameters
 }
 
-/// What the host is told to be there.
+/// The capabilities that are reported to the host.
 fn fitted(calibration: &Calibration) -> Capabilities {
     let all = cordlib::board::Board::<Sr8730>::capabilities();
     let count = |known: bool, count: u8| if known { count } else { 0 };
@@ -153,7 +153,7 @@ fn fitted(calibration: &Calibration) -> Capabilities {
         proximity: count(calibration.proximity().is_some(), all.proximity),
         dock_receivers: count(calibration.beams().is_some(), all.dock_receivers),
         buttons: count(calibration.ladder().is_some(), all.buttons),
-        // The ninth is a line whose purpose an owner has to find out; who has done so needs it no more.
+        // The ninth light is a line of unknown purpose. It is hidden once its purpose is calibrated.
         leds: all.leds - u8::from(calibration.cliffs().is_some()),
         currents: calibration.currents().is_some(),
         charger: calibration.allows_charging(),

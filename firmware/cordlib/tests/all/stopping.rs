@@ -415,7 +415,7 @@ fn s11_over_current_and_standstill_switch_the_wheel_off() {
 }
 
 #[test]
-fn s11_a_blocked_brush_reverses_once_and_is_then_given_up() {
+fn s11_a_blocked_brush_reverses_once_and_is_then_latched() {
     let mut rig = Rig::armed(0);
     rig.cord.board_mut().brush_main.pulses = Some(0);
     rig.repeated = vec![motor(Motor::BrushMain, 0.8)];
@@ -495,7 +495,7 @@ fn s13_an_encoder_that_shows_a_fraction_of_the_speed_is_a_fault() {
 }
 
 #[test]
-fn s15_a_robot_that_crawls_is_told_within_two_seconds() {
+fn s15_a_robot_that_crawls_is_reported_within_two_seconds() {
     let mut rig = Rig::armed(0);
     rig.repeated = vec![motor(Motor::WheelLeft, 0.5), motor(Motor::WheelRight, 0.5)];
     rig.mechanics.blocked = [true, true];

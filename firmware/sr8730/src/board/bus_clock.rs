@@ -1,5 +1,5 @@
-//! A second clock beside the core timer, from the peripheral bus: Timer5, which runs free. When the link samples its input with
-//! that timer, the number of samples takes its place.
+//! A second clock beside the core timer, from the peripheral bus: the free-running Timer5. If the link samples its
+//! input with that timer, the number of samples serves as the clock.
 
 #[cfg(not(feature = "link-sampled"))]
 use pic32mx3_hal::timer::{Prescaler, Timer};

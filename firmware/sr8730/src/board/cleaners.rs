@@ -11,7 +11,7 @@ use super::link::by_edges::brush_pulses;
 use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;
 
-/// Above this a motor with a plain switch runs.
+/// A motor with a plain switch runs above this duty, in millionths.
 const SWITCH_ON: i32 = 500_000;
 
 /// ENABLE of the main brush: RD1, OC2 on Timer3.
@@ -42,7 +42,7 @@ impl BrushMain {
         }
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.bridge.command(Throttle::ZERO);
@@ -85,7 +85,7 @@ impl<P: OutputPin> Switched<P> {
         switched
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.write(Throttle::ZERO);

@@ -1,8 +1,7 @@
 //! The wheels' encoders on the input captures IC1 to IC4.
 //!
-//! Each edge interrupts; the count comes from the levels of both lines then, not from the captures. A direction that only
-//! one line showed would not be known, and a wheel with one dead line must look wrong, not half as fast: it then shows
-//! illegal transitions or none.
+//! Each edge interrupts. The count follows from the levels of both lines, not from the captured times. A wheel with one
+//! dead line then shows illegal transitions or none, instead of half the speed in an unknown direction.
 
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
@@ -24,7 +23,7 @@ use crate::logic::quadrature::{Levels, PhaseOrder, Step, step};
 /// Edges of one line in a millisecond: a wheel at full speed makes one, so this is noise.
 const EDGES_PER_MS: u32 = 40;
 
-/// Count of one wheel, written by its two handlers, which are of one level.
+/// Count of one wheel, written by its two handlers, which have the same interrupt level.
 #[derive(Debug)]
 struct WheelCount {
     lines: [Signal; 2],
@@ -136,7 +135,7 @@ pub struct WheelEncoders {
 }
 
 impl WheelEncoders {
-    /// Starts counting. Timer3, which runs for the motors, is the captures' time base; their times are not used.
+    /// Starts counting. Timer3, which runs for the motors, is the time base of the captures; their times are not used.
     #[must_use]
     pub fn take(lines: EncoderLines, calibration: &Calibration) -> Self {
         let (edge, timer) = (CaptureEdge::Both, CaptureTimer::Timer3);
@@ -170,7 +169,7 @@ impl WheelEncoders {
         }
     }
 
-    /// To be called once in a millisecond: lines that were switched off for noise get another chance.
+    /// Called once a millisecond: enables lines again that were disabled for noise.
     pub fn service(&mut self) {
         for (budget, source) in RATE_LIMITS.iter().zip(SOURCES) {
             if budget.renew() {
@@ -179,7 +178,7 @@ impl WheelEncoders {
         }
     }
 
-    /// Whether way and order are known, so that speeds can be controlled.
+    /// Whether distance per count and order are calibrated, so that speeds can be controlled.
     #[must_use]
     pub const fn is_calibrated(&self) -> bool {
         self.calibrated
@@ -197,7 +196,7 @@ impl Encoders for WheelEncoders {
     }
 }
 
-/// Totals without any order or unit, line 1 leading positive.
+/// Raw totals: line 1 leading is positive, without calibrated order or unit.
 #[must_use]
 pub(super) fn raw() -> EncoderProbe {
     EncoderProbe {
@@ -209,7 +208,7 @@ pub(super) fn raw() -> EncoderProbe {
     }
 }
 
-/// Counts of both wheels together since the last call, whatever their direction: a measure of way.
+/// Counts of both wheels together since the last call, in any direction: a measure of distance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Odometer {
     left: i32,

@@ -1,4 +1,4 @@
-//! The charger's gate stays shut while a motor may draw current.
+//! Keeps the charger's gate shut while a motor may draw current.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -17,14 +17,14 @@ pub enum InterlockedMotor {
     Vacuum = 16,
 }
 
-/// Which motors may draw current. The main program writes, handlers read.
+/// Motors that may draw current. Written by the main program, read by interrupt handlers.
 #[derive(Debug)]
 struct Interlock {
     /// A bit for each, as [`InterlockedMotor`] numbers them.
     driven: AtomicU32,
 }
 
-/// That of this chip.
+/// The interlock of this chip.
 static INTERLOCK: Interlock = Interlock::new();
 
 impl Interlock {
@@ -52,7 +52,7 @@ impl Interlock {
 }
 
 impl InterlockedMotor {
-    /// Notes whether it may draw current. Called from the main program only.
+    /// Notes whether the motor may draw current. Called from the main program only.
     pub(super) fn note(self, driven: bool) {
         INTERLOCK.note(self, driven);
     }

@@ -1,4 +1,4 @@
-//! Why the chip started, how often of late, and the watchdog.
+//! Reset cause, recent resets, and the watchdog.
 
 use cordlib::board::{ResetRecord, Watchdog};
 use pic32mx3_hal::persistent::Persistent;
@@ -13,8 +13,8 @@ use crate::logic::reset_log::{FatalCause, ResetLog, WORDS};
 #[cfg_attr(target_arch = "mips", unsafe(link_section = ".noinit"))]
 static LOG: Persistent<WORDS> = Persistent::uninitialised();
 
-/// The cause in the words of the wire. With power the brown-out bit is set, too, and a watchdog that bites during a brown-out is
-/// a brown-out; so the order matters.
+/// The reset cause of the wire. Power-on sets the brown-out bit as well, and a watchdog reset during a brown-out counts
+/// as a brown-out, so the order matters.
 #[must_use]
 pub fn cause_of(causes: Causes) -> ResetCause {
     if causes.power_on() {
@@ -32,7 +32,7 @@ pub fn cause_of(causes: Causes) -> ResetCause {
     }
 }
 
-/// Notes what ended this run, for the next one to tell.
+/// Notes what ended this run, for the report of the next one.
 pub fn note(fatal_cause: FatalCause) {
     let log = LOG.load().map(ResetLog::from_words);
     let log = log.unwrap_or(ResetLog {
@@ -43,7 +43,7 @@ pub fn note(fatal_cause: FatalCause) {
     LOG.store(ResetLog { fatal_cause, ..log }.words());
 }
 
-/// This start, and those before it.
+/// This start and the log of earlier ones.
 #[derive(Debug)]
 pub struct Starts {
     cause: ResetCause,
@@ -52,7 +52,7 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// Counts this start. Once in a run: the chip's bits are cleared by it.
+    /// Counts this start. Called once: it clears the chip's reset bits.
     #[must_use]
     pub fn take() -> Self {
         let cause = cause_of(Causes::take());
@@ -70,7 +70,7 @@ impl Starts {
         }
     }
 
-    /// What ended the run before this one, if it could note it.
+    /// What ended the previous run, if it was noted.
     #[must_use]
     pub const fn fatal_cause(&self) -> FatalCause {
         self.fatal_cause
@@ -96,8 +96,8 @@ impl ResetRecord for Starts {
     }
 }
 
-/// The watchdog of 128 ms. It is fed from the main loop only, when cordlib's stages have run and both interrupts that the
-/// rest hangs on still come.
+/// The watchdog of 128 ms. It is fed only from the main loop, if cordlib's stages have run and the two essential
+/// interrupts still come.
 #[derive(Debug)]
 pub struct Supervised {
     watchdog: watchdog::Watchdog,
@@ -105,7 +105,7 @@ pub struct Supervised {
 }
 
 impl Supervised {
-    /// Running from here on, if the configuration words did not start it already.
+    /// Starts it, unless the configuration words did so already.
     #[must_use]
     pub fn take(mut watchdog: watchdog::Watchdog) -> Self {
         watchdog.start();

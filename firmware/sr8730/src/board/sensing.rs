@@ -31,7 +31,7 @@ pub struct CliffReceivers {
 }
 
 impl CliffReceivers {
-    /// With what is known of their emitters and levels; `emitters` is the line that switches them, if one does.
+    /// With their calibrated emitters and levels; `emitters` is the line that switches them, if any.
     #[must_use]
     pub fn take(emitters: Option<Pin<'G', 0, Output>>, calibration: &Calibration) -> Self {
         Self {
@@ -40,14 +40,14 @@ impl CliffReceivers {
             lit: true,
             watch: [FrozenReadingDetector::default(); 3],
             odometer: Odometer::default(),
-            frozen_after_counts: frozen_after_counts(calibration.measured(Calibrated::WheelCountWay)),
+            frozen_after_counts: frozen_after_counts(calibration.measured(Calibrated::WheelDistancePerCount)),
             seen: 0,
             plausible: [true; 3],
         }
     }
 
-    /// Levels of emitters that nothing switches. A dark look cannot be had, so the level of a drop stands for it; and a
-    /// receiver whose readings no living sensor gives shows that level when lit, too, which cordlib takes for a drop.
+    /// Levels for emitters that are always lit. The level of a drop stands in for the dark reading. A receiver with
+    /// implausible readings reports that level when lit as well, which cordlib treats as a drop.
     fn always_lit(&mut self, counts: [u16; 3], drop_level: u16) -> [u16; 3] {
         if !self.lit {
             return [drop_level; 3];
@@ -103,7 +103,7 @@ pub struct ProximityReceivers {
 }
 
 impl ProximityReceivers {
-    /// With the readings that mean nothing and touching, if they are known.
+    /// With the calibrated readings for no object and for contact, if they are known.
     #[must_use]
     pub const fn take(scale: Option<ProximityScale>) -> Self {
         Self { scale }
@@ -133,7 +133,8 @@ pub struct WheelCurrents {
     at: u32,
 }
 
-/// A mean over the last few milliseconds: the line is not filtered, and a motor at 20 kHz makes it jump.
+/// First-order low-pass filter over some milliseconds: the line has no filter, and a motor with 20 kHz PWM makes it
+/// noisy.
 #[derive(Clone, Copy, Debug, Default)]
 struct LowPass {
     sixteenths: i32,
@@ -146,7 +147,7 @@ impl LowPass {
 }
 
 impl WheelCurrents {
-    /// With zero and scale, if they are known.
+    /// With offset and scale, if they are calibrated.
     #[must_use]
     pub fn take(calibration: Option<CurrentCalibration>) -> Self {
         Self {

@@ -48,14 +48,14 @@ impl<E: SetDutyCycle, P: OutputPin> MotorBridge<E, P> {
         self.write(lines);
     }
 
-    /// To be called once in a millisecond: the second half of a reversal.
+    /// Called once a millisecond: the second half of a reversal.
     pub fn service(&mut self) {
         let lines = self.sequence.service();
         self.write(lines);
     }
 
-    /// Width and direction in the order that lets no current flow the wrong way: PHASE differs only when the width is 0,
-    /// and the width is written last.
+    /// Writes width and direction in a safe order: PHASE changes only while the width is 0, and the width is written
+    /// last.
     fn write(&mut self, lines: BridgeLines) {
         if lines.compare != 0 {
             self.motor.note(true);
@@ -119,7 +119,7 @@ impl Wheels {
         }
     }
 
-    /// To be called once in a millisecond. Brakes when nobody has said for 50 ms that the wheels shall turn.
+    /// Called once a millisecond. Brakes if the drive was not renewed for 50 ms.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.left.command(Throttle::ZERO);

@@ -6,8 +6,8 @@ pub const COUNT: usize = 31;
 /// A value that a person measures on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibrated {
-    /// Wheel count way (nm). Needed for drive and move.
-    WheelCountWay,
+    /// Wheel distance per count (nm). Needed for drive and move.
+    WheelDistancePerCount,
     /// Wheel track (um). Needed for drive and move.
     WheelTrack,
     /// Wheel left order (1). Needed for drive and move.
@@ -96,8 +96,8 @@ pub struct Entry {
 /// All values, in the order of the record.
 pub const ENTRIES: [Entry; COUNT] = [
     Entry {
-        value: Calibrated::WheelCountWay,
-        name: "wheel-count-way",
+        value: Calibrated::WheelDistancePerCount,
+        name: "wheel-distance-per-count",
         low: 1_000,
         high: 50_000_000,
         assumed: None,

@@ -1,10 +1,10 @@
-//! What a motor bridge is told, step by step.
+//! Sequencing of a motor bridge.
 //!
 //! The A3950 of a wheel and the DRV8840 of the main brush both have an ENABLE line with PWM and a PHASE line for the
-//! direction, and both brake in the off-time as this board sets them. PHASE changes only while ENABLE has been low for at
-//! least one whole PWM period: a change under current would throw the motor from full forward to full backward within a
-//! microsecond. The compare register is taken over at the end of a PWM period of 50 µs, so a change of direction
-//! waits for two of the service calls that come once in a millisecond.
+//! direction, and both brake in the off-time as this board sets them. PHASE changes only while ENABLE has been low for
+//! at least one whole PWM period: a change under current would throw the motor from full forward to full backward
+//! within a microsecond. The compare register is taken over at the end of a PWM period of 50 µs, so a change of
+//! direction waits for two of the service calls that come once in a millisecond.
 
 use rvac_units::Throttle;
 
@@ -15,17 +15,17 @@ const QUIET_CALLS: u8 = 2;
 
 const MILLIONTHS_PER_COUNT: i32 = 1_000_000 / PERIOD_COUNTS as i32;
 
-/// Way that a motor turns.
+/// Direction of a motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotorDirection {
     /// As the robot drives forward, or the brush cleans.
     #[default]
     Forward,
-    /// The other way.
+    /// The opposite direction.
     Backward,
 }
 
-/// What the lines of a bridge must carry now.
+/// Present levels of a bridge's lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BridgeLines {
     /// Counts of a PWM period in which ENABLE is high, 0..=4000. 0 brakes.
@@ -72,7 +72,7 @@ impl BridgeSequence {
         self.settle()
     }
 
-    /// To be called once in a millisecond; returns what to write.
+    /// Called once a millisecond; returns what to write.
     pub const fn service(&mut self) -> BridgeLines {
         if self.lines.compare == 0 {
             self.quiet = self.quiet.saturating_add(1);
@@ -106,7 +106,7 @@ impl BridgeSequence {
     }
 }
 
-/// Counts with ENABLE high for a duty; full duty lies above PR and so never switches off.
+/// Counts with ENABLE high for a duty. Full duty lies above PR, so that the output never switches off.
 const fn compare_for(duty: Throttle) -> u16 {
     // At most 1,000,000 / 250 = 4,000: fits.
     (duty.millionths().saturating_abs() / MILLIONTHS_PER_COUNT) as u16

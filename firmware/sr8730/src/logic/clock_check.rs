@@ -1,9 +1,9 @@
-//! Whether the clocks agree (S20).
+//! Checks that the clocks agree (S20).
 //!
-//! The core timer makes the milliseconds, Timer5 runs from the peripheral bus, and the tick is what an interrupt has counted.
-//! All three hang on one crystal, so their agreement shows that no divider was changed by a flipped bit, that no interrupt
-//! was lost, and that the core timer runs. A crystal that fails is what the clock monitor is for, and a clock
-//! that drifts by more than 5 % makes the link deaf: the receiver takes only rates within 5 % of a known one.
+//! The core timer generates the milliseconds, Timer5 runs from the peripheral bus, and an interrupt counts the ticks.
+//! All three depend on one crystal, so their agreement shows that no flipped bit has changed a divider, that no
+//! interrupt was lost, and that the core timer runs. The clock monitor detects a failed crystal. A clock that drifts by
+//! more than 5 % interrupts the link: the receiver accepts only rates within 5 % of a known one.
 
 /// Milliseconds between two comparisons. Timer5 wraps after 209 ms.
 const WINDOW_MS: u32 = 100;
@@ -14,7 +14,7 @@ pub const HALVES_PER_COUNT: u32 = 256;
 /// Allowed deviation: one in 20, 5 %.
 const TOLERANCE: u32 = 20;
 
-/// One look at all clocks.
+/// Readings of all clocks at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ClockSample {
     /// Milliseconds, counted by the interrupt.
@@ -25,17 +25,17 @@ pub struct ClockSample {
     pub bus: u16,
 }
 
-/// Compares them.
+/// Compares the clocks.
 #[derive(Clone, Copy, Debug)]
 pub struct ClockCheck {
     last: ClockSample,
     halves_per_count: u32,
 }
 
-/// What a comparison says.
+/// Result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClockAgreement {
-    /// They agree, or it is too early to say.
+    /// They agree, or too little time has passed.
     Even,
     /// They do not.
     Uneven,
@@ -51,8 +51,8 @@ impl ClockCheck {
         }
     }
 
-    /// To be called once in a millisecond. Later than 200 ms after the last call it says nothing, because Timer5 has
-    /// wrapped, and the watchdog has more to say.
+    /// Called once a millisecond. Later than 200 ms after the last call there is no result, because Timer5 has wrapped;
+    /// the watchdog covers that case.
     pub const fn update(&mut self, now: ClockSample) -> ClockAgreement {
         let ticks = now.tick.wrapping_sub(self.last.tick);
         let core = now.core.wrapping_sub(self.last.core);

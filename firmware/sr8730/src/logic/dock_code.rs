@@ -1,7 +1,7 @@
-//! What the robot tells the dock so that it gives its full current: 33 bits on a carrier of 38 kHz.
+//! The code that requests full current from the dock: 33 bits on a 38 kHz carrier.
 //!
-//! An interrupt at 76 kHz sets the emitter's line for one half period of the carrier. A bit lasts 0.5 ms, 19 periods of the
-//! carrier; a 1 is carrier, the highest bit comes first (see `robots/samsung-sr8730/dock-signal.md`).
+//! An interrupt at 76 kHz sets the emitter's line for one half period of the carrier. A bit lasts 0.5 ms, 19 periods of
+//! the carrier; a 1 is carrier, the highest bit comes first (see `robots/samsung-sr8730/dock-signal.md`).
 
 /// The code of the original's source, which worked on a robot: six leading ones.
 const CODE_SIX_ONES: u64 = 0x1_F8C3_0CC3;
@@ -15,7 +15,7 @@ pub const REPEAT_MS: u32 = 200;
 /// Counts of Timer1 in one half period: 80 MHz / 76 kHz.
 pub const HALF_PERIOD_COUNTS: u16 = 1_053;
 
-/// How many ones the code begins with: the original's source has six, the author's thesis prints five.
+/// Number of leading ones: the original's source has six, the author's thesis prints five.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LeadingOnes {
     /// As in the thesis.
@@ -36,7 +36,7 @@ impl LeadingOnes {
     }
 }
 
-/// Place in one sending of the code.
+/// Position in one transmission of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DockCode {
     rest: u64,
@@ -44,7 +44,7 @@ pub struct DockCode {
     halves: u8,
 }
 
-/// What the emitter's line does for a half period.
+/// Level of the emitter's line for a half period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CarrierHalf {
     /// High: the emitter is lit.
@@ -70,7 +70,7 @@ impl DockCode {
             LeadingOnes::Six => BITS_SIX_ONES,
             LeadingOnes::Five => BITS_SIX_ONES - 1,
         };
-        // The first bit to send is the highest of the word; a missing leading one falls off the top.
+        // The first bit to send is the highest of the word; a missing leading one is shifted out.
         Self {
             rest: CODE_SIX_ONES << (u64::BITS - bits as u32),
             bits,

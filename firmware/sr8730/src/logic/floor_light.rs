@@ -1,28 +1,28 @@
 //! Cliff sensors whose emitters cannot be switched.
 //!
-//! No source names a line that switches the three emitters. If the calibration finds that LED_UNKNOWNS (RG0) does, cordlib's
-//! self-test darkens them (S9). If they are always lit, a receiver that is stuck at a level cannot be told from one over an
-//! even floor at once. What can be told: a level at the end of the converter's range (broken wire, sunlight), and one that
-//! has not moved by a single count while the robot drove more than a metre.
+//! No source names a line that switches the three emitters. If calibration finds that LED_UNKNOWNS (RG0) does,
+//! cordlib's self-test darkens them (S9). If they are always lit, a receiver that is stuck at a level looks like one
+//! over an even floor at first. Two faults can still be detected: a level at the end of the converter's range (broken
+//! wire, sunlight), and a level that has not changed by a single count while the robot drove more than a metre.
 
-/// Readings at or above this are saturated: no floor can be told in them.
+/// Readings at or above this are saturated and cannot show floor.
 const SATURATED: u16 = 1_020;
 /// Readings below this mean a wire that is broken or shorted to ground; a drop still reflects a little.
 const GROUNDED: u16 = 2;
-/// Way that a sensor may show the very same reading, in encoder counts of both wheels together, when the way of a count
-/// is not known.
+/// Distance over which a sensor may show the same reading, in encoder counts of both wheels together, if the distance
+/// per count is not calibrated.
 const STILL_COUNTS_DEFAULT: u32 = 8_000;
-/// Way of the robot that a sensor may show the very same reading.
+/// Distance over which a sensor may show the same reading.
 const STILL_WAY_NM: u64 = 2_000_000_000;
 
-/// Looks for readings that no living sensor gives.
+/// Detects implausible readings of a cliff sensor.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FrozenReadingDetector {
     last: u16,
     counts: u32,
 }
 
-/// Encoder counts of both wheels together that make the longest way without a change, for a way per count in nanometres.
+/// Encoder counts of both wheels together for the longest distance without a change, by the distance per count.
 #[must_use]
 pub fn frozen_after_counts(distance_per_count_nm: Option<i32>) -> u32 {
     let distance_nm = distance_per_count_nm
@@ -35,7 +35,8 @@ pub fn frozen_after_counts(distance_per_count_nm: Option<i32>) -> u32 {
 }
 
 impl FrozenReadingDetector {
-    /// Takes a reading and the counts that both wheels made since the last one; returns whether the reading can be believed.
+    /// Takes a reading and the counts that both wheels made since the last one; returns whether the reading is
+    /// plausible.
     pub const fn is_plausible(&mut self, reading: u16, counts: u32, frozen_after_counts: u32) -> bool {
         if reading == self.last {
             self.counts = self.counts.saturating_add(counts);

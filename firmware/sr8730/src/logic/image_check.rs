@@ -1,30 +1,30 @@
-//! Whether flash still holds what was written to it (S21).
+//! Checks that flash still holds the image (S21).
 //!
-//! `cargo xtask firmware` puts two check values behind the image, CRC-32C of program flash and of boot flash. The start-up
-//! code checks both before the first motor may move, and the main loop goes over them again, a few bytes in each
-//! millisecond, so that a bit that flips later is noticed within ten seconds.
+//! `cargo xtask firmware` writes two checksums behind the image: the CRC-32C of program flash and of boot flash. The start-up
+//! code checks both before the first motor may move. The main loop checks them again, a few bytes each millisecond, so
+//! that a flipped bit is found within ten seconds.
 
 use rvac_protocol::crc::crc32c;
 
 /// Pieces of an image: program flash and boot flash.
 pub const PIECES: usize = 2;
-/// What stands in place of the check values when nobody has written them.
+/// Content of the check words in an image without checksums.
 pub const NO_CRC: [u32; PIECES] = [u32::MAX; PIECES];
 /// Bytes checked in one millisecond.
 const SLICE_BYTES: usize = 16;
 
-/// What the checks have found.
+/// Result of the check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageState {
-    /// Nothing wrong so far.
+    /// No fault so far.
     Whole,
-    /// The image differs from its check value.
+    /// The image differs from its checksum.
     Damaged,
-    /// The image carries no check value: it was not made by `cargo xtask firmware`.
+    /// The image has no checksum: it was not made by `cargo xtask firmware`.
     Unchecked,
 }
 
-/// Goes over the image again and again.
+/// Checks the image repeatedly.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageCheck<'a> {
     pieces: [(&'a [u8], u32); PIECES],
@@ -65,7 +65,7 @@ impl<'a> ImageCheck<'a> {
         }
     }
 
-    /// Checks the next few bytes. An image without check values is found by [`Self::all`].
+    /// Checks the next few bytes. [`Self::all`] detects an image without checksums.
     pub fn slice(&mut self) -> ImageState {
         let Some((bytes, check)) = self.pieces.get(self.piece).copied() else {
             self.piece = 0;

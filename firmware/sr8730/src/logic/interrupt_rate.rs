@@ -1,8 +1,8 @@
-//! Interrupts that come too often.
+//! Limits the rate of interrupts.
 //!
-//! A wire that is loose or oscillates can raise an interrupt as soon as the last one has ended, and nothing else would run. Each
-//! source that hangs on a wire therefore has a budget for a millisecond; when it is spent the source is switched off until
-//! the main loop gives it a new one.
+//! A loose or oscillating wire can raise an interrupt as soon as the last one has ended, and nothing else would run.
+//! Each source on an external wire therefore has a budget of interrupts per millisecond. When it is spent, the source
+//! is disabled until the main loop renews the budget.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -14,7 +14,7 @@ pub struct InterruptRateLimit {
 }
 
 impl InterruptRateLimit {
-    /// So many interrupts in a millisecond.
+    /// Allows this many interrupts per millisecond.
     #[must_use]
     pub const fn new(per_ms: u32) -> Self {
         Self {
@@ -23,7 +23,7 @@ impl InterruptRateLimit {
         }
     }
 
-    /// In the interrupt: takes one from the limit. False when it was the last one: switch the source off now.
+    /// Called in the interrupt: takes one from the budget. False if it was the last one: disable the source now.
     #[inline(always)]
     pub fn spend(&self) -> bool {
         let left = self.left.load(Ordering::Relaxed).saturating_sub(1);
@@ -31,7 +31,7 @@ impl InterruptRateLimit {
         left != 0
     }
 
-    /// In the main loop, once in a millisecond: a new limit. True when the old one was spent: switch the source on again.
+    /// Called in the main loop, once a millisecond: renews the budget. True if it was spent: enable the source again.
     pub fn renew(&self) -> bool {
         let spent = self.left.load(Ordering::Relaxed) == 0;
         self.left.store(self.per_ms, Ordering::Relaxed);

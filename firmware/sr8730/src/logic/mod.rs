@@ -1,4 +1,4 @@
-//! What the board's parts decide, apart from any register: it is compiled and tested on a computer, too.
+//! The decisions of the board's parts, without access to registers. They are also compiled and tested on a computer.
 
 pub mod beam;
 pub mod bridge;

@@ -1,14 +1,14 @@
-//! What survives a reset in memory that the start-up code does not clear.
+//! The log of resets, in memory that the start-up code does not clear.
 
 use rvac_protocol::message::ResetCause;
 
 /// Words in memory.
 pub const WORDS: usize = 3;
 
-/// What a dying firmware could still note.
+/// Why the firmware ended a run, noted before the reset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FatalCause {
-    /// Nothing noted.
+    /// Nothing was noted.
     #[default]
     None,
     /// A panic.
@@ -17,9 +17,9 @@ pub enum FatalCause {
     Exception,
     /// An interrupt without handler.
     StrayInterrupt,
-    /// A memory cell that does not hold its value.
+    /// A faulty memory cell.
     Memory,
-    /// The image in flash differs from its check value.
+    /// The image in flash differs from its checksum.
     Flash,
     /// The stack grew into the words that guard its end.
     Stack,
@@ -27,7 +27,7 @@ pub enum FatalCause {
     Variable,
     /// The crystal failed; the chip ran on its own oscillator.
     Clock,
-    /// A register of the chip that decides about motors or charger was not as it had been set up.
+    /// A register of the chip that controls motors or charger has changed.
     Register,
 }
 
@@ -83,7 +83,7 @@ pub struct ResetLog {
     pub boots: u32,
     /// Resets in a row other than power-on, since [`Self::recent`] was set to 0.
     pub recent: u32,
-    /// What the run before noted at its end.
+    /// Why the previous run ended.
     pub fatal_cause: FatalCause,
 }
 
@@ -98,7 +98,7 @@ impl ResetLog {
         }
     }
 
-    /// The record as it is kept.
+    /// The record as it is stored.
     #[must_use]
     pub const fn words(self) -> [u32; WORDS] {
         [self.boots, self.recent, self.fatal_cause.number()]
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn trouble_is_told_after_the_reset_and_forgotten_with_the_power() {
+    fn the_cause_is_reported_after_the_reset_and_lost_with_the_power() {
         let died = ResetLog {
             boots: 1,
             recent: 0,

@@ -135,7 +135,11 @@ fn drive(reader: &ModelReader<'_>, raw: &RawDrive) -> Result<DriveModel, ModelEr
     let speed_max_m_per_s = reader.figure(&raw.speed_max, "drive.speed-max [m/s]", 0.05..=2.0)?;
     Ok(DriveModel {
         track_m: reader.figure(&raw.track, "drive.track [m]", 0.05..=1.0)?,
-        count_m: reader.figure(&raw.count_way, "drive.count-way [mm]", 0.001..=50.0)? / 1000.0,
+        count_m: reader.figure(
+            &raw.distance_per_count,
+            "drive.distance-per-count [mm]",
+            0.001..=50.0,
+        )? / 1000.0,
         encoder_lines: reader.count(&raw.encoder_lines, "drive.encoder-lines", 1.0..=2.0)? as u8,
         cruise_m_per_s: reader.figure(&raw.cruise, "drive.cruise [m/s]", 0.02..=speed_max_m_per_s)?,
         speed_max_m_per_s,

@@ -40,7 +40,8 @@ pub(super) struct RawBody {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct RawDrive {
     pub(super) track: Figure,
-    pub(super) count_way: Figure,
+    #[serde(alias = "count-way")]
+    pub(super) distance_per_count: Figure,
     pub(super) encoder_lines: Figure,
     pub(super) cruise: Figure,
     pub(super) speed_max: Figure,

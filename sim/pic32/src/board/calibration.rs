@@ -1,5 +1,5 @@
-//! What nobody has measured on the real machine: the calibration values of `robot.toml`, what the simulated robot has for
-//! them, and the record in flash through which the firmware learns them.
+//! What nobody has measured on the real machine: the calibration values of `robot.toml`, what the simulated robot has
+//! for them, and the record in flash through which the firmware learns them.
 
 use serde::Deserialize;
 
@@ -27,6 +27,8 @@ struct RawRobot {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct RawValue {
     name: String,
+    #[serde(rename = "former-name")]
+    _former_name: Option<String>,
     #[serde(rename = "unit")]
     _unit: String,
     range: [i32; 2],
@@ -154,7 +156,8 @@ fn record(values: impl ExactSizeIterator<Item = i32>) -> Vec<u8> {
     bytes
 }
 
-/// Reflected CRC with the Castagnoli polynomial, a bit at a time: the firmware has its own, and the two check each other.
+/// Reflected CRC with the Castagnoli polynomial, a bit at a time: the firmware has its own, and the two check each
+/// other.
 fn crc32c(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
@@ -163,8 +166,8 @@ fn crc32c(bytes: &[u8]) -> u32 {
     })
 }
 
-/// What this one robot is like where nobody knows what all robots are like: the simulated values that the board's circuits
-/// follow.
+/// What this one robot is like where nobody knows what all robots are like: the simulated values that the board's
+/// circuits follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particulars {
     /// Left and right wheel: line 2 of the encoder leads line 1 when the wheel rolls forward.

@@ -1,5 +1,5 @@
-//! An owner calibrates a robot: the real firmware in the emulated chip with an empty record, the real `rvac`, hands through
-//! the simulator's socket. What is found must be what the emulated board was built with.
+//! An owner calibrates a robot: the real firmware in the emulated chip with an empty record, the real `rvac`, hands
+//! through the simulator's socket. What is found must be what the emulated board was built with.
 //!
 //! `cargo xtask test --only emulator` names firmware and program in `RVAC_FIRMWARE` and `RVAC_PROGRAM`.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
@@ -153,7 +153,8 @@ fn calibrate(name: &str, wanted: &[(&'static str, i32)]) {
         let row = record.lines().find_map(|line| line.strip_prefix(name));
         let found: i32 = row.unwrap()[3..].split(' ').next().unwrap().parse().unwrap();
         let true_value = match *name {
-            // Half of what stands between the simulator's floors and its drops; the table's own value is merely one below.
+            // Half of what stands between the simulator's floors and its drops; the table's own value is merely one
+            // below.
             "cliff-floor-level" => 320,
             name => built_with.value(name).unwrap(),
         };
@@ -170,7 +171,7 @@ fn wheels() {
     calibrate(
         "wheels",
         &[
-            ("wheel-count-way", 15_000),
+            ("wheel-distance-per-count", 15_000),
             ("wheel-track", 9_000),
             ("wheel-left-order", 0),
             ("wheel-right-order", 0),

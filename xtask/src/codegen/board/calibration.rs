@@ -19,6 +19,8 @@ const VALUES_MAX: usize = 256;
 pub(crate) struct Item {
     /// Our name, in lower case with hyphens.
     pub(crate) name: String,
+    /// Its former name, which files of measured values may still have.
+    former_name: Option<String>,
     /// Unit of the stored whole number.
     pub(crate) unit: String,
     /// Least and greatest value that can be true.
@@ -42,10 +44,10 @@ pub(crate) struct Calibration {
     pub(crate) items: Vec<Item>,
 }
 
-/// A figure of robot.toml that the simulator uses, and the calibration value that must agree with it: table, key, value,
-/// stored units in one unit of the figure.
+/// A figure of robot.toml that the simulator uses, and the calibration value that must agree with it: table, key,
+/// value, stored units in one unit of the figure.
 const TWINS: [(&str, &str, &str, f64); 5] = [
-    ("drive", "count-way", "wheel-count-way", 1e6),
+    ("drive", "distance-per-count", "wheel-distance-per-count", 1e6),
     ("drive", "track", "wheel-track", 1e6),
     ("wheel-motor", "free-speed", "wheel-free-speed", 1e3),
     ("wheel-motor", "dead-band-brake", "wheel-dead-band", 1e3),
@@ -92,9 +94,12 @@ impl Calibration {
         faults
     }
 
-    /// The value of this name.
+    /// The value of this name, or of this former name.
     pub(crate) fn find(&self, name: &str) -> Option<(usize, &Item)> {
-        self.items.iter().enumerate().find(|(_, item)| item.name == name)
+        self.items
+            .iter()
+            .enumerate()
+            .find(|(_, item)| item.name == name || item.former_name.as_deref() == Some(name))
     }
 
     /// The simulated robot is one robot: a figure that stands in two places is the same in both.
