@@ -1,19 +1,18 @@
 //! Bytes from the times of edges, at a known rate.
 //!
-//! Words used here: a *frame* has ten bits: start (position 0, low), eight data bits, lowest first (1 to 8), stop (9,
-//! high). A *boundary* is where a bit begins. The *anchor* is the last edge that was believed: times are measured from it
-//! and not from the start of the frame, so that a difference between the two clocks only adds up over bits of the same
-//! level.
+//! Terms: a *frame* has ten bits: start (position 0, low), eight data bits, lowest first (1 to 8), stop (9, high). A
+//! *boundary* is where a bit begins. The *anchor* is the last accepted edge. Times are measured from it and not from
+//! the start of the frame, so that a difference between the two clocks only accumulates over bits of the same level.
 
 use crate::baud::BitTime;
 use crate::edge::{Edge, Level};
 
-/// What the line brought.
+/// Something received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Received {
     /// A byte that arrived well.
     Byte(u8),
-    /// A byte whose stop bit was low. What its data bits were is not worth knowing.
+    /// A byte whose stop bit was low. Its data bits are not usable.
     FramingError,
     /// The line was low for a whole frame: the other side is unpowered, restarts, or calls for attention.
     Break,
@@ -25,8 +24,8 @@ pub enum Received {
 const STOP: u32 = 9;
 /// Boundaries of a frame, the one behind the stop bit included.
 const BOUNDARIES: usize = 11;
-/// A pulse shorter than this share of a bit is noise: 2/5. A true pulse of one bit whose first edge was noticed a quarter
-/// of a bit late, from a sender 2.5 % fast, still has 0.72 bits.
+/// A pulse shorter than this share of a bit is noise: 2/5. A true pulse of one bit whose first edge was noticed a
+/// quarter of a bit late, from a sender 2.5 % fast, still has 0.72 bits.
 const NOISE_NUMERATOR: u32 = 2;
 const NOISE_DENOMINATOR: u32 = 5;
 
@@ -39,30 +38,30 @@ enum DecoderPhase {
     Frame(DecodedFrame),
 }
 
-/// A frame under way.
+/// A frame being received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct DecodedFrame {
-    /// When the last edge was.
+    /// Time of the last edge.
     anchor: u32,
-    /// Which boundary it was at.
+    /// Boundary of the last edge.
     position: u32,
     /// Bit n is the level at position n if no edge follows. An edge inverts all bits from its boundary on.
     bits: u32,
-    /// The middle of the stop bit, reckoned from the anchor. Here the frame ends.
+    /// The middle of the stop bit, measured from the anchor. Here the frame ends.
     end: u32,
 }
 
-/// What is known of the line.
+/// Knowledge about the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum LineState {
     /// Nothing: before the first edge, and after edges were lost.
     Unknown,
-    /// Its level; all edges so far were believed.
+    /// Its level; all edges so far were accepted.
     Level(Level),
-    /// This edge came. It is believed once it has stood long enough.
+    /// This edge came. It is accepted once the level has been stable for long enough.
     Edge(Edge),
-    /// This edge came, and at this moment, soon after it, the line went back. One of the two pulses around that moment is
-    /// noise; what comes next shows which.
+    /// This edge came, and at this moment, soon after it, the line went back. One of the two pulses around that moment
+    /// is noise; the next edge shows which.
     Back(Edge, u32),
 }
 
@@ -105,7 +104,7 @@ impl Decoder {
         }
     }
 
-    /// Tells the time, after every edge before `now` was given. A byte whose stop bit is half over goes to `sink`.
+    /// Sets the time, after all edges before `now` were given. A byte whose stop bit is half over goes to `sink`.
     #[inline(always)]
     pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
         if let Some(received) = self.take_time(now) {
@@ -113,7 +112,7 @@ impl Decoder {
         }
     }
 
-    /// Tells that edges were lost: the frame under way is given up, the next falling edge begins a new one.
+    /// Edges were lost: the present frame is dropped, and the next falling edge begins a new one.
     #[inline(always)]
     pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
         self.forget();
@@ -143,7 +142,7 @@ impl Decoder {
         self.finish_before(edge.at)
     }
 
-    /// Whether the edge begins something when no edge is waiting to be believed, or a pulse to be judged.
+    /// Whether the edge begins something while no edge or pulse is pending.
     fn is_news(&mut self, edge: Edge) -> bool {
         match self.signal {
             LineState::Unknown => true,
@@ -180,7 +179,7 @@ impl Decoder {
         self.finish_before(now)
     }
 
-    /// Takes an edge for true. A frame that ends before it has been ended when the edge came.
+    /// Accepts an edge. A frame that ends before it was ended when the edge came.
     #[inline(always)]
     fn believe(&mut self, edge: Edge) {
         match (&mut self.phase, edge.level) {
@@ -195,7 +194,7 @@ impl Decoder {
                     let rest = self.ends.get(boundary as usize).copied().unwrap_or(0);
                     frame.end = edge.at.wrapping_add(rest);
                 } else if boundary == 0 && level == Level::High {
-                    // A start bit of less than half a bit is none.
+                    // A start bit of less than half a bit is noise.
                     self.phase = DecoderPhase::Idle;
                 }
             }
@@ -213,7 +212,7 @@ impl Decoder {
         }
     }
 
-    /// Ends the frame under way when its end lies at or before `now`.
+    /// Ends the present frame if its end lies at or before `now`.
     #[inline(always)]
     fn finish_before(&mut self, now: u32) -> Option<Received> {
         let DecoderPhase::Frame(frame) = &self.phase else {

@@ -1,7 +1,7 @@
 //! The binary forms of `state` and `drive`: same meaning as the text, an eighth of the bytes.
 //!
 //! A packet is its kind byte, the body below, and the CRC of both, little endian. All integers are little endian. The
-//! bytes 0x1D, 0x1E and 0x1F are stuffed on the line; here they stand as they are.
+//! bytes 0x1D, 0x1E and 0x1F are stuffed on the line; here they are unstuffed.
 
 use heapless::Vec;
 use rvac_units::{Angle, AngularSpeed, Current, Speed, Tick, Voltage};
@@ -42,7 +42,7 @@ pub fn read_drive(body: &[u8]) -> Result<Drive, Refusal> {
     })
 }
 
-/// Kind and body of a `drive`; `None` if a number is outside of what the wire allows.
+/// Kind and body of a `drive`; `None` if a number is out of range.
 #[must_use]
 pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
     within(drive.speed.0, span::SPEED).ok()?;
@@ -61,7 +61,7 @@ pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
 /// Appends a `drive` with its CRC for `session`, and a separator.
 ///
 /// # Errors
-/// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
+/// [`EncodeError::Range`] if a number is out of range; the buffer is then unchanged.
 pub fn write_drive_with_crc(
     drive: &Drive,
     session: u16,

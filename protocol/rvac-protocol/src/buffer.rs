@@ -8,7 +8,8 @@ use crate::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016, STUFFED_BIT, STU
 /// Capacity of a [`PacketBuffer`]: an `info` report travels as three packets, each with its separator.
 pub const PACKET_BUFFER_BYTES: usize = 576;
 
-/// What is to be sent next: whole packets with their separators. Send all of it or none, so that two packets never melt.
+/// The bytes to send next: whole packets with their separators. Send all of them or none, so that two packets never
+/// mix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PacketBuffer {
     bytes: Vec<u8, PACKET_BUFFER_BYTES>,
@@ -19,7 +20,7 @@ pub struct PacketBuffer {
 pub enum EncodeError {
     /// The packet does not fit its limit of 256 bytes.
     TooLong,
-    /// A number is outside of what the wire allows.
+    /// A number is out of range.
     Range,
 }
 
@@ -36,7 +37,7 @@ impl PacketBuffer {
         &self.bytes
     }
 
-    /// Forgets the content.
+    /// Clears the content.
     pub fn clear(&mut self) {
         self.bytes.clear();
     }

@@ -41,7 +41,7 @@ const fn tables() -> [[u32; 256]; STRIDE] {
     tables
 }
 
-/// Who speaks.
+/// Direction of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// Commands.
@@ -121,8 +121,8 @@ pub fn packet_crc(direction: Direction, session: u16, packet: &[u8]) -> u32 {
     digest.crc()
 }
 
-/// CRC-32C of bytes that are no packet (an image in flash, a record), piece by piece: starts with `u32::MAX`, goes on with
-/// what the last piece gave, and its complement is the check value.
+/// CRC-32C of bytes that are no packet (an image in flash, a record), piece by piece: starts with `u32::MAX` and
+/// continues with the result of the last piece. The complement of the result is the CRC.
 #[must_use]
 pub fn crc32c(register: u32, bytes: &[u8]) -> u32 {
     bytes

@@ -59,7 +59,7 @@ pub enum Framed<'a> {
     Poisoned(Poison),
 }
 
-/// Why a packet cannot be whole.
+/// Why a packet is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Poison {
     /// More than [`PACKET_BYTES_MAX`] bytes.
@@ -80,16 +80,16 @@ enum PacketForm {
     Poisoned(Poison),
 }
 
-/// Cuts a stream into packets and checks their CRCs on the way.
+/// Splits a stream into packets and checks their CRCs.
 #[derive(Clone, Debug)]
 pub struct Framer {
     buffer: [u8; PACKET_BYTES_MAX],
     length: usize,
     digested: usize,
-    /// The length up to which plain bytes are only kept; 0 where every byte must be looked at.
+    /// The length up to which plain bytes are only stored; 0 where every byte must be examined.
     plain_until: usize,
-    /// Bytes below this are plain, besides those from [`PLAIN_FROM`] on: none in a text, all but the three special ones in
-    /// a binary packet.
+    /// Bytes below this are plain, besides those from [`PLAIN_FROM`] on: none in a text, all but the three special ones
+    /// in a binary packet.
     plain_below: u8,
     digest: Digest,
     start: Digest,
@@ -115,7 +115,8 @@ impl Framer {
         }
     }
 
-    /// From the next packet on CRCs are those of `session`; a packet that has begun is still measured by the old one.
+    /// CRCs are those of `session` from the next packet on; a packet that has begun is still checked with the old
+    /// session.
     pub fn set_session(&mut self, session: u16) {
         self.start = Digest::start(self.direction, session);
         if self.length == 0 {
@@ -123,7 +124,7 @@ impl Framer {
         }
     }
 
-    /// Takes one byte. Separators give what they end; empty packets give nothing.
+    /// Takes one byte. A separator returns the packet that it ends; empty packets return nothing.
     #[inline]
     pub fn push(&mut self, byte: u8) -> Option<Framed<'_>> {
         let plain = byte >= PLAIN_FROM || byte < self.plain_below;
@@ -184,7 +185,7 @@ impl Framer {
         }
     }
 
-    /// Keeps a byte and brings the digest on when the next step is surely not the CRC.
+    /// Stores a byte and advances the digest when the next step cannot be part of the CRC.
     fn take(&mut self, byte: u8) {
         let Some(slot) = self.buffer.get_mut(self.length) else {
             self.poison(Poison::TooLong);

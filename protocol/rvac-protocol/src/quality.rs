@@ -1,8 +1,8 @@
-//! How good the link is, and what that means for speed.
+//! Quality of the link, and the speed that it allows.
 
 use rvac_units::Tick;
 
-/// What the quality of the link allows.
+/// The speed that the quality of the link allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LinkVerdict {
     /// At most 1 % of the packets of the last 5 s were bad: full speed.
@@ -23,7 +23,7 @@ pub struct LinkQuality {
     pub bad: u32,
     /// Newest round trip of a numbered command in ms.
     pub round_trip_ms: Option<u32>,
-    /// What this allows: the worse of both directions.
+    /// The worse of both directions.
     pub verdict: LinkVerdict,
 }
 
@@ -55,7 +55,7 @@ impl QualityWindow {
         }
     }
 
-    /// Lets slices grow old.
+    /// Drops old slices.
     pub(crate) fn turn(&mut self, now: Tick) {
         let passed = now.since(self.newest_since) / SLICE_MS;
         for _ in 0..passed.min(SLICES as u32) {

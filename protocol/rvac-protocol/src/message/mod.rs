@@ -1,4 +1,4 @@
-//! What the two sides can say, as closed types. Text and binary forms are two spellings of these.
+//! All messages of both sides, as closed types. The text and binary forms encode these.
 
 mod charge;
 mod command;

@@ -1,4 +1,4 @@
-//! What the robot tells the host.
+//! Reports from robot to host.
 
 use heapless::String;
 use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Tick, Voltage};
@@ -18,7 +18,7 @@ pub enum Report {
     Hello(RobotHello),
     /// One row of the description table.
     Describe(super::DescribeRow),
-    /// Slow facts.
+    /// Slowly changing values.
     Info(Info),
     /// Telemetry.
     State(State),
@@ -26,18 +26,18 @@ pub enum Report {
     Event(NumberedEvent),
     /// Answer to a numbered command.
     Acknowledgement(Acknowledgement),
-    /// A raw reading that was asked for.
+    /// A requested raw reading.
     Probed(Probed),
     /// A line of text for people.
     Log {
-        /// How grave.
+        /// Severity.
         level: LogLevel,
-        /// What.
+        /// The text.
         text: LogText,
     },
 }
 
-/// Slow facts, with the words of 2016.
+/// Slowly changing values, under the keys of 2016.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Info {
     /// `firmware-version`
@@ -71,7 +71,7 @@ pub struct LinkCounters {
     pub malformed: u32,
     /// Packets with the right CRC that were refused.
     pub refused: u32,
-    /// Times the receiver had to find the next separator again.
+    /// Poisoned packets, after which the receiver waited for the next separator.
     pub resync: u32,
 }
 
@@ -86,13 +86,13 @@ pub struct Battery {
     pub current: Current,
     /// Pack temperature; `None` when it cannot be measured.
     pub temperature: Option<Temperature>,
-    /// What the charger does.
+    /// State of the charger.
     pub state: ChargeState,
-    /// More about the charger, where the firmware controls it.
+    /// Details of the charger, if the firmware controls it.
     pub charger: Option<ChargerStatus>,
 }
 
-/// What the charger does.
+/// State of the charger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ChargeState {
     /// Not on the dock.
@@ -102,7 +102,7 @@ pub enum ChargeState {
     Charging,
     /// On the dock, full.
     Full,
-    /// On the dock, not charging for a fault.
+    /// On the dock, not charging because of a fault.
     Fault,
 }
 
@@ -155,10 +155,10 @@ pub struct Currents {
     pub brush_main: Current,
 }
 
-/// Last symbol each dock receiver heard, 0 = none: left, right, rear left, rear right.
+/// Last symbol of each dock receiver, 0 = none: left, right, rear left, rear right.
 pub type DockReceivers = [u8; 4];
 
-/// What motion control is doing.
+/// State of motion control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum MotionPhase {
     /// Nothing.
@@ -205,13 +205,13 @@ pub struct State {
     pub battery_voltage: Voltage,
     /// Pack current.
     pub battery_current: Current,
-    /// What the charger does.
+    /// State of the charger.
     pub charge: ChargeState,
     /// On the dock contacts.
     pub docked: bool,
-    /// What keeps the robot from moving.
+    /// Everything that inhibits motion.
     pub inhibits: Inhibits,
-    /// What motion control does.
+    /// State of motion control.
     pub motion: MotionPhase,
     /// Cleaning motors that run now: bit 0 main brush, 1 side brushes, 2 vacuum.
     pub cleaners: u8,
@@ -220,7 +220,7 @@ pub struct State {
 /// How a `move` ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MoveEnd {
-    /// The whole way was made.
+    /// The whole distance was covered.
     Done,
     /// Something inhibits.
     Inhibited,
@@ -256,14 +256,14 @@ pub enum Event {
     Stall(Motor),
 }
 
-/// An event, numbered so that none is lost unseen: the robot repeats unconfirmed events, the host drops those it has.
+/// A numbered event. The robot repeats unconfirmed events, the host drops duplicates and detects gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NumberedEvent {
     /// Rising number.
     pub number: u16,
     /// When it happened.
     pub tick: Tick,
-    /// What.
+    /// The event.
     pub kind: Event,
 }
 
@@ -274,7 +274,7 @@ pub enum Refusal {
     Range,
     /// A required key is missing.
     Missing,
-    /// A key stands twice.
+    /// A key occurs twice.
     Duplicate,
     /// A motion command has a key it must not have.
     UnknownKey,
@@ -286,7 +286,7 @@ pub enum Refusal {
     Old,
     /// The host's view of the robot is older than 400 ms.
     Stale,
-    /// An inhibit stands against it; `info` and `state` tell which.
+    /// An inhibit forbids it; `state` shows which.
     Inhibited,
     /// The board has no such part.
     Absent,
@@ -294,7 +294,7 @@ pub enum Refusal {
     Busy,
     /// The cause of the latched inhibit is still there.
     CauseRemains,
-    /// Not JSON as the specification wants it.
+    /// Not JSON according to the specification.
     Syntax,
 }
 
@@ -345,24 +345,24 @@ impl Refusal {
     }
 }
 
-/// Answer to a numbered command: done, or refused with a named reason.
+/// Answer to a numbered command: executed, or refused with a named reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Acknowledgement {
     /// The command's number; `None` answers a refused command whose number could not be read.
     pub sequence: Option<Sequence>,
-    /// `None` = done.
+    /// `None` = executed.
     pub refusal: Option<Refusal>,
 }
 
-/// How grave a log line is.
+/// Severity of a log line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LogLevel {
     /// For developers.
     Debug,
     /// Worth knowing.
     Info,
-    /// Something is wrong, work goes on.
+    /// A fault that does not stop work.
     Warn,
-    /// Something is wrong and stops work.
+    /// A fault that stops work.
     Error,
 }

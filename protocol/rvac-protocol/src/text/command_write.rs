@@ -9,7 +9,7 @@ use crate::span;
 /// Appends a command with its CRC for `session`, and a separator.
 ///
 /// # Errors
-/// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
+/// [`EncodeError::Range`] if a number is out of range; the buffer is then unchanged.
 pub fn write_command_with_crc(
     command: &Command,
     session: u16,

@@ -1,8 +1,8 @@
-//! The text form: one JSON object a packet.
+//! The text form: one JSON object per packet.
 //!
-//! Reading takes the text without its CRC and gives a closed type or a [`Refusal`](crate::message::Refusal); writing
-//! appends the text without a CRC. CRCs and separators are the session's, see
-//! [`write_command_with_crc`] and [`write_report_with_crc`] for tools and tests.
+//! Reading takes the text without its CRC and returns a closed type or a [`Refusal`](crate::message::Refusal); writing
+//! appends the text without a CRC. The session adds CRCs and separators; tools and tests use
+//! [`write_command_with_crc`] and [`write_report_with_crc`].
 
 mod command_read;
 mod command_write;

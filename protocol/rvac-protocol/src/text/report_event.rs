@@ -1,4 +1,4 @@
-//! Events: things that happened.
+//! Events as text.
 
 use rvac_units::Tick;
 
@@ -10,7 +10,7 @@ use crate::span;
 
 /// Direction of a bump for tools of 2016, in degrees: left positive.
 const BUMP_ANGLE_DEG: i64 = 45;
-/// What follows the names of inhibits: number and tick.
+/// Length of the members after the names of inhibits: number and tick.
 const TAIL_BYTES: usize = 24;
 
 const fn word(kind: &Event) -> &'static str {

@@ -1,4 +1,4 @@
-//! `info`: the words of 2016, in three packets because together they are too long for one.
+//! `info`: the keys of 2016, in three packets because together they do not fit into one.
 
 use rvac_units::{Current, Ratio, Temperature, Voltage};
 
@@ -12,7 +12,7 @@ use crate::message::{
 };
 use crate::span;
 
-/// What one `info` packet told. Packets come in the order battery, link, firmware; older firmware tells all in one.
+/// Content of one `info` packet. Packets come in the order battery, link, firmware; older firmware sends all in one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InfoPart {
     /// Versions and rates.
@@ -164,7 +164,7 @@ fn read_battery(fields: &Fields<'_, 9>) -> Result<Battery, Refusal> {
         voltage: Voltage(fields.int(2, span::VOLTAGE)?),
         current: Current(fields.int(3, span::CURRENT)?),
         temperature: read_temperature(fields)?,
-        // Firmware of 2016 does not tell.
+        // Firmware of 2016 does not send it.
         state: CHARGE_STATES
             .into_iter()
             .find(|(_, name)| name.as_bytes() == state)
@@ -183,7 +183,7 @@ fn read_temperature(fields: &Fields<'_, 9>) -> Result<Option<Temperature>, Refus
         .map_err(|_| Refusal::Range)
 }
 
-/// Names of a newer robot are left out: its battery's figures are worth reading all the same.
+/// Names of a newer robot are ignored, so that the battery's figures can still be read.
 fn read_charger(fields: &Fields<'_, 9>) -> Result<Option<ChargerStatus>, Refusal> {
     let phase = ChargePhase::from_name(fields.text_or_empty(6)?);
     let end = ChargeEnd::from_name(fields.text_or_empty(7)?);

@@ -1,15 +1,15 @@
-//! Gathering the rows of the robot's description.
+//! Collects the rows of the robot's description.
 
 use rvac_units::Tick;
 
 use crate::message::{Capabilities, CommandNames, DescribeRow, Description, Limits, RowContent};
 
-/// Pause before a row is asked for again.
+/// Pause before a row is requested again.
 pub(super) const ASK_AGAIN_MS: u32 = 250;
-/// How often a row is asked for before the rest is left unknown.
+/// Number of requests for a row before the rest stays unknown.
 const ASKS_MAX: u8 = 20;
 
-/// What has come so far.
+/// The rows received so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gathering {
     progress: GatheringProgress,
@@ -42,7 +42,7 @@ impl Gathering {
         }
     }
 
-    /// The row to ask for now.
+    /// The row to request now.
     pub(super) fn take_due(&mut self, now: Tick) -> Option<u8> {
         let GatheringProgress::Asking { row, asked, asks } = self.progress else {
             return None;
@@ -62,7 +62,7 @@ impl Gathering {
         Some(row)
     }
 
-    /// Takes a row; gives the whole description with the last one.
+    /// Takes a row; returns the whole description with the last one.
     pub(super) fn take(&mut self, row: &DescribeRow) -> Option<Description> {
         let GatheringProgress::Asking { row: expected, .. } = self.progress else {
             return None;

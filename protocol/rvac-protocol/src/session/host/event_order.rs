@@ -1,13 +1,13 @@
-//! Events in order and once.
+//! Delivers events in order and once.
 
 use rvac_units::Tick;
 
 use crate::session::EVENTS_WAITING;
 
-/// A gap that the robot's repeats have not filled after this long will stay one.
+/// A gap that repeats have not filled after this long is permanent.
 const GAP_MS: u32 = 2_000;
 
-/// What an event is to the host.
+/// How the host treats an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrival {
     /// Deliver it.
@@ -40,7 +40,7 @@ impl EventOrder {
             return Arrival::Hold;
         }
         let since = *self.gap_since.get_or_insert(now);
-        // The robot's queue never spans more numbers, so what lies further back has left it.
+        // The robot's queue never spans more numbers, so older events are no longer in it.
         let beyond_queue = (ahead + 1).saturating_sub(EVENTS_WAITING as u16);
         let lost = if now.since(since) >= GAP_MS {
             ahead
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_that_stays_is_told_and_passed() {
+    fn a_gap_that_stays_is_reported_and_skipped() {
         let mut order = EventOrder::default();
         assert_eq!(order.take(4, Tick(0)), Arrival::Hold);
         assert_eq!(order.take(4, Tick(1_999)), Arrival::Hold);

@@ -1,4 +1,4 @@
-//! What comes from the robot.
+//! Packets from the robot.
 
 use rvac_units::Tick;
 
@@ -77,7 +77,7 @@ impl HostCore {
             Report::Hello(hello) => self.take_hello(hello),
             Report::Describe(row) => self.gathering.take(&row).map(HostEvent::Described),
             Report::State(state) => {
-                // A robot that has agreed on a binary form and writes text has left it, and so do we.
+                // A robot that agreed on a binary form and sends text has stopped using it, and so does the host.
                 self.binary_left |= self.binary.state;
                 self.take_state(state)
             }
@@ -122,7 +122,7 @@ impl HostCore {
         })))
     }
 
-    /// What the robot has counted since its last `info` is the quality of our packets on their way.
+    /// Outbound quality follows from the robot's counters since its last `info`.
     fn judge_outbound(&mut self, link: LinkCounters) {
         let old = self.info_link;
         if old == LinkCounters::default() {
@@ -149,7 +149,7 @@ impl HostCore {
                 return Some(HostEvent::Answered { sequence, refusal });
             }
         }
-        // The answer to a repeat whose first answer has come already says nothing new.
+        // An answer to a repeat after the first answer is redundant.
         refusal
             .is_some()
             .then_some(HostEvent::Answered { sequence, refusal })
@@ -206,7 +206,7 @@ impl HostCore {
         HostEvent::Opened(hello)
     }
 
-    /// Forgets the session; the next greeting is due at once.
+    /// Drops the session; the next greeting is due at once.
     fn close(&mut self) {
         while let Some(sequence) = self.delivery.take_any() {
             self.events.push_back(HostEvent::Unanswered(sequence)).ok();
@@ -259,7 +259,7 @@ impl HostCore {
         }
     }
 
-    /// The newest tick counts; a repeated event brings an old one.
+    /// Keeps the newest tick; a repeated event carries an old one.
     fn hear_tick(&mut self, tick: Tick) {
         let newer = self.robot_tick.is_none_or(|(known, _)| tick.reached(known));
         if newer {
@@ -283,7 +283,7 @@ impl HostCore {
         None
     }
 
-    /// Whole, but of a newer robot: counted, and no sign of a bad line.
+    /// Undamaged, but of a newer robot: counted, but not as a fault of the line.
     fn unreadable(&mut self) -> Option<HostEvent> {
         count(&mut self.counters.refused);
         None

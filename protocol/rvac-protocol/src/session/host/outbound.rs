@@ -1,4 +1,4 @@
-//! What goes to the robot.
+//! Packets to the robot.
 
 use super::{HostCore, HostPhase, PING_MS, SendError, TICK_OLD_MS};
 use crate::binary;
@@ -92,7 +92,7 @@ impl HostCore {
         }
     }
 
-    /// What the session itself has to send: `Ok(false)` = nothing.
+    /// Writes a packet of the session itself: `Ok(false)` = nothing to send.
     pub(super) fn next_packet(&mut self, buffer: &mut PacketBuffer) -> Result<bool, EncodeError> {
         if let HostPhase::Greeting {
             due,
@@ -167,7 +167,7 @@ impl HostCore {
             }
             _ => write_command_with_crc(command, self.session, buffer),
         }?;
-        // Stuffing and separator do not count, so this refuses a little too early rather than too late.
+        // Stuffing and separator do not count towards the limit, so this may refuse slightly too early, never too late.
         if buffer.length() - start > self.packet_max + 1 {
             return Err(EncodeError::TooLong);
         }

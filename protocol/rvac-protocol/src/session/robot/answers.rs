@@ -1,4 +1,4 @@
-//! Which numbered commands were carried out, so that a repeat is answered again and not carried out again.
+//! The numbered commands that were executed, so that a repeat is answered again and not executed again.
 
 use heapless::Vec;
 use rvac_units::Tick;
@@ -7,7 +7,7 @@ use crate::message::{Refusal, Sequence};
 
 /// Commands that are remembered.
 const REMEMBERED: usize = crate::session::COMMANDS_UNDER_WAY;
-/// After this long a number may be taken again: it has gone round, or its sender is long gone.
+/// After this long a number may be used again: the counter has wrapped, or its sender is gone.
 pub(super) const MEMORY_MS: u32 = 10_000;
 
 #[derive(Clone, Copy, Debug)]
@@ -26,13 +26,13 @@ enum StoredAnswer {
 /// What is known of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Known {
-    /// Never seen: carry it out. It is remembered from now on.
+    /// New: execute it. It is remembered from now on.
     New,
-    /// Carried out at this moment; the answer will come.
+    /// Being executed; the answer will come.
     Pending,
-    /// Answer this again.
+    /// A repeat: send this answer again.
     Answered(Option<Refusal>),
-    /// Older than all that is remembered: refuse it.
+    /// Older than all remembered numbers: refuse it.
     Forgotten,
 }
 

@@ -40,7 +40,7 @@ impl EventQueue {
         self.waiting.push_back(Waiting { event, sent: None }).ok();
     }
 
-    /// The event that is to be sent now. In hand mode each is sent once and forgotten: nobody confirms.
+    /// The event to send now. In hand mode each event is sent once and dropped, because nobody confirms it.
     pub(super) fn take_due(&mut self, mode: Mode, now: Tick) -> Option<NumberedEvent> {
         if mode == Mode::Hand {
             return self.waiting.pop_front().map(|waiting| waiting.event);
@@ -69,7 +69,7 @@ impl EventQueue {
         }
     }
 
-    /// A new session: numbers begin with 0, what was before is in the first `state`.
+    /// A new session: numbers start at 0, and the first `state` shows the present levels.
     pub(super) fn restart(&mut self) {
         *self = Self::default();
     }

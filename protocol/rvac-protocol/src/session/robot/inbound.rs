@@ -1,4 +1,4 @@
-//! What comes from the host.
+//! Packets from the host.
 
 use rvac_units::Tick;
 
@@ -44,7 +44,7 @@ impl RobotCore {
         self.good();
         match read_command(text, self.form()) {
             Ok(command) => {
-                // A host that has agreed on a binary form and writes text has left it, and so do we.
+                // A host that agreed on a binary form and sends text has stopped using it, and so does the robot.
                 self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
                 self.accept(command, PacketTrust::Checked)
             }
@@ -140,7 +140,7 @@ impl RobotCore {
         }
     }
 
-    /// A command that must arrive: carried out once, answered as often as it is asked.
+    /// A command that must arrive: executed once, answered for each repeat.
     fn accept_once(&mut self, command: Command) -> Option<RobotEvent> {
         let sequence = command.sequence()?;
         if self.mode == Mode::Checked {
@@ -179,8 +179,8 @@ impl RobotCore {
         }))
     }
 
-    /// Whether motion is meant for now. Numbers compare with those of the last seconds only: what is older is kept out by
-    /// its tick, and after hours of rest a number may have gone half way round.
+    /// Whether motion is fresh. Numbers are compared with those of the last seconds only: ticks exclude older packets,
+    /// and after hours without motion the counter may have advanced by half its range.
     fn fresh(&mut self, sequence: Sequence, seen: Tick) -> Result<(), Refusal> {
         if self.now.since(seen) > FRESHNESS_MS {
             return Err(Refusal::Stale);
@@ -275,7 +275,7 @@ impl RobotCore {
     }
 
     pub(super) fn reply(&mut self, reply: Reply) {
-        // A full queue drops the answer; the host repeats its question.
+        // A full queue drops the answer; the host repeats its command.
         self.replies.push_back(reply).ok();
     }
 

@@ -22,32 +22,32 @@ use crate::message::{
 };
 use crate::session::{BAD_IN_ROW_MAX, FLUSH_AFTER_MS};
 
-/// Who the robot is; fixed from reset on.
+/// Identity of the robot; constant after a reset.
 #[derive(Clone, Debug)]
 pub struct RobotIdentity {
     /// Device, for example `sr8730`.
     pub device: Name,
     /// Firmware version.
     pub firmware: Name,
-    /// Starts since the firmware was written, as far as the board can count.
+    /// Starts since the firmware was written, as far as the board counts them.
     pub boot_count: u32,
     /// Why it started.
     pub reset_cause: ResetCause,
-    /// Anything that differs from start to start (boot count, noise of an analogue input, memory after power-on): session
-    /// numbers grow from it and from the moment of the `hello`.
+    /// Any value that differs between starts (boot count, noise of an analogue input, memory after power-on). Session
+    /// numbers are derived from it and from the time of the `hello`.
     pub session_seed: u32,
     /// Binary kinds the firmware can read and write.
     pub binary: BinaryKinds,
-    /// What `describe` tells.
+    /// Content of `describe`.
     pub description: Description,
 }
 
-/// Who may command, and how far.
+/// Who may send commands, and with which limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// A person may type without CRCs; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of at
-    /// most 500 ms, moves of at most 5 cm. The session has clamped what it can see; the speed of a `move` is the
-    /// firmware's part ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
+    /// A person may type without CRCs; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of
+    /// at most 500 ms, moves of at most 5 cm. The session clamps the values in the packet; the firmware limits the
+    /// speed of a `move` ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
     Hand,
     /// Only the host of this session commands, and every packet has a CRC.
     Checked,
@@ -62,18 +62,19 @@ pub enum SessionEnd {
     Silence,
 }
 
-/// What the firmware has to act upon.
+/// An event that the firmware must handle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RobotEvent {
-    /// Carry this out. It is checked: well-formed, in range, with the CRC that the mode requires, fresh, not seen before, and in
-    /// hand mode clamped. Never `Hello`, `Hand`, `Describe`, `Ping` or `Seen`, which the session handles itself.
+    /// Execute this command. It is checked: well-formed, in range, with the CRC that the mode requires, fresh, no
+    /// repeat, and clamped in hand mode. Never `Hello`, `Hand`, `Describe`, `Ping` or `Seen`, which the session handles
+    /// itself.
     ///
-    /// A command that must arrive ([`Command::must_arrive`]) wants one call of [`RobotSession::answer`], a refused `drive`
-    /// or `motor` too. `Info` and `State` want a report.
+    /// A command that must arrive ([`Command::must_arrive`]) requires one call of [`RobotSession::answer`], and so does
+    /// a refused `drive` or `motor`. `Info` and `State` require a report.
     Command(Command),
-    /// A host has opened a session: leases of before are void.
+    /// A host has opened a session: earlier leases are void.
     SessionOpened,
-    /// Back to hand mode: leases of before are void.
+    /// Back to hand mode: earlier leases are void.
     SessionClosed(SessionEnd),
 }
 
@@ -81,7 +82,7 @@ pub enum RobotEvent {
 pub const SESSION_SILENCE_MS: u32 = 2_000;
 /// Motion whose `t` is older is refused.
 pub const FRESHNESS_MS: u32 = 400;
-/// Answers that wait for room on the line. More are dropped; the host repeats its question.
+/// Answers that wait for room on the line. Further ones are dropped; the host repeats its command.
 const REPLIES: usize = 8;
 
 /// The robot's end of the link.
@@ -101,7 +102,8 @@ struct RobotCore {
     counters: LinkCounters,
     /// When the last valid checked packet came.
     heard: Tick,
-    /// What opened the session, until another checked packet comes: a repeat of it does not open another one.
+    /// The `hello` that opened the session, until another checked packet comes: a repeat of it does not open another
+    /// session.
     opened_by: Option<HostHello>,
     motion: Option<(Sequence, Tick)>,
     answers: Answers,
@@ -121,7 +123,7 @@ enum Reply {
 }
 
 impl RobotSession {
-    /// A session after reset, in hand mode. The first packets are a separator and an unasked `hello`.
+    /// A session after reset, in hand mode. The first packets are a separator and an unrequested `hello`.
     #[must_use]
     pub fn new(identity: RobotIdentity, now: Tick) -> Self {
         let mut core = RobotCore {
@@ -170,8 +172,8 @@ impl RobotSession {
         self.framer.poison(Poison::Overrun);
     }
 
-    /// Lets time pass: silence ends a session, unconfirmed events become due again. Cheap; call it in every pass of the main
-    /// loop or at [`next_poll`](Self::next_poll).
+    /// Handles time: silence ends a session, unconfirmed events become due again. Cheap; call it in every pass of the
+    /// main loop or at [`next_poll`](Self::next_poll).
     #[must_use]
     pub fn poll(&mut self, now: Tick) -> Option<RobotEvent> {
         self.core.now = now;
@@ -184,7 +186,7 @@ impl RobotSession {
         Some(event)
     }
 
-    /// When `poll` or [`next_packet`](Self::next_packet) has something to do at the latest.
+    /// The latest time of the next call of `poll` or [`next_packet`](Self::next_packet).
     #[must_use]
     pub fn next_poll(&self) -> Tick {
         if self.core.events.is_empty() && self.core.mode == Mode::Checked {
@@ -194,7 +196,7 @@ impl RobotSession {
         }
     }
 
-    /// Writes the next packet that the session itself wants sent (handshake, acknowledgements, rows of the description,
+    /// Writes the next packet of the session itself (handshake, acknowledgements, rows of the description,
     /// events) into `buffer`, replacing its content. `false` = nothing to send.
     #[must_use]
     pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
@@ -205,8 +207,8 @@ impl RobotSession {
         self.core.write(&report, buffer).is_ok()
     }
 
-    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: with its CRC, in binary if
-    /// that is agreed, with a separator before it if the line was silent.
+    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: with its CRC, in
+    /// binary if that is agreed, with a separator before it if the line was silent.
     ///
     /// # Errors
     /// [`EncodeError`] if the report does not fit; the buffer is empty then. Every `State`, `Info` and `Log` fits.
@@ -215,7 +217,7 @@ impl RobotSession {
         self.core.write(report, buffer).inspect_err(|_| buffer.clear())
     }
 
-    /// Answers a numbered command: done (`None`) or refused.
+    /// Answers a numbered command: executed (`None`) or refused.
     pub fn answer(&mut self, sequence: Sequence, refusal: Option<Refusal>) {
         self.core.answers.give(sequence, refusal);
         if refusal.is_some() {

@@ -35,7 +35,7 @@ impl RobotCore {
             Report::State(state) if self.binary.state && !self.binary_left => {
                 binary::write_state_with_crc(state, self.session, buffer)
             }
-            // The host must be able to read it whatever session it believes in.
+            // The host must be able to read it in any session state.
             Report::Hello(_) => write_report_with_crc(report, 0, buffer),
             _ => write_report_with_crc(report, self.session, buffer),
         }
