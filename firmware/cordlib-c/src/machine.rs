@@ -112,11 +112,11 @@ pub extern "C" fn cord_set_limits(speed: f64, turn: f64) -> i32 {
     let mut limits = machine.parameters.limits;
     limits.speed_max = Speed::from_m_per_s(speed);
     limits.turn_max = AngularSpeed::from_rad_per_s(turn);
-    let told = machine.parameters;
+    let described = machine.parameters;
     machine.parameters = Parameters {
-        wheel: told.wheel,
-        guard: told.guard,
-        ..Parameters::for_machine(told.device, told.firmware, limits)
+        wheel: described.wheel,
+        guard: described.guard,
+        ..Parameters::for_machine(described.device, described.firmware, limits)
     };
     1
 }

@@ -41,14 +41,14 @@ fn recall(map: &Map, world: &World, map_from_plan: Pose) -> Option<f64> {
 
 fn precision(map: &Map, world: &World, plan_from_map: Pose) -> Option<f64> {
     let grid = world.home().grid();
-    let (mut told, mut right) = (0_u32, 0_u32);
+    let (mut reported, mut right) = (0_u32, 0_u32);
     for (cell, _) in map.floor_kinds().filter(|(_, kind)| *kind == FloorKind::Carpet) {
         let at = cell.middle();
         let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
-        told += 1;
+        reported += 1;
         right += u32::from(grid.at(x_m, y_m) == home::Cell::Rug);
     }
-    share(right, told)
+    share(right, reported)
 }
 
 fn share(part: u32, whole: u32) -> Option<f64> {

@@ -238,8 +238,8 @@ impl Household {
             let truth_in_map = self.map_from_plan.then(truth.pose);
             self.figures.sample(truth, truth_in_map, &belief);
             if truth.time_ms.is_multiple_of(TOLD_MS) && belief.state == Some(brain::BehaviorState::Cleaning) {
-                let told = host.brain().and_then(brain::Brain::swept_share);
-                self.figures.note_told(told, truth.swept_share);
+                let reported = host.brain().and_then(brain::Brain::swept_share);
+                self.figures.note_reported(reported, truth.swept_share);
             }
             if let Some(trace) = &mut self.trace {
                 let time_ms = truth.time_ms - self.figures.charging_ms();

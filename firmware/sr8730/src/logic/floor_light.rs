@@ -13,7 +13,7 @@ const GROUNDED: u16 = 2;
 /// per count is not calibrated.
 const STILL_COUNTS_DEFAULT: u32 = 8_000;
 /// Distance over which a sensor may show the same reading.
-const STILL_WAY_NM: u64 = 2_000_000_000;
+const FROZEN_DISTANCE_NM: u64 = 2_000_000_000;
 
 /// Detects implausible readings of a cliff sensor.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,9 +26,9 @@ pub struct FrozenReadingDetector {
 #[must_use]
 pub fn frozen_after_counts(distance_per_count_nm: Option<i32>) -> u32 {
     let distance_nm = distance_per_count_nm
-        .and_then(|way| u64::try_from(way).ok())
-        .filter(|way| *way > 0);
-    match distance_nm.and_then(|way| (2 * STILL_WAY_NM).checked_div(way)) {
+        .and_then(|distance| u64::try_from(distance).ok())
+        .filter(|distance| *distance > 0);
+    match distance_nm.and_then(|distance| (2 * FROZEN_DISTANCE_NM).checked_div(distance)) {
         Some(counts) => u32::try_from(counts).unwrap_or(u32::MAX),
         None => STILL_COUNTS_DEFAULT,
     }

@@ -56,12 +56,12 @@ impl Air {
     fn mean_dbm(self, home: &Home, pose: Pose, (number, place): (u16, (f64, f64))) -> f64 {
         let (dx, dy) = (place.0 - pose.x_m, place.1 - pose.y_m);
         let away_m = libm::hypot(dx, dy).max(NEAREST_M);
-        let walls = solid_in_way(home, (pose.x_m, pose.y_m), place);
-        let in_way_db = (OBSTACLE_DB * f64::from(walls)).min(OBSTACLES_MAX_DB);
+        let walls = obstacles_between(home, (pose.x_m, pose.y_m), place);
+        let obstacle_loss_db = (OBSTACLE_DB * f64::from(walls)).min(OBSTACLES_MAX_DB);
         let aside_rad = libm::atan2(dy, dx) - pose.heading_rad;
         AT_1_M_DBM + BEACON_SIGMA_DB * self.drawn(number, (i64::MAX, i64::MAX))
             - 10.0 * EXPONENT * libm::log10(away_m)
-            - in_way_db
+            - obstacle_loss_db
             + SHADOW_DB * self.shadow(number, pose)
             + BODY_DB * libm::cos(aside_rad)
     }
@@ -87,7 +87,7 @@ impl Air {
 }
 
 /// Things in the straight way that are more than a leg of a chair.
-fn solid_in_way(home: &Home, from: (f64, f64), to: (f64, f64)) -> u32 {
+fn obstacles_between(home: &Home, from: (f64, f64), to: (f64, f64)) -> u32 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = libm::ceil(libm::hypot(dx, dy) / LOOK_M).max(1.0) as u32;
     let (mut things, mut solid) = (0, 0);

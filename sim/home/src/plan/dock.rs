@@ -82,7 +82,7 @@ impl DockSearch<'_> {
         };
         let docked = self.radius_m + DOCK_GAP_M;
         let tolerance = 0.5 * self.grid.cell_m;
-        let way_free = (0..=6).all(|step| {
+        let path_free = (0..=6).all(|step| {
             free(
                 docked + APPROACH_M * f64::from(step) / 6.0,
                 0.0,
@@ -93,7 +93,7 @@ impl DockSearch<'_> {
             let (x, y) = dock.point(0.1, *aside);
             (self.blocked.at(x, y) - 0.1).abs() < self.grid.cell_m
         });
-        (way_free && wall_straight).then_some(dock)
+        (path_free && wall_straight).then_some(dock)
     }
 
     fn room_in_front(&self, dock: Pose) -> f64 {

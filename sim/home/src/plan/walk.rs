@@ -70,7 +70,7 @@ impl<'a> Ways<'a> {
         let mut legs = Vec::new();
         let mut here = first;
         for place in places.into_iter().skip(1).chain([first]) {
-            if let Some(leg) = self.way(here, place, kind) {
+            if let Some(leg) = self.path(here, place, kind) {
                 legs.push(leg);
                 here = place;
             }
@@ -102,7 +102,7 @@ impl<'a> Ways<'a> {
     }
 
     /// The way with the fewest squares.
-    fn way(&self, from: usize, to: usize, kind: WalkerKind) -> Option<Vec<(f64, f64)>> {
+    fn path(&self, from: usize, to: usize, kind: WalkerKind) -> Option<Vec<(f64, f64)>> {
         const UNSEEN: usize = usize::MAX;
         // Searched backwards, so that following the links goes forward.
         let mut next = vec![UNSEEN; self.columns * self.rows];

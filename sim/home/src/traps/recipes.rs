@@ -95,13 +95,13 @@ fn bed(sketch: &mut Sketch) {
     sketch.end_at([0.0, 0.0], [east, north]);
 }
 
-fn black(sketch: &mut Sketch, way: ExitKind) {
+fn black(sketch: &mut Sketch, exit: ExitKind) {
     let (low, high) = ([0.9, 1.0], [sketch.number(1.6, 1.9), sketch.number(1.8, 2.1)]);
     let lane_m = sketch.number(0.55, 0.75);
     let north = high[1] + 0.45;
     let south = low[1] - 0.45;
     // With a way out, the island reaches the wall in the west, and a lane leads along that wall.
-    match way {
+    match exit {
         ExitKind::AlongTheWall => {
             sketch.black_rug(&[
                 [0.0, south],
@@ -185,12 +185,12 @@ fn chairs(sketch: &mut Sketch) {
     );
 }
 
-fn closet(sketch: &mut Sketch, way: ExitKind) {
+fn closet(sketch: &mut Sketch, exit: ExitKind) {
     let (east, north) = (sketch.number(0.8, 1.2), sketch.number(1.1, 2.2));
     sketch.wall([[east, 0.0], [east, north]]);
     sketch.wall([[0.0, north], [east + 0.05, north]]);
     let start = sketch.number(0.1, north - 0.95);
-    let opens_s = (way == ExitKind::Later).then(|| sketch.number(90.0, 300.0));
+    let opens_s = (exit == ExitKind::Later).then(|| sketch.number(90.0, 300.0));
     sketch.shut_door([[east, start], [east, start + 0.75]], opens_s);
     let heading_deg = any_heading(sketch);
     sketch.start([0.4 * east, 0.5 * north], heading_deg);
@@ -284,12 +284,12 @@ fn sofa(sketch: &mut Sketch) {
     let north = sketch.number(0.42, 0.6);
     let pitch = gap(sketch) + 0.04;
     // All gaps but one are closed by a leg in their middle.
-    let way_out = libm::floor(sketch.number(0.0, 3.99)) as u32;
+    let exit_side = libm::floor(sketch.number(0.0, 3.99)) as u32;
     let mut legs = Vec::new();
     for field in 0..4 {
         let west = 0.05 + pitch * f64::from(field);
         legs.push([west, north]);
-        if field != way_out {
+        if field != exit_side {
             legs.push([west + 0.5 * pitch, north]);
         }
     }

@@ -106,11 +106,11 @@ impl Body {
     }
 
     /// Moves along a small arc as if nothing stood in the way.
-    pub(crate) fn advance(&mut self, way_m: f64, turn_rad: f64) {
+    pub(crate) fn advance(&mut self, distance_m: f64, turn_rad: f64) {
         let half = 0.5 * turn_rad;
-        self.x_m += way_m * (self.cos - self.sin * half);
-        self.y_m += way_m * (self.sin + self.cos * half);
-        self.free_m -= way_m.abs();
+        self.x_m += distance_m * (self.cos - self.sin * half);
+        self.y_m += distance_m * (self.sin + self.cos * half);
+        self.free_m -= distance_m.abs();
         self.turn(turn_rad);
     }
 

@@ -192,16 +192,19 @@ fn in_sight(solid: Solid<'_>, from: (f64, f64), to: (f64, f64)) -> bool {
     if length < 1e-6 {
         return true;
     }
-    let mut way_m = 0.0;
+    let mut distance_m = 0.0;
     for _ in 0..SIGHT_MAX {
-        if way_m >= length {
+        if distance_m >= length {
             return true;
         }
-        let clear_m = solid.at(from.0 + dx / length * way_m, from.1 + dy / length * way_m);
+        let clear_m = solid.at(
+            from.0 + dx / length * distance_m,
+            from.1 + dy / length * distance_m,
+        );
         if clear_m < 0.0 {
             return false;
         }
-        way_m += clear_m.max(0.015);
+        distance_m += clear_m.max(0.015);
     }
     false
 }

@@ -66,12 +66,12 @@ impl Underneath {
         self.cliff_free_m = 0.0;
     }
 
-    /// Whether wheels hang; called after every move of `way_m`.
-    pub(crate) fn move_on(&mut self, home: &Home, body: &Body, way_m: f64) {
+    /// Whether wheels hang; called after every move of `distance_m`.
+    pub(crate) fn move_on(&mut self, home: &Home, body: &Body, distance_m: f64) {
         let Some(cliffs) = &home.cliffs else {
             return;
         };
-        self.cliff_free_m -= way_m.abs();
+        self.cliff_free_m -= distance_m.abs();
         if self.cliff_free_m > self.radius_m {
             return;
         }

@@ -126,12 +126,12 @@ impl World {
     }
 
     fn roll(&mut self, left_m: f64, right_m: f64) -> f64 {
-        let (way_m, mut turn_rad) = self.slip.motion(left_m, right_m, &self.underneath.surface);
+        let (distance_m, mut turn_rad) = self.slip.motion(left_m, right_m, &self.underneath.surface);
         turn_rad *= 1.0 - self.body.wall_friction();
         let (x_m, y_m) = (self.body.x_m, self.body.y_m);
-        self.body.advance(way_m, turn_rad);
+        self.body.advance(distance_m, turn_rad);
         self.body.collide(solid!(self), self.truth.time_ms);
-        self.underneath.move_on(&self.home, &self.body, way_m);
+        self.underneath.move_on(&self.home, &self.body, distance_m);
         let (dx, dy) = (self.body.x_m - x_m, self.body.y_m - y_m);
         let along_m = dx * self.body.cos + dy * self.body.sin;
         self.truth.path_m += libm::sqrt(dx * dx + dy * dy);

@@ -105,13 +105,13 @@ impl Walker {
         }
     }
 
-    fn way(&self) -> &[(f64, f64)] {
+    fn path(&self) -> &[(f64, f64)] {
         self.plan.legs.get(self.leg).map_or(&[], Vec::as_slice)
     }
 
     fn at(&self, place: usize) -> (f64, f64) {
-        let way = self.way();
-        way.get(place.min(way.len().saturating_sub(1)))
+        let path = self.path();
+        path.get(place.min(path.len().saturating_sub(1)))
             .copied()
             .unwrap_or_default()
     }
@@ -119,7 +119,7 @@ impl Walker {
     /// One foot comes down ahead, the other goes up.
     fn step(&mut self, now_ms: u64, robot: RobotDisc, solid: &DistanceField) -> bool {
         let next = self.place + PERSON_STRIDE;
-        let is_last = next >= self.way().len();
+        let is_last = next >= self.path().len();
         let (here, there) = (self.at(self.place), self.at(next));
         let length = libm::hypot(there.0 - here.0, there.1 - here.1).max(1e-9);
         let side = if self.left_foot {
@@ -179,7 +179,7 @@ impl Walker {
 
     fn go_on(&mut self, next: usize, now_ms: u64, step_ms: u64) {
         self.waits_since_ms = None;
-        if next < self.way().len() {
+        if next < self.path().len() {
             (self.place, self.due_ms) = (next, now_ms + step_ms);
             return;
         }

@@ -14,7 +14,7 @@ const COAST_FACTOR: f64 = 5.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelErrors {
     /// True way of the rim over nominal way.
-    pub(crate) way_factor: f64,
+    pub(crate) distance_factor: f64,
     /// Play of the gear at the rim, metres.
     pub(crate) backlash_m: f64,
 }
@@ -141,9 +141,9 @@ impl Wheel {
             .rolled_m
             .max(self.travel_m - self.errors.backlash_m)
             .min(self.travel_m);
-        let way_m = rolled_m - self.rolled_m;
+        let distance_m = rolled_m - self.rolled_m;
         self.rolled_m = rolled_m;
-        way_m * self.errors.way_factor
+        distance_m * self.errors.distance_factor
     }
 
     /// The way of the motor side in counts.

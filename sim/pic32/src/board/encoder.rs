@@ -67,17 +67,17 @@ impl Encoder {
     /// When in the millisecond the step happens, 0..1: where the wheel passes a whole count, or evenly spread if the encoder
     /// shows something else than what the wheel does.
     fn share(&self, after: Position, (step, count): (u32, u32)) -> f64 {
-        let way = after.exact - self.before.exact;
+        let travelled = after.exact - self.before.exact;
         let whole = after.exact.floor() - self.before.exact.floor();
-        if whole.abs() != f64::from(count) || way == 0.0 {
+        if whole.abs() != f64::from(count) || travelled == 0.0 {
             return (f64::from(step) + 0.5) / f64::from(count);
         }
-        let boundary = if way > 0.0 {
+        let boundary = if travelled > 0.0 {
             self.before.exact.floor() + f64::from(step) + 1.0
         } else {
             self.before.exact.floor() - f64::from(step)
         };
-        ((boundary - self.before.exact) / way).clamp(0.0, 0.999_999)
+        ((boundary - self.before.exact) / travelled).clamp(0.0, 0.999_999)
     }
 }
 

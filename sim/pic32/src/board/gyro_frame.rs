@@ -103,8 +103,8 @@ impl GyroLayout {
 
     /// The frame of this heading, degrees, and turn rate, degrees a second, counter-clockwise.
     pub(super) fn frame(&self, (heading, rate): (f64, f64), count: u8) -> Vec<u8> {
-        let told = if self.tells_heading { heading } else { rate };
-        let number = (told * self.steps_per_degree).round() as i32;
+        let sent = if self.tells_heading { heading } else { rate };
+        let number = (sent * self.steps_per_degree).round() as i32;
         let mut frame = self.head.to_vec();
         frame.extend([count, STATUS].iter().take(usize::from(self.filler_bytes)));
         // Two bytes hold the lower half: a number that outgrows them wraps.

@@ -1,6 +1,6 @@
 //! What a packet asks for, and the answer.
 
-use super::description::{by_number, registers, told, xml};
+use super::description::{by_number, register_hex, registers, xml};
 use super::packet::{PACKET_BYTES, from_hex, hex, number, unescaped};
 use super::{DebugTarget, NoMemory, Stop};
 
@@ -132,7 +132,9 @@ fn long(rest: &[u8], target: &mut dyn DebugTarget) -> PacketReply {
 }
 
 fn all_registers(target: &dyn DebugTarget) -> String {
-    registers().map(|register| told(target, Some(register))).collect()
+    registers()
+        .map(|register| register_hex(target, Some(register)))
+        .collect()
 }
 
 fn set_all_registers(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
@@ -144,7 +146,7 @@ fn set_all_registers(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
 
 fn one_register(rest: &[u8], target: &dyn DebugTarget) -> Text {
     let register = number(rest).and_then(by_number).ok_or(MALFORMED)?;
-    Ok(told(target, register))
+    Ok(register_hex(target, register))
 }
 
 fn set_one_register(rest: &[u8], target: &mut dyn DebugTarget) -> Text {

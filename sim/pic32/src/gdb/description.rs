@@ -32,7 +32,7 @@ pub(super) fn by_number(number: u32) -> Option<Option<GdbRegister>> {
 }
 
 /// A register as the protocol tells it.
-pub(super) fn told(target: &dyn DebugTarget, register: Option<GdbRegister>) -> String {
+pub(super) fn register_hex(target: &dyn DebugTarget, register: Option<GdbRegister>) -> String {
     match register {
         Some(register) => super::packet::hex(&target.register(register).to_le_bytes()),
         None => "xxxxxxxx".to_owned(),

@@ -65,8 +65,8 @@ impl PacketFramer {
 
     fn end(&mut self, first: Option<u8>, second: Option<u8>) -> PacketEvent {
         self.state = PacketState::Between;
-        let told = first.zip(second).map(|(first, second)| first << 4 | second);
-        match told == Some(self.sum) && self.packet.len() <= PACKET_BYTES {
+        let stated = first.zip(second).map(|(first, second)| first << 4 | second);
+        match stated == Some(self.sum) && self.packet.len() <= PACKET_BYTES {
             true => PacketEvent::Packet(std::mem::take(&mut self.packet)),
             false => PacketEvent::Damaged,
         }

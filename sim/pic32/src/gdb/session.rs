@@ -89,7 +89,7 @@ impl Session {
     fn command(&mut self, packet: &[u8], target: &mut dyn DebugTarget) {
         match answer(packet, target) {
             PacketReply::Text(text) => self.send(text.as_bytes()),
-            PacketReply::Why => self.send(told(self.stop).as_bytes()),
+            PacketReply::Why => self.send(stop_reply(self.stop).as_bytes()),
             PacketReply::Run => self.is_running = true,
             PacketReply::Stop(stop) => self.stopped(stop),
             PacketReply::WithoutAcknowledgement => {
@@ -107,7 +107,7 @@ impl Session {
     fn stopped(&mut self, stop: Stop) {
         self.is_running = false;
         self.stop = stop;
-        self.send(told(stop).as_bytes());
+        self.send(stop_reply(stop).as_bytes());
     }
 
     fn send(&mut self, text: &[u8]) {
@@ -117,7 +117,7 @@ impl Session {
 }
 
 /// A stop as a signal of POSIX, which is how the protocol tells it.
-fn told(stop: Stop) -> &'static str {
+fn stop_reply(stop: Stop) -> &'static str {
     match stop {
         Stop::Stepped => "T05thread:1;",
         Stop::Breakpoint => "T05thread:1;swbreak:;",

@@ -466,12 +466,14 @@ mod tests {
         let file = program(&SEGMENTS, super::PART);
         for length in 4..file.len() {
             let Err(ImageError::Truncated {
-                needed, length: told, ..
+                needed,
+                length: stated,
+                ..
             }) = Image::from_elf(&file[..length])
             else {
                 panic!("{length} of {} bytes were not told as truncated", file.len());
             };
-            assert!(needed > length as u64 && told == length);
+            assert!(needed > length as u64 && stated == length);
         }
         assert_eq!(Image::from_elf(&file[..3]), Err(ImageError::NotElf));
     }

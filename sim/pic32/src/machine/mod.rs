@@ -101,7 +101,7 @@ pub struct Machine {
     accounting: Accounting,
     resets: Vec<ResetEvent>,
     reset_count: u64,
-    untold_resets: Vec<ResetSource>,
+    unreported_resets: Vec<ResetSource>,
     exceptions: Vec<ExceptionRecord>,
     exception_count: u64,
     touches: Option<Box<touches::Touches>>,
@@ -123,7 +123,7 @@ impl Machine {
             accounting: Accounting::new(0),
             resets: Vec::new(),
             reset_count: 0,
-            untold_resets: Vec::new(),
+            unreported_resets: Vec::new(),
             exceptions: Vec::new(),
             exception_count: 0,
             touches: None,
@@ -138,8 +138,8 @@ impl Machine {
     /// Resets the chip now. RAM and general registers keep what they have, also at power-on (on the chip they hold anything).
     pub fn reset(&mut self, source: ResetSource) {
         self.reset_count += 1;
-        if self.untold_resets.len() < KEPT {
-            self.untold_resets.push(source);
+        if self.unreported_resets.len() < KEPT {
+            self.unreported_resets.push(source);
         }
         if self.resets.len() < KEPT {
             self.resets.push(ResetEvent {
@@ -427,7 +427,7 @@ impl Machine {
 
     /// What has reset the chip since the last call, at most 64 of them.
     pub fn take_resets(&mut self) -> Vec<ResetSource> {
-        std::mem::take(&mut self.untold_resets)
+        std::mem::take(&mut self.unreported_resets)
     }
 
     /// How many resets there were.

@@ -43,12 +43,15 @@ pub struct Figures {
     pub share_at_t0: Option<f64>,
     /// Share that was swept after 1.8 T0.
     pub share_at_1_8_t0: Option<f64>,
-    /// Share that the host said it had swept, in the last minute of its job; `null` = it said none.
-    pub share_told: Option<f64>,
-    /// Low bound that it gave to that.
-    pub share_told_low: Option<f64>,
-    /// Most by which that low bound was above the true share in any minute; below 0 where it never was.
-    pub told_low_over_true: Option<f64>,
+    /// Swept share that the host reported in the last minute of its job; `null` = none.
+    #[serde(rename = "share_told")]
+    pub reported_share: Option<f64>,
+    /// Lower bound of that share.
+    #[serde(rename = "share_told_low")]
+    pub reported_share_low: Option<f64>,
+    /// Largest excess of that lower bound over the true share in any minute; below 0 if there was none.
+    #[serde(rename = "told_low_over_true")]
+    pub reported_low_over_true: Option<f64>,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
     /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
@@ -149,14 +152,14 @@ pub(crate) struct Collector {
     honesty: HonestyWatch,
     alignment: Alignment,
     time: TimeWatch,
-    told: Told,
+    reported: ReportedShare,
     last: Option<BehaviorState>,
     docked: bool,
 }
 
-/// What the host says of the floor that it has swept.
+/// The swept share as the host reports it.
 #[derive(Clone, Copy, Debug, Default)]
-struct Told {
+struct ReportedShare {
     last: Option<SweptShare>,
     low_over_true: Option<f64>,
 }
@@ -223,7 +226,7 @@ impl Collector {
             honesty: HonestyWatch::default(),
             alignment: Alignment::default(),
             time: TimeWatch::new(&floor),
-            told: Told::default(),
+            reported: ReportedShare::default(),
             last: None,
             docked: false,
         }
@@ -269,11 +272,15 @@ impl Collector {
     }
 
     /// The host has just said how much it has swept; `swept_share` is the truth.
-    pub(crate) fn note_told(&mut self, told: Option<SweptShare>, swept_share: f64) {
-        let Some(share) = told else { return };
+    pub(crate) fn note_reported(&mut self, reported: Option<SweptShare>, swept_share: f64) {
+        let Some(share) = reported else { return };
         let over = share.share_low - swept_share;
-        self.told.last = told;
-        self.told.low_over_true = Some(self.told.low_over_true.map_or(over, |before| before.max(over)));
+        self.reported.last = reported;
+        self.reported.low_over_true = Some(
+            self.reported
+                .low_over_true
+                .map_or(over, |before| before.max(over)),
+        );
     }
 
     /// Seconds since the job began, without those on the charger.
@@ -321,9 +328,9 @@ impl Collector {
             t95_over_t0: t95,
             share_at_t0: self.share_at(0, now),
             share_at_1_8_t0: self.share_at(1, now),
-            share_told: self.told.last.map(|told| told.share),
-            share_told_low: self.told.last.map(|told| told.share_low),
-            told_low_over_true: self.told.low_over_true,
+            reported_share: self.reported.last.map(|reported| reported.share),
+            reported_share_low: self.reported.last.map(|reported| reported.share_low),
+            reported_low_over_true: self.reported.low_over_true,
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
             charging_s: self.job.charging_ms as f64 / 1000.0,
             away_s: self.away_s,

@@ -56,7 +56,7 @@ pub(super) fn truth(run: &KeptRun) -> String {
     let content = format!(
         "{}{}{}{}",
         cells(&run.plan),
-        way(&run.trace.samples),
+        path(&run.trace.samples),
         bumps(&run.trace.bumps),
         dock(run.dock)
     );
@@ -166,7 +166,7 @@ fn rows(drawing: &Drawing) -> Vec<Vec<(u32, usize, usize)>> {
     rows
 }
 
-fn way(samples: &[Sample]) -> String {
+fn path(samples: &[Sample]) -> String {
     let mut svg = String::new();
     let length = samples.len().div_ceil(WAY.len()).max(1);
     for (number, colour) in WAY.iter().enumerate() {

@@ -32,7 +32,7 @@ pub(super) enum PathEnd {
 /// A hand on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hand {
-    way: HandPath,
+    path: HandPath,
     /// Metres or radians that are left.
     left: f64,
     left_ms: u64,
@@ -64,21 +64,25 @@ impl MotionBaseline {
 
 impl Hand {
     /// Takes hold.
-    pub(super) fn grip(way: HandPath, world: &mut World) -> Self {
+    pub(super) fn grip(path: HandPath, world: &mut World) -> Self {
         let half_track_m = 0.5 * world.model().drive.track_m;
-        let (left, rim_m, sign, rims) = match way {
-            HandPath::Push(way_m) => (way_m.abs(), way_m.abs(), way_m, [1.0, 1.0]),
+        let (left, rim_m, sign, rims) = match path {
+            HandPath::Push(distance_m) => (distance_m.abs(), distance_m.abs(), distance_m, [1.0, 1.0]),
             HandPath::Turn(turns) => {
                 let angle = turns.abs() * std::f64::consts::TAU;
                 (angle, angle * half_track_m, turns, [-1.0, 1.0])
             }
-            HandPath::Roll(WheelChoice::Left, way_m) => (way_m.abs(), way_m.abs(), way_m, [1.0, 0.0]),
-            HandPath::Roll(WheelChoice::Right, way_m) => (way_m.abs(), way_m.abs(), way_m, [0.0, 1.0]),
+            HandPath::Roll(WheelChoice::Left, distance_m) => {
+                (distance_m.abs(), distance_m.abs(), distance_m, [1.0, 0.0])
+            }
+            HandPath::Roll(WheelChoice::Right, distance_m) => {
+                (distance_m.abs(), distance_m.abs(), distance_m, [0.0, 1.0])
+            }
         };
         let speed = RIM_M_PER_S.copysign(sign);
         world.turn_wheels(Some(rims.map(|share| share * speed)));
         Self {
-            way,
+            path,
             left,
             left_ms: (PATIENCE * 1000.0 * rim_m / RIM_M_PER_S) as u64 + 1,
             before: MotionBaseline::of(world),
@@ -88,7 +92,7 @@ impl Hand {
     /// A millisecond has passed; lets go at the end.
     pub(super) fn follow(&mut self, world: &mut World) -> Option<PathEnd> {
         let now = MotionBaseline::of(world);
-        self.left -= match self.way {
+        self.left -= match self.path {
             HandPath::Push(_) => (now.x_m - self.before.x_m).hypot(now.y_m - self.before.y_m),
             HandPath::Turn(_) => wrap_angle(now.heading_rad - self.before.heading_rad).abs(),
             HandPath::Roll(wheel, _) => {

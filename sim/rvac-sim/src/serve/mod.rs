@@ -294,9 +294,9 @@ impl Server {
                 self.clients
                     .answer(client, &RequestReply::Meters { pack_v, drawn_a });
             }
-            SimulatorRequest::Push { way } => self.grip(client, HandPath::Push(way)),
+            SimulatorRequest::Push { distance } => self.grip(client, HandPath::Push(distance)),
             SimulatorRequest::Turn { turns } => self.grip(client, HandPath::Turn(turns)),
-            SimulatorRequest::Roll { wheel, way } => self.grip(client, HandPath::Roll(wheel, way)),
+            SimulatorRequest::Roll { wheel, distance } => self.grip(client, HandPath::Roll(wheel, distance)),
             SimulatorRequest::Lift
             | SimulatorRequest::PutDown
             | SimulatorRequest::Press { .. }
@@ -351,12 +351,12 @@ impl Server {
         }
     }
 
-    fn grip(&mut self, client: Number, way: HandPath) {
+    fn grip(&mut self, client: Number, distance: HandPath) {
         if self.hand.is_some() {
             self.clients
                 .answer(client, &blocked("the hand is still on its way"));
         } else {
-            self.hand = Some((client, Hand::grip(way, self.robot.world_mut())));
+            self.hand = Some((client, Hand::grip(distance, self.robot.world_mut())));
         }
     }
 }

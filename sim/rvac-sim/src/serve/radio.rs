@@ -153,8 +153,8 @@ impl Module {
         if !self.prints || measured.is_empty() {
             return;
         }
-        let told = measured.len().min(ANCHORS);
-        let mut line = format!("DIST,{told}");
+        let reported = measured.len().min(ANCHORS);
+        let mut line = format!("DIST,{reported}");
         for (number, (beacon, range_m)) in measured.iter().take(ANCHORS).enumerate() {
             let address = 0xDEC0 + beacon;
             line.push_str(&format!(",AN{number},{address:04X},0.00,0.00,0.00,{range_m:.2}"));

@@ -28,7 +28,8 @@ pub(crate) enum SimulatorRequest {
     /// Pushes the robot over the floor; answered at the end, as `turn` and `roll` are.
     Push {
         /// Straight ahead, metres.
-        way: f64,
+        #[serde(alias = "way")]
+        distance: f64,
     },
     /// Turns it on the spot.
     Turn {
@@ -39,8 +40,9 @@ pub(crate) enum SimulatorRequest {
     Roll {
         /// Which.
         wheel: WheelChoice,
-        /// Way of the rim, forward positive, metres.
-        way: f64,
+        /// Distance of the rim, forward positive, metres.
+        #[serde(alias = "way")]
+        distance: f64,
     },
     /// Holds both wheels fast, or lets go of them.
     Hold {
@@ -141,8 +143,12 @@ mod tests {
             SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#),
             Ok(SimulatorRequest::Roll {
                 wheel: WheelChoice::Left,
-                way: -0.1
+                distance: -0.1
             })
+        );
+        assert_eq!(
+            SimulatorRequest::read(br#"{"c":"roll","wheel":"left","distance":-0.1}"#),
+            SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#)
         );
         for wrong in [&b"{}"[..], b"", b"\xff", br#"{"c":"press"}"#, br#"{"c":"rep"}"#] {
             assert_eq!(SimulatorRequest::read(wrong).unwrap_err().reason, "unknown");

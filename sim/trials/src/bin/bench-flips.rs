@@ -52,13 +52,17 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
         courses: arguments.courses,
         image_checks: arguments.image_checks,
     };
-    let mut told = 0;
+    let mut shown_breaches = 0;
     let tally = flip_bits(&fixture, &plan, |tally| {
         if arguments.progress {
             let (flips, tried) = (tally.flips, tally.tried);
             writeln!(io::stderr(), "{flips} flips, {tried} tried").ok();
-            tell_breaches(&mut io::stderr(), tally.breaches.get(told..).unwrap_or_default()).ok();
-            told = tally.breaches.len();
+            tell_breaches(
+                &mut io::stderr(),
+                tally.breaches.get(shown_breaches..).unwrap_or_default(),
+            )
+            .ok();
+            shown_breaches = tally.breaches.len();
         }
     })?;
     let mut out = io::stdout().lock();

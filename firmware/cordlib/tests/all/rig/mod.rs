@@ -43,7 +43,7 @@ pub struct Rig {
     /// Speeds of the rims in m/s.
     pub rims: [f64; 2],
     /// Ways of the rims in m.
-    pub ways: [f64; 2],
+    pub distances: [f64; 2],
     pub edges: Vec<Event>,
     pub reports: Vec<Report>,
     pub refusals: Vec<Refusal>,
@@ -106,7 +106,7 @@ impl Rig {
             host: HostSession::new(BinaryKinds::default(), Tick(0)),
             mechanics: Mechanics::default(),
             rims: [0.0; 2],
-            ways: [0.0; 2],
+            distances: [0.0; 2],
             edges: Vec::new(),
             reports: Vec::new(),
             refusals: Vec::new(),
@@ -311,12 +311,12 @@ impl Rig {
             if self.mechanics.blocked[side] {
                 self.rims[side] = 0.0;
             }
-            self.ways[side] += self.rims[side] / 1_000.0;
+            self.distances[side] += self.rims[side] / 1_000.0;
         }
         if !self.mechanics.silent {
             let sign = if self.mechanics.swapped { -1.0 } else { 1.0 };
             let counts = self
-                .ways
+                .distances
                 .map(|way| (sign * way * 1e9 / f64::from(LIMITS.count_nm)).floor() as i32);
             (board.encoders.0.left, board.encoders.0.right) = (counts[0], counts[1]);
         }
@@ -353,7 +353,7 @@ impl Rig {
 
     /// Gives the gyro what the ideal body does.
     pub fn follow_gyro(&mut self) {
-        let heading = (self.ways[1] - self.ways[0]) / LIMITS.track.as_m();
+        let heading = (self.distances[1] - self.distances[0]) / LIMITS.track.as_m();
         self.cord.board_mut().gyro.0 = Some(Gyro {
             heading: Angle::from_rad(heading),
             rate: AngularSpeed::ZERO,

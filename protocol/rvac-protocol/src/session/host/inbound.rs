@@ -176,19 +176,19 @@ impl HostCore {
     }
 
     fn take_incompatible(&mut self, hello: &RobotHello) -> Option<HostEvent> {
-        let told = matches!(
+        let already_reported = matches!(
             self.phase,
             HostPhase::Greeting {
-                told_incompatible: true,
+                reported_incompatible: true,
                 ..
             }
         );
         self.close();
         self.phase = HostPhase::Greeting {
             due: self.now.after(GREETING_INCOMPATIBLE_MS),
-            told_incompatible: true,
+            reported_incompatible: true,
         };
-        (!told).then_some(HostEvent::Incompatible {
+        (!already_reported).then_some(HostEvent::Incompatible {
             version_min: hello.version_min,
             version_max: hello.version_max,
         })
@@ -213,7 +213,7 @@ impl HostCore {
         }
         self.phase = HostPhase::Greeting {
             due: self.now,
-            told_incompatible: false,
+            reported_incompatible: false,
         };
         self.session = 0;
         self.packet_max = PACKET_BYTES_MAX;
@@ -297,8 +297,8 @@ impl HostCore {
     }
 
     /// When to greet again after a greeting.
-    pub(super) fn greeting_pause_ms(told_incompatible: bool) -> u32 {
-        if told_incompatible {
+    pub(super) fn greeting_pause_ms(reported_incompatible: bool) -> u32 {
+        if reported_incompatible {
             GREETING_INCOMPATIBLE_MS
         } else {
             GREETING_MS

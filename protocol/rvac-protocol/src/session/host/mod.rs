@@ -130,7 +130,7 @@ struct HostCore {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum HostPhase {
-    Greeting { due: Tick, told_incompatible: bool },
+    Greeting { due: Tick, reported_incompatible: bool },
     Open,
 }
 
@@ -150,7 +150,7 @@ impl HostSession {
             binary_wanted: binary,
             phase: HostPhase::Greeting {
                 due: now,
-                told_incompatible: false,
+                reported_incompatible: false,
             },
             session: 0,
             packet_max: PACKET_BYTES_MAX,

@@ -96,10 +96,10 @@ impl HostCore {
     pub(super) fn next_packet(&mut self, buffer: &mut PacketBuffer) -> Result<bool, EncodeError> {
         if let HostPhase::Greeting {
             due,
-            told_incompatible,
+            reported_incompatible,
         } = self.phase
         {
-            return self.greet(due, told_incompatible, buffer);
+            return self.greet(due, reported_incompatible, buffer);
         }
         let Some(command) = self.next_command() else {
             return Ok(false);
@@ -110,15 +110,15 @@ impl HostCore {
     fn greet(
         &mut self,
         due: rvac_units::Tick,
-        told_incompatible: bool,
+        reported_incompatible: bool,
         buffer: &mut PacketBuffer,
     ) -> Result<bool, EncodeError> {
         if !self.now.reached(due) {
             return Ok(false);
         }
         self.phase = HostPhase::Greeting {
-            due: self.now.after(Self::greeting_pause_ms(told_incompatible)),
-            told_incompatible,
+            due: self.now.after(Self::greeting_pause_ms(reported_incompatible)),
+            reported_incompatible,
         };
         self.sent = Some(self.now);
         buffer.push(BAUD_RATE_PATTERN)?;

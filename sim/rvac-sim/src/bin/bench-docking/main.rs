@@ -78,7 +78,7 @@ fn main() -> anyhow::Result<()> {
     let output = if arguments.low_battery {
         low_batteries(&arguments, homes.len(), scene_of)?
     } else {
-        ways_home(&arguments, homes.len(), (obstacle, &scene_of))?
+        trips_home(&arguments, homes.len(), (obstacle, &scene_of))?
     };
     writeln!(io::stdout(), "{output}").context("cannot write to standard output")
 }
@@ -112,7 +112,7 @@ impl Arguments {
     }
 }
 
-fn ways_home(
+fn trips_home(
     arguments: &Arguments,
     homes: usize,
     (obstacle, scene_of): (Obstacle, &dyn Fn(usize) -> anyhow::Result<Scene>),
