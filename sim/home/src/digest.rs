@@ -1,4 +1,4 @@
-//! A running digest of what happened, to tell whether two runs were the same.
+//! A running hash of a simulation, to check whether two runs were the same.
 
 /// FNV-1a over bytes, 64 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ impl Fnv1a {
         }
     }
 
-    /// What stands for everything that was taken.
+    /// The hash of all bytes taken.
     #[must_use]
     pub const fn value(self) -> u64 {
         self.0

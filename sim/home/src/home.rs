@@ -161,7 +161,7 @@ impl Home {
         self.dock
     }
 
-    /// Where the robot starts when nobody says otherwise: on the dock if the file has one, else at the roomiest place.
+    /// Default start of the robot: on the dock if the file has one, else at the roomiest place.
     #[must_use]
     pub const fn start(&self) -> Pose {
         self.start
@@ -174,8 +174,8 @@ impl Home {
         free as f64 * self.grid.cell_area_m2()
     }
 
-    /// Area that a disc of the swath's width can sweep from poses that the body can reach from the start, square metres.
-    /// Doors that are ever open count as open.
+    /// Area that a disc of the swath's width can sweep from poses that the body can reach from the start, square
+    /// metres. Doors that are ever open count as open.
     #[must_use]
     pub fn reachable_area_m2(&self) -> f64 {
         f64::from(self.reachable_cells) * self.grid.cell_area_m2()
@@ -203,8 +203,8 @@ impl Home {
         self.connected_share
     }
 
-    /// Whether the way from the start to the dock, or to most of the floor, is wide enough for the body, once all doors that
-    /// are ever open have been opened and all people have left.
+    /// Whether the path from the start to the dock, or to most of the floor, is wide enough for the body, once all
+    /// doors that are ever open have been opened and all people have left.
     #[must_use]
     pub const fn can_leave(&self) -> bool {
         self.can_leave

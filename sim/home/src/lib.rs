@@ -1,13 +1,13 @@
 //! Simulated homes: floor plans, furniture, dirt, and a robot's physics, sensors, dock and battery in them.
 //!
-//! A [`RobotModel`] comes from `robots/<name>/robot.toml`, a [`Home`] from a map file, and a [`World`] is one robot in one
-//! home. [`World::step`] advances one millisecond: it takes what the firmware puts on its pins ([`Actuation`]) and leaves
-//! what the firmware can read ([`Sensors`]) beside what is really so ([`Truth`]). There is no clock, no global state and no
+//! A [`RobotModel`] comes from `robots/<name>/robot.toml`, a [`Home`] from a map file, and a [`World`] is one robot in
+//! one home. [`World::step`] advances one millisecond: it takes the firmware's outputs ([`Actuation`]) and provides the
+//! firmware's inputs ([`Sensors`]) and the ground truth ([`Truth`]). There is no clock, no global state and no
 //! randomness except the seed: the same calls give the same bits.
 //!
 //! [`generate`] draws homes from numbers, [`traps`] the places in which robots get stuck.
 //!
-//! What it does not do: three dimensions, pushed furniture, sound.
+//! Not simulated: three dimensions, pushed furniture, sound.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

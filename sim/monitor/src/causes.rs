@@ -1,8 +1,8 @@
-//! What stands against motion, and for how long.
+//! Causes that forbid motion, and how long they have lasted.
 
 use crate::charging::{ChargeTimes, Charging};
 
-/// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
+/// Inputs of the firmware's pins in this millisecond, and ground truth that no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pins {
     /// A bumper switch is closed.
@@ -23,7 +23,7 @@ pub struct Pins {
     pub charging: Charging,
 }
 
-/// What the motors get, in millionths of full drive, forward positive.
+/// Drives of the motors, in millionths of full drive, forward positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Drives {
     /// Left and right wheel.
@@ -57,17 +57,17 @@ impl Drives {
     }
 }
 
-/// Milliseconds for which each cause has stood without a gap; 0 = it does not stand.
+/// Milliseconds for which each cause has lasted without a gap; 0 = absent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CauseTimes {
     pub(crate) bumper_ms: u32,
-    /// Pressed off the dock, by which it may be pressed for ever.
+    /// Pressed off the dock, which may press it permanently.
     pub(crate) bumper_stuck_ms: u32,
     /// Pressed while the wheels push backward.
     pub(crate) bumper_backing_ms: u32,
     pub(crate) cliff_ms: u32,
     pub(crate) wheel_drop_ms: u32,
-    /// Since a wheel drop that stood long enough to count.
+    /// Since a wheel drop that lasted long enough to count.
     pub(crate) grounded_ms: u32,
     /// Any motor is driven.
     pub(crate) motors_run: bool,
@@ -117,7 +117,7 @@ impl Default for CauseTimes {
 }
 
 impl CauseTimes {
-    /// What a firmware that has just started cannot know: how long something had stood before.
+    /// A firmware that has just started cannot know how long a cause had lasted before.
     pub(crate) fn reset(&mut self) {
         self.bumper_stuck_ms = 0;
         self.bumper_backing_ms = 0;

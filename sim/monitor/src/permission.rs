@@ -1,4 +1,4 @@
-//! What the host has allowed, by the bytes on the wire.
+//! Motion that the host has allowed, by the bytes on the wire.
 
 use rvac_protocol::message::ResetCause;
 
@@ -22,12 +22,13 @@ const HAND_LEASE_MS: u64 = 500;
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
 const UNDOCKED_MS: u32 = 3_000;
-/// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after 65,536.
+/// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
+/// 65,536.
 const ANSWER_MS: u64 = 1_000;
 /// S4: three resets within this time latch.
 const RESET_WINDOW_MS: u64 = 60_000;
 
-/// Whether motion is armed, and what takes that away.
+/// Whether motion is armed, and what revokes that.
 #[derive(Clone, Copy, Debug, Default)]
 struct Arming {
     armed: bool,
@@ -40,13 +41,13 @@ struct Arming {
     number: Option<u16>,
 }
 
-/// What the host has allowed.
+/// Permissions given by the host.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HostPermission {
     to_robot: Splitter,
     from_robot: Splitter,
     session: u16,
-    /// Session in which the packet under way began.
+    /// Session in which the present packet began.
     packet_session: u16,
     /// Newest valid packet with a CRC of the session; `None` = hand mode since the reset or by command.
     checked_ms: Option<u64>,
@@ -54,7 +55,7 @@ pub(crate) struct HostPermission {
     /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
     arming: Arming,
-    /// What a refused `arm` falls back to.
+    /// State to which a refused `arm` returns.
     before: Arming,
     newest_motion: Option<u16>,
     wheels_until_ms: u64,
@@ -67,7 +68,7 @@ pub(crate) struct HostPermission {
 
 impl HostPermission {
     pub(crate) fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
-        // A packet belongs to the session in which it began, even if silence ends that while it is under way.
+        // A packet belongs to the session in which it began, even if silence ends that meanwhile.
         if self.to_robot.is_between_packets() {
             self.packet_session = self.session;
         }

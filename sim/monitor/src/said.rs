@@ -1,4 +1,4 @@
-//! The few words of both directions that decide whether motors may run.
+//! The few messages of both directions that decide whether motors may run.
 
 use serde_json::Value;
 
@@ -11,7 +11,7 @@ pub(crate) struct HeardPacket {
     pub(crate) checked: bool,
 }
 
-/// A word to the robot.
+/// A message to the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Heard {
     Stop,
@@ -35,23 +35,23 @@ pub(crate) enum Heard {
     Other,
 }
 
-/// Number and view of a motion command.
+/// Number and tick of a motion command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mark {
     pub(crate) number: Option<u16>,
     pub(crate) tick: Option<u32>,
 }
 
-/// A word of the robot.
+/// A message of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Said {
-    /// The session number that holds from now on.
+    /// The session number from now on.
     Session(u16),
     /// The command with this number was refused.
     Refused(u16),
 }
 
-/// A `move` has no lease; it may take as long as its way takes at a crawl, and some seconds.
+/// A `move` has no lease; it may take as long as its path takes at the lowest speed, plus some seconds.
 const MOVE_SLOWEST_M_PER_S: f64 = 0.02;
 const MOVE_EXTRA_MS: u64 = 5_000;
 const LEASE_DEFAULT_MS: u64 = 250;
@@ -148,7 +148,7 @@ fn number_of(object: &Value, key: &str) -> Option<u16> {
     object[key].as_u64().and_then(|number| number.try_into().ok())
 }
 
-/// Reads a packet of the robot, if it is one that decides something.
+/// Reads a packet of the robot, if it is relevant.
 pub(crate) fn read_said(packet: &[u8], session: u16) -> Option<Said> {
     let hello = packet.starts_with(br#"{"c":"hello""#);
     if !hello && !packet.starts_with(br#"{"a":"#) {

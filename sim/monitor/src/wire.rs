@@ -1,8 +1,8 @@
-//! A second reading of the wire, written from `protocol/SPEC.md` and not from the firmware's code.
+//! An independent implementation of the wire, written from `protocol/SPEC.md` and not from the firmware's code.
 //!
-//! It cuts the byte stream into packets, checks their CRCs with its own CRC-32C, and reads the few words that decide whether
-//! motors may run. It lets through rather more than the firmware does (it does not check every key), so that it can only
-//! blame the firmware for acting on something that nobody said.
+//! It splits the byte stream into packets, checks their CRCs with its own CRC-32C, and reads the few messages that
+//! decide whether motors may run. It accepts slightly more than the firmware does (it does not check every key), so
+//! that it only reports a firmware that acts on something that was never sent.
 
 const PACKET_MAX: usize = 256;
 const CRC_LEN: usize = 9;
@@ -100,7 +100,7 @@ pub(crate) fn checked_binary(packet: &[u8], direction: WireDirection, session: u
     (u32::from_le_bytes(*crc) == packet_crc(body, direction, session)).then(|| body.to_vec())
 }
 
-/// 0x1D announces a byte whose bit 5 was turned over.
+/// 0x1D precedes a byte whose bit 5 is inverted.
 fn unstuff(packet: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = packet.iter();
     let mut whole = Vec::with_capacity(packet.len());

@@ -1,8 +1,8 @@
-//! The firmware of a robot as a host process: cordlib on simulated pins, "one more board".
+//! The firmware of a robot as a host process: cordlib on a simulated board.
 //!
 //! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`SerialLine`]) and cordlib. One
-//! [`SimulatedRobot::tick`] is one millisecond. It knows no clock, no thread and no device: the same calls give the same
-//! bits, at any speed. The [`monitor::Monitor`] judges every millisecond whether motors ran that must not.
+//! [`SimulatedRobot::tick`] is one millisecond. It uses no clock, no thread and no device: the same calls give the same
+//! bits, at any speed. The [`monitor::Monitor`] checks in every millisecond whether a motor ran against the rules.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

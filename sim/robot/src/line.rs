@@ -7,7 +7,7 @@ use rvac_channel::{Channel, FaultRates, ReceivedByte};
 /// Bits of a byte on the line: start, eight, stop.
 const FRAME_BITS: u32 = 10;
 const MS_PER_S: u32 = 1000;
-/// Bytes the sender's driver holds at most; what comes while it is full is the sender's to keep.
+/// Capacity of the sender's driver; while it is full the sender must keep its bytes.
 const QUEUE_MAX: usize = 4096;
 
 /// A line that carries `baud / 10` bytes a second and damages them as its rates say.
@@ -42,7 +42,7 @@ impl SerialLine {
         }
     }
 
-    /// Sets how often what goes wrong from now on.
+    /// Sets the rates of faults from now on.
     pub fn set_rates(&mut self, rates: FaultRates) {
         self.channel.set_rates(rates);
         self.faulty = rates != FaultRates::NONE;
@@ -71,12 +71,12 @@ impl SerialLine {
         taken
     }
 
-    /// Forgets what the sender's driver holds: the sender died or its terminal was closed.
+    /// Clears the sender's driver: the sender died or its terminal was closed.
     pub fn flush(&mut self) {
         self.queue.clear();
     }
 
-    /// Lets a millisecond pass and gives the frames that the receiver's hardware reports in it.
+    /// Advances one millisecond and returns the frames that the receiver's hardware reports in it.
     pub fn pass_ms(&mut self) -> &[ReceivedByte] {
         self.received.clear();
         self.cut_ms = self.cut_ms.saturating_sub(1);

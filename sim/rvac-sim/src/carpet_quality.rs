@@ -1,4 +1,4 @@
-//! How well the carpets in the robot's map agree with the rugs of the home.
+//! Agreement of the carpets in the robot's map with the rugs of the home.
 
 use brain::Point2;
 use brain::mapping::{Cell, FloorKind, Map};
@@ -7,7 +7,8 @@ use home::{Pose, World};
 /// Agreement of the carpets that were felt with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CarpetQuality {
-    /// Share of the rug floor under the swath that the map has as carpet; `None` = the swath was on no rug, or nothing is measured.
+    /// Share of the rug floor under the swath that the map has as carpet; `None` = the swath was on no rug, or nothing
+    /// is measured.
     pub(crate) recall: Option<f64>,
     /// Share of the map's carpet that lies on a rug; `None` = it has none.
     pub(crate) precision: Option<f64>,

@@ -31,10 +31,10 @@ pub struct Household {
     pose_source: PoseSource,
     /// A map that the host shall get when it knows its robot.
     known_home: Option<StoredMap>,
-    /// With that map it is told where in it the robot stands.
+    /// With that map the robot's pose in it is given.
     tells_place: bool,
     board: LinuxBoard,
-    /// What happened, if somebody wants to know.
+    /// The trace of the run, if enabled.
     trace: Option<Trace>,
 }
 
@@ -44,7 +44,7 @@ pub enum PoseSource {
     /// From the host itself, as on a robot.
     #[default]
     Own,
-    /// From the truth, with each report of the robot: shows what a planner can do apart from the estimator.
+    /// From the ground truth, with each report of the robot: shows the planner without errors of the estimator.
     Truth,
 }
 
@@ -141,7 +141,7 @@ impl Household {
         self
     }
 
-    /// The same household with beacons that the Linux board's radio hears.
+    /// The same household with beacons for the Linux board's radio.
     #[must_use]
     pub fn with_beacons(mut self, beacons: Beacons) -> Self {
         self.board.beacons = Some(beacons);
@@ -208,7 +208,8 @@ impl Household {
         }
     }
 
-    /// Advances second by second until something is so; the seconds that it took, `None` if it is not so after `seconds_max`.
+    /// Advances second by second until something is so; the seconds that it took, `None` if it is not so after
+    /// `seconds_max`.
     pub fn pass_until(&mut self, seconds_max: u64, mut is_so: impl FnMut(&Self) -> bool) -> Option<u64> {
         (1..=seconds_max).find(|_| {
             self.pass_ms(1_000);
@@ -281,7 +282,7 @@ impl Household {
         self.host.as_mut()
     }
 
-    /// Asks the host for something; without a host nobody hears it.
+    /// Sends a request to the host; without a host it is lost.
     pub fn ask(&mut self, body: rvac_api::RequestBody) {
         let now_us = self.now_us();
         if let Some(host) = &mut self.host {

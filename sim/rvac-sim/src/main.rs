@@ -37,7 +37,7 @@ fn main() -> ExitCode {
         SimCommand::Report(arguments) => write_page(&arguments),
     };
     outcome.unwrap_or_else(|error| {
-        // When even standard error is gone there is nobody left to tell.
+        // If standard error is closed, nobody can be informed.
         writeln!(io::stderr(), "rvac-sim: {error:#}").ok();
         ExitCode::from(BAD_INPUT)
     })

@@ -1,4 +1,4 @@
-//! How well a run went.
+//! Figures of a run.
 
 use home::Truth;
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub struct RunReport {
     pub covered: f64,
     /// Lower bound of the time: reachable area / (swath x cruise speed).
     pub t0_s: f64,
-    /// True way.
+    /// True path length.
     pub path_m: f64,
     /// Times the body came into contact with something.
     pub bumps: u32,
@@ -30,7 +30,8 @@ pub struct RunReport {
     pub foot_pushed_max_ms: u32,
     /// Violations of the safety rules.
     pub monitor_violations: u32,
-    /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was watched.
+    /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was
+    /// watched.
     pub pose_rmse_m: Option<f64>,
     /// Speed of covering, and how well the robot knew its place, where a host was watched.
     #[serde(flatten)]
@@ -131,7 +132,7 @@ impl std::fmt::Display for RunReport {
     }
 }
 
-/// Notices a robot that wants to drive and does not get away.
+/// Detects a robot that tries to drive and makes no progress.
 #[derive(Clone, Debug, Default)]
 pub struct StuckWatch {
     anchor: Option<home::Pose>,

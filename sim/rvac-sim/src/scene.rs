@@ -1,4 +1,4 @@
-//! From names and files to a robot in a home.
+//! Builds a robot in a home from names and files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -127,7 +127,7 @@ fn load_home(source: &Path, model: &RobotModel) -> Result<Home, SceneError> {
     }
 }
 
-/// Why there is no scene.
+/// Why a scene cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The home cannot be loaded.

@@ -1,4 +1,4 @@
-//! What happened in a run, for pictures: samples of each second, bumps, the plan and the robot's map at the end.
+//! Record of a run, for pictures: samples of each second, bumps, the plan and the robot's map at the end.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::baseline::Origin;
 use crate::figures::Belief;
 use crate::{Host, RunReport};
 
-/// The way of a run. All places are in the plan frame.
+/// The path of a run. All positions are in the plan frame.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Trace {
     /// Moments, one a second.

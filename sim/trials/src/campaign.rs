@@ -8,12 +8,12 @@ use serde::Serialize;
 use crate::testbed::{Fixture, Testbed, TestbedError};
 use crate::trial::{OperatingState, Trial, TrialOutcome};
 
-/// Robots of each scene: each with another phase between its core and its surroundings.
-const CAST: u64 = 8;
-/// An event comes within so many milliseconds of the scene: more than all periods of the firmware.
+/// Robots of each operating state: each with another phase between its core and its surroundings.
+const ROBOTS_PER_STATE: u64 = 8;
+/// An event comes within this many milliseconds: more than all periods of the firmware.
 const SPREAD_MS: u64 = 100;
 
-/// What came of one trial at all its phases.
+/// Result of one trial at all its phases.
 #[derive(Clone, Debug, Serialize)]
 pub struct TrialSummary {
     /// Rule of SAFETY.md.
@@ -22,33 +22,33 @@ pub struct TrialSummary {
     pub what: &'static str,
     /// How often.
     pub phases: usize,
-    /// Longest reaction, ms; `None` = at least once nothing followed while anybody looked.
+    /// Longest reaction, ms; `None` = at least once there was no reaction within the observed time.
     pub worst_ms: Option<f64>,
     /// Mean reaction, ms.
     pub mean_ms: f64,
     /// Limit, ms.
     pub limit_ms: u64,
-    /// Times that it was too late, or the robot did not say what it had to.
+    /// Times that it was too late, or the robot did not report what it had to.
     pub broken: usize,
     /// Breaches that the monitor saw, in all phases together.
     pub violations: usize,
-    /// What the robot said at the end of the first broken one.
+    /// Inhibits that the robot reported at the end of the first broken one.
     pub said: Vec<&'static str>,
 }
 
-/// Robots in all scenes that the trials need.
+/// Robots in all operating states that the trials need.
 #[derive(Debug)]
 pub struct Campaign {
-    casts: Vec<(OperatingState, Vec<Testbed>)>,
+    robots: Vec<(OperatingState, Vec<Testbed>)>,
 }
 
 impl Campaign {
-    /// Brings robots into the scenes of `trials`.
+    /// Brings robots into the operating states of `trials`.
     ///
     /// # Errors
-    /// When one does not get there.
+    /// When one does not reach its state.
     pub fn open(fixture: &Fixture, trials: &[Trial], phases: usize) -> Result<Self, TestbedError> {
-        let size = CAST.min(phases as u64).max(1);
+        let size = ROBOTS_PER_STATE.min(phases as u64).max(1);
         let wanted = |scene: &OperatingState| trials.iter().any(|trial| trial.scene == *scene);
         let cast = |scene: OperatingState| -> Result<_, TestbedError> {
             let testbeds = (0..size)
@@ -57,18 +57,18 @@ impl Campaign {
                 .collect::<Result<_, _>>()?;
             Ok((scene, testbeds))
         };
-        let casts = OperatingState::ALL.into_iter().filter(wanted).map(cast);
+        let robots = OperatingState::ALL.into_iter().filter(wanted).map(cast);
         Ok(Self {
-            casts: casts.collect::<Result<_, _>>()?,
+            robots: robots.collect::<Result<_, _>>()?,
         })
     }
 
-    /// Lets a trial happen at `phases` moments that `seed` chooses.
+    /// Runs a trial at `phases` moments chosen by `seed`.
     #[must_use]
     pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> TrialSummary {
         let mut random = home::Pcg::new(seed, 0);
         let testbeds = self
-            .casts
+            .robots
             .iter()
             .find(|(scene, _)| *scene == trial.scene)
             .map_or(&[][..], |(_, testbeds)| testbeds.as_slice());

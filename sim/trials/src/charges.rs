@@ -1,6 +1,6 @@
-//! The real firmware on its dock with packs of many kinds, and with trouble (S18). Each charge is watched for its first minutes
-//! only: the emulated chip is too slow for hours. Whole charges are the model's (`cargo run --release -p robot --example charges`),
-//! with the same charger.
+//! The real firmware on its dock with packs of many kinds, and with faults (S18). Each charge runs for its first
+//! minutes only: the emulated chip is too slow for hours. Whole charges are the model's (`cargo run --release -p robot
+//! --example charges`), with the same charger.
 
 use home::{Pack, PackMake, Pcg};
 use monitor::Bridges;
@@ -11,9 +11,9 @@ use crate::testbed::{Fixture, Testbed, TestbedError};
 const PACKS: u64 = 0xC4A6;
 /// A charge begins within this time on the dock.
 const BEGINS_MS: u64 = 60_000;
-/// A charge without trouble is watched for so long.
+/// Observed time of a charge without a fault.
 const WATCH_MS: u64 = 60_000;
-/// Trouble begins so long after the charge.
+/// Time from the start of the charge to the fault.
 const CALM_MS: u64 = 2_000;
 /// Current that tells that a pack is being charged, ampere. The dock gives less before it was asked.
 const CHARGING_A: f64 = 0.1;
@@ -25,7 +25,7 @@ const SHORTED: u16 = 20;
 const IEC1_CLEAR: u32 = 0xBF88_1074;
 const CONVERTER_ENABLE: u32 = 1 << 1;
 
-/// What goes wrong while the pack is charged.
+/// Disturbance of a charge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChargeDisturbance {
@@ -41,7 +41,7 @@ pub enum ChargeDisturbance {
     Lifted,
     /// The charging switch conducts for good: the robot must drive off.
     SwitchShorted,
-    /// The converter's readings are not taken over any more.
+    /// The converter's readings stop.
     ConverterStopped,
 }
 
@@ -84,20 +84,21 @@ impl ChargeDisturbance {
     }
 }
 
-/// How a charge went.
+/// Result of a charge.
 #[derive(Clone, Debug, Serialize)]
 pub struct ChargeResult {
     /// Of the pack and of the moment.
     pub seed: u64,
-    /// What went wrong.
-    pub trouble: ChargeDisturbance,
+    /// The disturbance.
+    #[serde(rename = "trouble")]
+    pub disturbance: ChargeDisturbance,
     /// Capacity of the pack, Ah.
     pub capacity_ah: f64,
     /// Whether the charge began at all: a pack with a failed cell may be refused.
     pub began: bool,
-    /// Highest current, ampere, before trouble came.
+    /// Highest current before the disturbance, ampere.
     pub highest_a: f64,
-    /// Time from the trouble to the last current, ms; `None` = it flows on, or there was no trouble.
+    /// Time from the disturbance to the last current, ms; `None` = it still flows, or there was no disturbance.
     pub ended_ms: Option<u64>,
     /// Hottest cell, degrees Celsius.
     pub hottest_c: f64,
@@ -106,15 +107,15 @@ pub struct ChargeResult {
 }
 
 impl ChargeResult {
-    /// Whether all is as it must be.
+    /// Whether the result is as required.
     #[must_use]
     pub fn is_good(&self) -> bool {
-        let ended = match (self.trouble.limit_ms(), self.ended_ms) {
+        let ended = match (self.disturbance.limit_ms(), self.ended_ms) {
             (None, _) => true,
             (Some(_), None) => !self.began,
             (Some(limit_ms), Some(ended_ms)) => ended_ms <= limit_ms,
         };
-        let began = self.began || self.trouble == ChargeDisturbance::WornPack;
+        let began = self.began || self.disturbance == ChargeDisturbance::WornPack;
         ended && began && self.violations == 0 && self.hottest_c < 55.0
     }
 }
@@ -126,11 +127,11 @@ impl ChargeResult {
 pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError> {
     let mut random = Pcg::new(seed, PACKS);
     let kinds = ChargeDisturbance::ALL.len() as u64;
-    let trouble = ChargeDisturbance::ALL
+    let disturbance = ChargeDisturbance::ALL
         .get((seed % kinds) as usize)
         .copied()
         .unwrap_or(ChargeDisturbance::None);
-    let make = match trouble {
+    let make = match disturbance {
         ChargeDisturbance::WornPack => PackMake::worn(&mut random),
         _ => PackMake::sound(&mut random),
     };
@@ -138,7 +139,7 @@ pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError
     let mut testbed = on_the_dock(fixture, seed, Pack::new(make, left, ambient_c))?;
     let mut charge = ChargeResult {
         seed,
-        trouble,
+        disturbance,
         capacity_ah: make.capacity_ah,
         began: false,
         highest_a: 0.0,
@@ -150,7 +151,7 @@ pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError
         testbed.tick();
         current_a(&testbed) > CHARGING_A
     });
-    let calm_ms = match trouble.limit_ms() {
+    let calm_ms = match disturbance.limit_ms() {
         Some(_) => CALM_MS + u64::from(random.below(1_000)),
         None => WATCH_MS,
     };
@@ -158,8 +159,8 @@ pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError
         testbed.tick();
         charge.highest_a = charge.highest_a.max(current_a(&testbed));
     }
-    if let Some(limit_ms) = trouble.limit_ms().filter(|_| charge.began) {
-        trouble.begin(&mut testbed);
+    if let Some(limit_ms) = disturbance.limit_ms().filter(|_| charge.began) {
+        disturbance.begin(&mut testbed);
         charge.ended_ms = time_of_end(&mut testbed, 2 * limit_ms);
     }
     charge.hottest_c = testbed.robot().world().truth().battery_hottest_c;

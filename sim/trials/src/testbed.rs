@@ -1,4 +1,4 @@
-//! A robot with its real firmware, and a host that speaks the protocol and nothing else.
+//! A robot with its real firmware, and a host that only implements the protocol.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -42,7 +42,7 @@ const START: Pose = Pose {
     heading_rad: 0.0,
 };
 
-/// Why there is no stage.
+/// Why a testbed cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum TestbedError {
     /// The firmware cannot be read.
@@ -54,7 +54,7 @@ pub enum TestbedError {
         #[source]
         error: std::io::Error,
     },
-    /// It is no firmware for this chip.
+    /// The file is no firmware for this chip.
     #[error("{}: {error}", .path.display())]
     Image {
         /// The file.
@@ -75,12 +75,12 @@ pub enum TestbedError {
     /// The robot does not answer.
     #[error("the robot does not answer within {CONNECT_MS} ms of power-on")]
     Mute,
-    /// The robot does not do what a trial needs first.
+    /// The robot does not reach the trial's operating state.
     #[error("the robot does not get into the scene: {0}")]
     OperatingState(&'static str),
 }
 
-/// What all stages are made of, read once.
+/// Everything that all testbeds share, read once.
 #[derive(Debug)]
 pub struct Fixture {
     image: Image,
@@ -114,8 +114,8 @@ impl Fixture {
         &self.image
     }
 
-    /// A robot that was just switched on. Its core begins `late_cycles` (below a millisecond) after its surroundings' first
-    /// millisecond, so that the two run at different phases.
+    /// A robot that was just switched on. Its core begins `late_cycles` (below a millisecond) after its surroundings'
+    /// first millisecond, so that the two run at different phases.
     #[must_use]
     pub fn testbed(&self, seed: u64, bridges: Bridges, late_cycles: u64) -> Testbed {
         let world = World::new(
@@ -150,7 +150,7 @@ impl Fixture {
     }
 }
 
-/// A robot and its host. Clones go on from the same moment.
+/// A robot and its host. Clones continue from the same moment.
 #[derive(Clone, Debug)]
 pub struct Testbed {
     robot: EmulatedRobot,
@@ -218,7 +218,7 @@ impl Testbed {
         }
     }
 
-    /// Renews what the host wants to go on.
+    /// Renews the host's motion.
     fn renew(&mut self, now: Tick) {
         if !self.robot.now_ms().is_multiple_of(RENEW_MS) {
             return;
@@ -281,12 +281,12 @@ impl Testbed {
         });
     }
 
-    /// The host wants this motion from now on; `None` = it renews nothing any more.
+    /// Sets the host's motion from now on; `None` = it stops renewing.
     pub fn drive(&mut self, drive: Option<(Speed, AngularSpeed)>) {
         self.drive = drive;
     }
 
-    /// The host wants brushes and suction at this duty from now on.
+    /// Sets the host's duty of brushes and suction from now on.
     pub fn clean(&mut self, duty: Throttle) {
         self.cleaners = duty;
     }

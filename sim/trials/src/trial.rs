@@ -1,4 +1,4 @@
-//! One fault at one moment, and what must follow.
+//! One fault at one moment, and the expected reaction.
 
 use pic32::board::{CYCLES_PER_MS, MotorOutput};
 use rvac_protocol::message::{Inhibit, Inhibits};
@@ -7,15 +7,15 @@ use rvac_units::{AngularSpeed, Speed, Throttle};
 use crate::testbed::{Fixture, Testbed, TestbedError};
 use monitor::Bridges;
 
-/// Time in a scene before anything happens: the wheels have come to speed.
+/// Time in an operating state before the event, in which the wheels reach their speed.
 const SETTLE_MS: u64 = 1_200;
-/// How long is looked on after the limit, so that a late reaction has a figure.
+/// Observation time after the limit, so that a late reaction is measured.
 const AFTER_MS: u64 = 150;
 
-/// What the robot is doing when it happens.
+/// What the robot is doing when the event happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OperatingState {
-    /// It stands, armed.
+    /// It stands still, armed.
     Standing,
     /// It drives ahead at 0.15 m/s.
     Driving,
@@ -23,7 +23,7 @@ pub enum OperatingState {
     Cleaning,
     /// It turns on the spot.
     Turning,
-    /// It drives ahead on bridges that do not hear "brake".
+    /// It drives ahead on bridges that ignore "brake".
     DeafBridges,
 }
 
@@ -37,10 +37,10 @@ impl OperatingState {
         Self::DeafBridges,
     ];
 
-    /// A robot in this scene.
+    /// A robot in this state.
     ///
     /// # Errors
-    /// When it does not get there.
+    /// When it does not reach the state.
     pub fn set(self, fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
         let bridges = match self {
             Self::DeafBridges => Bridges::DeafToBrake,
@@ -71,7 +71,7 @@ impl OperatingState {
     }
 }
 
-/// What must follow.
+/// The expected reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation {
     /// Nothing in particular, as long as the monitor sees no breach.
@@ -80,13 +80,13 @@ pub enum Expectation {
     WheelsOff,
     /// All motors are off in time and stay off.
     AllOff,
-    /// The robot says this in time.
+    /// The robot reports this in time.
     Says(Inhibit),
-    /// The machine itself is broken, so that motors run on whatever the firmware does; it says this in time.
+    /// The machine itself is broken, so that the firmware cannot stop the motors; it reports this in time.
     SaysBroken(Inhibit),
-    /// All motors are off in time and stay off, and at the end the robot says this.
+    /// All motors are off in time and stay off, and at the end the robot reports this.
     AllOffSaying(Inhibit),
-    /// The wheels are off in time and stay off, and at the end the robot says this.
+    /// The wheels are off in time and stay off, and at the end the robot reports this.
     WheelsOffSaying(Inhibit),
 }
 
@@ -110,39 +110,39 @@ impl Expectation {
     }
 }
 
-/// A fault and what must follow.
+/// A fault and the expected reaction.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
     /// Rule of SAFETY.md, for example `S6`.
     pub rule: &'static str,
     /// What happens.
     pub what: &'static str,
-    /// In which scene.
+    /// The operating state.
     pub scene: OperatingState,
-    /// Makes it happen at this cycle, which lies within the next millisecond. What can only happen between two milliseconds
-    /// happens at once.
+    /// Makes it happen at this cycle, which lies within the next millisecond. What can only happen between two
+    /// milliseconds happens at once.
     pub event: fn(&mut Testbed, u64),
-    /// What must follow.
+    /// The expected reaction.
     pub expected: Expectation,
-    /// In which time, ms.
+    /// Limit of the reaction, ms.
     pub limit_ms: u64,
 }
 
-/// What came of it.
+/// Outcome of a trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrialOutcome {
-    /// From the event to what had to follow, ms; `None` = it did not follow while anybody looked.
+    /// From the event to the expected reaction, ms; `None` = none within the observed time.
     pub reaction_ms: Option<f64>,
     /// Breaches that the monitor saw from the event on.
     pub violations: usize,
-    /// The robot did not say at the end what it had to say.
+    /// The robot did not report at the end what it had to.
     pub unsaid: bool,
-    /// What it said at the end.
+    /// Its inhibits at the end.
     pub inhibits: Inhibits,
 }
 
 impl Trial {
-    /// Lets it happen `phase_cycles` after the stage's present millisecond.
+    /// Runs the trial, with the event `phase_cycles` after the testbed's present millisecond.
     #[must_use]
     pub fn run(&self, mut testbed: Testbed, phase_cycles: u64) -> TrialOutcome {
         testbed.run(phase_cycles / CYCLES_PER_MS);

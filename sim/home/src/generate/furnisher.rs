@@ -7,9 +7,9 @@ use super::things::{Piece, Rug, Things};
 
 /// Places that are tried before a piece is left out.
 const TRIES: usize = 40;
-/// Usual least way between two pieces: a person passes, and so does a robot.
+/// Usual least distance of two pieces: a person passes, and so does a robot.
 const PASSAGE_M: f64 = 0.46;
-/// Some stand closer to each other.
+/// Least distance of pieces that stand closer to each other.
 const CLOSE_M: f64 = 0.06;
 const CLOSE_SHARE: f64 = 0.2;
 
@@ -54,8 +54,8 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// A place for a piece of this size with so much free floor in front. The frame's origin is the piece's corner at the
-    /// wall; the piece and the floor in front are taken from now on.
+    /// A place for a piece of this size with so much free floor in front. The frame's origin is the piece's corner at
+    /// the wall; the piece and the floor in front are taken from now on.
     pub(super) fn at_wall(
         &mut self,
         (width, depth): Size,
@@ -231,5 +231,5 @@ impl<'a> Furnisher<'a> {
 /// Usual leg.
 pub(super) const LEG_M: f64 = 0.05;
 const CHAIR_LEG_M: f64 = 0.035;
-/// Half of the way between two legs of a chair.
+/// Half of the distance between two legs of a chair.
 const CHAIR_HALF_M: f64 = 0.19;

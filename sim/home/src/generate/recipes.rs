@@ -1,4 +1,4 @@
-//! What stands in which room.
+//! Furniture of each kind of room.
 
 use super::furnisher::{Furnisher, LEG_M, Where};
 use super::shape::{Rect, RoomSide, WallFrame};

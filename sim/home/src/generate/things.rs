@@ -1,4 +1,4 @@
-//! What a home consists of, before it is written.
+//! The parts of a generated home, before it is written.
 
 use super::shape::{Point, Rect};
 
@@ -84,7 +84,7 @@ pub(super) struct PlacedLine {
     pub(super) thickness_m: f64,
 }
 
-/// Somebody who stands in the way for a while.
+/// A person who blocks the way for a while.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visitor {
     pub(super) place: Point,

@@ -1,4 +1,4 @@
-//! What the simulator must know of a robot, read from `robots/<name>/robot.toml`.
+//! A robot's description for the simulator, read from `robots/<name>/robot.toml`.
 
 mod catalog;
 mod figure;
@@ -10,8 +10,8 @@ use std::path::PathBuf;
 pub use catalog::robot_names;
 pub use figure::Confidence;
 
-/// A robot: geometry, limits, motors, sensors, battery. SI units, REP-103 axes, poses relative to the centre between the
-/// wheels.
+/// A robot: geometry, limits, motors, sensors, battery. SI units, REP-103 axes, poses relative to the centre between
+/// the wheels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotModel {
     /// Short name, as in the handshake: `sr8730`.
@@ -113,7 +113,7 @@ pub struct BumperModel {
     pub half_arc_rad: f64,
     /// A contact within this angle of straight ahead presses both halves, radians.
     pub overlap_rad: f64,
-    /// How far it gives way, metres.
+    /// Travel until it is fully pressed, metres.
     pub travel_m: f64,
     /// Way after which a switch closes, metres.
     pub switch_m: f64,
@@ -159,7 +159,7 @@ pub struct GyroModel {
 pub struct ReceiverMount {
     /// Direction from straight ahead, radians.
     pub heading_rad: f64,
-    /// It hears up to this angle to each side, radians.
+    /// It receives up to this angle to each side, radians.
     pub half_angle_rad: f64,
 }
 
@@ -174,7 +174,7 @@ pub struct BatteryModel {
     pub resistance_ohm: f64,
     /// What the electronics draw, ampere.
     pub electronics_a: f64,
-    /// Current of the dock when it hears the robot, ampere.
+    /// Current of the dock when it receives the robot's code, ampere.
     pub charge_a: f64,
     /// Current of the dock when it does not, ampere.
     pub trickle_a: f64,

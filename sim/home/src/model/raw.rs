@@ -23,7 +23,7 @@ pub(super) struct RawModel {
     pub(super) battery: RawBattery,
     pub(super) buttons: RawCount,
     pub(super) lidar: Option<RawLidar>,
-    /// What the firmware must know and nobody measured; the world does not need it.
+    /// Calibration values for the firmware; the world does not use them.
     #[serde(rename = "calibration")]
     pub(super) _calibration: Option<IgnoredAny>,
 }

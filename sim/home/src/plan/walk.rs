@@ -1,4 +1,4 @@
-//! Ways that people and pets take between places.
+//! Paths of people and pets between places.
 
 use std::collections::VecDeque;
 
@@ -19,7 +19,7 @@ pub(crate) enum WalkerKind {
 }
 
 impl WalkerKind {
-    /// What a way keeps from walls and furniture.
+    /// Clearance of a path to walls and furniture.
     const fn clearance_m(self) -> f64 {
         match self {
             Self::Person => 0.2,
@@ -101,7 +101,7 @@ impl<'a> Ways<'a> {
         nearest.map(|(_, square)| square)
     }
 
-    /// The way with the fewest squares.
+    /// The path with the fewest squares.
     fn path(&self, from: usize, to: usize, kind: WalkerKind) -> Option<Vec<(f64, f64)>> {
         const UNSEEN: usize = usize::MAX;
         // Searched backwards, so that following the links goes forward.

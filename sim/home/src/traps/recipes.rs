@@ -1,5 +1,5 @@
-//! How each kind of trap is drawn. The body is 35 cm wide; cells of the plan have 2 cm, so a gap may come out that much wider
-//! or narrower than it was drawn.
+//! How each kind of trap is drawn. The body is 35 cm wide; cells of the plan have 2 cm, so a gap may come out that much
+//! wider or narrower than it was drawn.
 
 use core::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use super::sketch::{Point, Sketch, corners};
 const BODY_M: f64 = 0.35;
 /// What the narrowest gaps have beyond the body: less is a matter of a cell.
 const TIGHT_M: f64 = 0.05;
-/// Beyond this a gap is no trap any more.
+/// A wider gap is no trap.
 const LOOSE_M: f64 = 0.14;
 
 pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
@@ -40,7 +40,7 @@ pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
     }
 }
 
-/// Whether there is a way out.
+/// Whether there is an exit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ExitKind {
     None,
@@ -100,7 +100,7 @@ fn black(sketch: &mut Sketch, exit: ExitKind) {
     let lane_m = sketch.number(0.55, 0.75);
     let north = high[1] + 0.45;
     let south = low[1] - 0.45;
-    // With a way out, the island reaches the wall in the west, and a lane leads along that wall.
+    // With an exit, the island reaches the wall in the west, and a lane leads along that wall.
     match exit {
         ExitKind::AlongTheWall => {
             sketch.black_rug(&[
@@ -167,7 +167,7 @@ fn chairs(sketch: &mut Sketch) {
     let radius_m = sketch.number(0.42, 0.6);
     let gap_rad = (gap(sketch) + 0.04) / radius_m;
     let gap_at_rad = sketch.number(-PI, PI);
-    // So many legs that nobody fits between two of them.
+    // So many legs that the robot does not fit between two of them.
     let count = libm::ceil((TAU - gap_rad) * radius_m / 0.3);
     let legs: Vec<Point> = (0..=count as u32)
         .map(|leg| {
@@ -217,7 +217,7 @@ fn landing(sketch: &mut Sketch) {
     let (east, south) = (sketch.number(1.2, 1.6), sketch.number(1.9, 2.1));
     let exit_m = sketch.number(0.7, 0.9);
     sketch.wall([[0.0, south - 0.05], [east, south - 0.05]]);
-    // Stairs down at the west and, except for the way out, in the east.
+    // Stairs down at the west and, except for the exit, in the east.
     sketch.cliff([0.0, south], [0.25, 3.0]);
     sketch.cliff([east, south + exit_m], [east + 0.6, 3.0]);
     sketch.block([east, south - 0.1], [east + 0.6, south]);

@@ -16,7 +16,7 @@ const NEAR_M: f64 = 0.5;
 const BEAM_TAN: f64 = 0.70;
 /// Tangent of how far a beam reaches over the middle (4 degrees).
 const OVERLAP_TAN: f64 = 0.07;
-/// The emitters stand so far in front of the dock's back, metres.
+/// Distance of the emitters in front of the dock's back, metres.
 const EMITTER_M: f64 = 0.04;
 /// Greatest errors with which the contacts still touch: along, aside in metres, and in heading.
 const CONTACT_ALONG_M: f64 = 0.018;
@@ -25,12 +25,12 @@ const CONTACT_RAD: f64 = 0.2;
 /// Most steps of a line of sight.
 const SIGHT_MAX: usize = 200;
 
-/// What becomes of the dock's beams on their way; all zero is a dock in a dark room with black walls.
+/// Attenuation and reflections of the dock's beams; all zero is a dock in a dark room with black walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamStrengths {
     /// Share of the words that a receiver misses.
     pub lost: f64,
-    /// Share of the words in which a receiver that looks elsewhere hears one of the lobes from a wall.
+    /// Share of codes in which a receiver that faces elsewhere receives one of the lobes reflected by a wall.
     pub reflected: f64,
     /// How ragged the edges of the lobes are: standard deviation of their angle, radians.
     pub ragged_rad: f64,
@@ -54,7 +54,7 @@ pub(crate) struct Dock {
     docked: Pose,
     beams: BeamStrengths,
     random: Pcg,
-    /// What the receivers hear.
+    /// Symbols of the receivers.
     pub(crate) symbols: [u8; 4],
     /// The contacts touch.
     pub(crate) docked_now: bool,
@@ -152,7 +152,7 @@ impl Dock {
 }
 
 impl BeamStrengths {
-    /// What a receiver hears that should hear `heard` where the beams say `symbol`.
+    /// Symbol of a receiver whose last one is `heard`, at a place where the beams have `symbol`.
     fn heard(self, heard: u8, symbol: u8, random: &mut Pcg) -> u8 {
         let (fate, lobe) = (random.unit(), random.below(2));
         if heard != 0 {

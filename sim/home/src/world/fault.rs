@@ -1,4 +1,4 @@
-//! Sensors that lie.
+//! Sensor faults.
 
 use super::Sensors;
 use crate::Pcg;
@@ -53,7 +53,7 @@ pub enum SensorFault {
     Inverted,
 }
 
-/// A total that went on counting in its own way while its sensor lied.
+/// An encoder total that diverged while its sensor was faulty.
 #[derive(Clone, Copy, Debug, Default)]
 struct DriftingCounter {
     true_total: i32,
@@ -81,7 +81,7 @@ impl DriftingCounter {
 pub(crate) struct Faults {
     active: Vec<(SensorId, SensorFault)>,
     random: Pcg,
-    /// Some sensor has lied before, so totals may differ from the truth for ever.
+    /// Some sensor was faulty before, so totals may differ from the truth permanently.
     engaged: bool,
     left: DriftingCounter,
     right: DriftingCounter,

@@ -1,4 +1,4 @@
-//! How the floor makes of the wheels' ways a motion of the body.
+//! From the wheels' distances to the motion of the body on a floor.
 
 use super::wheel::WheelErrors;
 use crate::model::RobotModel;
@@ -14,8 +14,8 @@ pub(crate) struct BothWheels {
 /// Steps over which one draw is spread: a wheel slips for a while, it does not tremble.
 pub(crate) const DRAW_STEPS: u64 = 128;
 
-/// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in them
-/// and spread over the next ones.
+/// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in
+/// them and spread over the next ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Slip {
     track_m: f64,

@@ -24,14 +24,14 @@ const BATTERY_MS: u64 = 10;
 const DOCK_MS: u64 = 40;
 /// Less than this into the pack is a trickle, which is not hastened, ampere.
 const HASTE_FROM_A: f64 = 0.1;
-/// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any converter
-/// has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
+/// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any
+/// converter has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
 const THERMISTOR_C: f64 = 0.1;
 /// Milliseconds between two looks at the doors.
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
 const CONTACT_MS: u64 = 10;
-/// Slower wheels push nobody.
+/// Slower wheels do not push.
 const PUSH_M_PER_S: f64 = 0.01;
 /// A door waits until the robot is this far from its leaf, metres beyond the body.
 const DOOR_GAP_M: f64 = 0.02;
@@ -221,7 +221,7 @@ impl World {
         }
     }
 
-    /// Whether the robot pushes against somebody's foot: nothing gives way any more, and the wheels go on toward it.
+    /// Whether the robot pushes against a foot: the contact is rigid, and the wheels keep driving towards it.
     fn judge_foot(&mut self) {
         let Some(contact) = self.body.contact.filter(|contact| contact.is_foot) else {
             self.foot_pushed_ms = 0;

@@ -39,7 +39,7 @@ impl CleaningMotor for Cleaner {
     }
 }
 
-/// The tone generator: it remembers what sounds.
+/// The tone generator: it stores the present tone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sounder {
     pub(crate) pitch: Option<Frequency>,

@@ -1,8 +1,8 @@
-//! The simulated boards: parts of cordlib's capability traits that hold plain values. Which of them a board has is its
-//! [`Outfit`].
+//! The simulated boards: implementations of cordlib's board traits that hold plain values. The [`Outfit`] lists the
+//! parts of a board.
 //!
-//! Before each pass of the firmware's loop the robot puts what the home's sensors say into the parts, after it it takes
-//! out what the firmware set. So the parts know nothing of the world, and the world nothing of the firmware.
+//! Before each pass of the firmware's loop the robot writes the home's sensor values into the parts; after it the robot
+//! reads the outputs that the firmware set. The parts are independent of the world, and the world of the firmware.
 
 mod actuators;
 mod one_line;
@@ -70,7 +70,7 @@ impl Clock for TickCounter {
     }
 }
 
-/// A board whose every output is off, as it stands the moment after a reset.
+/// A board after a reset: every output is off.
 pub(crate) fn fresh<O: Outfit>(persistent: PersistentMemory) -> Board<SimulatedParts<O>> {
     Board {
         clock: TickCounter::default(),

@@ -1,9 +1,9 @@
-//! What a reset does not clear.
+//! Memory that a reset does not clear.
 
 use cordlib::board::ResetRecord;
 use rvac_protocol::message::ResetCause;
 
-/// Memory that survives a reset, and the chip's own note of why it started.
+/// Memory that survives a reset, and the chip's reset cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PersistentMemory {
     cause: ResetCause,

@@ -1,5 +1,5 @@
-//! Sensor inputs: values that the robot fills in before each pass of the firmware. How many there are of a kind is the
-//! outfit's business.
+//! Sensor inputs: values that the robot writes before each pass of the firmware. The outfit decides how many of a kind
+//! there are.
 
 use core::marker::PhantomData;
 

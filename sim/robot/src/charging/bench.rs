@@ -14,7 +14,7 @@ pub(crate) const STEP_MS: u32 = 20;
 const STEP_S: f64 = STEP_MS as f64 / 1_000.0;
 /// Chemistry and heat.
 const SLOW_STEPS: u32 = 50;
-/// The robot comes to the dock; before it the charger learns its zero.
+/// Time of docking; before it the charger learns its current offset.
 const DOCKS_S: f64 = 6.0;
 const READINGS: u64 = 0xAD0;
 const EVENTS: u64 = 0xE7E;
@@ -44,7 +44,7 @@ pub struct ChargeBench<S> {
 }
 
 impl<S: Stops> ChargeBench<S> {
-    /// The robot stands in front of the dock.
+    /// The robot is in front of the dock.
     #[must_use]
     pub fn new(conditions: &Conditions, stops: S) -> Self {
         let mut pack = Pack::new(conditions.make, conditions.charge, conditions.ambient_c);
@@ -68,7 +68,7 @@ impl<S: Stops> ChargeBench<S> {
             charger: ChargeController::with_stops(parameters, stops),
             output: ChargeOutput::default(),
             steps: 0,
-            // Clocks begin anywhere, and many of these charges see them wrap.
+            // Clocks start at any value, so that many of these charges include a wrap.
             start: events.next_u32(),
             events,
             current_a: 0.0,
@@ -99,7 +99,7 @@ impl<S: Stops> ChargeBench<S> {
         &self.charger
     }
 
-    /// What the charger asks of the board.
+    /// Output of the charger to the board.
     #[must_use]
     pub const fn output(&self) -> ChargeOutput {
         self.output
@@ -164,7 +164,7 @@ impl<S: Stops> ChargeBench<S> {
         }
     }
 
-    /// Whether the trouble of this kind has begun.
+    /// Whether the fault of this kind has begun.
     fn is_past(&self, of: impl Fn(&InjectedFault) -> Option<f64>) -> bool {
         of(&self.conditions.trouble).is_some_and(|at_s| self.seconds() >= at_s)
     }

@@ -1,4 +1,4 @@
-//! How a charge went.
+//! Outcome of a charge.
 
 use cordlib::board::ChargeDrive;
 use cordlib::charge::Stops;
@@ -9,14 +9,14 @@ use rvac_units::Ratio;
 use super::bench::{ChargeBench, STEP_MS};
 use super::conditions::Conditions;
 
-/// A charge is watched for this long at most, ms.
+/// Longest simulated charge, ms.
 const WATCH_MS: u32 = 5 * 3_600_000;
-/// After its end the pack is watched for this long: heat goes on to spread, ms.
+/// Time after the end of a charge, in which heat still spreads, ms.
 const AFTER_MS: u32 = 1_800_000;
-/// A charger that does not begin within this time waits for something, ms.
+/// A charger that does not begin within this time is waiting, ms.
 const WAIT_MS: u32 = 600_000;
 
-/// How a charge went, by what is really so.
+/// Outcome of a charge, by the true state of the pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChargeOutcome {
     /// The seed.

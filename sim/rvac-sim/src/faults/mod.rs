@@ -1,7 +1,7 @@
-//! A thousand households in trouble: random faults from seeds, the safety monitor in every millisecond.
+//! A thousand households with faults: random faults from seeds, checked by the safety monitor in every millisecond.
 //!
 //! A *trial* is one seed: its home, its noise, its faults and their times all follow from the number, so a violation is
-//! replayed by naming it. Trials share nothing and run on as many threads as there are cores.
+//! replayed by its seed. Trials share nothing and run on as many threads as there are cores.
 
 mod draw;
 mod homes;
@@ -50,8 +50,8 @@ impl FaultCampaign {
     }
 }
 
-/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the order
-/// of their seeds.
+/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the
+/// order of their seeds.
 pub fn trials(
     campaign: &FaultCampaign,
     (seeds, duration_ms): (Range<u64>, u64),

@@ -1,4 +1,4 @@
-//! What all trials came to, as a table and as JSON.
+//! Outcomes of all trials, as a table and as JSON.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! One seed: a home, a household, ten minutes of misfortune.
+//! One seed: a home, a household, ten minutes of faults.
 
 use brain::SensorLayout;
 use brain::command::StrategyName;
@@ -13,7 +13,7 @@ use super::FaultCampaign;
 use super::draw::{Fault, FaultDraw, FaultKind};
 use crate::{Host, Household};
 
-/// What came of a seed.
+/// Outcome of a seed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FaultOutcome {
     /// The seed.
@@ -28,7 +28,7 @@ pub struct FaultOutcome {
     pub violations: Vec<String>,
     /// How many violations there were.
     pub violation_count: u32,
-    /// True way in metres.
+    /// True path length in metres.
     pub path_m: f64,
     /// The state of everything at the end, as one number.
     pub state_hash: u64,
@@ -55,9 +55,9 @@ enum EffectEnd {
     Button(u8),
 }
 
-/// Milliseconds between two looks at what keeps the robot from moving: the host hears of it 50 times a second.
+/// Milliseconds between two readings of the inhibits: the host receives them 50 times a second.
 const STOPS_MS: u64 = 20;
-/// Milliseconds between two looks of the person who wants the robot to clean.
+/// Milliseconds between two checks by the person who wants the robot to clean.
 const LOOK_MS: u64 = 1_000;
 const STREAM: u64 = 0x7E57;
 
@@ -228,7 +228,7 @@ impl FaultTrial {
         }
     }
 
-    /// A person who wants the robot to clean does what the panel asks for.
+    /// A person who wants the robot to clean follows the panel.
     fn look(&mut self) {
         let Some(status) = self.household.host().map(Host::status) else {
             return;

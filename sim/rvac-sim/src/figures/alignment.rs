@@ -1,5 +1,5 @@
-//! How well the believed way fits the true one when it is laid over it as a whole: an error of the map's frame, which the
-//! robot's own map shares, is none to the robot.
+//! Error of the estimated path after a rigid alignment with the true path: an error of the map's frame, which the
+//! robot's map shares, does not affect the robot.
 
 use home::Pose;
 
@@ -70,7 +70,7 @@ impl Alignment {
         Some(((squares - 2.0 * dot.hypot(cross)) / self.count).max(0.0).sqrt())
     }
 
-    /// Cosine and sine of the turn that lays the believed way over the true one, times a common length.
+    /// Cosine and sine of the rotation that aligns the estimated path with the true one, times a common length.
     fn turn(&self) -> (f64, f64) {
         let ([a, b], [x, y]) = (self.believed, self.is);
         (

@@ -1,8 +1,8 @@
-//! Figures of navigation: how fast a run covers the floor against the lower bound, and how well the robot knows its place.
+//! Figures of navigation: how fast a run covers the floor compared with the lower bound, and how accurate the pose is.
 //!
-//! *Job*: begins when the host says that it cleans, and lasts until it stops saying so (docking, docked, idle, stuck), or
-//! until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the pose are
-//! of the whole run, since the robot must know its way home too.
+//! *Job*: begins when the host reports that it cleans, and lasts until it reports another state (docking, docked, idle, stuck)
+//! or until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the
+//! pose are of the whole run, because the robot needs its pose to return home too.
 
 mod alignment;
 mod honesty;
@@ -54,7 +54,8 @@ pub struct Figures {
     pub reported_low_over_true: Option<f64>,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
-    /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
+    /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it
+    /// never was.
     pub away_s: Option<f64>,
     /// Seconds on the charger in the middle of the job; no other figure counts them.
     pub charging_s: f64,
@@ -64,8 +65,8 @@ pub struct Figures {
     pub turn_deg_per_m2: f64,
     /// Contacts during the job for each square metre of reachable floor.
     pub bumps_per_m2: f64,
-    /// Root mean square of the distance between believed and true place in the two minutes before this minute of the job;
-    /// `null` = the run was shorter.
+    /// Root mean square of the distance between believed and true place in the two minutes before this minute of the
+    /// job; `null` = the run was shorter.
     pub pose_rmse_10_min_m: Option<f64>,
     /// The same at 30 minutes.
     pub pose_rmse_30_min_m: Option<f64>,
@@ -73,11 +74,11 @@ pub struct Figures {
     pub pose_rmse_60_min_m: Option<f64>,
     /// The same at 120 minutes.
     pub pose_rmse_120_min_m: Option<f64>,
-    /// Root mean square of the distance that is left when the believed way is laid over the true one as a whole.
+    /// Root mean square of the distance after rigid alignment of the estimated path with the true one.
     pub pose_rmse_aligned_m: Option<f64>,
     /// Largest distance between believed and true place.
     pub pose_error_max_m: f64,
-    /// The same when the believed way is laid over the true one as a whole.
+    /// The same after rigid alignment of the estimated path with the true one.
     pub pose_error_max_aligned_m: f64,
     /// Root mean square of the error of the heading, degrees.
     pub heading_rmse_deg: Option<f64>,
@@ -89,12 +90,12 @@ pub struct Figures {
     pub lost_stretches: Vec<LostStretch>,
     /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
     pub lost_unnoticed_s: f64,
-    /// The same when the believed way is laid over the true one as a whole.
+    /// The same after rigid alignment of the estimated path with the true one.
     pub lost_unnoticed_aligned_s: f64,
     /// Seconds in which the robot said that it is lost, and its place was right within half a metre.
     pub lost_false_alarm_s: f64,
-    /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
-    /// the reachable floor, and what it wrongly takes for free. `null` = it has no map.
+    /// Agreement of the robot's free floor with the true one, 0..1 (intersection over union with the reachable floor).
+    /// `null` = it has no map.
     pub map_iou: Option<f64>,
     /// The same when the map is laid over the home as a whole, as its walls fit best.
     pub map_iou_aligned: Option<f64>,
@@ -102,8 +103,8 @@ pub struct Figures {
     pub wall_error_m: Option<f64>,
     /// The same when the map is laid over the home as a whole.
     pub wall_error_aligned_m: Option<f64>,
-    /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or the robot does
-    /// not measure what its motors draw.
+    /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or
+    /// the robot does not measure what its motors draw.
     pub carpet_recall: Option<f64>,
     /// Share of the carpet in its map that lies on a rug; `null` = it has none.
     pub carpet_precision: Option<f64>,
@@ -111,7 +112,7 @@ pub struct Figures {
     pub estimate_error: Option<f64>,
     /// The robot stood on its dock at the end.
     pub docked: bool,
-    /// Last state that the host told.
+    /// Last state that the host reported.
     pub state: String,
 }
 
@@ -134,7 +135,7 @@ pub(crate) struct MeasuredFloor {
     pub(crate) cruise_m_per_s: f64,
 }
 
-/// Collects what the figures need.
+/// Collects the data of the figures.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
     floor: MeasuredFloor,
@@ -197,7 +198,7 @@ impl JobFigures {
         }
     }
 
-    /// It is under way; on the charger it is not.
+    /// It is running; on the charger it is not.
     fn runs(self) -> bool {
         self.begun_ms.is_some() && self.ended_ms.is_none() && !self.charges
     }
@@ -307,8 +308,8 @@ impl Collector {
         }
     }
 
-    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end, and one that
-    /// waits for charge what it has now.
+    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end, and
+    /// one that waits for charge what it has now.
     fn share_at(&self, number: usize, now: &Truth) -> Option<f64> {
         let rests = self.job.rests();
         self.share_at[number].or(rests.then_some(now.swept_share))

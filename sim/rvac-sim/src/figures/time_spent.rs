@@ -1,7 +1,7 @@
-//! What the seconds of a job were spent on.
+//! How the time of a job was spent.
 //!
-//! Each sample belongs to one way of moving, by the true motion of the robot. *Contact*: from a contact until the robot cruises
-//! again. Beside these, *again*: seconds of moving ahead over floor that was swept before.
+//! Each sample belongs to one kind of motion, by the true motion of the robot. *Contact*: from a contact until the
+//! robot cruises again. Beside these, *again*: seconds of moving ahead over floor that was swept before.
 
 use home::Truth;
 use serde::Serialize;
@@ -29,13 +29,13 @@ pub struct TimeSpent {
     pub again_s: f64,
 }
 
-/// Slower than this is no way ahead, m/s.
+/// Slower motion does not count as moving ahead, m/s.
 const STILL_M_PER_S: f64 = 0.03;
-/// Slower than this is no turn, rad/s.
+/// Slower rotation does not count as turning, rad/s.
 const STRAIGHT_RAD_PER_S: f64 = 0.25;
 /// Share of the cruise speed from which the robot cruises.
 const CRUISE_SHARE: f64 = 0.9;
-/// Share of the floor under the way that must be new.
+/// Share of the floor under the path that must be new.
 const NEW_SHARE: f64 = 0.2;
 
 /// Collects them.

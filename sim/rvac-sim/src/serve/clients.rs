@@ -1,4 +1,4 @@
-//! Clients of the simulator's socket: bounded queues, and nobody waits for anybody.
+//! Clients of the simulator's socket, with bounded queues: no client can block another.
 
 use std::io::{self, Read, Write};
 use std::os::unix::net::UnixStream;

@@ -1,15 +1,15 @@
-//! A person's hand, which pushes the robot over the floor, turns it on the spot, or turns a wheel of a lifted one.
+//! A person's hand that pushes the robot over the floor, turns it on the spot, or turns a wheel of a lifted robot.
 
 use home::{World, wrap_angle};
 
 use super::request::WheelChoice;
 
-/// Speed of the rims, m/s: so slow that no encoder loses a count, so fast that nobody gets bored.
+/// Speed of the rims, m/s: slow enough for every encoder.
 const RIM_M_PER_S: f64 = 0.4;
-/// A hand that meets a wall gives up after this many times the time that the way takes.
+/// A hand that is blocked stops after this multiple of the movement's time.
 const PATIENCE: f64 = 2.0;
 
-/// A way of the hand.
+/// A movement of the hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HandPath {
     /// So many metres over the floor, straight ahead positive.
@@ -20,16 +20,16 @@ pub(super) enum HandPath {
     Roll(WheelChoice, f64),
 }
 
-/// How a way ended.
+/// How a movement ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathEnd {
     /// All of it was made.
     Done,
-    /// Something is in the way.
+    /// The robot is blocked.
     Blocked,
 }
 
-/// A hand on its way.
+/// A hand in motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hand {
     path: HandPath,
@@ -39,7 +39,7 @@ pub(super) struct Hand {
     before: MotionBaseline,
 }
 
-/// What the way is measured by.
+/// Positions at the start of the movement.
 #[derive(Clone, Copy, Debug)]
 struct MotionBaseline {
     x_m: f64,

@@ -1,7 +1,7 @@
 //! A simulated robot behind a pseudoterminal, for a daemon in another process.
 //!
-//! One thread, one loop: sleep until the next millisecond or until somebody writes, carry bytes, advance the robot to the
-//! present. The wall clock enters here and nowhere below.
+//! One thread, one loop: it sleeps until the next millisecond or until bytes arrive, transfers bytes, and advances the
+//! robot to the present. Only this level uses the wall clock.
 
 mod clients;
 mod hand;
@@ -34,7 +34,7 @@ use request::{RequestReply, SimulatorRequest, blocked};
 use socket::{SocketError, SocketListener};
 use speedometer::Speedometer;
 
-/// What the server is told.
+/// Settings of the server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ServeSettings {
     /// Seed of everything random.
@@ -51,7 +51,7 @@ pub struct ServeSettings {
     pub radio: Option<RadioSettings>,
 }
 
-/// The module, and what it hears.
+/// The module and its measurements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RadioSettings {
     /// Where the symbolic link to its terminal goes.
@@ -79,8 +79,8 @@ pub enum ServeError {
 
 /// Truths a client gets in a second of the wall clock.
 const TRUTHS_PER_S: u32 = 10;
-/// Longest time on the wall for the ticks of one turn, so that clients and the terminal are served however slow the machine
-/// is.
+/// Longest time on the wall for the ticks of one turn, so that clients and the terminal are served however slow the
+/// machine is.
 const TURN_MAX: Duration = Duration::from_millis(20);
 /// How long a press of a button lasts, simulated.
 const PRESS_MS: u64 = 200;
@@ -216,8 +216,8 @@ impl Server {
         Ok(())
     }
 
-    /// Does these ticks, or as many of them as there is time for. The others are given up: simulated time passes more slowly
-    /// then, and nothing else changes.
+    /// Does these ticks, or as many of them as there is time for. The others are given up: simulated time passes more
+    /// slowly then, and nothing else changes.
     fn advance(&mut self, due: u64) {
         let begun = Instant::now();
         let mut done = 0;
@@ -232,7 +232,7 @@ impl Server {
             done += 1;
         }
         if let Some(notice) = self.speedometer.pass(Instant::now(), done) {
-            // When standard error is gone there is nobody left to tell.
+            // If standard error is closed, nobody can be informed.
             writeln!(io::stderr(), "rvac-sim: {notice}").ok();
         }
     }

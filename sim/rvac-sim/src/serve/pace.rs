@@ -1,4 +1,4 @@
-//! How many simulated milliseconds are due.
+//! Number of simulated milliseconds that are due.
 
 use std::time::{Duration, Instant};
 

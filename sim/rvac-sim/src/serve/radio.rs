@@ -1,8 +1,8 @@
-//! A DWM1001 module on the Linux board, behind a terminal of its own: what its stock firmware answers and prints, with the
-//! distances of simulated beacons.
+//! A DWM1001 module on the Linux board, behind a terminal of its own: answers and output of its stock firmware, with
+//! the distances of simulated beacons.
 //!
-//! Words and output are those of the DWM1001 Firmware API Guide 2.2, as far as a tag needs them. The module begins with its
-//! binary interface, of which only the refusal is here; two returns within a second open the shell. A return alone
+//! Words and output are those of the DWM1001 Firmware API Guide 2.2, as far as a tag needs them. The module begins with
+//! its binary interface, of which only the refusal is here; two returns within a second open the shell. A return alone
 //! repeats the last command, which is what makes `lec` a switch that is easily pressed twice.
 
 use std::io;
@@ -19,7 +19,7 @@ const TOGETHER_MS: u64 = 1_000;
 const LINE_MS: u64 = 100;
 /// Anchors that the module measures for a line.
 const ANCHORS: usize = 4;
-/// What the binary interface answers to bytes that are no request.
+/// Answer of the binary interface to an invalid request.
 const REFUSAL: &[u8] = &[0x40, 0x01, 0x01];
 /// Longest command; the rest of a longer one is dropped.
 const COMMAND_MAX: usize = 64;
@@ -41,7 +41,7 @@ impl Radio {
         })
     }
 
-    /// Takes what the daemon has written, and gives it what the module said.
+    /// Reads bytes from the daemon and writes the module's output.
     pub(super) fn carry(&mut self, now_ms: u64) -> io::Result<()> {
         let mut buffer = [0; 256];
         match self.pty.read(&mut buffer)? {
@@ -147,7 +147,8 @@ impl Module {
         self.measured.push((beacon, range_m));
     }
 
-    /// Prints what was measured since the last line. Places of the anchors are those of a network that nobody has set up.
+    /// Prints what was measured since the last line. Positions of the anchors are those of a network without
+    /// configuration.
     fn print(&mut self) {
         let measured = std::mem::take(&mut self.measured);
         if !self.prints || measured.is_empty() {

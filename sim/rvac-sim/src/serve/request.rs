@@ -1,4 +1,4 @@
-//! What clients of the simulator may ask, and the answers.
+//! Requests of the simulator's clients, and the answers.
 
 use rvac_api::Failure;
 use serde::{Deserialize, Serialize};
@@ -57,7 +57,7 @@ pub(crate) enum SimulatorRequest {
     },
     /// Winds hair around the main brush.
     Hair {
-        /// What its motor draws then, over what it draws without.
+        /// Factor on the current of its motor.
         times: f64,
     },
     /// Puts the robot somewhere else, in the frame of the plan that the socket gives.
@@ -96,7 +96,7 @@ pub(crate) enum RequestReply {
         /// Out of the pack, ampere.
         drawn_a: f64,
     },
-    /// To what a hand does: to `push`, `turn` and `roll` when the whole way was made, to all else at once.
+    /// Answer to a request of a hand: to `push`, `turn` and `roll` at the end of the movement, to others at once.
     Done,
     /// To what could not be understood or done.
     Failed(Failure),

@@ -13,7 +13,7 @@ pub(crate) struct SocketListener {
     path: PathBuf,
 }
 
-/// Why there is no socket.
+/// Why the socket cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SocketError {
     /// Somebody listens there.
@@ -33,7 +33,7 @@ pub enum SocketError {
 }
 
 impl SocketListener {
-    /// Listens on `path`. A socket that nobody listens on any more is what a killed simulator leaves behind, and is
+    /// Listens on `path`. A socket without a listener was left by a killed simulator, and is
     /// replaced.
     pub(crate) fn open(path: &Path) -> Result<Self, SocketError> {
         clear(path)?;

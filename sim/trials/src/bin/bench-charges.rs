@@ -61,7 +61,7 @@ fn tell(out: &mut impl Write, arguments: &Arguments, charge: &ChargeResult) -> i
         out,
         "{:>5} {:<18} {:.2} Ah  {:>5.2} A  {:>5.1} C  {ended:>9}  {} breaches{}{}",
         charge.seed,
-        format!("{:?}", charge.trouble),
+        format!("{:?}", charge.disturbance),
         charge.capacity_ah,
         charge.highest_a,
         charge.hottest_c,

@@ -1,4 +1,4 @@
-//! A stretch of a robot's life without any fault, to compare with those in which a bit has flipped.
+//! A reference run of the robot without any fault, for comparison with runs in which a bit has flipped.
 
 use std::collections::HashMap;
 
@@ -14,28 +14,28 @@ use crate::trial::OperatingState;
 
 use super::place::{BitLocation, BitStorage};
 
-/// Bits flip within so many milliseconds. Then something happens after which all motors, or the charger, must be off, or
-/// may not start.
+/// Bits flip within this many milliseconds. Then an event requires all motors or the charger to be off, or not to
+/// start.
 pub(super) const FLIP_MS: usize = 150;
-/// Longest time for which the judge looks on, see [`Situation::look_ms`].
+/// Longest time for which the monitor observes, see [`Situation::look_ms`].
 const LOOK_MS_MAX: usize = 450;
-/// A robot that was reset and whose memory is whole again is looked at for so long while all is off.
+/// Observation time of a robot after a reset with correct memory, while everything is off.
 const AFTER_RESET_MS: u32 = 60;
 /// With a bit of flash still flipped it must have started again, too: 30 ms for the checks of all memories and a
 /// hundred for all else; and what happens must have happened.
 const AFTER_START_MS: u32 = 130;
 /// A charger begins within this time on the dock.
 const CHARGE_BEGINS_MS: u64 = 60_000;
-/// Current that tells that it has begun, ampere.
+/// Current above which it has begun, ampere.
 const CHARGING_A: f64 = 0.3;
 
 /// What the robot does when bits flip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Situation {
-    /// It stands, not armed.
+    /// At rest, not armed.
     Idle,
-    /// It stands, armed.
+    /// At rest, armed.
     Standing,
     /// It drives.
     Driving,
@@ -82,8 +82,8 @@ impl Situation {
         }
     }
 
-    /// How long the judge looks on after that, ms: longer than the watchdog's 256 ms and the reaction to what happens,
-    /// as the monitor counts it.
+    /// Observation time after the event, ms: longer than the watchdog's 256 ms and the reaction to the event, as the
+    /// monitor counts it.
     const fn look_ms(self, number: usize) -> usize {
         match (self, number % 4) {
             (Self::Driving | Self::Cleaning, 3) => LOOK_MS_MAX,
@@ -92,7 +92,7 @@ impl Situation {
         }
     }
 
-    /// What happens after the flip; `number` chooses.
+    /// The event after the flip, chosen by `number`.
     fn provoke(self, testbed: &mut Testbed, number: usize) {
         let now = testbed.robot().cycle();
         let wheel_hangs = |testbed: &mut Testbed| {
@@ -147,7 +147,7 @@ fn charging(fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, T
     Err(TestbedError::OperatingState("it does not charge"))
 }
 
-/// Everything that decides how a robot goes on, as far as it can be seen from outside.
+/// The whole state of a robot, as far as it can be read from outside.
 #[derive(Clone, Debug)]
 struct Snapshot {
     ram: Vec<u8>,
@@ -174,8 +174,8 @@ impl Snapshot {
         }
     }
 
-    /// Whether this robot goes on as the one that was looked at, whose program reads the `live` bytes of RAM before it
-    /// writes them.
+    /// Whether this robot will continue like the one of the snapshot, whose program reads the `live` bytes of RAM
+    /// before it writes them.
     fn is_met_by(&self, robot: &mut EmulatedRobot, registers: &[u32], live: impl Fn(u32) -> bool) -> bool {
         let machine = robot.machine();
         machine.cpu().cycle() == self.cycle
@@ -216,19 +216,19 @@ fn core_of(machine: &Machine) -> [u32; 35] {
     registers
 }
 
-/// What a flip comes to.
+/// Result of a flip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fate {
-    /// The word is not touched in the time that is looked at. Flipped flash is found by the check of the image.
+    /// The word is not accessed in the observed time. Flipped flash is found by the check of the image.
     Untouched,
-    /// The word is written before anybody reads it.
+    /// The word is written before it is read.
     Overwritten,
-    /// It was read and changed nothing that can be seen outside, or the robot was soon as if nothing had happened.
+    /// It was read without a visible effect, or the robot soon was in its reference state again.
     Masked,
     /// A reset, an exception or a named inhibit.
     Detected,
-    /// The robot did something else than without the flip, within the rules.
+    /// The robot behaved differently than without the flip, within the rules.
     Lawful,
     /// Against the rules, but ended within the watchdog's time.
     Ended,
@@ -249,10 +249,10 @@ impl Fate {
     ];
 }
 
-/// What was seen of a flip that was tried.
+/// Observation of a flip that was tried.
 #[derive(Clone, Debug)]
 pub(super) struct FlipTrace {
-    /// What it came to.
+    /// Its result.
     pub(super) fate: Fate,
     /// Longest time that a rule was broken without a gap, ms.
     pub(super) broken_ms: u32,
@@ -260,10 +260,10 @@ pub(super) struct FlipTrace {
     pub(super) breach: Option<String>,
 }
 
-/// A stretch of life without fault.
+/// A reference run without fault.
 #[derive(Debug)]
 pub(super) struct Course {
-    /// What the robot does in it.
+    /// Activity of the robot.
     pub(super) situation: Situation,
     number: usize,
     registers: Vec<u32>,
@@ -271,9 +271,9 @@ pub(super) struct Course {
     testbeds: Vec<Testbed>,
     /// At the end of each millisecond.
     looks: Vec<Snapshot>,
-    /// Milliseconds in which a word was touched, and how first its bytes were.
+    /// Milliseconds in which a word was accessed, and the kind of the first access to its bytes.
     touches: HashMap<u32, Vec<(usize, Touch)>>,
-    /// Everything that the robot ever gave as a reason.
+    /// All inhibits that the robot reported.
     inhibits: Vec<Inhibits>,
 }
 
@@ -281,7 +281,7 @@ pub(super) struct Course {
 const WATCHDOG_MS: u32 = 258;
 
 impl Course {
-    /// Lives it. `registers` are those of the chip that are compared.
+    /// Runs it. `registers` are the chip registers that are compared.
     ///
     /// # Errors
     /// When the robot does not get into the situation, or breaks a rule without any fault.

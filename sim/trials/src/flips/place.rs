@@ -1,10 +1,10 @@
-//! Where a bit can flip.
+//! Locations of flipped bits.
 
 use home::Pcg;
 use pic32::machine::Machine;
 use serde::Serialize;
 
-/// What kind of storage a bit is in.
+/// Kind of storage of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BitStorage {
@@ -37,7 +37,7 @@ impl BitStorage {
 /// One bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct BitLocation {
-    /// What it is in.
+    /// Its storage.
     pub storage: BitStorage,
     /// Physical address of its word; of a core register its number (32 HI, 33 LO, 34 the program counter).
     pub address: u32,
@@ -57,12 +57,12 @@ const REGISTERS: std::ops::Range<u32> = 0x1F80_0000..0x1F89_0000;
 /// The calibration record and the configuration words.
 const CALIBRATION: u32 = 0x1D03_F000;
 const CONFIGURATION: u32 = 0x1FC0_2FF0;
-/// Registers are so far apart; between them are their CLR, SET and INV.
+/// Distance of registers; between them are their CLR, SET and INV.
 const REGISTER_STEP: usize = 16;
-/// Of a hundred flips so many hit RAM, flash and the core's registers; the rest hit those of the chip.
+/// Percentages of flips in RAM, flash and the core's registers; the rest hit registers of the chip.
 const SHARES: [u32; 3] = [45, 45, 5];
 
-/// All words that are worth a flip.
+/// All words in which bits are flipped.
 #[derive(Clone, Debug)]
 pub(super) struct BitLocations {
     ram: Vec<u32>,
@@ -71,7 +71,7 @@ pub(super) struct BitLocations {
 }
 
 impl BitLocations {
-    /// Of a machine whose program has run for a while, and whose variables end at this physical address.
+    /// The words of a machine whose program has run for a while, and whose variables end at this physical address.
     #[must_use]
     pub(super) fn of(machine: &mut Machine, variables_end: u32) -> Self {
         let stack = machine.deepest_stack().unwrap_or(RAM_BYTES) & 0x7FFC;

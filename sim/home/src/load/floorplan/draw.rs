@@ -119,7 +119,8 @@ impl FloorplanPainter<'_> {
         marked
     }
 
-    /// Who stands in the way is like a door that closes for a while, and waits for the robot to leave the place.
+    /// A person who blocks the way is like a door that closes for a while, and waits until the robot has left the
+    /// place.
     pub(super) fn visitors(&mut self, visitors: &[RawVisitor]) -> Vec<Door> {
         visitors.iter().map(|visitor| self.visitor(visitor)).collect()
     }

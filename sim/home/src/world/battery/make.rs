@@ -1,4 +1,4 @@
-//! What a pack is made of, new or old.
+//! Properties of a pack, new or old.
 
 use crate::Pcg;
 use crate::model;
@@ -88,7 +88,7 @@ impl PackMake {
         }
     }
 
-    /// A sound pack as they come and grow older: 1.6 to 2.4 Ah, up to twice the resistance.
+    /// A good pack, new or aged: 1.6 to 2.4 Ah, up to twice the resistance.
     #[must_use]
     pub fn sound(random: &mut Pcg) -> Self {
         Self {

@@ -9,7 +9,7 @@ use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use serde::Serialize;
 
-/// What came of one job.
+/// Outcome of one job.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct JobOutcome {
     pub(crate) home: String,
@@ -45,8 +45,8 @@ const LOW: f64 = 0.15;
 const LONGEST_MS: u64 = 4 * 3_600_000;
 
 impl JobOutcome {
-    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would. `progress` is
-    /// told about how much of all of it is done.
+    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would.
+    /// `progress` is told about how much of all of it is done.
     pub(crate) fn of(scene: &Scene, seed: u64, speed: f64, mut progress: impl FnMut(f64)) -> Self {
         let settings = RobotSettings {
             seed,

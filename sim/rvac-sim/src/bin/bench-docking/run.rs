@@ -1,4 +1,4 @@
-//! One way home.
+//! One return to the dock.
 
 use std::io::{self, Write};
 
@@ -30,7 +30,7 @@ pub(crate) struct Obstacle {
     pub(crate) bad_noise: bool,
 }
 
-/// What came of it.
+/// Outcome of the run.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DockingRun {
     pub(crate) situation: DockingStart,

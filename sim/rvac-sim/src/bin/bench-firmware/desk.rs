@@ -1,4 +1,4 @@
-//! A robot with its real firmware, and a host that speaks the protocol and nothing else.
+//! A robot with its real firmware, and a host that only implements the protocol.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -223,7 +223,7 @@ impl Desk {
         self.robot.machine()
     }
 
-    /// Begins the chip's accounts anew.
+    /// Resets the chip's accounting.
     pub(crate) fn restart_accounts(&mut self) {
         self.robot.machine_mut().restart_accounting();
     }
@@ -233,7 +233,7 @@ impl Desk {
         self.robot.now_ms() * CYCLES_PER_MS
     }
 
-    /// What this end has counted of damage on its way in.
+    /// Counts of damaged inbound packets.
     pub(crate) fn counters(&self) -> LinkCounters {
         self.session.counters()
     }

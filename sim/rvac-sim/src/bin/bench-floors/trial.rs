@@ -39,7 +39,7 @@ pub(crate) enum HostMemory {
     Absent,
 }
 
-/// What came of it.
+/// Outcome of the trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FloorsOutcome {

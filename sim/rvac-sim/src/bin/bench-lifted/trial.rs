@@ -39,7 +39,7 @@ pub(crate) struct Preparation {
     pub(crate) radio: RadioFitted,
 }
 
-/// What came of it.
+/// Outcome of the trial.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct LiftedTrial {
     pub(crate) home: String,

@@ -1,4 +1,4 @@
-//! Work that is spread over threads; what comes of it stands in the order of the work, whoever did it.
+//! Work spread over threads; results are in the order of the work.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! What a run begins with: a robot in a home, and the host that drives it.
+//! Start of a run: a robot in a home, and the host that drives it.
 
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
-//! What is compared.
+//! The compared modes.
 
 use brain::command::StrategyName;
 use rvac_sim::run::RunEnd;
 use serde::Serialize;
 
-/// A way of cleaning, and what the robot knows of the home.
+/// A cleaning pattern, and the robot's knowledge of the home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CleaningMode {

@@ -1,4 +1,5 @@
-//! Traps: whether the robot comes free of places in which robots get stuck, and whether it ends where there is no way out.
+//! Traps: whether the robot frees itself from places in which robots get stuck, and whether it stops where there is no
+//! exit.
 //!
 //! *Free*: its middle has left the trap. *Ended*: free, or it said by itself that it cannot go on: stuck, a fault, or the job's
 //! end.
@@ -96,7 +97,7 @@ pub(crate) struct TrapTable<'runs> {
 #[derive(Clone, Debug, Serialize)]
 struct TrapFigures {
     runs: usize,
-    /// Share of the runs in traps with a way out in which the robot came free; `null` = there was none.
+    /// Share of the runs in traps with an exit in which the robot came free; `null` = there was none.
     freed: Option<f64>,
     /// Share of all runs that ended.
     ended: f64,

@@ -1,4 +1,4 @@
-//! World and brain apart from the rest: they get what they were given in a run, and give the same again.
+//! World and brain in isolation: they get the inputs of a recorded run and produce the same outputs.
 
 use anyhow::ensure;
 use brain::command::StrategyName;
@@ -35,7 +35,7 @@ pub(crate) struct Shares {
     pub(crate) brain_s: f64,
 }
 
-/// Readings by which the time of a reading is told.
+/// Number of clock readings from which the cost of one reading is computed.
 const READINGS: u32 = 100_000;
 
 /// Seconds that one reading of the clock takes.
