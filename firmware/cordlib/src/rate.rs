@@ -4,13 +4,13 @@ use rvac_units::Tick;
 
 /// Counts events.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rate {
+pub(crate) struct RateCounter {
     count: u32,
     since: Tick,
     per_second: u32,
 }
 
-impl Rate {
+impl RateCounter {
     /// Counts from `now` on.
     pub(crate) const fn starting_at(now: Tick) -> Self {
         Self {

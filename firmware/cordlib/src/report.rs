@@ -6,7 +6,7 @@ use rvac_units::Tick;
 
 use crate::board::{DockBeams, DustBox, Parts, ProximitySensors};
 use crate::cord::{Cord, name};
-use crate::rate::Rate;
+use crate::rate::RateCounter;
 use crate::reflex::Reflexes;
 use crate::senses::shown;
 use crate::timing::Periodic;
@@ -20,9 +20,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// What was reported last, what is due, and the counters of the loop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reporter {
-    pub(crate) bytes_in: Rate,
-    pub(crate) bytes_out: Rate,
-    steps: Rate,
+    pub(crate) bytes_in: RateCounter,
+    pub(crate) bytes_out: RateCounter,
+    steps: RateCounter,
     rates: Periodic,
     state: ReportSchedule,
     info: ReportSchedule,
@@ -83,9 +83,9 @@ impl Reporter {
     /// Nothing is due yet. The state at reset is no event.
     pub(crate) fn new(reflexes: &Reflexes, now: Tick) -> Self {
         Self {
-            bytes_in: Rate::starting_at(now),
-            bytes_out: Rate::starting_at(now),
-            steps: Rate::starting_at(now),
+            bytes_in: RateCounter::starting_at(now),
+            bytes_out: RateCounter::starting_at(now),
+            steps: RateCounter::starting_at(now),
             rates: Periodic::starting_at(now.after(RATE_PERIOD_MS)),
             state: ReportSchedule::every(STATE_PERIOD_MS, now),
             info: ReportSchedule::every(INFO_PERIOD_MS, now),

@@ -12,7 +12,7 @@ use sr8730::board::off;
 use sr8730::generated::pins;
 use sr8730::logic::image_check::NO_CRC;
 use sr8730::logic::reset_log::FatalCause;
-use sr8730::robot::{self, Robot};
+use sr8730::robot::{self, RobotProgram};
 
 /// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the
 /// first instruction and cannot be stopped by a flipped bit.
@@ -29,7 +29,7 @@ exception_hook!(on_exception);
 
 fn main() -> ! {
     match Peripherals::take() {
-        Some(chip) => Robot::new(chip).run(),
+        Some(chip) => RobotProgram::new(chip).run(),
         None => reset::software_reset(),
     }
 }

@@ -21,12 +21,12 @@ const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
 
 /// The whole robot.
 #[derive(Debug)]
-pub struct Robot {
+pub struct RobotProgram {
     cord: Cord<Sr8730>,
     checks: SelfChecks,
 }
 
-impl Robot {
+impl RobotProgram {
     /// Builds the robot from the chip as the start-up code leaves it: all outputs off.
     #[must_use]
     pub fn new(chip: Peripherals) -> Self {

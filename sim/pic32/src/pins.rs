@@ -1,7 +1,7 @@
 //! The pins of the 100-pin package as the program names them: a port letter and a bit, "RG9".
 //!
 //! A *level* is what a voltmeter would see, an *output* is what the chip itself does to the pin. A pin that the chip
-//! leaves alone is *floating* for the chip, whatever the circuit around it does.
+//! does not drive is *floating* for the chip, whatever the circuit around it does.
 
 use std::fmt;
 use std::str::FromStr;

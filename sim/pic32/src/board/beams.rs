@@ -1,7 +1,7 @@
 //! The dock's homing beams on the robot's four 38 kHz receivers.
 //!
-//! Nobody has recorded the real ones. These are the placeholder of `robots/samsung-sr8730/dock-signal.md`: three codes of eight
-//! bits, sent in turn, four units of time a bit, carrier for three of them for a 1 and for one for a 0.
+//! The real ones have not been recorded. These are the placeholder of `robots/samsung-sr8730/dock-signal.md`: three
+//! codes of eight bits, sent in turn, four units of time a bit, carrier for three of them for a 1 and for one for a 0.
 
 use super::CYCLES_PER_MS;
 use super::encoder::ScheduledEdge;

@@ -1,5 +1,5 @@
-//! What nobody has measured on the real machine: the calibration values of `robot.toml`, what the simulated robot has
-//! for them, and the record in flash through which the firmware learns them.
+//! Calibration values of `robot.toml`, which have not been measured on a real robot: their simulated values, and the
+//! record in flash through which the firmware reads them.
 
 use serde::Deserialize;
 
@@ -15,7 +15,7 @@ const MAGIC: u32 = 0x4C41_4352;
 const VERSION: u16 = 1;
 /// Magic, version and count before, the check value after the values.
 const FRAME_BYTES: usize = 12;
-/// Stands for a value that nobody knows.
+/// Marks an unknown value.
 const UNKNOWN: i32 = i32::MIN;
 
 #[derive(Deserialize)]
@@ -188,7 +188,7 @@ pub struct Particulars {
     pub battery_scale: i32,
     /// Reading of charger-voltage less that of battery-voltage without current, hundredths of a count.
     pub charge_zero: i32,
-    /// Leading ones of the code that the dock wants to hear.
+    /// Leading ones of the code that the dock expects.
     pub dock_code_ones: u8,
     /// Codes of the dock's left, right and near beam.
     pub beams: [u8; 3],

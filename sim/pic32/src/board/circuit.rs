@@ -1,4 +1,4 @@
-//! What the converter's inputs see, at the moment at which it samples.
+//! Levels of the ADC's inputs at the moment of a sample.
 
 use home::{Pcg, Sensors};
 
@@ -159,8 +159,8 @@ impl Circuit {
         self.cliffs[number].read(target, outputs.changed(emitters.pin), cycle)
     }
 
-    /// The receive multiplexer shows the sensor that is selected; the transmit multiplexer, which has the same select lines,
-    /// lights its emitter.
+    /// The receive multiplexer shows the sensor that is selected; the transmit multiplexer, which has the same select
+    /// lines, lights its emitter.
     fn proximity_counts(&mut self, cycle: u64, outputs: &Outputs<'_>) -> f64 {
         let emit = self.wiring.emit;
         let select = &self.wiring.sensor_select;

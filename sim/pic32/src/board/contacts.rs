@@ -1,7 +1,7 @@
 //! Switches: bumper, wheel drops, dust box, buttons, adapter.
 //!
-//! The home says once in a millisecond how they stand. A test may *force* one instead, at any cycle, to find out how long
-//! the firmware takes to react; and every change may *bounce*, as contacts do.
+//! The home sets their states once a millisecond. A test may *force* a state instead, at any cycle, to measure the
+//! firmware's reaction time; and every change may *bounce*, as contacts do.
 
 use home::{Pcg, Sensors};
 
@@ -22,7 +22,7 @@ pub enum Contact {
     WheelDropRight,
     /// The dust box is in.
     DustBox,
-    /// A button is down (which one tells the ladder).
+    /// A button is down (the ladder shows which one).
     AnyButton,
     /// The dock's contacts, or an adapter, carry voltage.
     Adapter,
@@ -65,7 +65,7 @@ impl Contact {
     }
 }
 
-/// Who says how a switch stands.
+/// Source of a switch's state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// The home.
@@ -76,7 +76,7 @@ pub enum Hold {
     Off,
 }
 
-/// From now on, or from a cycle to come, somebody else says how a switch stands.
+/// From a cycle on, the caller sets the state of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct ContactOverride {
     cycle: u64,
@@ -123,7 +123,7 @@ impl Contacts {
         })
     }
 
-    /// Somebody else says how the switch stands, from this cycle on.
+    /// The caller sets the state of the switch, from this cycle on.
     pub(super) fn plan(&mut self, contact: Contact, hold: Hold, cycle: u64) {
         self.plans.push(ContactOverride { cycle, contact, hold });
     }

@@ -7,7 +7,7 @@ use crate::pins::{Level, Pin};
 /// An edge that is to come: cycle, pin, level after it.
 pub(super) type ScheduledEdge = (u64, Pin, Level);
 
-/// Where a wheel's encoder stands, in counts: exactly, and what it shows. The two differ for ever once a sensor has lied.
+/// Position of a wheel's encoder in counts: true and shown. They differ permanently after a sensor fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Position {
     pub(super) exact: f64,
@@ -40,8 +40,8 @@ impl Encoder {
         [0, 1].map(|line| (cycle, self.lines[line], Level::of(levels[line])))
     }
 
-    /// The wheel moves to `after` in the millisecond that begins at `from`; its edges come at the moments at which whole
-    /// counts are passed.
+    /// The wheel moves to `after` in the millisecond that begins at `from`; its edges come at the moments at which
+    /// whole counts are passed.
     pub(super) fn turn(&mut self, after: Position, from: u64, edges: &mut Vec<ScheduledEdge>) {
         let steps = after.shown.wrapping_sub(self.before.shown);
         let forward = steps >= 0;
@@ -64,8 +64,8 @@ impl Encoder {
         self.before = after;
     }
 
-    /// When in the millisecond the step happens, 0..1: where the wheel passes a whole count, or evenly spread if the encoder
-    /// shows something else than what the wheel does.
+    /// When in the millisecond the step happens, 0..1: where the wheel passes a whole count, or evenly spread if the
+    /// encoder shows something else than what the wheel does.
     fn share(&self, after: Position, (step, count): (u32, u32)) -> f64 {
         let travelled = after.exact - self.before.exact;
         let whole = after.exact.floor() - self.before.exact.floor();
@@ -90,7 +90,7 @@ pub(super) struct BrushEncoder {
     halves: f64,
 }
 
-/// Share of full drive below which the brush stands: of no consequence for what is tested with it, so not a parameter.
+/// Share of full drive below which the brush does not turn. The tests do not depend on it, so it is not a parameter.
 const BRUSH_DEAD_BAND: f64 = 0.15;
 
 impl BrushEncoder {

@@ -21,7 +21,7 @@ pub(super) struct EmulatedGyro {
     receive: Pin,
     sender: Sender,
     fitted: GyroFitted,
-    /// Of a module that nobody knows.
+    /// Of an unknown module.
     layout: Option<GyroLayout>,
     period_ms: u64,
     count: u8,

@@ -1,4 +1,4 @@
-//! What people see and hear of the robot: its lights and its tone.
+//! The robot's lights and tone, as people perceive them.
 
 use crate::machine::Machine;
 use crate::pins::{Level, Pin};
@@ -9,8 +9,8 @@ use super::wiring::{DigitalLine, Wiring, selected};
 /// Channel of the sound multiplexer behind which the speaker is.
 const SPEAKER: u8 = 7;
 
-/// For how many cycles each light has been lit: by supply (main, battery, unknown) and line (0 to 4). A light is lit while
-/// its supply and its line are on.
+/// For how many cycles each light has been lit: by supply (main, battery, unknown) and line (0 to 4). A light is lit
+/// while its supply and its line are on.
 #[derive(Clone, Debug)]
 pub(super) struct LampTimes {
     supplies: [DigitalLine; 3],

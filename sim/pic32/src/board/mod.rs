@@ -1,6 +1,6 @@
-//! The board of the SR8730: what stands between the microcontroller's pins and the simulated home.
+//! The board of the SR8730, between the microcontroller's pins and the simulated home.
 //!
-//! Which pin does what is read from `robots/samsung-sr8730/pinout.toml`, what nobody has measured yet from the
+//! The pins are read from `robots/samsung-sr8730/pinout.toml`; values that have not been measured come from the
 //! calibration table of `robot.toml` beside it.
 
 mod beams;

@@ -76,7 +76,7 @@ pub(super) struct MotorOutputs {
 }
 
 impl MotorOutputs {
-    /// `deaf` wheel bridges go on with the last duty when they are told to brake.
+    /// `deaf` wheel bridges keep the last duty when commanded to brake.
     pub(super) fn new(wiring: &Wiring, deaf: bool) -> Self {
         let one = |enable, phase, mode| One {
             enable,

@@ -35,7 +35,7 @@ pub enum SignalLevel {
     Unknown,
 }
 
-/// What holds a line while nobody drives it.
+/// Pull of a line that is not driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pull {

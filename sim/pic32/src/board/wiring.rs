@@ -1,4 +1,4 @@
-//! Which pin ends in which part of the robot.
+//! Connections of the pins to the robot's parts.
 
 use super::BoardError;
 use super::pinout::{Pinout, Pull, SignalLevel};
@@ -91,7 +91,7 @@ pub struct Wiring {
     pub emit: DigitalLine,
     /// Analog input of the receive multiplexer's common.
     pub receive: u8,
-    /// 38 kHz receivers: dock left, dock right, rear left, rear right. On while they hear a carrier.
+    /// 38 kHz receivers: dock left, dock right, rear left, rear right. On while they receive a carrier.
     pub beam_receivers: [DigitalLine; 4],
     /// On while the contacts or the adapter carry voltage.
     pub adapter: DigitalLine,

@@ -1,8 +1,8 @@
 //! The inner loop: runs decoded code until something happens that it leaves to others.
 //!
-//! It calls nothing, so that everything it needs stays in registers of the host. The state of the core is taken over at its
-//! begin and handed back at its end. Addresses of instructions are indexes into the code here; an address outside of the
-//! code is an index beyond its end, from which the address can be had back (see [`Region::address`]).
+//! It calls nothing, so that everything it needs stays in registers of the host. The state of the core is taken over at
+//! its begin and handed back at its end. Addresses of instructions are indexes into the code here; an address outside
+//! of the code is an index beyond its end, from which the address can be had back (see [`Region::address`]).
 
 use super::Cpu;
 use super::operation::Operation;
@@ -64,7 +64,7 @@ impl Region {
     }
 }
 
-/// Where the inner loop stands.
+/// State of the inner loop.
 #[derive(Clone, Copy, Debug)]
 struct LoopState {
     index: usize,

@@ -14,8 +14,8 @@
 //! | `mul` | 1 or 2 | estimated |
 //! | entering or leaving a handler | 3, and the wait for its line of flash | estimated |
 //!
-//! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that gives
-//! it no memory), debug mode beyond `sdbbp` and `deret`.
+//! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that
+//! gives it no memory), debug mode beyond `sdbbp` and `deret`.
 //!
 //! **How it works.** Flash is decoded once ([`crate::memory`]). The inner loop (`inner.rs`) runs decoded code without any call;
 //! it is left for uncommon instructions, for registers of the chip, and when the next event is due.
@@ -61,7 +61,7 @@ pub struct InterruptRequest {
 pub enum Exit {
     /// The cycle that the caller named.
     Reached,
-    /// The peripherals want to be served.
+    /// The peripherals must be served.
     Horizon,
     /// Count has become equal to Compare: the interrupt flag of the core timer is to be set.
     CoreTimer,
@@ -87,7 +87,7 @@ pub struct Taken {
 pub enum CoreReset {
     /// Power-on and everything like it.
     Cold,
-    /// A non-maskable interrupt: Status.NMI is set, ErrorEPC tells where it was.
+    /// A non-maskable interrupt: Status.NMI is set, ErrorEPC holds the address.
     NonMaskable,
 }
 
@@ -205,7 +205,8 @@ impl Cpu {
         self.system.is_timer_pending()
     }
 
-    /// The lowest value that a function's entry (`addiu sp, sp, -n`) has given the stack pointer; nothing before the first.
+    /// The lowest value that a function's entry (`addiu sp, sp, -n`) has given the stack pointer; nothing before the
+    /// first.
     pub fn deepest_stack(&self) -> Option<u32> {
         (self.deepest_stack != u32::MAX).then_some(self.deepest_stack)
     }

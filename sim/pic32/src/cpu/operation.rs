@@ -1,7 +1,7 @@
 //! Decoded instructions, eight bytes each.
 //!
-//! The fields bear the names of the instruction's fields (`rs`, `rt`, `rd`). What the inner loop executes itself is here;
-//! everything else is an [`Uncommon`] instruction.
+//! The fields bear the names of the instruction's fields (`rs`, `rt`, `rd`). What the inner loop executes itself is
+//! here; everything else is an [`Uncommon`] instruction.
 
 use super::registers::{Source, WriteTarget};
 
@@ -67,7 +67,7 @@ pub(crate) enum Operation {
     Sw { rt: Source, base: Source, offset: u32 },
     Swl { rt: Source, base: Source, offset: u32 },
     Swr { rt: Source, base: Source, offset: u32 },
-    /// `words` is the way from the branch itself to its target.
+    /// `words` is the distance from the branch itself to its target.
     Beq { rs: Source, rt: Source, words: i32 },
     Bne { rs: Source, rt: Source, words: i32 },
     Blez { rs: Source, words: i32 },

@@ -6,7 +6,8 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Source(u8);
 
-/// A register that an instruction writes. Register 0 cannot be written: writes to it go to place 32, which nobody reads.
+/// A register that an instruction writes. Register 0 cannot be written: writes to it go to place 32, which is never
+/// read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WriteTarget(u8);
 

@@ -71,7 +71,7 @@ const BOOT_VECTORS: u32 = 0xBFC0_0200;
 const GENERAL_OFFSET: u32 = 0x180;
 const INTERRUPT_OFFSET: u32 = 0x200;
 
-/// A write to the system registers that others must hear of.
+/// A write to the system registers with effects elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coprocessor0Write {
     /// Nothing more to do.

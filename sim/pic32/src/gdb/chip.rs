@@ -2,7 +2,7 @@
 
 use super::{DebugTarget, GdbRegister, NoMemory, Stop};
 use crate::cpu::ExceptionCode;
-use crate::machine::{Fault, Halt, Machine, StopAt, Surroundings};
+use crate::machine::{Halt, Machine, ProgramFault, StopAt, Surroundings};
 use crate::peripheral::ResetSource;
 
 /// Cycles of a moment: 10 ms, short enough that a person who interrupts does not wait.
@@ -135,8 +135,8 @@ fn stop(halt: Halt) -> Option<Stop> {
     match halt {
         Halt::Reached => None,
         Halt::Breakpoint => Some(Stop::Breakpoint),
-        Halt::Fault(Fault::Misuse(_)) => Some(Stop::Trapped),
-        Halt::Fault(Fault::Exception(exception)) => Some(match exception.code {
+        Halt::Fault(ProgramFault::Misuse(_)) => Some(Stop::Trapped),
+        Halt::Fault(ProgramFault::Exception(exception)) => Some(match exception.code {
             ExceptionCode::AddressLoad
             | ExceptionCode::AddressStore
             | ExceptionCode::BusFetch

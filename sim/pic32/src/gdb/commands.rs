@@ -1,4 +1,4 @@
-//! What a packet asks for, and the answer.
+//! Requests of the debugger and their answers.
 
 use super::description::{by_number, register_hex, registers, xml};
 use super::packet::{PACKET_BYTES, from_hex, hex, number, unescaped};
@@ -9,11 +9,11 @@ use super::{DebugTarget, NoMemory, Stop};
 pub(super) enum PacketReply {
     /// This text; the empty one for what is not known here.
     Text(String),
-    /// Why the program stands.
+    /// Why the program has stopped.
     Why,
-    /// The program runs; an answer comes when it stands again.
+    /// The program runs; an answer comes when it stops.
     Run,
-    /// The program ran and stands.
+    /// The program ran and has stopped.
     Stop(Stop),
     /// `OK`, and no acknowledgements from now on.
     WithoutAcknowledgement,

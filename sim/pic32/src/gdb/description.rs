@@ -3,8 +3,8 @@
 use super::{DebugTarget, GdbRegister};
 use std::fmt::Write;
 
-/// Registers of the floating point unit, which GDB wants to hear of for any MIPS: 32 and two of control. They are told as
-/// not available.
+/// Registers of the floating point unit, which GDB wants to hear of for any MIPS: 32 and two of control. They are told
+/// as not available.
 const FLOAT_REGISTERS: u32 = 34;
 /// The first of them.
 const FLOAT_START: u32 = 38;
@@ -31,7 +31,7 @@ pub(super) fn by_number(number: u32) -> Option<Option<GdbRegister>> {
     }
 }
 
-/// A register as the protocol tells it.
+/// A register as the protocol encodes it.
 pub(super) fn register_hex(target: &dyn DebugTarget, register: Option<GdbRegister>) -> String {
     match register {
         Some(register) => super::packet::hex(&target.register(register).to_le_bytes()),

@@ -1,11 +1,12 @@
 //! The remote protocol of GDB: `target remote :PORT` in gdb-multiarch debugs the emulated program.
 //!
-//! [`Session`] is the protocol without I/O: bytes of the debugger go in, a [`DebugTarget`] is asked, bytes for the debugger come
-//! out. [`serve`] joins it to a TCP connection. [`DebugChip`] is a machine with its surroundings as a target.
+//! [`Session`] is the protocol without I/O: bytes of the debugger go in, a [`DebugTarget`] is asked, bytes for the
+//! debugger come out. [`serve`] joins it to a TCP connection. [`DebugChip`] is a machine with its surroundings as a
+//! target.
 //!
-//! What there is: registers, memory (flash included, so that `load` works), software and hardware breakpoints, `step`,
-//! `continue`, interruption, `monitor reset` and `monitor cycle`. What there is not: watchpoints, going backwards, threads.
-//! While the program stands, emulated time stands.
+//! Supported: registers, memory (flash included, so that `load` works), software and hardware breakpoints, `step`,
+//! `continue`, interruption, `monitor reset` and `monitor cycle`. Not supported: watchpoints, reverse execution,
+//! threads. While the program is stopped, emulated time is stopped.
 
 mod chip;
 mod commands;
@@ -37,7 +38,7 @@ pub enum GdbRegister {
     ProgramCounter,
 }
 
-/// Why a program stands.
+/// Why a program has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// A step is done, or it never ran.

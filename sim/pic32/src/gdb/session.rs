@@ -1,4 +1,4 @@
-//! A conversation with a debugger.
+//! A session with a debugger.
 
 use super::commands::{PacketReply, answer};
 use super::packet::{PacketEvent, PacketFramer, framed};
@@ -24,7 +24,7 @@ impl Default for Session {
 }
 
 impl Session {
-    /// A session in which the program stands.
+    /// A session with the program stopped.
     pub fn new() -> Self {
         Self {
             framer: PacketFramer::default(),
@@ -46,7 +46,7 @@ impl Session {
         }
     }
 
-    /// Whether the program runs: then [`Self::run`] wants to be called again and again.
+    /// Whether the program runs: then [`Self::run`] must be called repeatedly.
     pub fn is_running(&self) -> bool {
         self.is_running
     }
@@ -73,7 +73,7 @@ impl Session {
     fn handle(&mut self, event: PacketEvent, target: &mut dyn DebugTarget) {
         match event {
             PacketEvent::Interrupt if self.is_running => self.stopped(Stop::Interrupted),
-            // It stands already.
+            // It is stopped already.
             PacketEvent::Interrupt => {}
             PacketEvent::Refused => self.output.extend_from_slice(&self.last),
             PacketEvent::Damaged => self.output.push(b'-'),
@@ -116,7 +116,7 @@ impl Session {
     }
 }
 
-/// A stop as a signal of POSIX, which is how the protocol tells it.
+/// A stop as a POSIX signal, as the protocol encodes it.
 fn stop_reply(stop: Stop) -> &'static str {
     match stop {
         Stop::Stepped => "T05thread:1;",

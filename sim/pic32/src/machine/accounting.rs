@@ -1,4 +1,4 @@
-//! Where the time goes: cycles by interrupt vector and priority level, how late handlers begin, idling, the stack.
+//! Accounting of time: cycles by interrupt vector and priority level, interrupt latency, idle time, the stack.
 
 use crate::peripheral::VECTORS;
 
@@ -106,7 +106,7 @@ impl Accounting {
         }
     }
 
-    /// Charges the time up to `cycle` to whoever had it.
+    /// Charges the time up to `cycle` to its owner.
     pub(super) fn charge(&mut self, cycle: u64) {
         let passed = cycle.saturating_sub(self.charged_to);
         self.charged_to = self.charged_to.max(cycle);

@@ -58,7 +58,7 @@ impl Wait {
     }
 }
 
-/// What the converter wants at a cycle that has come.
+/// Action of the ADC that is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum AdcDue {
     Nothing,

@@ -102,7 +102,7 @@ impl Compare {
         CompareMode::of(self.control)
     }
 
-    /// Which timer it looks at, by the number of the timer that counts: 2 or 3 as 1 or 2, a pair as 1.
+    /// Its timer, by the number of the timer that counts: 2 or 3 as 1 or 2, a pair as 1.
     pub(crate) fn timer(&self) -> u8 {
         if self.control & TIMER_3 != 0 && self.control & WIDE == 0 {
             2

@@ -1,7 +1,7 @@
-//! Everything of the chip except core and memories: the special function registers and what stands behind them.
+//! Everything of the chip except core and memories: the special function registers and the peripherals behind them.
 //!
-//! Nothing is polled. Each part says at which cycle it wants to be called next (`schedule.rs`); what can be worked out when
-//! it is asked for (timer counts, PWM) has no events at all.
+//! Nothing is polled. Each part returns the cycle at which it must be called next (`schedule.rs`); what can be worked
+//! out when it is asked for (timer counts, PWM) has no events at all.
 //!
 //! | part | what is modelled | what is doubtful or left out |
 //! | --- | --- | --- |
@@ -75,7 +75,7 @@ use storage::Storage;
 use system::{SystemRegisters, Watchdog};
 use timers::Timers;
 
-/// What the peripherals want of core and memories.
+/// Requests of the peripherals to core and memories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
     /// The chip is to be reset.

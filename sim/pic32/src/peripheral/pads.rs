@@ -1,4 +1,4 @@
-//! Pins: which peripherals hold them, who hears of their changes, and what others see of them.
+//! Pins: the peripherals that own them, the observers of their changes, and their levels.
 
 use super::analog::Trigger;
 use super::capture::{self, Captured};

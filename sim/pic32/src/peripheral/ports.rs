@@ -214,7 +214,7 @@ impl Ports {
         }
     }
 
-    /// Writes an edge down for whoever watches the pin.
+    /// Records an edge for the observers of the pin.
     pub(crate) fn note_edge(&mut self, pin: Pin, level: Level, cycle: u64) {
         if let Some(edges) = self.edges.get_mut(&pin) {
             edges.push((cycle, level));

@@ -6,7 +6,7 @@ use crate::pins::Pin;
 /// How many different records of a kind are kept; those after it are only counted.
 const KEPT: usize = 64;
 
-/// Which way an access went.
+/// Direction of an access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AccessDirection {
     /// The program read.
@@ -20,7 +20,7 @@ pub enum AccessDirection {
 pub struct UnknownAccess {
     /// Physical address.
     pub address: u32,
-    /// Which way.
+    /// Direction.
     pub direction: AccessDirection,
     /// Virtual address of the first instruction that did it.
     pub pc: u32,

@@ -28,7 +28,7 @@ use crate::pins::Level;
 const FRONT: u8 = 3;
 /// A lit cliff receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
 const NO_FLOOR_LEVEL: u8 = 20;
-/// Time after a change of the emitters in which cliff levels mean nothing.
+/// Time after a change of the emitters in which cliff levels are not valid.
 const CLIFF_SETTLE_MS: u32 = 3;
 /// The charger's envelope: its mean over less says nothing.
 const ENVELOPE_MS: u64 = 20;
@@ -125,7 +125,7 @@ impl EmulatedRobot {
         robot
     }
 
-    /// Puts every line at the level it has at rest, and looks at those that must be seen to the cycle.
+    /// Sets every line to its level at rest, and watches those that must be observed to the cycle.
     fn connect(&mut self) {
         let now = self.machine.cycle();
         let mut edges = self.contacts.levels(now).to_vec();
@@ -148,7 +148,7 @@ impl EmulatedRobot {
         ]) {
             self.machine.watch(pin);
         }
-        // The host's UART holds its input high while nobody drives it.
+        // The host's UART holds its input high while it is not driven.
         let host_input = [self.wiring.link_transmit.pin];
         for pin in self.wiring.pulled_up.iter().chain(&host_input) {
             self.machine.pull_up(*pin);
@@ -157,8 +157,8 @@ impl EmulatedRobot {
         self.sound.watch(&mut self.machine);
     }
 
-    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the chip
-    /// did. What reaches the host's receiver is appended to `to_host`.
+    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the
+    /// chip did. What reaches the host's receiver is appended to `to_host`.
     pub fn tick(&mut self, to_host: &mut Vec<u8>) {
         let from = self.now_ms * CYCLES_PER_MS;
         self.now_ms += 1;
@@ -342,7 +342,7 @@ impl EmulatedRobot {
             brush_main: self.motors.duty(MotorOutput::BrushMain, machine),
             brush_sides: self.motors.duty(MotorOutput::BrushSides, machine) != 0.0,
             vacuum: self.motors.duty(MotorOutput::Vacuum, machine) != 0.0,
-            // The circuit knows whether they are lit at the moment of a sample; the home tells both levels.
+            // The circuit knows whether they are lit at the moment of a sample; the home provides both levels.
             cliff_emitter: true,
             dock_signal: self.ear.is_content(end),
             charge_a: self.actuation.charge_a,

@@ -1,12 +1,12 @@
-//! A UART's receiver that looks at a pin.
+//! A UART's receiver that samples a pin.
 
 use rvac_channel::ReceivedByte;
 
 use super::FRAME_BITS;
 use crate::pins::Level;
 
-/// A receiver for 8N1 that starts with a falling edge and samples each bit in its middle. After a wrong stop bit it waits
-/// for a high line.
+/// A receiver for 8N1 that starts with a falling edge and samples each bit in its middle. After a wrong stop bit it
+/// waits for a high line.
 #[derive(Clone, Debug)]
 pub struct BitReceiver {
     bit_cycles: f64,

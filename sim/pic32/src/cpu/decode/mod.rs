@@ -54,7 +54,7 @@ impl InstructionFields {
         self.0 & 0xFFFF
     }
 
-    /// The way from the branch to its target in words.
+    /// The distance from the branch to its target in words.
     fn words(self) -> i32 {
         i32::from(self.signed()) + 1
     }
