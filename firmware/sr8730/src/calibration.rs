@@ -322,7 +322,7 @@ mod tests {
     #[test]
     fn names_and_places_of_the_record_agree() {
         for (place, entry) in ENTRIES.iter().enumerate() {
-            assert_eq!(entry.value.index(), place, "{}", entry.name);
+            assert_eq!(entry.value.index(), place, "{:?}", entry.value);
             assert!(entry.low <= entry.high);
         }
     }

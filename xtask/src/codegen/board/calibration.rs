@@ -167,8 +167,6 @@ impl Calibrated {
 pub struct Entry {
     /// Which one.
     pub value: Calibrated,
-    /// Its name in `robot.toml`.
-    pub name: &'static str,
     /// Least value that can be true.
     pub low: i32,
     /// Greatest value that can be true.
@@ -221,9 +219,8 @@ impl Item {
             None => "None".to_owned(),
         };
         format!(
-            "Entry {{ value: Calibrated::{}, name: \"{}\", low: {}, high: {}, assumed: {assumed} }}",
+            "Entry {{ value: Calibrated::{}, low: {}, high: {}, assumed: {assumed} }}",
             rust_name::camel(&self.name),
-            self.name,
             rust_name::number(low),
             rust_name::number(high)
         )
@@ -277,7 +274,7 @@ mod tests {
         for part in [
             "pub const COUNT: usize = 2;",
             "    /// Wheel track (um). Needed for drive.\n    WheelTrack,",
-            "Entry { value: Calibrated::WheelTrack, name: \"wheel-track\", low: 100_000, high: 500_000, assumed: None }",
+            "Entry { value: Calibrated::WheelTrack, low: 100_000, high: 500_000, assumed: None }",
             "assumed: Some(200_000) }",
         ] {
             assert!(source.contains(part), "{part}\n{source}");
