@@ -17,7 +17,7 @@ pub struct Advance {
 
 impl Advance {
     /// Neither wheels nor gyro moved.
-    pub(crate) fn stands(&self) -> bool {
+    pub(crate) fn is_stationary(&self) -> bool {
         self.distance_m == 0.0 && self.turn_rad == 0.0
     }
 }

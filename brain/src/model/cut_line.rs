@@ -3,7 +3,7 @@
 use super::geometry::Point2;
 use super::no_go::in_micrometres;
 use super::reason::Reason;
-use super::zone::FAR_M;
+use super::zone::COORDINATE_MAX_M;
 
 /// Shortest line, metres.
 const LINE_MIN_M: f64 = 0.05;
@@ -21,7 +21,7 @@ impl CutLine {
     /// # Errors
     /// [`Reason::BadLine`] when they are one place or far away.
     pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
-        let is_near = |end: &Point2| end.x_m.abs() < FAR_M && end.y_m.abs() < FAR_M;
+        let is_near = |end: &Point2| end.x_m.abs() < COORDINATE_MAX_M && end.y_m.abs() < COORDINATE_MAX_M;
         let line = Self {
             from: in_micrometres(from),
             to: in_micrometres(to),

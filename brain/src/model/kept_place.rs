@@ -4,7 +4,7 @@ use super::geometry::Point2;
 use super::no_go::{RoomName, in_micrometres};
 use super::order::HomePart;
 use super::reason::Reason;
-use super::zone::{FAR_M, Zone};
+use super::zone::{COORDINATE_MAX_M, Zone};
 
 /// What a person has drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,9 @@ impl KeptPlace {
                 let corners = zone.corners().iter().copied().map(in_micrometres);
                 PlaceShape::Zone(Zone::new(corners.collect())?)
             }
-            PlaceShape::Spot(place) if place.x_m.abs() < FAR_M && place.y_m.abs() < FAR_M => {
+            PlaceShape::Spot(place)
+                if place.x_m.abs() < COORDINATE_MAX_M && place.y_m.abs() < COORDINATE_MAX_M =>
+            {
                 PlaceShape::Spot(in_micrometres(*place))
             }
             PlaceShape::Spot(_) => return Err(Reason::BadZone),

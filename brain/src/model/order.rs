@@ -11,7 +11,7 @@ const PARTS_MAX: usize = 32;
 /// Most places that a job may be told to keep out of.
 const AVOID_MAX: usize = 16;
 /// Radius of a spot in metres.
-pub const DISC_M: f64 = 0.5;
+pub const SPOT_RADIUS_M: f64 = 0.5;
 
 /// A part of the home.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub enum HomePart {
     Room(u16),
     /// A zone.
     Zone(Zone),
-    /// The disc of [`DISC_M`] around a place.
+    /// The disc of [`SPOT_RADIUS_M`] around a place.
     Spot(Point2),
 }
 

@@ -6,7 +6,7 @@ use super::reason::Reason;
 /// Most corners of a zone.
 pub(crate) const CORNERS_MAX: usize = 64;
 /// Corners of a zone are nearer to the map's origin than this, metres.
-pub const FAR_M: f64 = 500.0;
+pub const COORDINATE_MAX_M: f64 = 500.0;
 
 /// A polygon on the floor in the map frame. Edges may cross; what lies inside an odd number of times is in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +20,8 @@ impl Zone {
     /// # Errors
     /// [`Reason::BadZone`] for anything else.
     pub fn new(corners: Vec<Point2>) -> Result<Self, Reason> {
-        let is_near = |corner: &Point2| corner.x_m.abs() < FAR_M && corner.y_m.abs() < FAR_M;
+        let is_near =
+            |corner: &Point2| corner.x_m.abs() < COORDINATE_MAX_M && corner.y_m.abs() < COORDINATE_MAX_M;
         if (3..=CORNERS_MAX).contains(&corners.len()) && corners.iter().all(is_near) {
             Ok(Self { corners })
         } else {

@@ -215,8 +215,8 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
         let is = at(0.005 * step as f64, 0.0, 0.0);
         Keyframe {
             time_us: 20_000 * (step + 1),
-            was: bent(is),
-            is,
+            odom_from_base: bent(is),
+            map_from_base: is,
         }
     };
     let keyframes: Vec<Keyframe> = (0..300)
@@ -255,14 +255,14 @@ fn what_is_stored_and_taken_up_is_known_again() {
     let corners = [(0.05, 0.0), (0.1, 0.0), (0.1, 0.05), (0.05, 0.05)];
     let forbidden = Zone::new(corners.map(|(x_m, y_m)| at(x_m, y_m, 0.0).position()).to_vec()).unwrap();
     fed.map.add_no_go(NoGo::zone(&forbidden).unwrap()).unwrap();
-    fed.map.feel_dock(at(0.25, 0.5, -1.0));
+    fed.map.measure_dock(at(0.25, 0.5, -1.0));
     fed.map.refresh();
     let stored = fed.map.stored();
     // Three or four bytes each.
     let runs = stored.parts().cells.len();
     assert!(runs < 1000, "{runs} runs for 1.5 m of wall");
     let mut again = Map::new(BODY, sensors());
-    again.take_up(&StoredMap::from_parts(stored.parts()).unwrap());
+    again.load(&StoredMap::from_parts(stored.parts()).unwrap());
     for (index, kind) in fed.map.knowledge().values().iter().enumerate() {
         let cell = fed.map.knowledge().cell(index);
         assert_eq!(
@@ -408,7 +408,7 @@ fn three_rooms(origin: (f64, f64)) -> Raster<CellKnowledge> {
 
 #[test]
 fn doors_divide_rooms_and_furniture_does_not() {
-    let rooms = Rooms::default().renewed(&three_rooms((0.0, 0.0)));
+    let rooms = Rooms::default().segmented(&three_rooms((0.0, 0.0)));
     let areas: Vec<f64> = rooms.rooms().iter().map(|room| room.area_m2).collect();
     assert_eq!(areas.len(), 3, "{areas:?}");
     for (found, expected) in areas.iter().zip([12.0, 9.0, 7.5]) {
@@ -430,11 +430,11 @@ fn doors_divide_rooms_and_furniture_does_not() {
 fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
     let mut half = three_rooms((0.0, 0.0));
     paint(&mut half, (-0.2, -0.2), (4.0, 3.2), CellKnowledge::Unknown);
-    let before = Rooms::default().renewed(&half);
+    let before = Rooms::default().segmented(&half);
     assert_eq!(before.rooms().len(), 2);
     let (middle, last) = (before.room_at(point(5.5, 1.5)), before.room_at(point(8.5, 1.0)));
     // Drawn again with an error of 12 cm, and with the room that was missing.
-    let after = before.renewed(&three_rooms((0.12, -0.12)));
+    let after = before.segmented(&three_rooms((0.12, -0.12)));
     assert_eq!(after.room_at(point(5.5, 1.5)), middle);
     assert_eq!(after.room_at(point(8.5, 1.0)), last);
     assert_eq!(
@@ -443,10 +443,10 @@ fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
         "the new one gets a new identity"
     );
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&half, None));
+    map.load(&StoredMap::from_raster(&half, None));
     let stored = map.stored();
     let mut again = Map::new(BODY, SensorLayout::default());
-    again.take_up(&stored);
+    again.load(&stored);
     assert_eq!(again.rooms(), map.rooms(), "rooms outlive the disk");
     assert_eq!(again.rooms().rooms().len(), 2);
 }
@@ -454,7 +454,7 @@ fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
 #[test]
 fn walls_are_straight_and_where_they_are() {
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&three_rooms((0.0, 0.0)), None));
+    map.load(&StoredMap::from_raster(&three_rooms((0.0, 0.0)), None));
     let walls = map.walls();
     let longest = walls
         .iter()
@@ -486,7 +486,7 @@ fn walls_are_straight_and_where_they_are() {
 fn the_body_reaches_what_it_fits_into() {
     let home = three_rooms((0.0, 0.0));
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&home, None));
+    map.load(&StoredMap::from_raster(&home, None));
     let area_m2 = |clearance_m: f64| {
         let cells = map.reachable(point(0.5, 0.5), clearance_m);
         cells.values().iter().filter(|there| **there).count() as f64 * CELL_M * CELL_M
@@ -514,10 +514,10 @@ fn the_body_reaches_what_it_fits_into() {
 #[test]
 fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touched() {
     let mut seen = Fed::new(sensors());
-    assert_eq!(seen.map.sureness(), None, "nothing is known");
+    assert_eq!(seen.map.confidence(), None, "nothing is known");
     drive_along_wall(&mut seen, |pose| pose);
     seen.map.refresh();
-    let seen = seen.map.sureness().expect("there is floor");
+    let seen = seen.map.confidence().expect("there is floor");
     assert!((seen.sigma_m - 0.01).abs() < 0.002, "{seen:?}");
     assert!(seen.touched < 0.1 && seen.driven < 1.0, "{seen:?}");
     let mut blind = Fed::new(SensorLayout::default());
@@ -537,6 +537,6 @@ fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touch
         }
     }
     blind.map.refresh();
-    let blind = blind.map.sureness().expect("there is floor");
+    let blind = blind.map.confidence().expect("there is floor");
     assert!(blind.touched > 0.9 && blind.driven > 0.9, "{blind:?}");
 }

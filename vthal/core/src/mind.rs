@@ -9,7 +9,7 @@ mod next_run;
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
 use brain::{
-    Actions, BehaviorState, Body, Brain, Checkpoint, Command, LearntPart, MapCursor, ReadyHome, Reason,
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, LearntPart, LoadedHome, MapCursor, Reason,
     Speeds,
 };
 use floors::Carried;
@@ -168,7 +168,7 @@ impl Mind {
         let map = self.brain.map();
         self.home_base
             .wrapping_add(map.revision())
-            .wrapping_add(map.floor_revision())
+            .wrapping_add(map.surface_revision())
     }
 
     /// Whether the robot measures what its motors draw.
@@ -336,7 +336,7 @@ impl Mind {
     fn begin_run(
         &mut self,
         now_us: u64,
-        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<ReadyHome>),
+        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<LoadedHome>),
         recorder: &mut Recorder<'_>,
     ) {
         self.map_base = self.map_number();

@@ -5,14 +5,14 @@ mod painting;
 use core::task::Poll;
 
 use super::annotations::Annotations;
-use super::carpet::FloorFelt;
+use super::carpet::SurfaceObservation;
 use super::derived::Derived;
-use super::dock::DockPlace;
-use super::draw::Pencil;
-use super::layers::{CellBox, CellKnowledge, Flag, Layers};
+use super::dock_location::DockLocation;
+use super::inverse_sensor_model::InverseSensorModel;
+use super::occupancy_grid::{CellBox, CellKnowledge, Flag, OccupancyGrid};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
-use super::wall_direction::DirectionAt;
+use super::wall_direction::CachedDirection;
 use super::{CELL_M, Cell, Raster, StoredMap};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::Point2;
@@ -23,7 +23,7 @@ use crate::model::pose_estimate::PoseEstimate;
 /// Derived rasters are brought up to date after this time, microseconds.
 const REFRESH_US: u64 = 2_000_000;
 /// Rooms are looked for again after this time, microseconds.
-const SURVEY_US: u64 = 120_000_000;
+const SEGMENTATION_INTERVAL_US: u64 = 120_000_000;
 /// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
 const SIGHTINGS_MAX: usize = 100_000;
 /// Radius of what is shut around a place that trapped the robot; plans keep the body's radius away from it, too.
@@ -31,7 +31,7 @@ const POCKET_M: f64 = 0.1;
 
 /// Whether a cell may be entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Entry {
+pub(super) enum Access {
     /// It may.
     Allowed,
     /// It may not.
@@ -41,27 +41,27 @@ pub(super) enum Entry {
 /// What is known of the home.
 #[derive(Debug)]
 pub(super) struct HomeMap {
-    pub(super) pencil: Pencil,
-    pub(super) layers: Layers,
+    pub(super) sensor_model: InverseSensorModel,
+    pub(super) grid: OccupancyGrid,
     pub(super) derived: Derived,
     /// What was known before the first of the sightings.
-    pub(super) base: Layers,
+    pub(super) base: OccupancyGrid,
     pub(super) sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
     /// Tiles that are not brought up to date yet, of those that were to be.
     pub(super) stale_tiles: usize,
     pub(super) rooms: Rooms,
-    surveyed_us: u64,
-    surveying: Option<Gradual<Rooms>>,
-    pub(super) dock: DockPlace,
+    segmented_us: u64,
+    segmentation: Option<Gradual<Rooms>>,
+    pub(super) dock: DockLocation,
     pub(super) revision: u32,
     /// Grows when a kind of floor has changed; apart from `revision`, by which plans are judged.
-    pub(super) floor_revision: u32,
-    /// Something was felt of the floor since that grew.
-    floor_is_new: bool,
+    pub(super) surface_revision: u32,
+    /// Something was observed of the floor since that grew.
+    surface_is_new: bool,
     /// Direction of the walls at a revision.
-    pub(super) direction: DirectionAt,
+    pub(super) direction: CachedDirection,
     pub(super) redrawn: u32,
     /// Cells that are shut until the next job.
     pub(super) pockets: Vec<Cell>,
@@ -73,22 +73,22 @@ pub(super) struct HomeMap {
 impl HomeMap {
     pub(super) fn new(body: Body, sensors: SensorLayout) -> Self {
         Self {
-            pencil: Pencil { body, sensors },
-            layers: Layers::default(),
+            sensor_model: InverseSensorModel { body, sensors },
+            grid: OccupancyGrid::default(),
             derived: Derived::default(),
-            base: Layers::default(),
+            base: OccupancyGrid::default(),
             sightings: Vec::new(),
             last: None,
             refreshed_us: 0,
             stale_tiles: 0,
             rooms: Rooms::default(),
-            surveyed_us: 0,
-            surveying: None,
-            dock: DockPlace::default(),
+            segmented_us: 0,
+            segmentation: None,
+            dock: DockLocation::default(),
             revision: 0,
-            floor_revision: 0,
-            floor_is_new: false,
-            direction: DirectionAt::default(),
+            surface_revision: 0,
+            surface_is_new: false,
+            direction: CachedDirection::default(),
             redrawn: 0,
             pockets: Vec::new(),
             annotations: Annotations::default(),
@@ -102,35 +102,35 @@ impl HomeMap {
             return;
         }
         if observation.docked && self.dock.pose().is_none() {
-            self.dock = DockPlace::sure(estimate.pose);
+            self.dock = DockLocation::converged(estimate.pose);
         }
         let mut sighting = Sighting::new(estimate, observation);
-        let before = self.last.map(|last| last.touched).unwrap_or_default();
-        sighting.touched = sighting.touched.after(before);
+        let before = self.last.map(|last| last.switches).unwrap_or_default();
+        sighting.switches = sighting.switches.after(before);
         if self.last.is_some_and(|last| sighting.repeats(&last)) {
             return;
         }
         self.last = Some(sighting);
         self.sightings.push(sighting);
-        self.pencil.draw(&sighting, &mut self.layers);
+        self.sensor_model.draw(&sighting, &mut self.grid);
         if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
             self.refreshed_us = observation.time_us;
             self.begin_refresh();
         }
-        if observation.time_us >= self.surveyed_us.saturating_add(SURVEY_US) {
-            self.surveyed_us = observation.time_us;
-            self.begin_survey();
+        if observation.time_us >= self.segmented_us.saturating_add(SEGMENTATION_INTERVAL_US) {
+            self.segmented_us = observation.time_us;
+            self.begin_segmentation();
         }
     }
 
     /// Sets or clears a flag, whatever is drawn again later.
-    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, entry: Entry) {
-        let change = |evidence: &mut super::layers::Evidence| match entry {
-            Entry::Forbidden => evidence.set(flag),
-            Entry::Allowed => evidence.clear(flag),
+    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, access: Access) {
+        let change = |evidence: &mut super::occupancy_grid::Evidence| match access {
+            Access::Forbidden => evidence.set(flag),
+            Access::Allowed => evidence.clear(flag),
         };
         self.base.change(cell, change);
-        self.layers.change(cell, change);
+        self.grid.change(cell, change);
     }
 
     /// Forbids the cells around a place until [`Self::open_pockets`].
@@ -148,7 +148,7 @@ impl HomeMap {
     /// Forbids cells until [`Self::open_pockets`].
     pub(super) fn shut(&mut self, cells: impl Iterator<Item = Cell>) {
         for cell in cells {
-            self.flag(cell, Flag::Pocket, Entry::Forbidden);
+            self.flag(cell, Flag::Pocket, Access::Forbidden);
             self.pockets.push(cell);
         }
         self.refresh();
@@ -157,43 +157,47 @@ impl HomeMap {
     /// A new job may go everywhere again: things are moved.
     pub(super) fn open_pockets(&mut self) {
         for cell in core::mem::take(&mut self.pockets) {
-            self.flag(cell, Flag::Pocket, Entry::Allowed);
+            self.flag(cell, Flag::Pocket, Access::Allowed);
         }
         self.refresh();
     }
 
-    pub(super) fn survey(&mut self) {
+    pub(super) fn segment_rooms(&mut self) {
         self.refresh();
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
-        let with_changes = (knowledge, self.annotations.room_changes());
-        self.rooms = at_once(self.rooms.renewed_in_steps(with_changes, &mut Pace::at_once()));
-        self.surveying = None;
+        let changes = self.annotations.room_changes();
+        self.rooms = at_once(
+            self.rooms
+                .segmented_in_steps(knowledge, changes, &mut Pace::at_once()),
+        );
+        self.segmentation = None;
     }
 
-    /// Begins to look for rooms in what is known now. That goes on with [`Self::survey_on`].
-    fn begin_survey(&mut self) {
+    /// Begins to look for rooms in what is known now. That goes on with [`Self::continue_segmentation`].
+    fn begin_segmentation(&mut self) {
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.unwrap_or_else(|| self.derived.knowledge.clone());
         let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
-        self.surveying = Some(Gradual::new(async move {
-            let with_changes = (&knowledge, &changes);
-            before.renewed_in_steps(with_changes, &mut Pace::in_steps()).await
+        self.segmentation = Some(Gradual::new(async move {
+            before
+                .segmented_in_steps(&knowledge, &changes, &mut Pace::in_steps())
+                .await
         }));
     }
 
-    pub(super) fn survey_on(&mut self) {
-        if let Some(surveying) = &mut self.surveying
-            && let Poll::Ready(rooms) = surveying.go_on()
+    pub(super) fn continue_segmentation(&mut self) {
+        if let Some(segmentation) = &mut self.segmentation
+            && let Poll::Ready(rooms) = segmentation.go_on()
         {
             self.rooms = rooms;
-            self.surveying = None;
+            self.segmentation = None;
         }
     }
 
     /// Cells that tiles cover.
     pub(super) fn bounds(&self) -> Option<CellBox> {
-        self.layers.bounds()
+        self.grid.bounds()
     }
 
     pub(super) fn knowledge(&self) -> &Raster<CellKnowledge> {
@@ -202,7 +206,7 @@ impl HomeMap {
 
     /// What would be known of a cell without a flag.
     pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
-        let mut evidence = self.layers.at(cell);
+        let mut evidence = self.grid.at(cell);
         flags.iter().for_each(|flag| evidence.clear(*flag));
         evidence.knowledge()
     }
@@ -220,7 +224,7 @@ impl HomeMap {
 
     /// What was seen up to now stays where it is.
     pub(super) fn settle(&mut self) {
-        self.base = self.layers.clone();
+        self.base = self.grid.clone();
         self.sightings.clear();
     }
 
@@ -229,36 +233,36 @@ impl HomeMap {
         if self.last.is_some()
             && let Some(newest) = self.sightings.last_mut()
         {
-            newest.touched.note_sweeping();
+            newest.switches.note_sweeping();
         }
     }
 
-    /// Takes in what is felt of the floor at an observation, if that was new to the map.
-    pub(super) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) -> Option<Sighting> {
+    /// Takes in what is observed of the floor at an observation, if that was new to the map.
+    pub(super) fn note_surface(&mut self, time_us: u64, observed: SurfaceObservation) -> Option<Sighting> {
         let newest = self.sightings.last_mut()?;
         if newest.time_us != time_us {
             return None;
         }
-        newest.floor = Some(felt);
-        self.pencil.draw_floor(newest, &mut self.layers);
-        self.floor_is_new = true;
+        newest.surface = Some(observed);
+        self.sensor_model.draw_surface(newest, &mut self.grid);
+        self.surface_is_new = true;
         Some(*newest)
     }
 
     /// Begins to bring up to date what changed up to now, tile by tile.
     pub(super) fn begin_refresh(&mut self) {
-        if core::mem::take(&mut self.floor_is_new) {
-            self.floor_revision = self.floor_revision.wrapping_add(1);
+        if core::mem::take(&mut self.surface_is_new) {
+            self.surface_revision = self.surface_revision.wrapping_add(1);
         }
         self.paint_what_came();
-        self.stale_tiles = self.layers.dirty_tiles();
+        self.stale_tiles = self.grid.dirty_tiles();
     }
 
     pub(super) fn refresh_on(&mut self) {
         if self.stale_tiles == 0 {
             return;
         }
-        self.derived.refresh_tile(&mut self.layers);
+        self.derived.refresh_tile(&mut self.grid);
         self.stale_tiles -= 1;
         if self.stale_tiles == 0 {
             self.revision = self.revision.wrapping_add(1);
@@ -268,45 +272,45 @@ impl HomeMap {
     pub(super) fn refresh(&mut self) {
         self.stale_tiles = 0;
         self.paint_what_came();
-        if self.layers.is_dirty() {
-            self.derived.refresh(&mut self.layers);
+        if self.grid.is_dirty() {
+            self.derived.refresh(&mut self.grid);
             self.revision = self.revision.wrapping_add(1);
         }
     }
 
-    /// Takes up layers that were drawn again; what was seen meanwhile is in them.
-    pub(super) fn take_redrawn(&mut self, layers: Layers, derived: Derived) {
-        self.layers = layers;
+    /// Takes up grid that were drawn again; what was seen meanwhile is in them.
+    pub(super) fn take_redrawn(&mut self, grid: OccupancyGrid, derived: Derived) {
+        self.grid = grid;
         self.paint_no_go();
         self.derived = derived;
         self.stale_tiles = 0;
-        self.derived.refresh(&mut self.layers);
+        self.derived.refresh(&mut self.grid);
         self.revision = self.revision.wrapping_add(1);
         self.redrawn = self.redrawn.wrapping_add(1);
     }
 
     /// The same with a stored home instead of nothing.
     pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
-        self.layers = stored.layers(pace).await;
-        self.base = self.layers.clone();
-        self.dock = stored.dock_place();
+        self.grid = stored.grid(pace).await;
+        self.base = self.grid.clone();
+        self.dock = stored.dock_location();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
-        self.derived = Derived::anew(&mut self.layers, pace).await;
+        self.derived = Derived::compute(&mut self.grid, pace).await;
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
-        let with_changes = (knowledge, self.annotations.room_changes());
-        self.rooms = stored.rooms().renewed_in_steps(with_changes, pace).await;
+        let changes = self.annotations.room_changes();
+        self.rooms = stored.rooms().segmented_in_steps(knowledge, changes, pace).await;
         self
     }
 
     /// Goes on with the counters of the home that was there before.
     pub(super) fn count_on(&mut self, before: &Self) {
         self.revision = before.revision.wrapping_add(1);
-        self.floor_revision = before.floor_revision.wrapping_add(1);
+        self.surface_revision = before.surface_revision.wrapping_add(1);
         self.redrawn = before.redrawn;
         self.refreshed_us = before.refreshed_us;
-        self.surveyed_us = before.surveyed_us;
+        self.segmented_us = before.segmented_us;
     }
 }
 

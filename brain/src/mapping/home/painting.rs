@@ -1,7 +1,7 @@
-//! No-go zones in the layers of the home.
+//! No-go zones in the grid of the home.
 
-use super::{Entry, HomeMap};
-use crate::mapping::layers::Flag;
+use super::{Access, HomeMap};
+use crate::mapping::occupancy_grid::Flag;
 use crate::mapping::zone_cells::cells_of;
 use crate::mapping::{Cell, CellKnowledge, Raster};
 use crate::model::no_go::NoGo;
@@ -13,7 +13,7 @@ impl HomeMap {
         let areas = self.annotations.no_go.values().map(NoGo::area);
         let cells: Vec<Cell> = areas.flat_map(|area| cells_of(area, window)).collect();
         for cell in cells {
-            self.flag(cell, Flag::NoGo, Entry::Forbidden);
+            self.flag(cell, Flag::NoGo, Access::Forbidden);
         }
         self.painted = Some(window);
     }

@@ -4,15 +4,15 @@ use core::f64::consts::TAU;
 
 use super::Map;
 use crate::mapping::annotations::NAMES_MAX;
-use crate::mapping::home::Entry;
-use crate::mapping::layers::{CellBox, Flag};
+use crate::mapping::home::Access;
+use crate::mapping::occupancy_grid::{CellBox, Flag};
 use crate::mapping::zone_cells::{cells_between, cells_of};
 use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::reason::Reason;
 use crate::model::room_settings::RoomSettings;
-use crate::model::zone::{FAR_M, Zone};
+use crate::model::zone::{COORDINATE_MAX_M, Zone};
 
 impl Map {
     /// What people have said of the home.
@@ -47,7 +47,7 @@ impl Map {
         if !cells_of(no_go.area(), window).any(is_floor) {
             return Err(Reason::NoFloorThere);
         }
-        let radius_m = self.home.pencil.body.radius_m;
+        let radius_m = self.home.sensor_model.body.radius_m;
         match self.dock() {
             Some(dock) if no_go.area().distance_m(dock.position()) < radius_m => Err(Reason::DockInside),
             _ => Ok(()),
@@ -115,7 +115,7 @@ impl Map {
     fn allow(&mut self, area: &Zone) {
         let Some(window) = self.home.bounds() else { return };
         for cell in cells_of(area, window) {
-            self.home.flag(cell, Flag::NoGo, Entry::Allowed);
+            self.home.flag(cell, Flag::NoGo, Access::Allowed);
             if let Some(redrawing) = &mut self.redrawing {
                 redrawing.allow(cell);
             }
@@ -234,12 +234,14 @@ impl Map {
     /// # Errors
     /// The named reason against it.
     pub fn admit_dock_move(&self, pose: Pose2) -> Result<(), Reason> {
-        let is_near = pose.x_m.abs() < FAR_M && pose.y_m.abs() < FAR_M && pose.heading_rad.is_finite();
+        let is_near = pose.x_m.abs() < COORDINATE_MAX_M
+            && pose.y_m.abs() < COORDINATE_MAX_M
+            && pose.heading_rad.is_finite();
         let window = self.home.bounds().ok_or(Reason::NoMap)?;
         if !is_near || !self.has_floor_under(pose.position(), window) {
             return Err(Reason::NoFloorThere);
         }
-        let radius_m = self.home.pencil.body.radius_m;
+        let radius_m = self.home.sensor_model.body.radius_m;
         let mut no_gos = self.home.annotations.no_go.values();
         if no_gos.any(|no_go| no_go.area().distance_m(pose.position()) < radius_m) {
             return Err(Reason::DockInside);
@@ -253,7 +255,7 @@ impl Map {
     /// As [`Self::admit_dock_move`]; then nothing is changed.
     pub fn move_dock(&mut self, pose: Pose2) -> Result<(), Reason> {
         self.admit_dock_move(pose)?;
-        self.home.dock.tell(Pose2 {
+        self.home.dock.report(Pose2 {
             heading_rad: normalize_rad(pose.heading_rad % TAU),
             ..pose
         });
@@ -262,13 +264,13 @@ impl Map {
     }
 
     fn has_floor_under(&self, place: Point2, window: CellBox) -> bool {
-        let reach_m = self.home.pencil.body.radius_m;
+        let reach_m = self.home.sensor_model.body.radius_m;
         let corner = |sign: f64| Point2 {
             x_m: place.x_m + sign * reach_m,
             y_m: place.y_m + sign * reach_m,
         };
         let knowledge = self.knowledge();
-        cells_between((corner(-1.0), corner(1.0)), window)
+        cells_between(corner(-1.0), corner(1.0), window)
             .filter(|cell| cell.middle().distance_m(place) <= reach_m)
             .any(|cell| {
                 let kind = knowledge.get(cell);

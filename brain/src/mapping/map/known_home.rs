@@ -1,12 +1,12 @@
 //! What the map knows of the home, for those who ask.
 
 use super::Map;
-use crate::mapping::layers::Flag;
+use crate::mapping::occupancy_grid::Flag;
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
 use crate::mapping::walls::walls;
 use crate::mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, FloorKind, Raster, Rooms, WallSegment,
+    CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, Raster, Rooms, SurfaceKind, WallSegment,
 };
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Pace, at_once};
@@ -24,7 +24,7 @@ impl Map {
         }
         self.home.insert(estimate, observation);
         self.home.refresh_on();
-        self.home.survey_on();
+        self.home.continue_segmentation();
         self.redraw_on();
     }
 
@@ -71,20 +71,20 @@ impl Map {
 
     /// Grows when something is known of the kinds of floor that was not, up to two seconds late.
     #[must_use]
-    pub fn floor_revision(&self) -> u32 {
-        self.home.floor_revision
+    pub fn surface_revision(&self) -> u32 {
+        self.home.surface_revision
     }
 
     /// The kind of floor of a cell, if it was felt.
     #[must_use]
-    pub fn floor_kind(&self, cell: Cell) -> Option<FloorKind> {
-        self.home.layers.at(cell).floor()
+    pub fn surface_kind(&self, cell: Cell) -> Option<SurfaceKind> {
+        self.home.grid.at(cell).surface()
     }
 
     /// The cells whose kind of floor is known, tile by tile.
-    pub fn floor_kinds(&self) -> impl Iterator<Item = (Cell, FloorKind)> + '_ {
-        let gathered = self.home.layers.gathered();
-        gathered.filter_map(|(cell, evidence)| Some((cell, evidence.floor()?)))
+    pub fn surface_kinds(&self) -> impl Iterator<Item = (Cell, SurfaceKind)> + '_ {
+        let gathered = self.home.grid.gathered();
+        gathered.filter_map(|(cell, evidence)| Some((cell, evidence.surface()?)))
     }
 
     /// Grows whenever the map was drawn again with other poses of the past: whoever has a plan in it needs another one.
@@ -93,7 +93,7 @@ impl Map {
         self.home.redrawn
     }
 
-    /// Rooms and doors, up to two minutes old; [`Self::survey`] brings them up to date.
+    /// Rooms and doors, up to two minutes old; [`Self::segment_rooms`] brings them up to date.
     #[must_use]
     pub fn rooms(&self) -> &Rooms {
         &self.home.rooms
@@ -109,8 +109,8 @@ impl Map {
     }
 
     /// Looks for rooms and doors in what is known now. Some ten milliseconds for a home.
-    pub fn survey(&mut self) {
-        self.home.survey();
+    pub fn segment_rooms(&mut self) {
+        self.home.segment_rooms();
     }
 
     /// Straight walls in what is known, longest line first. Some ten milliseconds for a home: for people who look at it.
@@ -129,13 +129,13 @@ impl Map {
 
     /// The same with what it is known from.
     #[must_use]
-    pub fn dock_place(&self) -> DockPlace {
+    pub fn dock_location(&self) -> DockLocation {
         self.home.dock
     }
 
     /// The robot stands on its dock there.
-    pub fn feel_dock(&mut self, pose: Pose2) {
-        self.home.dock.feel(pose);
+    pub fn measure_dock(&mut self, pose: Pose2) {
+        self.home.dock.measure(pose);
         self.home.touch();
     }
 
@@ -152,7 +152,7 @@ impl Map {
     /// Standard deviation of the pose when a cell was seen best, in metres; `None` if it never was.
     #[must_use]
     pub fn sigma_m(&self, cell: Cell) -> Option<f64> {
-        let evidence = self.home.layers.at(cell);
+        let evidence = self.home.grid.at(cell);
         evidence
             .has(Flag::Seen)
             .then(|| 0.01 * f64::from(evidence.sigma_cm))
@@ -162,7 +162,7 @@ impl Map {
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let home = &self.home;
-        home.layers.memory_bytes()
+        home.grid.memory_bytes()
             + home.base.memory_bytes()
             + home.derived.distance.memory_bytes()
             + home.derived.knowledge.values().len()

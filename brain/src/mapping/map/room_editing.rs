@@ -27,7 +27,7 @@ impl Map {
             self.room(room)?;
         }
         self.home.annotations.rooms.has_room_for_another()?;
-        if self.home.rooms.next() == u16::MAX {
+        if self.home.rooms.next_id() == u16::MAX {
             return Err(Reason::TooManyRoomChanges);
         }
         let cut = cut(self.rooms().labels(), room, line)?;
@@ -41,8 +41,8 @@ impl Map {
     /// As [`Self::admit_room_split`]; then nothing is changed.
     pub fn split_room(&mut self, room: Option<u16>, line: CutLine) -> Result<(), Reason> {
         let (room, side) = self.split_of(room, &line)?;
-        let before = self.home.annotations.rooms.part_before((room, side, line));
-        let part = before.unwrap_or_else(|| self.home.rooms.take_next());
+        let before = self.home.annotations.rooms.part_before(room, side, line);
+        let part = before.unwrap_or_else(|| self.home.rooms.allocate_id());
         let split = RoomSplit {
             room,
             part,
@@ -109,7 +109,7 @@ impl Map {
     /// # Errors
     /// [`Reason::NoSuchRoomChange`] or [`Reason::RoomChangeInUse`].
     pub fn admit_room_change_undo(&self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.may_be_taken_back(number)
+        self.home.annotations.rooms.may_undo(number)
     }
 
     /// Takes a change of the rooms back; identities and names are again as they were before it.
@@ -117,7 +117,7 @@ impl Map {
     /// # Errors
     /// As [`Self::admit_room_change_undo`]; then nothing is changed.
     pub fn undo_room_change(&mut self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.take_back(number)?;
+        self.home.annotations.rooms.undo(number)?;
         self.rooms_have_changed();
         Ok(())
     }
@@ -128,7 +128,7 @@ impl Map {
     }
 
     fn rooms_have_changed(&mut self) {
-        self.home.survey();
+        self.home.segment_rooms();
         self.home.touch();
     }
 }

@@ -10,10 +10,10 @@ use std::collections::BTreeSet;
 pub use parts::{Numbered, StoredMapError, StoredMapParts};
 
 use super::annotations::Annotations;
-use super::layers::{CellBox, Evidence, Flag, Layers, TILES_MAX};
+use super::occupancy_grid::{CellBox, Evidence, Flag, OccupancyGrid, TILES_MAX};
 use super::rooms::Rooms;
 use super::tile_grid::TILE_CELLS;
-use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
+use super::{Cell, CellKnowledge, DockLocation, Raster, SurfaceKind};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Pace, at_once};
 
@@ -23,13 +23,13 @@ pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) a
 /// A map as plain data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StoredMap {
-    dock: DockPlace,
+    dock: DockLocation,
     origin: Cell,
     width: u32,
     height: u32,
-    cells: Vec<Run>,
+    cells: Vec<CellRun>,
     /// Room of each cell as it was found, 0 = none; no runs at all when the map has no rooms yet.
-    rooms: Vec<Run>,
+    rooms: Vec<CellRun>,
     /// Identity of the next room that has none yet.
     next_room: u16,
     annotations: Annotations,
@@ -37,7 +37,7 @@ pub struct StoredMap {
 
 /// Equal cells side by side, rows joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Run {
+pub struct CellRun {
     /// What the cells hold, packed, or their room.
     pub value: u16,
     /// How many they are.
@@ -56,7 +56,7 @@ impl StoredMap {
     pub fn from_raster(knowledge: &Raster<CellKnowledge>, dock: Option<Pose2>) -> Self {
         let cells = runs_of(knowledge.values().iter().map(|kind| pack(sure(*kind))));
         Self {
-            dock: dock.map(DockPlace::sure).unwrap_or_default(),
+            dock: dock.map(DockLocation::converged).unwrap_or_default(),
             origin: knowledge.origin(),
             width: knowledge.width().try_into().unwrap_or(u32::MAX),
             height: knowledge.height().try_into().unwrap_or(u32::MAX),
@@ -75,13 +75,13 @@ impl StoredMap {
 
     /// The same with what it is known from.
     #[must_use]
-    pub fn dock_place(&self) -> DockPlace {
+    pub fn dock_location(&self) -> DockLocation {
         self.dock
     }
 
     /// The same map with another dock.
     #[must_use]
-    pub fn with_dock_place(self, dock: DockPlace) -> Self {
+    pub fn with_dock_location(self, dock: DockLocation) -> Self {
         Self { dock, ..self }
     }
 
@@ -125,7 +125,7 @@ impl StoredMap {
             self.rooms.iter().map(|run| run.value).collect()
         } else {
             let changes = self.annotations.room_changes();
-            let changed = at_once(changes.made_in(self.rooms().found(), &mut Pace::at_once()));
+            let changed = at_once(changes.apply_to(self.rooms().found(), &mut Pace::at_once()));
             changed.values().iter().copied().collect()
         };
         labels.iter().filter(|label| **label != 0).count()
@@ -137,22 +137,22 @@ impl StoredMap {
         self.cells.iter().all(|run| run.value == 0)
     }
 
-    pub(super) async fn of_layers(layers: &Layers, rooms: &Rooms, pace: &mut Pace) -> Self {
+    pub(super) async fn of_layers(grid: &OccupancyGrid, rooms: &Rooms, pace: &mut Pace) -> Self {
         let mut around: Option<CellBox> = None;
-        for (cell, _) in layers.gathered() {
+        for (cell, _) in grid.gathered() {
             let here = CellBox::of(cell);
             around = Some(around.map_or(here, |before| before.joined(here)));
             pace.spend(CELL_WORK).await;
         }
         let Some(around) = around else {
             return Self {
-                next_room: rooms.next(),
+                next_room: rooms.next_id(),
                 ..Self::default()
             };
         };
         let (width, height) = around.size();
         let mut raster = Raster::filled(around.low, width, height, 0_u16);
-        for (cell, evidence) in layers.gathered() {
+        for (cell, evidence) in grid.gathered() {
             if let Some(place) = raster.get_mut(cell) {
                 *place = pack(evidence);
             }
@@ -166,13 +166,13 @@ impl StoredMap {
             pace.spend(CELL_WORK).await;
         }
         Self {
-            dock: DockPlace::default(),
+            dock: DockLocation::default(),
             origin: around.low,
             width: width.try_into().unwrap_or(u32::MAX),
             height: height.try_into().unwrap_or(u32::MAX),
             cells,
             rooms: labels,
-            next_room: rooms.next(),
+            next_room: rooms.next_id(),
             annotations: Annotations::default(),
         }
     }
@@ -183,21 +183,21 @@ impl StoredMap {
         for (place, value) in labels.values_mut().iter_mut().zip(values_of(&self.rooms)) {
             *place = value;
         }
-        Rooms::remembered(labels, self.next_room)
+        Rooms::from_stored(labels, self.next_room)
     }
 
-    /// What is stored, as layers.
-    pub(super) async fn layers(&self, pace: &mut Pace) -> Layers {
-        let mut layers = Layers::default();
+    /// What is stored, as grid.
+    pub(super) async fn grid(&self, pace: &mut Pace) -> OccupancyGrid {
+        let mut grid = OccupancyGrid::default();
         let raster: Raster<()> = Raster::filled(self.origin, self.width as usize, self.height as usize, ());
         for (index, value) in values_of(&self.cells).enumerate() {
             if value != 0 {
-                layers.change(raster.cell(index), |evidence| *evidence = unpack(value));
+                grid.change(raster.cell(index), |evidence| *evidence = unpack(value));
                 pace.spend(CELL_WORK).await;
             }
             pace.spend(1).await;
         }
-        layers
+        grid
     }
 }
 
@@ -216,27 +216,27 @@ fn sure(kind: CellKnowledge) -> Evidence {
 }
 
 /// Bits of the kind of floor in a cell: 0 not felt, 1 hard, 2 carpet.
-const FLOOR_BITS: u16 = 0b11 << 8;
+const SURFACE_BITS: u16 = 0b11 << 8;
 /// Evidence of a kind of floor that was stored: sure, and not so sure that a rug which was taken away stays for long.
-const FLOOR_REMEMBERED: i8 = 12;
+const SURFACE_REMEMBERED: i8 = 12;
 
-fn floor_number(kind: Option<FloorKind>) -> u16 {
+fn surface_number(kind: Option<SurfaceKind>) -> u16 {
     match kind {
         None => 0,
-        Some(FloorKind::Hard) => 1,
-        Some(FloorKind::Carpet) => 2,
+        Some(SurfaceKind::Hard) => 1,
+        Some(SurfaceKind::Carpet) => 2,
     }
 }
 
-fn floor_kind(number: u8) -> Option<FloorKind> {
+fn surface_kind(number: u8) -> Option<SurfaceKind> {
     match number {
-        1 => Some(FloorKind::Hard),
-        2 => Some(FloorKind::Carpet),
+        1 => Some(SurfaceKind::Hard),
+        2 => Some(SurfaceKind::Carpet),
         _ => None,
     }
 }
 
-/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 kind of floor ([`FLOOR_BITS`]), 1 body, 1 no-go, 1 seen,
+/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 kind of floor ([`SURFACE_BITS`]), 1 body, 1 no-go, 1 seen,
 /// 3 uncertainty.
 fn pack(evidence: Evidence) -> u16 {
     // Rounded so that what counts as free or occupied still does.
@@ -251,7 +251,7 @@ fn pack(evidence: Evidence) -> u16 {
         (occupancy as u16 ^ 7, 4),
         (u16::from(evidence.contact / 2).min(3), 2),
         (u16::from(evidence.cliff / 2).min(3), 2),
-        (floor_number(evidence.floor()), 2),
+        (surface_number(evidence.surface()), 2),
         (u16::from(evidence.has(Flag::Body)), 1),
         (u16::from(evidence.has(Flag::NoGo)), 1),
         (u16::from(evidence.has(Flag::Seen)), 1),
@@ -277,8 +277,8 @@ fn unpack(packed: u16) -> Evidence {
         flags: 0,
         carpet: 0,
     };
-    if let Some(kind) = floor_kind(field(8, 2)) {
-        evidence.feel(kind, FLOOR_REMEMBERED);
+    if let Some(kind) = surface_kind(field(8, 2)) {
+        evidence.add_surface(kind, SURFACE_REMEMBERED);
     }
     for (shift, flag) in [(10, Flag::Body), (11, Flag::NoGo), (12, Flag::Seen)] {
         if field(shift, 1) == 1 {
@@ -288,7 +288,7 @@ fn unpack(packed: u16) -> Evidence {
     evidence
 }
 
-pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<Run> {
+pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<CellRun> {
     let mut runs = Vec::new();
     for value in values {
         lengthen(&mut runs, value);
@@ -297,14 +297,14 @@ pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<Run> {
 }
 
 /// Adds a cell to the last run, or begins another one.
-fn lengthen(runs: &mut Vec<Run>, value: u16) {
+fn lengthen(runs: &mut Vec<CellRun>, value: u16) {
     match runs.last_mut() {
         Some(run) if run.value == value && run.length < u32::MAX => run.length += 1,
-        _ => runs.push(Run { value, length: 1 }),
+        _ => runs.push(CellRun { value, length: 1 }),
     }
 }
 
-pub(super) fn values_of(runs: &[Run]) -> impl Iterator<Item = u16> + '_ {
+pub(super) fn values_of(runs: &[CellRun]) -> impl Iterator<Item = u16> + '_ {
     runs.iter()
         .flat_map(|run| core::iter::repeat_n(run.value, run.length as usize))
 }

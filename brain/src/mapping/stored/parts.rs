@@ -3,11 +3,11 @@
 use core::fmt;
 use std::collections::BTreeMap;
 
-use super::{CELLS_MAX, FLOOR_BITS, Run, StoredMap};
+use super::{CELLS_MAX, CellRun, SURFACE_BITS, StoredMap};
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
-use crate::mapping::dock::Felt;
+use crate::mapping::dock_location::MeasuredDock;
 use crate::mapping::room_changes::CHANGES_MAX;
-use crate::mapping::{Annotations, Cell, DockPlace, RoomChange, RoomChanges, RoomSplit};
+use crate::mapping::{Annotations, Cell, DockLocation, RoomChange, RoomChanges, RoomSplit};
 use crate::model::geometry::Pose2;
 use crate::model::kept_place::KeptPlace;
 use crate::model::no_go::{NoGo, RoomName};
@@ -17,9 +17,9 @@ use crate::model::room_settings::RoomSettings;
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredMapParts {
     /// Where the dock was felt.
-    pub felt_dock: Option<Felt>,
+    pub measured_dock: Option<MeasuredDock>,
     /// Where a person says that it stands.
-    pub told_dock: Option<Pose2>,
+    pub reported_dock: Option<Pose2>,
     /// Lowest cell of the window.
     pub origin: Cell,
     /// Columns of the window.
@@ -27,9 +27,9 @@ pub struct StoredMapParts {
     /// Rows of the window.
     pub height: u32,
     /// What each cell holds, row by row; no runs at all when nothing is known.
-    pub cells: Vec<Run>,
+    pub cells: Vec<CellRun>,
     /// Room of each cell, 0 = none; no runs at all when the map has no rooms yet.
-    pub rooms: Vec<Run>,
+    pub rooms: Vec<CellRun>,
     /// Identity of the next room that has none yet.
     pub next_room: u16,
     /// No-go zones and virtual walls.
@@ -39,7 +39,7 @@ pub struct StoredMapParts {
     /// How people changed the rooms.
     pub room_changes: Numbered<RoomChange>,
     /// Splits that were taken back and keep their identities.
-    pub splits_taken_back: Vec<RoomSplit>,
+    pub undone_splits: Vec<RoomSplit>,
     /// How rooms are cleaned.
     pub room_settings: BTreeMap<u16, RoomSettings>,
     /// Zones and spots that are kept.
@@ -116,8 +116,8 @@ impl StoredMap {
     pub fn parts(&self) -> StoredMapParts {
         let words = &self.annotations;
         StoredMapParts {
-            felt_dock: self.dock.felt(),
-            told_dock: self.dock.told(),
+            measured_dock: self.dock.measured(),
+            reported_dock: self.dock.reported(),
             origin: self.origin,
             width: self.width,
             height: self.height,
@@ -127,7 +127,7 @@ impl StoredMap {
             no_go: Numbered::of(words.next_no_go, &words.no_go),
             names: words.names.clone(),
             room_changes: Numbered::of(words.rooms.next, &words.rooms.made),
-            splits_taken_back: words.rooms.taken_back.clone(),
+            undone_splits: words.rooms.undone.clone(),
             room_settings: words.settings.clone(),
             places: Numbered::of(words.places.next, &words.places.kept),
         }
@@ -152,14 +152,14 @@ impl StoredMap {
             made: parts
                 .room_changes
                 .checked(CHANGES_MAX, StoredMapError::RoomChange)?,
-            taken_back: parts.splits_taken_back,
+            undone: parts.undone_splits,
         };
         let places = KeptPlaces {
             next: parts.places.next,
             kept: parts.places.checked(PLACES_MAX, StoredMapError::Place)?,
         };
         Ok(Self {
-            dock: DockPlace::from_parts(parts.felt_dock, parts.told_dock),
+            dock: DockLocation::from_parts(parts.measured_dock, parts.reported_dock),
             origin: parts.origin,
             width: parts.width,
             height: parts.height,
@@ -211,7 +211,7 @@ impl StoredMapParts {
                 return Err(StoredMapError::Cells { expected, found });
             }
         }
-        let has_known_floor = |run: &Run| run.value & FLOOR_BITS != FLOOR_BITS;
+        let has_known_floor = |run: &CellRun| run.value & SURFACE_BITS != SURFACE_BITS;
         let is_known = self.cells.iter().all(has_known_floor);
         is_known.then_some(()).ok_or(StoredMapError::Floor)
     }
@@ -221,12 +221,8 @@ impl StoredMapParts {
         let known = 1..self.next_room;
         let is_good = |[one, other]: [u16; 2]| one != other && known.contains(&one) && known.contains(&other);
         let mut made = self.room_changes.items.iter().map(|(_, change)| change.rooms());
-        let mut taken_back = self
-            .splits_taken_back
-            .iter()
-            .map(|split| [split.room, split.part]);
-        let are_good =
-            self.splits_taken_back.len() <= CHANGES_MAX && made.all(is_good) && taken_back.all(is_good);
+        let mut undone = self.undone_splits.iter().map(|split| [split.room, split.part]);
+        let are_good = self.undone_splits.len() <= CHANGES_MAX && made.all(is_good) && undone.all(is_good);
         are_good.then_some(()).ok_or(StoredMapError::RoomChange)
     }
 }

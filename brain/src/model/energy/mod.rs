@@ -1,6 +1,6 @@
 //! What driving and cleaning take from the pack, learnt from its charge.
 //!
-//! Terms. *Rate*: share of the whole charge (0..1) that a second takes. *Window*: minutes over which what was expected is
+//! Terms. *Rate*: share of the whole charge (0..1) that a second takes. *LearningWindow*: minutes over which what was expected is
 //! compared with what the pack lost; the error is given to the rates by the time spent with each.
 //!
 //! A model belongs to one robot and its pack. It knows two activities, because one brain drives with two: with cleaning
@@ -32,7 +32,7 @@ const CRUMBS_MAX: f64 = 0.05;
 
 /// What of a job is left when the pack is low.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Leftover {
+pub(crate) struct RemainingWork {
     /// Floor, square metres, and its share of what the job wants, 0..=1.
     pub(crate) left_m2: f64,
     pub(crate) share: f64,
@@ -100,7 +100,7 @@ impl EnergyModel {
     }
 
     /// Whether so little is left that a charge for it would mostly go into the ways there and back: then the job is over.
-    pub(crate) fn are_crumbs(&self, left: Leftover, (swath_m, cruise_m_per_s): (f64, f64)) -> bool {
+    pub(crate) fn is_negligible(&self, left: RemainingWork, (swath_m, cruise_m_per_s): (f64, f64)) -> bool {
         let cleaning_s = CORNER_FACTOR * left.left_m2 / (swath_m * cruise_m_per_s).max(0.01);
         let ways_s = 2.0 * time_to_return_s(left.way_m, cruise_m_per_s);
         left.share <= CRUMBS_MAX && self.charge_for(cleaning_s, 0.0) < self.charge_for(0.0, ways_s)
@@ -122,19 +122,19 @@ fn within(rate: f64, guess: f64) -> f64 {
 
 /// A model that learns.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct EnergyWatch {
+pub(crate) struct EnergyLearner {
     model: EnergyModel,
-    window: Option<Window>,
+    window: Option<LearningWindow>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Window {
+struct LearningWindow {
     charge: f64,
     cleaning_s: f64,
     driving_s: f64,
 }
 
-impl EnergyWatch {
+impl EnergyLearner {
     pub(crate) fn of(model: EnergyModel) -> Self {
         Self {
             model: model.checked(),
@@ -147,13 +147,13 @@ impl EnergyWatch {
     }
 
     /// Takes in `time_s` of an activity, after which the pack holds `charge`.
-    pub(crate) fn follow(&mut self, time_s: f64, activity: Activity, charge: Option<f32>) {
+    pub(crate) fn update(&mut self, time_s: f64, activity: Activity, charge: Option<f32>) {
         let charge = charge.map(f64::from).filter(|charge| charge.is_finite());
         let (Some(charge), true) = (charge, activity != Activity::Other) else {
             self.window = None;
             return;
         };
-        let window = self.window.get_or_insert(Window {
+        let window = self.window.get_or_insert(LearningWindow {
             charge,
             cleaning_s: 0.0,
             driving_s: 0.0,
@@ -170,7 +170,7 @@ impl EnergyWatch {
         }
     }
 
-    fn learn(&mut self, window: Window, lost: f64) {
+    fn learn(&mut self, window: LearningWindow, lost: f64) {
         // A pack that gained was exchanged, or its charge is a guess that was put right.
         if lost <= 0.0 {
             return;
@@ -189,29 +189,29 @@ impl EnergyWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Activity, EnergyModel, EnergyWatch, Leftover};
+    use super::{Activity, EnergyLearner, EnergyModel, RemainingWork};
 
     #[test]
     fn what_is_left_is_worth_a_charge_unless_the_ways_take_more_than_the_floor() {
         let model = EnergyModel::default();
-        let are_crumbs = |left_m2, share, way_m| {
-            let left = Leftover {
+        let is_negligible = |left_m2, share, way_m| {
+            let left = RemainingWork {
                 left_m2,
                 share,
                 way_m,
             };
-            model.are_crumbs(left, (0.3, 0.25))
+            model.is_negligible(left, (0.3, 0.25))
         };
-        assert!(are_crumbs(0.3, 0.005, 8.0));
-        assert!(!are_crumbs(0.3, 0.06, 8.0), "a corner of a small room");
-        assert!(!are_crumbs(4.0, 0.03, 8.0), "some minutes of a large home");
-        assert!(are_crumbs(4.0, 0.03, 60.0), "far away");
-        assert!(!are_crumbs(f64::NAN, 0.01, 8.0));
+        assert!(is_negligible(0.3, 0.005, 8.0));
+        assert!(!is_negligible(0.3, 0.06, 8.0), "a corner of a small room");
+        assert!(!is_negligible(4.0, 0.03, 8.0), "some minutes of a large home");
+        assert!(is_negligible(4.0, 0.03, 60.0), "far away");
+        assert!(!is_negligible(f64::NAN, 0.01, 8.0));
     }
 
     /// Hours of cleaning and driving in turns, with these rates.
     fn learnt(cleaning_per_s: f64, driving_per_s: f64) -> EnergyModel {
-        let mut watch = EnergyWatch::default();
+        let mut learner = EnergyLearner::default();
         for round in 0..8 {
             let mut charge = 1.0;
             for second in 0..3_000 {
@@ -224,11 +224,11 @@ mod tests {
                 charge -= rate;
                 // The wire tells the charge in steps.
                 let told = (charge * 1_000.0_f64).round() / 1_000.0;
-                watch.follow(1.0, activity, Some(told as f32));
+                learner.update(1.0, activity, Some(told as f32));
             }
-            watch.follow(60.0, Activity::Other, Some(1.0));
+            learner.update(60.0, Activity::Other, Some(1.0));
         }
-        watch.model()
+        learner.model()
     }
 
     #[test]
@@ -242,9 +242,9 @@ mod tests {
 
     #[test]
     fn nonsense_is_not_learnt() {
-        let mut watch = EnergyWatch::default();
+        let mut learner = EnergyLearner::default();
         for charge in [Some(f32::NAN), None, Some(0.2), Some(0.9)] {
-            watch.follow(400.0, Activity::Cleaning, charge);
+            learner.update(400.0, Activity::Cleaning, charge);
         }
         let wild = EnergyModel {
             cleaning_per_s: f64::NAN,

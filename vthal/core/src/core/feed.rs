@@ -253,7 +253,7 @@ impl Core {
         self.feed.map_cursor = mind.map_cursor();
         self.feed.map_number = number;
         let update = match delta {
-            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.marks.is_empty() => return,
+            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.hazards.is_empty() => return,
             Some(part) => Update::MapDelta(to_api::map_delta(number, &part, &self.feed.swept_sigma)),
             None => {
                 let snapshot = mind.brain().map().snapshot();

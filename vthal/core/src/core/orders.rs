@@ -1,6 +1,6 @@
 //! What clients order for parts of the home, and what they say of the home.
 
-use brain::zone::FAR_M;
+use brain::zone::COORDINATE_MAX_M;
 use brain::{CleaningOrder, Command, HomePart, NoGo, Point2, Pose2, Reason, RoomName, Zone};
 use rvac_api::{
     Failure, JobEstimate, JobOrder, JobPart, LogLevel, NoGoShape, RequestBody, RoomNaming, Update,
@@ -301,10 +301,10 @@ pub(super) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal>
     Zone::new(points.collect()).map_err(|reason| {
         let far = corners
             .iter()
-            .find(|[x, y]| !(x.abs() < FAR_M && y.abs() < FAR_M));
+            .find(|[x, y]| !(x.abs() < COORDINATE_MAX_M && y.abs() < COORDINATE_MAX_M));
         let text = match far {
             Some([x, y]) => {
-                format!("{what} has a corner at x {x} m, y {y} m: they must lie within {FAR_M} m.")
+                format!("{what} has a corner at x {x} m, y {y} m: they must lie within {COORDINATE_MAX_M} m.")
             }
             None => format!(
                 "{what} is a zone with {} corners: it must have 3 to 64.",
@@ -329,7 +329,7 @@ pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
             NoGo::wall(from, to).map_err(|reason| {
                 let text = format!(
                     "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
-                     places within {FAR_M} m."
+                     places within {COORDINATE_MAX_M} m."
                 );
                 Refusal::because(reason, text)
             })

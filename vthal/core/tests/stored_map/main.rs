@@ -5,7 +5,7 @@
 mod contents;
 mod earlier;
 
-use brain::mapping::{Felt, Numbered, StoredMapParts};
+use brain::mapping::{MeasuredDock, Numbered, StoredMapParts};
 use brain::{Pose2, StoredMap, StoredMapError};
 use contents::{map, parts};
 use proptest::prelude::*;
@@ -30,17 +30,17 @@ fn a_map_comes_back_and_its_knowledge_with_it() {
         (None, None),
         (None, Some(Pose2::IDENTITY)),
         (
-            Some(Felt {
+            Some(MeasuredDock {
                 pose: Pose2::IDENTITY,
                 times: 1,
             }),
             Some(Pose2::IDENTITY),
         ),
     ];
-    let docks = docks.map(|(felt_dock, told_dock)| {
+    let docks = docks.map(|(measured_dock, reported_dock)| {
         map_of(StoredMapParts {
-            felt_dock,
-            told_dock,
+            measured_dock,
+            reported_dock,
             ..parts()
         })
     });

@@ -48,7 +48,7 @@ fn two_rooms(shift_m: f64, has_second: bool) -> StoredMap {
 
 fn map_of(stored: &StoredMap) -> Map {
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(stored);
+    map.load(stored);
     map
 }
 
@@ -57,7 +57,7 @@ fn mapped_again(map: &Map, shift_m: f64) -> Map {
     let mut again = map_of(&two_rooms(shift_m, true));
     again.home.rooms = map.home.rooms.clone();
     again.home.annotations = map.home.annotations.clone();
-    again.survey();
+    again.segment_rooms();
     again
 }
 

@@ -2,7 +2,7 @@
 
 use super::Map;
 use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
-use crate::model::order::{CleaningOrder, DISC_M, HomePart};
+use crate::model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
 use crate::model::reason::Reason;
 use crate::model::room_settings::{Pattern, RoomSettings};
 
@@ -12,7 +12,7 @@ impl Rooms {
         match part {
             HomePart::Room(id) => self.labels().get(cell) == Some(id),
             HomePart::Zone(zone) => zone.contains(cell.middle()),
-            HomePart::Spot(place) => cell.middle().distance_m(*place) <= DISC_M,
+            HomePart::Spot(place) => cell.middle().distance_m(*place) <= SPOT_RADIUS_M,
         }
     }
 }

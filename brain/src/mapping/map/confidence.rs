@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use super::Map;
 use crate::mapping::Cell;
-use crate::mapping::layers::{CellKnowledge, Evidence, Flag, is_touched_only};
+use crate::mapping::occupancy_grid::{CellKnowledge, Evidence, Flag, is_touched_only};
 
 /// How sure what is known is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sureness {
+pub struct MapConfidence {
     /// Standard deviation of the robot's place when it saw the floor best, metres; root of the mean square over its cells.
     pub sigma_m: f64,
     /// Share of the floor on which the robot's body has been, 0..=1; the rest was seen from afar.
@@ -30,9 +30,9 @@ struct Count {
 }
 
 impl Count {
-    fn sureness(self) -> Option<Sureness> {
+    fn confidence(self) -> Option<MapConfidence> {
         let share = |part: u32, all: u32| f64::from(part) / f64::from(all.max(1));
-        (self.cells > 0).then(|| Sureness {
+        (self.cells > 0).then(|| MapConfidence {
             sigma_m: libm::sqrt(self.square_m2 / f64::from(self.cells)),
             driven: share(self.driven, self.cells),
             touched: share(self.touched, self.faces),
@@ -49,7 +49,7 @@ impl Count {
             .filter_map(|side| obstacle_beside(cell, side, map))
         {
             self.faces += 1;
-            self.touched += u32::from(is_touched_only(map.home.layers.at(obstacle)));
+            self.touched += u32::from(is_touched_only(map.home.grid.at(obstacle)));
         }
     }
 }
@@ -74,15 +74,15 @@ fn obstacle_beside(cell: Cell, (x, y): (i32, i32), map: &Map) -> Option<Cell> {
 impl Map {
     /// How sure the map of the whole home is; `None` where no floor is known. Looks at all cells: for people who look at it.
     #[must_use]
-    pub fn sureness(&self) -> Option<Sureness> {
+    pub fn confidence(&self) -> Option<MapConfidence> {
         let mut count = Count::default();
         self.floor().for_each(|floor| count.add(floor, self));
-        count.sureness()
+        count.confidence()
     }
 
     /// The same of each room, by their identities.
     #[must_use]
-    pub fn room_sureness(&self) -> Vec<(u16, Sureness)> {
+    pub fn room_confidence(&self) -> Vec<(u16, MapConfidence)> {
         let mut counts: BTreeMap<u16, Count> = BTreeMap::new();
         let labels = self.rooms().labels();
         for floor in self.floor() {
@@ -90,7 +90,7 @@ impl Map {
                 counts.entry(*room).or_default().add(floor, self);
             }
         }
-        let sure = |(room, count): (u16, Count)| Some((room, count.sureness()?));
+        let sure = |(room, count): (u16, Count)| Some((room, count.confidence()?));
         counts.into_iter().filter_map(sure).collect()
     }
 
@@ -98,7 +98,7 @@ impl Map {
     fn floor(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
         let knowledge = self.knowledge();
         self.home
-            .layers
+            .grid
             .gathered()
             .filter(|(cell, _)| knowledge.get(*cell) == Some(&CellKnowledge::Free))
     }

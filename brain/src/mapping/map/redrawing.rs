@@ -4,15 +4,15 @@
 //! the map stays as it is.
 
 use super::Map;
-use crate::mapping::carpet::FloorFelt;
+use crate::mapping::carpet::SurfaceObservation;
+use crate::mapping::coverage_grid::{CoverageGrid, Swath};
 use crate::mapping::derived::Derived;
 use crate::mapping::home::HomeMap;
 use crate::mapping::keyframe::Keyframe;
-use crate::mapping::layers::{Flag, Layers};
+use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
+use crate::mapping::path_and_hazards::Path;
 use crate::mapping::sighting::Sighting;
-use crate::mapping::swept::{Swath, SweptLayer};
-use crate::mapping::traces::Path;
-use crate::mapping::{Cell, Mark};
+use crate::mapping::{Cell, Hazard};
 use crate::model::geometry::Pose2;
 
 /// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
@@ -25,9 +25,9 @@ const TILES_LEFT: usize = 2;
 pub(super) struct Redrawing {
     keyframes: Vec<Keyframe>,
     next: usize,
-    layers: Layers,
+    grid: OccupancyGrid,
     derived: Derived,
-    swept: SweptLayer,
+    swept: CoverageGrid,
     swath: Swath,
     path: Path,
 }
@@ -35,13 +35,13 @@ pub(super) struct Redrawing {
 impl Redrawing {
     /// A cell is not forbidden any more.
     pub(super) fn allow(&mut self, cell: Cell) {
-        self.layers.change(cell, |evidence| evidence.clear(Flag::NoGo));
+        self.grid.change(cell, |evidence| evidence.clear(Flag::NoGo));
     }
 
-    /// What was felt at a sighting that is drawn already.
-    fn draw_floor(&mut self, mut sighting: Sighting, home: &HomeMap) {
+    /// What was observed at a sighting that is drawn already.
+    fn draw_surface(&mut self, mut sighting: Sighting, home: &HomeMap) {
         sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
-        home.pencil.draw_floor(&sighting, &mut self.layers);
+        home.sensor_model.draw_surface(&sighting, &mut self.grid);
     }
 
     /// Draws up to `most` sightings, and when none is left derives rasters for a tile. `true` when hardly one is left.
@@ -50,10 +50,10 @@ impl Redrawing {
         for sighting in sightings.iter().take(most) {
             let mut sighting = *sighting;
             sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
-            home.pencil.draw(&sighting, &mut self.layers);
+            home.sensor_model.draw(&sighting, &mut self.grid);
             if self.next >= job_from {
                 self.path.follow(sighting.pose.position());
-                if sighting.touched.sweeps() {
+                if sighting.switches.sweeps() {
                     self.swept.set_time(sighting.time_us);
                     self.swath.sweep_to(sighting.pose, &mut self.swept);
                 } else {
@@ -64,9 +64,9 @@ impl Redrawing {
         }
         let is_drawn = self.next >= home.sightings.len();
         if is_drawn {
-            self.derived.refresh_tile(&mut self.layers);
+            self.derived.refresh_tile(&mut self.grid);
         }
-        is_drawn && self.layers.dirty_tiles() <= TILES_LEFT
+        is_drawn && self.grid.dirty_tiles() <= TILES_LEFT
     }
 }
 
@@ -79,12 +79,12 @@ impl Map {
         }
         let mut swath = self.swath.clone();
         swath.lift();
-        let mut layers = self.home.base.clone();
-        layers.soil();
+        let mut grid = self.home.base.clone();
+        grid.mark_all_dirty();
         self.redrawing = Some(Box::new(Redrawing {
             keyframes: keyframes.to_vec(),
             next: 0,
-            layers,
+            grid,
             derived: Derived::default(),
             swept: self.job_base.swept.clone(),
             swath,
@@ -93,11 +93,11 @@ impl Map {
     }
 
     /// Takes back what was seen, met and swept from `since_us` on, and begins to draw the map again without it.
-    pub(crate) fn withdraw(&mut self, since_us: u64, keyframes: &[Keyframe]) {
+    pub(crate) fn roll_back(&mut self, since_us: u64, keyframes: &[Keyframe]) {
         let sightings = &mut self.home.sightings;
         sightings.truncate(sightings.partition_point(|sighting| sighting.time_us < since_us));
         self.job_base.sightings = self.job_base.sightings.min(sightings.len());
-        self.marks.withdraw(since_us);
+        self.hazards.roll_back(since_us);
         self.redraw(keyframes);
     }
 
@@ -124,17 +124,17 @@ impl Map {
         };
         let Redrawing {
             keyframes,
-            layers,
+            grid,
             derived,
             swept,
             path,
             ..
         } = *redrawing;
-        self.home.take_redrawn(layers, derived);
+        self.home.take_redrawn(grid, derived);
         self.swept = swept;
         self.path = path;
         self.swath.lift();
-        self.marks.moved(|time_us, odom| {
+        self.hazards.moved(|time_us, odom| {
             corrected(
                 &keyframes,
                 time_us,
@@ -150,14 +150,14 @@ impl Map {
     }
 
     /// Takes in what the motors' loads say of the floor at the observation that was inserted last, if it was at this time.
-    pub(crate) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) {
-        let Some(newest) = self.home.note_floor(time_us, felt) else {
+    pub(crate) fn note_surface(&mut self, time_us: u64, observed: SurfaceObservation) {
+        let Some(newest) = self.home.note_surface(time_us, observed) else {
             return;
         };
         if let Some(redrawing) = &mut self.redrawing
             && redrawing.next >= self.home.sightings.len()
         {
-            redrawing.draw_floor(newest, &self.home);
+            redrawing.draw_surface(newest, &self.home);
         }
     }
 
@@ -167,19 +167,23 @@ impl Map {
         self.job_base.swept = self.swept.clone();
         self.job_base.path = self.path.clone();
         self.job_base.sightings = 0;
-        self.marks.settle();
+        self.hazards.settle();
     }
 
     /// Notes a place where something was met, at `time_us` and at the place `odom` by odometry.
-    pub(crate) fn mark(&mut self, mark: Mark, seen: crate::mapping::traces::SeenAt) {
-        self.marks.add(mark, Some(seen));
+    pub(crate) fn add_hazard(
+        &mut self,
+        hazard: Hazard,
+        seen: crate::mapping::path_and_hazards::StampedOdometry,
+    ) {
+        self.hazards.add(hazard, Some(seen));
     }
 }
 
 /// Where a robot was at `time_us` that was at `odom` by odometry, by the keyframes before and after.
 fn corrected(keyframes: &[Keyframe], time_us: u64, odom: Pose2) -> Pose2 {
     let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
-    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * odom);
+    let by = |keyframe: &Keyframe| keyframe.map_from_base * (keyframe.odom_from_base.inverse() * odom);
     let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
     match (before, keyframes.get(after)) {
         (Some(before), Some(after)) => {

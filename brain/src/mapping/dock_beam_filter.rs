@@ -1,20 +1,20 @@
-//! What the dock receivers hear, with single words that were lost or misheard taken out.
+//! Debounces the symbols of the dock receivers: a single lost or false symbol changes nothing.
 
-/// Symbol of the beam in the left half, seen by a robot that comes to the dock.
+/// Symbol of the left beam, as seen by a robot that approaches the dock.
 const LOBE_LEFT: u8 = 1;
-/// Symbol of the beam in the right half.
+/// Symbol of the right beam, as seen by a robot that approaches the dock.
 const LOBE_RIGHT: u8 = 2;
 /// Symbol of the near field.
 const NEAR_FIELD: u8 = 4;
-/// A symbol counts up to this many observations.
-const FULL: u8 = 6;
-/// From this count on a silent symbol is heard, and below `LOSE` a heard one is not any more.
-const HEAR: u8 = 4;
-const LOSE: u8 = 2;
+/// Largest count of a symbol.
+const COUNT_MAX: u8 = 6;
+/// A symbol becomes received at this count, and is lost when its count falls below `LOST_BELOW`.
+const RECEIVED_MIN: u8 = 4;
+const LOST_BELOW: u8 = 2;
 
 /// Counts of each symbol at each receiver. Receivers: front left, front right, rear left, rear right.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Hearing {
+pub(crate) struct DockBeamFilter {
     receivers: [Receiver; 4],
 }
 
@@ -24,24 +24,24 @@ struct Receiver {
     heard: u8,
 }
 
-/// On which side of the line that leads straight in a robot is that faces the dock.
+/// The side of the dock's centre line on which the robot is, when it faces the dock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lobe {
-    /// On the line: both lobes are heard.
+    /// On the centre line: both beams are received.
     Both,
-    /// Left of the line.
+    /// Left of the centre line.
     Left,
-    /// Right of the line.
+    /// Right of the centre line.
     Right,
-    /// In neither; at most the near field is heard.
+    /// In neither beam; at most the near field is received.
     None,
 }
 
-impl Hearing {
-    /// Takes in what is heard in one observation; a robot with fewer receivers is deaf to the other sides.
-    pub(crate) fn take(&mut self, beams: &[u8]) {
+impl DockBeamFilter {
+    /// Adds the symbols of one observation. Receivers that the robot lacks receive nothing.
+    pub(crate) fn update(&mut self, beams: &[u8]) {
         for (number, receiver) in self.receivers.iter_mut().enumerate() {
-            receiver.take(beams.get(number).copied().unwrap_or(0));
+            receiver.update(beams.get(number).copied().unwrap_or(0));
         }
     }
 
@@ -49,27 +49,27 @@ impl Hearing {
         self.receivers.get(receiver).map_or(0, |receiver| receiver.heard)
     }
 
-    /// Any receiver hears any symbol.
+    /// Whether any receiver receives any symbol.
     pub(crate) fn is_any(&self) -> bool {
         self.receivers.iter().any(|receiver| receiver.heard != 0)
     }
 
-    /// Both front receivers hear the same dock: it lies ahead.
+    /// Whether both front receivers receive the dock: it lies ahead.
     pub(crate) fn is_ahead(&self) -> bool {
         self.at(0) != 0 && self.at(1) != 0
     }
 
-    /// A front receiver hears something.
+    /// Whether a front receiver receives anything.
     pub(crate) fn is_in_front(&self) -> bool {
         (self.at(0) | self.at(1)) != 0
     }
 
-    /// The near field is heard.
+    /// Whether the near field is received.
     pub(crate) fn is_near(&self) -> bool {
         self.all() & NEAR_FIELD != 0
     }
 
-    /// The lobe that the receivers are in. All stand in the same beams, so what one misses another may hear.
+    /// The beam in which the robot is. All receivers are in the same beams, so one makes up for what another misses.
     pub(crate) fn lobe(&self) -> Lobe {
         match (self.all() & LOBE_LEFT != 0, self.all() & LOBE_RIGHT != 0) {
             (true, true) => Lobe::Both,
@@ -79,7 +79,7 @@ impl Hearing {
         }
     }
 
-    /// +1 when the dock is rather on the left, -1 on the right, 0 when nothing tells.
+    /// +1 when the dock is to the left, -1 to the right, 0 when unknown.
     pub(crate) fn side(&self) -> f64 {
         let side = |left: u8, right: u8| f64::from(i8::from(left != 0) - i8::from(right != 0));
         let front = side(self.at(0), self.at(1));
@@ -98,16 +98,16 @@ impl Hearing {
 }
 
 impl Receiver {
-    fn take(&mut self, symbols: u8) {
+    fn update(&mut self, symbols: u8) {
         for (count, symbol) in self.counts.iter_mut().zip([LOBE_LEFT, LOBE_RIGHT, NEAR_FIELD]) {
             *count = if symbols & symbol == 0 {
                 count.saturating_sub(1)
             } else {
-                count.saturating_add(1).min(FULL)
+                count.saturating_add(1).min(COUNT_MAX)
             };
-            if *count >= HEAR {
+            if *count >= RECEIVED_MIN {
                 self.heard |= symbol;
-            } else if *count < LOSE {
+            } else if *count < LOST_BELOW {
                 self.heard &= !symbol;
             }
         }
@@ -116,33 +116,33 @@ impl Receiver {
 
 #[cfg(test)]
 mod tests {
-    use super::{Hearing, Lobe};
+    use super::{DockBeamFilter, Lobe};
 
-    fn heard(words: &[[u8; 4]]) -> Hearing {
-        let mut hearing = Hearing::default();
+    fn heard(words: &[[u8; 4]]) -> DockBeamFilter {
+        let mut hearing = DockBeamFilter::default();
         for word in words {
-            hearing.take(word);
+            hearing.update(word);
         }
         hearing
     }
 
     #[test]
-    fn single_words_neither_begin_nor_end_anything() {
+    fn single_symbols_change_nothing() {
         assert!(!heard(&[[3, 3, 0, 0], [0; 4]]).is_any());
         let steady = [[1, 1, 0, 0]; 8];
         let mut hearing = heard(&steady);
-        hearing.take(&[0; 4]);
-        hearing.take(&[2, 2, 0, 0]);
+        hearing.update(&[0; 4]);
+        hearing.update(&[2, 2, 0, 0]);
         assert_eq!(hearing.lobe(), Lobe::Left);
         assert!(hearing.is_ahead() && !hearing.is_near());
         for _ in 0..8 {
-            hearing.take(&[]);
+            hearing.update(&[]);
         }
         assert!(!hearing.is_any());
     }
 
     #[test]
-    fn lobes_and_sides_are_told_apart() {
+    fn lobes_and_sides_are_distinguished() {
         for (word, lobe, side) in [
             ([3, 3, 0, 0], Lobe::Both, 0.0),
             ([1, 0, 0, 0], Lobe::Left, 1.0),
