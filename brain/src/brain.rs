@@ -142,7 +142,7 @@ impl Brain {
             self.map.avoid(self.behavior.avoided());
         }
         if let Some(pocket) = intent.pocket {
-            self.map.shut_pocket(pocket);
+            self.map.forbid_pocket(pocket);
         }
         // Where it stands may just have been told. What a robot sweeps that does not know where it is, nobody can say.
         let here = self.localization.estimate();

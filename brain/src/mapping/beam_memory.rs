@@ -15,6 +15,7 @@ const SAME_M: f64 = 0.3;
 const PLACES_MAX: usize = 60;
 /// A position is dropped when the pose uncertainty has grown by this much since, metres. Beams reach 3 m.
 const DRIFTED_M: f64 = 1.5;
+
 /// Received beams: the present ones and the positions of earlier ones.
 #[derive(Debug, Default)]
 pub(crate) struct BeamMemory {
@@ -82,7 +83,7 @@ impl BeamMemory {
     }
 
     /// Whether there is a position to return to.
-    pub(crate) fn has_heard_dock(&self) -> bool {
+    pub(crate) fn has_received_dock(&self) -> bool {
         !self.places.is_empty()
     }
 

@@ -21,7 +21,7 @@ pub(crate) struct DockBeamFilter {
 #[derive(Clone, Copy, Debug, Default)]
 struct Receiver {
     counts: [u8; 3],
-    heard: u8,
+    received: u8,
 }
 
 /// The side of the dock's centre line on which the robot is, when it faces the dock.
@@ -46,12 +46,14 @@ impl DockBeamFilter {
     }
 
     fn at(&self, receiver: usize) -> u8 {
-        self.receivers.get(receiver).map_or(0, |receiver| receiver.heard)
+        self.receivers
+            .get(receiver)
+            .map_or(0, |receiver| receiver.received)
     }
 
     /// Whether any receiver receives any symbol.
     pub(crate) fn is_any(&self) -> bool {
-        self.receivers.iter().any(|receiver| receiver.heard != 0)
+        self.receivers.iter().any(|receiver| receiver.received != 0)
     }
 
     /// Whether both front receivers receive the dock: it lies ahead.
@@ -93,7 +95,7 @@ impl DockBeamFilter {
     fn all(&self) -> u8 {
         self.receivers
             .iter()
-            .fold(0, |all, receiver| all | receiver.heard)
+            .fold(0, |all, receiver| all | receiver.received)
     }
 }
 
@@ -106,9 +108,9 @@ impl Receiver {
                 count.saturating_add(1).min(COUNT_MAX)
             };
             if *count >= RECEIVED_MIN {
-                self.heard |= symbol;
+                self.received |= symbol;
             } else if *count < LOST_BELOW {
-                self.heard &= !symbol;
+                self.received &= !symbol;
             }
         }
     }
@@ -118,27 +120,27 @@ impl Receiver {
 mod tests {
     use super::{DockBeamFilter, Lobe};
 
-    fn heard(words: &[[u8; 4]]) -> DockBeamFilter {
-        let mut hearing = DockBeamFilter::default();
+    fn received(words: &[[u8; 4]]) -> DockBeamFilter {
+        let mut filter = DockBeamFilter::default();
         for word in words {
-            hearing.update(word);
+            filter.update(word);
         }
-        hearing
+        filter
     }
 
     #[test]
     fn single_symbols_change_nothing() {
-        assert!(!heard(&[[3, 3, 0, 0], [0; 4]]).is_any());
+        assert!(!received(&[[3, 3, 0, 0], [0; 4]]).is_any());
         let steady = [[1, 1, 0, 0]; 8];
-        let mut hearing = heard(&steady);
-        hearing.update(&[0; 4]);
-        hearing.update(&[2, 2, 0, 0]);
-        assert_eq!(hearing.lobe(), Lobe::Left);
-        assert!(hearing.is_ahead() && !hearing.is_near());
+        let mut filter = received(&steady);
+        filter.update(&[0; 4]);
+        filter.update(&[2, 2, 0, 0]);
+        assert_eq!(filter.lobe(), Lobe::Left);
+        assert!(filter.is_ahead() && !filter.is_near());
         for _ in 0..8 {
-            hearing.update(&[]);
+            filter.update(&[]);
         }
-        assert!(!hearing.is_any());
+        assert!(!filter.is_any());
     }
 
     #[test]
@@ -150,8 +152,8 @@ mod tests {
             ([0, 0, 6, 0], Lobe::Right, 1.0),
             ([0, 0, 0, 4], Lobe::None, -1.0),
         ] {
-            let hearing = heard(&[word; 8]);
-            assert_eq!((hearing.lobe(), hearing.side()), (lobe, side), "{word:?}");
+            let filter = received(&[word; 8]);
+            assert_eq!((filter.lobe(), filter.side()), (lobe, side), "{word:?}");
         }
     }
 }

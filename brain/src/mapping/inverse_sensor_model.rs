@@ -6,15 +6,15 @@ use super::{CELL_M, Cell};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::{Point2, Pose2};
 
-/// Occupancy of a cell under the body: few sightings outweigh all earlier infrared.
+/// Occupancy step of a cell under the body: few sightings outweigh all earlier infrared.
 const BODY_STEP: i8 = -30;
-/// Occupancy of a cell that a beam passes.
+/// Occupancy step of a cell that a beam passes.
 const PASSED_STEP: i8 = -3;
-/// Occupancy along a beam that sees nothing: dark things are invisible at the end of the range.
+/// Occupancy step along a beam that sees nothing: dark things are invisible at the end of the range.
 const NOTHING_STEP: i8 = -1;
 /// A beam that sees nothing counts for this share of its range.
 const NOTHING_SHARE: f64 = 0.6;
-/// Occupancy of an obstacle that touches the rim; half of it at [`HIT_HALF_M`] beyond the rim.
+/// Occupancy step of an obstacle that touches the rim; half of it at [`HIT_HALF_M`] beyond the rim.
 const HIT_STEP: f64 = 30.0;
 /// As [`HIT_STEP`]. The error of a distance grows with it, because the albedo of a wall is unknown. The evidence falls with the
 /// square of the error; otherwise distant readings would build a crooked front before the wall.
@@ -27,7 +27,7 @@ const LEVEL_MIN: f64 = 0.045;
 /// seen as free keeps the robot off its walls.
 const MARGIN_M: f64 = CELL_M;
 /// Evidence of a contact that infrared locates on the bumper.
-const CONTACT_SURE: u8 = 4;
+const CONTACT_LOCATED: u8 = 4;
 /// Evidence of a contact on a short arc of the bumper, up to [`SHORT_ARC_M`].
 const CONTACT_NARROW: u8 = 2;
 /// Evidence of a contact anywhere on half of the bumper. Most of these cells are free, so a cell needs two such contacts.
@@ -48,6 +48,22 @@ const SURFACE_OUTER_STEP: i8 = 2;
 /// Most by which the body is drawn smaller than it is, metres.
 const SHRINK_MAX_M: f64 = CELL_M;
 
+/// The level of one proximity sensor.
+#[derive(Clone, Copy)]
+struct ProximityReading {
+    /// Pose of the sensor in the body's frame.
+    sensor: Pose2,
+    /// 255 = touching.
+    level: u8,
+}
+
+/// An arc of the bumper, in radians from straight ahead.
+#[derive(Clone, Copy)]
+struct BumperArc {
+    from_rad: f64,
+    to_rad: f64,
+}
+
 /// The inverse sensor model of one robot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InverseSensorModel {
@@ -60,7 +76,8 @@ impl InverseSensorModel {
     pub(super) fn draw(&self, sighting: &Sighting, grid: &mut OccupancyGrid) {
         self.draw_body(sighting, grid);
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
-            self.draw_beam(sighting, (*sensor, level), grid);
+            let sensor = *sensor;
+            self.draw_beam(sighting, ProximityReading { sensor, level }, grid);
         }
         self.draw_contacts(sighting, grid);
         self.draw_cliffs(sighting, grid);
@@ -107,7 +124,7 @@ impl InverseSensorModel {
             for x in first..=last {
                 grid.change(Cell { x, y }, |evidence| {
                     add_occupancy(evidence, BODY_STEP);
-                    evidence.contact = evidence.contact.saturating_sub(CONTACT_SURE);
+                    evidence.contact = evidence.contact.saturating_sub(CONTACT_LOCATED);
                     evidence.set(Flag::Body);
                     note_sigma(evidence, sighting);
                 });
@@ -115,10 +132,10 @@ impl InverseSensorModel {
         }
     }
 
-    fn draw_beam(&self, sighting: &Sighting, (sensor, level): (Pose2, u8), grid: &mut OccupancyGrid) {
+    fn draw_beam(&self, sighting: &Sighting, reading: ProximityReading, grid: &mut OccupancyGrid) {
         let response = self.sensors.proximity.response;
-        let beam = sighting.pose * sensor;
-        let level = f64::from(level) / 255.0;
+        let beam = sighting.pose * reading.sensor;
+        let level = f64::from(reading.level) / 255.0;
         let hit_m = if level < LEVEL_MIN {
             None
         } else {
@@ -164,21 +181,23 @@ impl InverseSensorModel {
         if !sighting.switches.has_new_contact() {
             return;
         }
-        let Some((from_rad, to_rad)) = self.touched_arc(sighting) else {
+        let Some(pressed) = self.touched_arc(sighting) else {
             return;
         };
-        let seen = self.brightest_within(sighting, (from_rad, to_rad));
-        let (from_rad, to_rad, evidence) = match seen {
-            Some(at_rad) => (
-                (at_rad - CONTACT_SPREAD_RAD).max(from_rad),
-                (at_rad + CONTACT_SPREAD_RAD).min(to_rad),
-                CONTACT_SURE,
-            ),
-            None if (to_rad - from_rad) * self.body.radius_m <= SHORT_ARC_M => {
-                (from_rad, to_rad, CONTACT_NARROW)
+        let (arc, evidence) = match self.brightest_within(sighting, pressed) {
+            Some(at_rad) => {
+                let seen = BumperArc {
+                    from_rad: (at_rad - CONTACT_SPREAD_RAD).max(pressed.from_rad),
+                    to_rad: (at_rad + CONTACT_SPREAD_RAD).min(pressed.to_rad),
+                };
+                (seen, CONTACT_LOCATED)
             }
-            None => (from_rad, to_rad, CONTACT_VAGUE),
+            None if (pressed.to_rad - pressed.from_rad) * self.body.radius_m <= SHORT_ARC_M => {
+                (pressed, CONTACT_NARROW)
+            }
+            None => (pressed, CONTACT_VAGUE),
         };
+        let BumperArc { from_rad, to_rad } = arc;
         let radius_m = self.body.radius_m + 0.5 * CELL_M;
         let steps = libm::ceil((to_rad - from_rad) * radius_m / (0.7 * CELL_M)).clamp(1.0, 64.0);
         let mut last = None;
@@ -201,23 +220,25 @@ impl InverseSensorModel {
     }
 
     /// The pressed arc of the bumper.
-    fn touched_arc(&self, sighting: &Sighting) -> Option<(f64, f64)> {
+    fn touched_arc(&self, sighting: &Sighting) -> Option<BumperArc> {
         let bumper = self.sensors.bumper;
-        match sighting.switches.contacts() {
-            (false, false) => None,
-            (true, true) => Some((-bumper.overlap_rad, bumper.overlap_rad)),
-            (true, false) => Some((bumper.overlap_rad, bumper.half_arc_rad)),
-            (false, true) => Some((-bumper.half_arc_rad, -bumper.overlap_rad)),
-        }
+        let (from_rad, to_rad) = match sighting.switches.contacts() {
+            (false, false) => return None,
+            (true, true) => (-bumper.overlap_rad, bumper.overlap_rad),
+            (true, false) => (bumper.overlap_rad, bumper.half_arc_rad),
+            (false, true) => (-bumper.half_arc_rad, -bumper.overlap_rad),
+        };
+        Some(BumperArc { from_rad, to_rad })
     }
 
     /// Bearing of the proximity sensor that sees most of what the arc touches.
-    fn brightest_within(&self, sighting: &Sighting, (from_rad, to_rad): (f64, f64)) -> Option<f64> {
+    fn brightest_within(&self, sighting: &Sighting, arc: BumperArc) -> Option<f64> {
         let mut best: Option<(f64, f64)> = None;
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
             let bearing_rad = libm::atan2(sensor.y_m, sensor.x_m);
             let level = f64::from(level) / 255.0;
-            let within = (from_rad - CONTACT_SPREAD_RAD..=to_rad + CONTACT_SPREAD_RAD).contains(&bearing_rad);
+            let within =
+                (arc.from_rad - CONTACT_SPREAD_RAD..=arc.to_rad + CONTACT_SPREAD_RAD).contains(&bearing_rad);
             if within && level >= CONTACT_LEVEL && best.is_none_or(|(brightest, _)| level > brightest) {
                 best = Some((level, bearing_rad));
             }
@@ -231,7 +252,7 @@ impl InverseSensorModel {
             let cell = Cell::under(sighting.pose.transform(*place));
             grid.change(cell, |evidence| {
                 evidence.cliff = if gone {
-                    (evidence.cliff + CONTACT_SURE).min(COUNT_MAX)
+                    (evidence.cliff + CONTACT_LOCATED).min(COUNT_MAX)
                 } else {
                     evidence.cliff.saturating_sub(1)
                 };

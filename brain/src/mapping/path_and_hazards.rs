@@ -122,7 +122,7 @@ impl HazardLog {
     }
 
     /// Makes all present positions final.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn finalize(&mut self) {
         self.seen.fill(None);
     }
 }

@@ -62,10 +62,9 @@ impl Behavior {
         let left = RemainingWork {
             left_m2: swept.left_m2,
             share: 1.0 - swept.share,
-            way_m,
+            dock_path_m: way_m,
         };
-        let pace = (self.config.body.swath_m, self.config.speeds.cruise_m_per_s);
-        self.energy.model().is_negligible(left, pace)
+        self.energy.model().is_negligible(left, &self.config)
     }
 
     /// Whether so little charge is left that the way home might become too long.
@@ -131,7 +130,7 @@ impl Behavior {
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
-        let has_home = situation.map.dock().is_some() || situation.beams.has_heard_dock();
+        let has_home = situation.map.dock().is_some() || situation.beams.has_received_dock();
         if has_cleaned && has_home {
             self.turn_home(reason, mind);
         } else {

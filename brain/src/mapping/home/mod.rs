@@ -1,4 +1,4 @@
-//! The part of the map that outlives a job: what stands where.
+//! The part of the map that outlives a job.
 
 mod painting;
 
@@ -20,53 +20,53 @@ use crate::model::gradual::{Gradual, Pace, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Derived rasters are brought up to date after this time, microseconds.
+/// Interval of updating the derived rasters, microseconds.
 const REFRESH_US: u64 = 2_000_000;
-/// Rooms are looked for again after this time, microseconds.
+/// Interval of segmenting rooms, microseconds.
 const SEGMENTATION_INTERVAL_US: u64 = 120_000_000;
-/// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
+/// Most sightings for a redraw: at least half a centimetre of travel apart, some two hours of cleaning.
 const SIGHTINGS_MAX: usize = 100_000;
-/// Radius of what is shut around a place that trapped the robot; plans keep the body's radius away from it, too.
+/// Radius of the forbidden disc where the robot got stuck. Plans also keep the body's radius away from it.
 const POCKET_M: f64 = 0.1;
 
 /// Whether a cell may be entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Access {
-    /// It may.
+    /// It may be entered.
     Allowed,
-    /// It may not.
+    /// It may not be entered.
     Forbidden,
 }
 
-/// What is known of the home.
+/// The map of the home.
 #[derive(Debug)]
 pub(super) struct HomeMap {
     pub(super) sensor_model: InverseSensorModel,
     pub(super) grid: OccupancyGrid,
     pub(super) derived: Derived,
-    /// What was known before the first of the sightings.
+    /// The grid before the first sighting.
     pub(super) base: OccupancyGrid,
     pub(super) sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
-    /// Tiles that are not brought up to date yet, of those that were to be.
+    /// Dirty tiles that the current update has still to process.
     pub(super) stale_tiles: usize,
     pub(super) rooms: Rooms,
     segmented_us: u64,
     segmentation: Option<Gradual<Rooms>>,
     pub(super) dock: DockLocation,
     pub(super) revision: u32,
-    /// Grows when a kind of floor has changed; apart from `revision`, by which plans are judged.
+    /// Increments when a surface changed. It is separate from `revision`, which invalidates plans.
     pub(super) surface_revision: u32,
-    /// Something was observed of the floor since that grew.
+    /// Whether a surface was added since that increment.
     surface_is_new: bool,
-    /// Direction of the walls at a revision.
+    /// Wall direction of one revision.
     pub(super) direction: CachedDirection,
     pub(super) redrawn: u32,
-    /// Cells that are shut until the next job.
+    /// Cells that are forbidden until the next job.
     pub(super) pockets: Vec<Cell>,
     pub(super) annotations: Annotations,
-    /// Where no-go zones were last painted.
+    /// Bounds of the grid when no-go zones were last painted.
     pub(super) painted: Option<CellBox>,
 }
 
@@ -123,7 +123,7 @@ impl HomeMap {
         }
     }
 
-    /// Sets or clears a flag, whatever is drawn again later.
+    /// Sets or clears a flag so that a redraw keeps it.
     pub(super) fn flag(&mut self, cell: Cell, flag: Flag, access: Access) {
         let change = |evidence: &mut super::occupancy_grid::Evidence| match access {
             Access::Forbidden => evidence.set(flag),
@@ -133,20 +133,20 @@ impl HomeMap {
         self.grid.change(cell, change);
     }
 
-    /// Forbids the cells around a place until [`Self::open_pockets`].
-    pub(super) fn shut_pocket(&mut self, place: Point2) {
+    /// Forbids a disc of cells until [`Self::allow_pockets`].
+    pub(super) fn forbid_pocket(&mut self, place: Point2) {
         let reach = libm::ceil(POCKET_M / CELL_M) as i32;
         let middle = Cell::under(place);
         let around = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| (column, row)));
         let within = around.filter(|(column, row)| column * column + row * row <= reach * reach);
-        self.shut(within.map(|(column, row)| Cell {
+        self.forbid_for_job(within.map(|(column, row)| Cell {
             x: middle.x.saturating_add(column),
             y: middle.y.saturating_add(row),
         }));
     }
 
-    /// Forbids cells until [`Self::open_pockets`].
-    pub(super) fn shut(&mut self, cells: impl Iterator<Item = Cell>) {
+    /// Forbids cells until [`Self::allow_pockets`].
+    pub(super) fn forbid_for_job(&mut self, cells: impl Iterator<Item = Cell>) {
         for cell in cells {
             self.flag(cell, Flag::Pocket, Access::Forbidden);
             self.pockets.push(cell);
@@ -154,8 +154,8 @@ impl HomeMap {
         self.refresh();
     }
 
-    /// A new job may go everywhere again: things are moved.
-    pub(super) fn open_pockets(&mut self) {
+    /// Allows everything that was forbidden for the job: things may have been moved.
+    pub(super) fn allow_pockets(&mut self) {
         for cell in core::mem::take(&mut self.pockets) {
             self.flag(cell, Flag::Pocket, Access::Allowed);
         }
@@ -164,8 +164,8 @@ impl HomeMap {
 
     pub(super) fn segment_rooms(&mut self) {
         self.refresh();
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
         let changes = self.annotations.room_changes();
         self.rooms = at_once(
             self.rooms
@@ -174,10 +174,10 @@ impl HomeMap {
         self.segmentation = None;
     }
 
-    /// Begins to look for rooms in what is known now. That goes on with [`Self::continue_segmentation`].
+    /// Begins to segment rooms. [`Self::continue_segmentation`] does the work.
     fn begin_segmentation(&mut self) {
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.unwrap_or_else(|| self.derived.knowledge.clone());
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.unwrap_or_else(|| self.derived.knowledge.clone());
         let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
         self.segmentation = Some(Gradual::new(async move {
             before
@@ -195,7 +195,7 @@ impl HomeMap {
         }
     }
 
-    /// Cells that tiles cover.
+    /// Bounding box of all tiles.
     pub(super) fn bounds(&self) -> Option<CellBox> {
         self.grid.bounds()
     }
@@ -204,31 +204,31 @@ impl HomeMap {
         &self.derived.knowledge
     }
 
-    /// What would be known of a cell without a flag.
+    /// Knowledge of a cell as if the flags were clear.
     pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
         let mut evidence = self.grid.at(cell);
         flags.iter().for_each(|flag| evidence.clear(*flag));
         evidence.knowledge()
     }
 
-    /// Something that people see has changed.
-    pub(super) fn touch(&mut self) {
+    /// Records a visible change.
+    pub(super) fn increment_revision(&mut self) {
         self.refresh();
         self.revision = self.revision.wrapping_add(1);
     }
 
-    /// Whether there is no room for another sighting.
+    /// Whether the list of sightings is full.
     pub(super) fn is_full(&self) -> bool {
         self.sightings.len() >= SIGHTINGS_MAX
     }
 
-    /// What was seen up to now stays where it is.
-    pub(super) fn settle(&mut self) {
+    /// Makes everything up to now final.
+    pub(super) fn finalize(&mut self) {
         self.base = self.grid.clone();
         self.sightings.clear();
     }
 
-    /// Notes that the cleaning parts run where the robot was seen last.
+    /// Records that the cleaning motors run at the last sighting.
     pub(super) fn note_sweeping(&mut self) {
         if self.last.is_some()
             && let Some(newest) = self.sightings.last_mut()
@@ -237,7 +237,7 @@ impl HomeMap {
         }
     }
 
-    /// Takes in what is observed of the floor at an observation, if that was new to the map.
+    /// Adds a detected surface to the sighting of this time, if there is one.
     pub(super) fn note_surface(&mut self, time_us: u64, observed: SurfaceObservation) -> Option<Sighting> {
         let newest = self.sightings.last_mut()?;
         if newest.time_us != time_us {
@@ -249,12 +249,12 @@ impl HomeMap {
         Some(*newest)
     }
 
-    /// Begins to bring up to date what changed up to now, tile by tile.
+    /// Begins to update the derived rasters, tile by tile.
     pub(super) fn begin_refresh(&mut self) {
         if core::mem::take(&mut self.surface_is_new) {
             self.surface_revision = self.surface_revision.wrapping_add(1);
         }
-        self.paint_what_came();
+        self.paint_no_go_in_new_tiles();
         self.stale_tiles = self.grid.dirty_tiles();
     }
 
@@ -271,15 +271,15 @@ impl HomeMap {
 
     pub(super) fn refresh(&mut self) {
         self.stale_tiles = 0;
-        self.paint_what_came();
+        self.paint_no_go_in_new_tiles();
         if self.grid.is_dirty() {
             self.derived.refresh(&mut self.grid);
             self.revision = self.revision.wrapping_add(1);
         }
     }
 
-    /// Takes up grid that were drawn again; what was seen meanwhile is in them.
-    pub(super) fn take_redrawn(&mut self, grid: OccupancyGrid, derived: Derived) {
+    /// Replaces the grid by a redrawn one, which includes everything seen meanwhile.
+    pub(super) fn replace_grid(&mut self, grid: OccupancyGrid, derived: Derived) {
         self.grid = grid;
         self.paint_no_go();
         self.derived = derived;
@@ -289,7 +289,7 @@ impl HomeMap {
         self.redrawn = self.redrawn.wrapping_add(1);
     }
 
-    /// The same with a stored home instead of nothing.
+    /// Fills an empty map from a stored one.
     pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
         self.grid = stored.grid(pace).await;
         self.base = self.grid.clone();
@@ -297,15 +297,15 @@ impl HomeMap {
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
         self.derived = Derived::compute(&mut self.grid, pace).await;
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
         let changes = self.annotations.room_changes();
         self.rooms = stored.rooms().segmented_in_steps(knowledge, changes, pace).await;
         self
     }
 
-    /// Goes on with the counters of the home that was there before.
-    pub(super) fn count_on(&mut self, before: &Self) {
+    /// Continues the counters of the replaced home.
+    pub(super) fn continue_counters(&mut self, before: &Self) {
         self.revision = before.revision.wrapping_add(1);
         self.surface_revision = before.surface_revision.wrapping_add(1);
         self.redrawn = before.redrawn;
@@ -314,7 +314,7 @@ impl HomeMap {
     }
 }
 
-/// Nothing is learnt in the air, without news, or by a robot that does not know where it is.
+/// Whether an observation is valid for the map: not from a robot that is lifted, lost or without a link.
 fn is_of_use(estimate: &PoseEstimate, observation: &Observation) -> bool {
     let pose = estimate.pose;
     let is_finite = (pose.x_m + pose.y_m + pose.heading_rad).is_finite();

@@ -32,11 +32,11 @@ pub struct Map {
     hazards: HazardLog,
     home: HomeMap,
     job_base: JobBase,
-    /// The map with better poses, while it is being drawn.
+    /// The map with corrected poses, while it is being drawn.
     redrawing: Option<Box<Redrawing>>,
 }
 
-/// What of a job does not come from the sightings that are kept.
+/// The part of a job that does not come from the present sightings.
 #[derive(Clone, Debug, Default)]
 struct JobBase {
     swept: CoverageGrid,
@@ -45,7 +45,7 @@ struct JobBase {
     sightings: usize,
 }
 
-/// How much of a map somebody has seen.
+/// How much of a map a client has received.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MapCursor {
     generation: u32,
@@ -54,14 +54,14 @@ pub struct MapCursor {
     hazards: usize,
 }
 
-/// Part of a map, in the order in which it came to be.
+/// A part of a map, in order of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapPart<'map> {
     /// Number of the map, from 1.
     pub generation: u32,
     /// Swept cells.
     pub swept: &'map [Cell],
-    /// The way, thinned to 2 cm.
+    /// The path, thinned to 2 cm.
     pub path: &'map [PathPoint],
     /// Contacts and cliffs.
     pub hazards: &'map [Hazard],
@@ -94,7 +94,7 @@ impl Map {
         }
     }
 
-    /// A cursor that has seen everything up to now.
+    /// A cursor at the present state.
     #[must_use]
     pub fn cursor(&self) -> MapCursor {
         MapCursor {
@@ -105,7 +105,7 @@ impl Map {
         }
     }
 
-    /// What came since `cursor`; `None` if that cursor belongs to another map, then a snapshot is needed.
+    /// Everything since `cursor`; `None` if the cursor belongs to another generation and the client needs a snapshot.
     #[must_use]
     pub fn since(&self, cursor: MapCursor) -> Option<MapPart<'_>> {
         (cursor.generation == self.generation).then(|| MapPart {
@@ -116,7 +116,7 @@ impl Map {
         })
     }
 
-    /// Length of the way of this job, metres.
+    /// Path length of this job, metres.
     #[must_use]
     pub fn path_length_m(&self) -> f64 {
         self.path.length_m()
@@ -140,25 +140,25 @@ impl Map {
         self.swept.cell_passes(cell)
     }
 
-    /// The time that [`CellPasses::last_s`] of a cell has that is swept now.
+    /// [`CellPasses::last_s`] of a cell that is swept now.
     #[must_use]
     pub fn coverage_now_s(&self) -> u32 {
         self.swept.now_s()
     }
 
-    /// Swept cells joined to rows, in a fixed order.
+    /// Swept cells as runs, in a fixed order.
     #[must_use]
     pub fn swept_runs(&self) -> Vec<SweptRun> {
         self.swept.runs()
     }
 
-    /// Forgets the job and counts one map on; what is known of the home stays, except for places that were shut for the job.
+    /// Starts a new job and generation. The home stays, except for places that were forbidden for the job.
     pub(crate) fn start_anew(&mut self) {
         self.generation += 1;
         self.swept = CoverageGrid::default();
         self.path = Path::default();
         self.hazards = HazardLog::default();
-        self.open_pockets();
+        self.allow_pockets();
         self.swath.lift();
         self.job_base = JobBase {
             sightings: self.home.sightings.len(),
@@ -167,7 +167,7 @@ impl Map {
         self.redrawing = None;
     }
 
-    /// Follows the robot to where it is at a time; with `Brushes::Sweeping` the floor under the swath becomes swept.
+    /// Adds a pose to the path. With `Brushes::Sweeping` the swath becomes swept.
     pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes, time_us: u64) {
         self.path.follow(pose.position());
         match brushes {
@@ -180,7 +180,7 @@ impl Map {
         }
     }
 
-    /// Takes up an earlier map as a new generation.
+    /// Restores the job of an earlier map, as a new generation.
     pub(crate) fn restore(&mut self, runs: &[SweptRun], path: &[PathPoint], hazards: &[Hazard]) {
         self.start_anew();
         for run in runs {
@@ -195,7 +195,7 @@ impl Map {
     }
 }
 
-/// Whether the cleaning parts run.
+/// Whether the cleaning motors run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Brushes {
     /// They run.

@@ -1,6 +1,7 @@
-//! The home is written down as plain data.
+//! Saving the home as plain data.
 //!
-//! Some hundred thousand cells, which take a small board a quarter of a second, so it can be done in steps while the robot drives.
+//! A home has some hundred thousand cells. A small board needs a quarter of a second for them, so saving can run in steps while
+//! the robot drives.
 
 use super::Map;
 use crate::mapping::occupancy_grid::OccupancyGrid;
@@ -8,7 +9,7 @@ use crate::mapping::rooms::Rooms;
 use crate::mapping::{Annotations, DockLocation, StoredMap};
 use crate::model::gradual::{Gradual, Pace, at_once};
 
-/// A copy of what is written down. It shares the cells with the map as long as that does not change them.
+/// A copy of what is saved. It shares its cells with the map until the map writes to them.
 struct MapCopy {
     grid: OccupancyGrid,
     rooms: Rooms,
@@ -41,7 +42,7 @@ impl Map {
         at_once(MapCopy::of(self).written(&mut Pace::at_once()))
     }
 
-    /// As [`Self::stored`], of the map as it is now, in steps.
+    /// As [`Self::stored`], of the present map, in steps.
     pub(crate) fn stored_in_steps(&self) -> Gradual<StoredMap> {
         let copy = MapCopy::of(self);
         Gradual::new(async move { copy.written(&mut Pace::in_steps()).await })

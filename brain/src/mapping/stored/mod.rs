@@ -1,7 +1,6 @@
-//! A map as plain data, for the disk and for the beginning of a recording; who keeps it makes bytes of its [parts](StoredMapParts).
+//! A map as plain data, for the disk and for the start of a recording. Callers serialize its [parts](StoredMapParts).
 //!
-//! What a cell holds is rounded to what decides about it; equal cells side by side are one run. A home of 150 square
-//! metres takes some ten kilobytes.
+//! Evidence is quantized, and equal adjacent cells form runs. A home of 150 square metres takes some ten kilobytes.
 
 mod parts;
 
@@ -17,7 +16,7 @@ use super::{Cell, CellKnowledge, DockLocation, Raster, SurfaceKind};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Pace, at_once};
 
-/// Most cells of a stored map's window.
+/// Most cells of a stored map.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
 
 /// A map as plain data.
@@ -28,33 +27,33 @@ pub struct StoredMap {
     width: u32,
     height: u32,
     cells: Vec<CellRun>,
-    /// Room of each cell as it was found, 0 = none; no runs at all when the map has no rooms yet.
+    /// Segmented room of each cell, 0 = none; empty when the map has no rooms yet.
     rooms: Vec<CellRun>,
-    /// Identity of the next room that has none yet.
+    /// Identity of the next new room.
     next_room: u16,
     annotations: Annotations,
 }
 
-/// Equal cells side by side, rows joined.
+/// A run of equal cells; it may continue over several rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CellRun {
-    /// What the cells hold, packed, or their room.
+    /// Packed evidence of the cells, or their room.
     pub value: u16,
-    /// How many they are.
+    /// Number of cells.
     pub length: u32,
 }
 
-/// Work on a cell that is written down or taken up, beside one that is only looked at.
+/// Work of writing or reading a cell, beside visiting it.
 const CELL_WORK: usize = 4;
 
-/// Occupancy is stored in 15 steps of this size.
+/// Occupancy is quantized to 15 steps of this size.
 const OCCUPANCY_STEP: i8 = 12;
 
 impl StoredMap {
-    /// A map of what is known of each cell, for instance of a home that somebody measured.
+    /// A map with this knowledge, for instance of a measured home.
     #[must_use]
     pub fn from_raster(knowledge: &Raster<CellKnowledge>, dock: Option<Pose2>) -> Self {
-        let cells = runs_of(knowledge.values().iter().map(|kind| pack(sure(*kind))));
+        let cells = runs_of(knowledge.values().iter().map(|kind| pack(certain(*kind))));
         Self {
             dock: dock.map(DockLocation::converged).unwrap_or_default(),
             origin: knowledge.origin(),
@@ -67,13 +66,13 @@ impl StoredMap {
         }
     }
 
-    /// Pose of a robot that stands on the dock, if that is known.
+    /// Pose of a docked robot, if known.
     #[must_use]
     pub fn dock(&self) -> Option<Pose2> {
         self.dock.pose()
     }
 
-    /// The same with what it is known from.
+    /// Location of the dock and its source.
     #[must_use]
     pub fn dock_location(&self) -> DockLocation {
         self.dock
@@ -85,19 +84,19 @@ impl StoredMap {
         Self { dock, ..self }
     }
 
-    /// What people have said of the home.
+    /// Everything that people added to the map.
     #[must_use]
     pub fn annotations(&self) -> &Annotations {
         &self.annotations
     }
 
-    /// The same map with other words of people.
+    /// The same map with other annotations.
     #[must_use]
     pub fn with_annotations(self, annotations: Annotations) -> Self {
         Self { annotations, ..self }
     }
 
-    /// What is known of each cell.
+    /// Knowledge of each cell.
     #[must_use]
     pub fn knowledge(&self) -> Raster<CellKnowledge> {
         at_once(self.knowledge_in_steps(&mut Pace::at_once()))
@@ -118,7 +117,7 @@ impl StoredMap {
         raster
     }
 
-    /// Number of rooms in it.
+    /// Number of rooms.
     #[must_use]
     pub fn room_count(&self) -> usize {
         let labels: BTreeSet<u16> = if self.annotations.room_changes().is_empty() {
@@ -131,7 +130,7 @@ impl StoredMap {
         labels.iter().filter(|label| **label != 0).count()
     }
 
-    /// Whether nothing is known, whatever people have said.
+    /// Whether all cells are unknown. Annotations do not count.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cells.iter().all(|run| run.value == 0)
@@ -161,8 +160,8 @@ impl StoredMap {
         let (mut cells, mut labels) = (Vec::new(), Vec::new());
         for (index, value) in raster.values().iter().enumerate() {
             let label = rooms.found().get(raster.cell(index)).copied();
-            lengthen(&mut cells, *value);
-            lengthen(&mut labels, label.unwrap_or(0));
+            push_value(&mut cells, *value);
+            push_value(&mut labels, label.unwrap_or(0));
             pace.spend(CELL_WORK).await;
         }
         Self {
@@ -177,7 +176,7 @@ impl StoredMap {
         }
     }
 
-    /// Cells and identities of the rooms that were found.
+    /// The segmented rooms: cells and identities.
     pub(super) fn rooms(&self) -> Rooms {
         let mut labels = Raster::filled(self.origin, self.width as usize, self.height as usize, 0);
         for (place, value) in labels.values_mut().iter_mut().zip(values_of(&self.rooms)) {
@@ -186,7 +185,7 @@ impl StoredMap {
         Rooms::from_stored(labels, self.next_room)
     }
 
-    /// What is stored, as grid.
+    /// The stored cells as an occupancy grid.
     pub(super) async fn grid(&self, pace: &mut Pace) -> OccupancyGrid {
         let mut grid = OccupancyGrid::default();
         let raster: Raster<()> = Raster::filled(self.origin, self.width as usize, self.height as usize, ());
@@ -201,8 +200,8 @@ impl StoredMap {
     }
 }
 
-/// Evidence that stands for a sure knowledge.
-fn sure(kind: CellKnowledge) -> Evidence {
+/// Evidence that makes a knowledge certain.
+fn certain(kind: CellKnowledge) -> Evidence {
     let mut evidence = Evidence::default();
     match kind {
         CellKnowledge::Unknown => return evidence,
@@ -215,9 +214,9 @@ fn sure(kind: CellKnowledge) -> Evidence {
     evidence
 }
 
-/// Bits of the kind of floor in a cell: 0 not felt, 1 hard, 2 carpet.
+/// Bits of the surface in a cell: 0 unknown, 1 hard, 2 carpet.
 const SURFACE_BITS: u16 = 0b11 << 8;
-/// Evidence of a kind of floor that was stored: sure, and not so sure that a rug which was taken away stays for long.
+/// Evidence of a stored surface: certain, but weak enough that a removed rug soon disappears.
 const SURFACE_REMEMBERED: i8 = 12;
 
 fn surface_number(kind: Option<SurfaceKind>) -> u16 {
@@ -236,10 +235,10 @@ fn surface_kind(number: u8) -> Option<SurfaceKind> {
     }
 }
 
-/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 kind of floor ([`SURFACE_BITS`]), 1 body, 1 no-go, 1 seen,
-/// 3 uncertainty.
+/// From the lowest bit: 4 bits occupancy, 2 contact, 2 cliff, 2 surface ([`SURFACE_BITS`]), 1 body, 1 no-go, 1 seen, 3
+/// uncertainty.
 fn pack(evidence: Evidence) -> u16 {
-    // Rounded so that what counts as free or occupied still does.
+    // Rounding preserves free and occupied.
     let rounding = if evidence.occupancy < 0 {
         OCCUPANCY_STEP - 4
     } else {
@@ -291,13 +290,13 @@ fn unpack(packed: u16) -> Evidence {
 pub(super) fn runs_of(values: impl Iterator<Item = u16>) -> Vec<CellRun> {
     let mut runs = Vec::new();
     for value in values {
-        lengthen(&mut runs, value);
+        push_value(&mut runs, value);
     }
     runs
 }
 
-/// Adds a cell to the last run, or begins another one.
-fn lengthen(runs: &mut Vec<CellRun>, value: u16) {
+/// Extends the last run, or begins another one.
+fn push_value(runs: &mut Vec<CellRun>, value: u16) {
     match runs.last_mut() {
         Some(run) if run.value == value && run.length < u32::MAX => run.length += 1,
         _ => runs.push(CellRun { value, length: 1 }),

@@ -1,4 +1,4 @@
-//! Plain parts of a stored map, for what makes bytes of it and what reads them.
+//! The plain parts of a stored map, for serialization.
 
 use core::fmt;
 use std::collections::BTreeMap;
@@ -16,73 +16,73 @@ use crate::model::room_settings::RoomSettings;
 /// Everything that a stored map holds. [`StoredMap::from_parts`] checks it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredMapParts {
-    /// Where the dock was felt.
+    /// Location of the dock as measured by docking.
     pub measured_dock: Option<MeasuredDock>,
-    /// Where a person says that it stands.
+    /// Location of the dock as a person reported it.
     pub reported_dock: Option<Pose2>,
-    /// Lowest cell of the window.
+    /// Lowest cell of the map.
     pub origin: Cell,
-    /// Columns of the window.
+    /// Columns of the map.
     pub width: u32,
-    /// Rows of the window.
+    /// Rows of the map.
     pub height: u32,
-    /// What each cell holds, row by row; no runs at all when nothing is known.
+    /// Packed evidence of each cell, row by row; empty when all cells are unknown.
     pub cells: Vec<CellRun>,
-    /// Room of each cell, 0 = none; no runs at all when the map has no rooms yet.
+    /// Room of each cell, 0 = none; empty when the map has no rooms yet.
     pub rooms: Vec<CellRun>,
-    /// Identity of the next room that has none yet.
+    /// Identity of the next new room.
     pub next_room: u16,
     /// No-go zones and virtual walls.
     pub no_go: Numbered<NoGo>,
     /// Names of rooms.
     pub names: BTreeMap<u16, RoomName>,
-    /// How people changed the rooms.
+    /// Splits and joins of rooms.
     pub room_changes: Numbered<RoomChange>,
-    /// Splits that were taken back and keep their identities.
+    /// Undone splits that keep their identities.
     pub undone_splits: Vec<RoomSplit>,
-    /// How rooms are cleaned.
+    /// Settings of rooms.
     pub room_settings: BTreeMap<u16, RoomSettings>,
-    /// Zones and spots that are kept.
+    /// Saved zones and spots.
     pub places: Numbered<KeptPlace>,
 }
 
-/// Things with numbers that are given once.
+/// Items with numbers that are never reused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbered<T> {
-    /// Number of the next one.
+    /// Next number.
     pub next: u16,
-    /// All that there are.
+    /// All items.
     pub items: Vec<(u16, T)>,
 }
 
-/// Why parts make no map.
+/// Why parts are not a valid map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StoredMapError {
-    /// More cells than a map can have.
+    /// Too many cells.
     TooLarge {
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
     },
-    /// A layer has another number of cells than the window.
+    /// The runs of a layer have a wrong number of cells.
     Cells {
-        /// Of the window.
+        /// Number of cells in the map.
         expected: u64,
-        /// Of the layer.
+        /// Number of cells in the layer.
         found: u64,
     },
-    /// A kind of floor that is not known here.
-    Floor,
-    /// A no-go zone that no map can have, or too many.
+    /// Unknown surface.
+    Surface,
+    /// Invalid no-go zone, or too many.
     NoGo,
-    /// A place that no map can keep, or too many.
+    /// Invalid saved place, or too many.
     Place,
-    /// A name that no room can have, or too many.
+    /// Invalid room name, or too many.
     Name,
-    /// A change of rooms that no map can have, or too many.
+    /// Invalid change of rooms, or too many.
     RoomChange,
-    /// Settings that no room can have, or too many.
+    /// Invalid room settings, or too many.
     RoomSettings,
 }
 
@@ -98,7 +98,7 @@ impl fmt::Display for StoredMapError {
             Self::Cells { expected, found } => {
                 write!(formatter, "a layer has {found} cells instead of {expected}")
             }
-            Self::Floor => formatter.write_str("it has a kind of floor that cannot be"),
+            Self::Surface => formatter.write_str("it has a kind of floor that cannot be"),
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::Place => formatter.write_str("it keeps a place that cannot be"),
@@ -111,7 +111,7 @@ impl fmt::Display for StoredMapError {
 impl core::error::Error for StoredMapError {}
 
 impl StoredMap {
-    /// Takes a copy of it apart.
+    /// A copy of all parts.
     #[must_use]
     pub fn parts(&self) -> StoredMapParts {
         let words = &self.annotations;
@@ -133,10 +133,10 @@ impl StoredMap {
         }
     }
 
-    /// The map of these parts.
+    /// Builds a map of parts.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The first part that is not valid.
     pub fn from_parts(parts: StoredMapParts) -> Result<Self, StoredMapError> {
         parts.check_layers()?;
         parts.check_room_changes()?;
@@ -187,7 +187,7 @@ impl<T: Clone> Numbered<T> {
         }
     }
 
-    /// By their numbers, if there are at most so many and each number was given, and once.
+    /// The items by number, if there are not too many and each has a unique number that was given.
     fn checked(self, most: usize, error: StoredMapError) -> Result<BTreeMap<u16, T>, StoredMapError> {
         let count = self.items.len();
         let checked: BTreeMap<u16, T> = self.items.into_iter().collect();
@@ -213,10 +213,10 @@ impl StoredMapParts {
         }
         let has_known_floor = |run: &CellRun| run.value & SURFACE_BITS != SURFACE_BITS;
         let is_known = self.cells.iter().all(has_known_floor);
-        is_known.then_some(()).ok_or(StoredMapError::Floor)
+        is_known.then_some(()).ok_or(StoredMapError::Surface)
     }
 
-    /// Each change speaks of two rooms that the map has given an identity.
+    /// Each change must name two different existing rooms.
     fn check_room_changes(&self) -> Result<(), StoredMapError> {
         let known = 1..self.next_room;
         let is_good = |[one, other]: [u16; 2]| one != other && known.contains(&one) && known.contains(&other);

@@ -1,4 +1,4 @@
-//! Rooms that people split and join, in a map that is drawn again and written down.
+//! Splitting and joining rooms, in maps that are drawn again and stored.
 
 use std::collections::BTreeSet;
 
@@ -22,8 +22,8 @@ fn line(from: (f64, f64), to: (f64, f64)) -> CutLine {
     CutLine::new(point(from.0, from.1), point(to.0, to.1)).expect("two places")
 }
 
-/// Two rooms in a row along x, 4 and 3 m long and 3 m deep, with a door of 0.8 m between them; all of it `shift_m` to the
-/// right and up. The second is only there when it is wanted.
+/// Two rooms side by side along x, 4 and 3 m long and 3 m deep, with a door of 0.8 m between them; all of it shifted by `shift_m`
+/// to the right and up. `has_second` says whether the second room exists.
 fn two_rooms(shift_m: f64, has_second: bool) -> StoredMap {
     let mut home = Raster::filled(Cell { x: -20, y: -20 }, 340, 170, CellKnowledge::Unknown);
     let rectangles = [
@@ -52,7 +52,7 @@ fn map_of(stored: &StoredMap) -> Map {
     map
 }
 
-/// The home as the next run draws it, with the rooms that are known and what people have said.
+/// The home as mapped by the next run, with the known rooms and annotations.
 fn mapped_again(map: &Map, shift_m: f64) -> Map {
     let mut again = map_of(&two_rooms(shift_m, true));
     again.home.rooms = map.home.rooms.clone();
@@ -213,7 +213,7 @@ fn wish() -> impl Strategy<Value = Wish> {
     ]
 }
 
-/// Each cell that lies in a room before lies in one afterwards, and the rooms that are told are those of the cells.
+/// Every cell in a segmented room is still in a room, and the list of rooms matches the labels.
 fn check(map: &Map, floor_cells: usize) {
     let labels = map.rooms().labels().values();
     let in_rooms = labels.iter().filter(|label| **label != 0).count();
@@ -254,7 +254,7 @@ proptest! {
                 },
                 Wish::MapAgain(shift_m) => {
                     map = mapped_again(&map, shift_m);
-                    // What one could go back to is another map now.
+                    // After mapping anew there is nothing to return to.
                     undoable.clear();
                     Ok(())
                 }
