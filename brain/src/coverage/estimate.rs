@@ -143,7 +143,7 @@ fn part_of(
         settings: *settings,
     };
     let plan = at_once(plan_area(ground, (course, |_| false), from, &mut Pace::at_once()));
-    let plan = plan.in_map(&frame);
+    let plan = plan.in_map(frame);
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = map.annotations().passes_over(order, part);
     let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);
