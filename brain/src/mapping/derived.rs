@@ -3,7 +3,7 @@
 use super::distance::{DistanceField, grown, window};
 use super::occupancy_grid::{CellBox, OccupancyGrid};
 use super::{Cell, CellKnowledge, Raster};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Work of looking up a cell in the tiles.
 const LOOK_UP_WORK: usize = 6;
@@ -26,7 +26,7 @@ impl Default for Derived {
 
 impl Derived {
     /// Derives everything from `grid`.
-    pub(super) async fn compute(grid: &mut OccupancyGrid, pace: &mut Pace) -> Self {
+    pub(super) async fn compute(grid: &mut OccupancyGrid, budget: &mut StepBudget) -> Self {
         grid.take_dirty();
         let mut derived = Self::default();
         derived.cover(grid);
@@ -35,9 +35,9 @@ impl Derived {
             if let Some(place) = derived.knowledge.values_mut().get_mut(index) {
                 *place = grid.at(cell).knowledge();
             }
-            pace.spend(LOOK_UP_WORK).await;
+            budget.spend(LOOK_UP_WORK).await;
         }
-        derived.distance = DistanceField::in_steps(&derived.knowledge, pace).await;
+        derived.distance = DistanceField::in_steps(&derived.knowledge, budget).await;
         derived
     }
 

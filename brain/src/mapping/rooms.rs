@@ -15,7 +15,7 @@ use super::raster::CELLS;
 use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 
 /// Half of the widest passage that separates two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;
@@ -127,7 +127,7 @@ impl Rooms {
     #[must_use]
     pub fn segmented(&self, knowledge: &Raster<CellKnowledge>) -> Self {
         let unchanged = RoomChanges::default();
-        at_once(self.segmented_in_steps(knowledge, &unchanged, &mut Pace::at_once()))
+        at_once(self.segmented_in_steps(knowledge, &unchanged, &mut StepBudget::unlimited()))
     }
 
     /// As [`Self::segmented`], with the changes by people, in steps.
@@ -135,25 +135,25 @@ impl Rooms {
         &self,
         knowledge: &Raster<CellKnowledge>,
         changes: &RoomChanges,
-        pace: &mut Pace,
+        budget: &mut StepBudget,
     ) -> Self {
         let Some(all) = window(knowledge) else {
             return self.clone();
         };
-        let space = space(knowledge, pace).await;
+        let space = space(knowledge, budget).await;
         let is_border = |cell| space.get(cell) != Some(&true);
-        let squared = squared_cells(all, is_border, pace).await;
-        let labels = watershed(&squared, &space, pace).await;
-        let (names, next) = self.identities(&labels, pace).await;
-        let found = renamed(labels, &names, pace).await;
+        let squared = squared_cells(all, is_border, budget).await;
+        let labels = watershed(&squared, &space, budget).await;
+        let (names, next) = self.identities(&labels, budget).await;
+        let found = renamed(labels, &names, budget).await;
         let changed = if changes.is_empty() {
             None
         } else {
-            Some(changes.apply_to(&found, pace).await)
+            Some(changes.apply_to(&found, budget).await)
         };
         let labels = changed.as_ref().unwrap_or(&found);
-        let rooms = measured(labels, &squared, pace).await;
-        let doors = doors(labels, &squared, pace).await;
+        let rooms = measured(labels, &squared, budget).await;
+        let doors = doors(labels, &squared, budget).await;
         Self {
             found: Arc::new(found),
             changed,
@@ -164,11 +164,11 @@ impl Rooms {
     }
 
     /// An identity for each new label, by the cells shared with old rooms; and the next free one.
-    async fn identities(&self, labels: &Raster<u16>, pace: &mut Pace) -> (BTreeMap<u16, u16>, u16) {
+    async fn identities(&self, labels: &Raster<u16>, budget: &mut StepBudget) -> (BTreeMap<u16, u16>, u16) {
         let mut shared: BTreeMap<(u16, u16), u32> = BTreeMap::new();
         for (index, label) in labels.values().iter().enumerate() {
             if index % CELLS == 0 {
-                pace.spend(RELABEL_WORK * CELLS).await;
+                budget.spend(RELABEL_WORK * CELLS).await;
             }
             if *label == 0 {
                 continue;
@@ -197,7 +197,7 @@ impl Rooms {
 }
 
 /// Free cells, and the furniture that stands in them.
-async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<bool> {
+async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Raster<bool> {
     let mut space = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
         *place = *kind == CellKnowledge::Free;
@@ -206,10 +206,10 @@ async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<boo
     let mut seen = space.clone();
     for index in 0..seen.values().len() {
         if index % CELLS == 0 {
-            pace.spend(CELLS).await;
+            budget.spend(CELLS).await;
         }
         if seen.values().get(index) == Some(&false) {
-            let island = island(&mut seen, index, pace).await;
+            let island = island(&mut seen, index, budget).await;
             if island.len() <= furniture_max && !touches_border(&space, &island) {
                 for cell in island {
                     if let Some(place) = space.get_mut(cell) {
@@ -223,7 +223,7 @@ async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<boo
 }
 
 /// The unvisited cells connected to one. Marks them as visited.
-async fn island(seen: &mut Raster<bool>, index: usize, pace: &mut Pace) -> Vec<Cell> {
+async fn island(seen: &mut Raster<bool>, index: usize, budget: &mut StepBudget) -> Vec<Cell> {
     let mut cells = vec![seen.cell(index)];
     if let Some(place) = seen.values_mut().get_mut(index) {
         *place = true;
@@ -232,7 +232,7 @@ async fn island(seen: &mut Raster<bool>, index: usize, pace: &mut Pace) -> Vec<C
     while let Some(cell) = cells.get(next).copied() {
         next += 1;
         if next % CELLS == 0 {
-            pace.spend(VISIT_WORK * CELLS).await;
+            budget.spend(VISIT_WORK * CELLS).await;
         }
         for neighbour in neighbours(cell) {
             if let Some(place) = seen.get_mut(neighbour)
@@ -282,12 +282,12 @@ impl<'relief> Basins<'relief> {
         }
     }
 
-    async fn fill(&mut self, space: &Raster<bool>, pace: &mut Pace) {
+    async fn fill(&mut self, space: &Raster<bool>, budget: &mut StepBudget) {
         // Squared distances are small whole numbers, so a bucket per value sorts them.
         let mut levels: Vec<Vec<u32>> = Vec::new();
         for (index, squared) in self.squared.iter().enumerate() {
             if index % CELLS == 0 {
-                pace.spend(VISIT_WORK * CELLS).await;
+                budget.spend(VISIT_WORK * CELLS).await;
             }
             if space.values().get(index) == Some(&true) {
                 let level = *squared as usize;
@@ -303,7 +303,7 @@ impl<'relief> Basins<'relief> {
             for index in some {
                 self.flood(*index, space);
             }
-            pace.spend(FLOOD_WORK * some.len()).await;
+            budget.spend(FLOOD_WORK * some.len()).await;
         }
     }
 
@@ -419,12 +419,12 @@ impl<'relief> Basins<'relief> {
     }
 
     /// A label for each cell of a basin that is large enough for a room; 0 for the others.
-    async fn labels(&mut self, space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
+    async fn labels(&mut self, space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
         let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
         let mut known: BTreeMap<u32, u16> = BTreeMap::new();
         for index in 0..self.basin_of.len() {
             if index % CELLS == 0 {
-                pace.spend(RELABEL_WORK * CELLS).await;
+                budget.spend(RELABEL_WORK * CELLS).await;
             }
             let Some(root) = self.root_at(index) else {
                 continue;
@@ -444,27 +444,31 @@ impl<'relief> Basins<'relief> {
 }
 
 /// As [`Basins::labels`]. The basins take most of the memory, so they are freed before the next stage.
-async fn watershed(squared: &[f32], space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
+async fn watershed(squared: &[f32], space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
     let mut basins = Basins::new(squared);
-    basins.fill(space, pace).await;
-    basins.labels(space, pace).await
+    basins.fill(space, budget).await;
+    basins.labels(space, budget).await
 }
 
-async fn renamed(mut labels: Raster<u16>, names: &BTreeMap<u16, u16>, pace: &mut Pace) -> Raster<u16> {
+async fn renamed(
+    mut labels: Raster<u16>,
+    names: &BTreeMap<u16, u16>,
+    budget: &mut StepBudget,
+) -> Raster<u16> {
     for some in labels.values_mut().chunks_mut(CELLS) {
         for label in some.iter_mut().filter(|label| **label > 0) {
             *label = names.get(label).copied().unwrap_or(0);
         }
-        pace.spend(RELABEL_WORK * some.len()).await;
+        budget.spend(RELABEL_WORK * some.len()).await;
     }
     labels
 }
 
-async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Room> {
+async fn measured(labels: &Raster<u16>, squared: &[f32], budget: &mut StepBudget) -> Vec<Room> {
     let mut found: BTreeMap<u16, (u32, usize, f32)> = BTreeMap::new();
     for (index, label) in labels.values().iter().enumerate() {
         if index % CELLS == 0 {
-            pace.spend(RELABEL_WORK * CELLS).await;
+            budget.spend(RELABEL_WORK * CELLS).await;
         }
         if *label == 0 {
             continue;

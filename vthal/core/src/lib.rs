@@ -7,7 +7,7 @@
 //!
 //! The parts, in the way of a telemetry report: [`device`] (the device model, what holds for every make, and the makes),
 //! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
-//! beside it the `arbiter` (who may command), `buttons` (what a person means who presses them), `client_inputs` (sticks that clients tell), [`schedule`] (what starts by itself), `history` (what is kept of runs), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
+//! beside it the `arbiter` (who may command), `buttons` (what a person means who presses them), `client_inputs` (sticks that clients tell), [`schedule`] (what starts by itself), [`stored_map`] (the bytes of maps), [`api_forms`] (orders and places as clients and recordings have them), `history` (what is kept of runs), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
 //! (what survives a crash).
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

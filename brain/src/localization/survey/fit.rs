@@ -10,7 +10,7 @@ use super::optimization::{Reach, optimize};
 use super::square::{directed, square};
 use super::tidy::tidy;
 use crate::model::geometry::{Pose2, normalize_rad};
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 
 /// Work of a step: a quarter of a millisecond of a desktop's core.
 const STEP_WORK: usize = 300_000;
@@ -41,9 +41,9 @@ enum Verdict {
 /// Begins a fit of the graph as it is now, which gives `None` when nothing fits; there is none while the graph has no nodes.
 pub(super) fn begin(graph: &Graph) -> Option<Gradual<Option<Fitted>>> {
     let fit = Fit::of(graph)?;
-    Some(Gradual::new(
-        async move { fit.fitted(&mut Pace::of(STEP_WORK)).await },
-    ))
+    Some(Gradual::new(async move {
+        fit.fitted(&mut StepBudget::of(STEP_WORK)).await
+    }))
 }
 
 impl Fit {
@@ -58,24 +58,24 @@ impl Fit {
     }
 
     /// Does all of it. Each part but the optimization is one pass over the marks, and a step of its own.
-    async fn fitted(mut self, pace: &mut Pace) -> Option<Fitted> {
+    async fn fitted(mut self, budget: &mut StepBudget) -> Option<Fitted> {
         self.tidy();
         loop {
-            pace.pause().await;
+            budget.pause().await;
             self.join_doubles();
-            pace.pause().await;
+            budget.pause().await;
             square(&mut self.graph);
-            pace.pause().await;
+            budget.pause().await;
             let reach = match self.trial {
                 Some(_) => Reach::Far,
                 None => Reach::Near,
             };
-            let is_solved = optimize(&mut self.graph, reach, pace).await;
+            let is_solved = optimize(&mut self.graph, reach, budget).await;
             if self.judge_doubles(is_solved)? == Verdict::Holds {
                 break;
             }
         }
-        pace.pause().await;
+        budget.pause().await;
         self.tidy();
         Some(self.into_fitted())
     }

@@ -2,7 +2,7 @@
 
 use super::graph::{Graph, KERNEL, Unknowns};
 use crate::localization::skyline::{Solution, System};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 #[cfg(test)]
 use crate::model::gradual::at_once;
 
@@ -38,15 +38,15 @@ impl Reach {
 }
 
 /// Moves all poses and walls. Gives whether there is a best place for all.
-pub(super) async fn optimize(graph: &mut Graph, reach: Reach, pace: &mut Pace) -> bool {
+pub(super) async fn optimize(graph: &mut Graph, reach: Reach, budget: &mut StepBudget) -> bool {
     let wide = reach.wide_rounds();
     for round in 0..wide + ROUNDS {
         let kernel = if round < wide { WIDE_KERNEL } else { KERNEL };
         let unknowns = graph.unknowns();
         let mut system = graph.system(&unknowns);
-        pace.spend(MOVE_WORK * graph.nodes.len()).await;
-        gather(graph, (&unknowns, kernel), &mut system, pace).await;
-        let Some(Solution { values, factor }) = system.solve(pace).await else {
+        budget.spend(MOVE_WORK * graph.nodes.len()).await;
+        gather(graph, (&unknowns, kernel), &mut system, budget).await;
+        let Some(Solution { values, factor }) = system.solve(budget).await else {
             return false;
         };
         graph.apply(&unknowns, &values);
@@ -56,30 +56,35 @@ pub(super) async fn optimize(graph: &mut Graph, reach: Reach, pace: &mut Pace) -
             return true;
         }
         if round + 1 < wide + ROUNDS {
-            pace.spend(MOVE_WORK * graph.nodes.len()).await;
+            budget.spend(MOVE_WORK * graph.nodes.len()).await;
         }
     }
     true
 }
 
 /// Puts steps, marks and stands on the dock into the system.
-async fn gather(graph: &Graph, (unknowns, kernel): (&Unknowns, f64), system: &mut System, pace: &mut Pace) {
+async fn gather(
+    graph: &Graph,
+    (unknowns, kernel): (&Unknowns, f64),
+    system: &mut System,
+    budget: &mut StepBudget,
+) {
     for step in 0..graph.nodes.len().saturating_sub(1) {
         graph.add_step(step, unknowns, system);
-        pace.spend(STEP_WORK).await;
+        budget.spend(STEP_WORK).await;
     }
     for mark in &graph.marks {
         graph.add_mark((mark, kernel), unknowns, system);
-        pace.spend(MARK_WORK).await;
+        budget.spend(MARK_WORK).await;
     }
     for stand in 0..graph.docked.len() {
         graph.add_stand(stand, system);
-        pace.spend(MARK_WORK).await;
+        budget.spend(MARK_WORK).await;
     }
 }
 
 /// Does all of it at once.
 #[cfg(test)]
 pub(super) fn optimized(graph: &mut Graph) -> bool {
-    at_once(optimize(graph, Reach::Near, &mut Pace::at_once()))
+    at_once(optimize(graph, Reach::Near, &mut StepBudget::unlimited()))
 }

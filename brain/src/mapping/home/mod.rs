@@ -16,7 +16,7 @@ use super::wall_direction::CachedDirection;
 use super::{CELL_M, Cell, Raster, StoredMap};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -169,7 +169,7 @@ impl HomeMap {
         let changes = self.annotations.room_changes();
         self.rooms = at_once(
             self.rooms
-                .segmented_in_steps(knowledge, changes, &mut Pace::at_once()),
+                .segmented_in_steps(knowledge, changes, &mut StepBudget::unlimited()),
         );
         self.segmentation = None;
     }
@@ -181,7 +181,7 @@ impl HomeMap {
         let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
         self.segmentation = Some(Gradual::new(async move {
             before
-                .segmented_in_steps(&knowledge, &changes, &mut Pace::in_steps())
+                .segmented_in_steps(&knowledge, &changes, &mut StepBudget::limited())
                 .await
         }));
     }
@@ -290,17 +290,20 @@ impl HomeMap {
     }
 
     /// Fills an empty map from a stored one.
-    pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
-        self.grid = stored.grid(pace).await;
+    pub(super) async fn filled(mut self, stored: &StoredMap, budget: &mut StepBudget) -> Self {
+        self.grid = stored.grid(budget).await;
         self.base = self.grid.clone();
         self.dock = stored.dock_location();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
-        self.derived = Derived::compute(&mut self.grid, pace).await;
+        self.derived = Derived::compute(&mut self.grid, budget).await;
         let without_no_go = self.knowledge_without_no_go();
         let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
         let changes = self.annotations.room_changes();
-        self.rooms = stored.rooms().segmented_in_steps(knowledge, changes, pace).await;
+        self.rooms = stored
+            .rooms()
+            .segmented_in_steps(knowledge, changes, budget)
+            .await;
         self
     }
 

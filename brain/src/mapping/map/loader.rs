@@ -8,7 +8,7 @@ use super::Map;
 use crate::mapping::StoredMap;
 use crate::mapping::home::HomeMap;
 use crate::model::config::BrainConfig;
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 
 /// Loads a stored home in steps.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ impl MapLoader {
         let (body, sensors) = (config.body, config.sensors);
         Self(Gradual::new(async move {
             let blank = HomeMap::new(body, sensors);
-            LoadedHome(blank.filled(&stored, &mut Pace::in_steps()).await)
+            LoadedHome(blank.filled(&stored, &mut StepBudget::limited()).await)
         }))
     }
 
@@ -42,7 +42,9 @@ impl Map {
     /// Replaces the home by a stored one.
     pub fn load(&mut self, stored: &StoredMap) {
         let blank = HomeMap::new(self.home.sensor_model.body, self.home.sensor_model.sensors);
-        self.replace_home(LoadedHome(at_once(blank.filled(stored, &mut Pace::at_once()))));
+        self.replace_home(LoadedHome(at_once(
+            blank.filled(stored, &mut StepBudget::unlimited()),
+        )));
     }
 
     /// Replaces the home by a loaded one.

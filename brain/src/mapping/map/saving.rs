@@ -7,7 +7,7 @@ use super::Map;
 use crate::mapping::occupancy_grid::OccupancyGrid;
 use crate::mapping::rooms::Rooms;
 use crate::mapping::{Annotations, DockLocation, StoredMap};
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 
 /// A copy of what is saved. It shares its cells with the map until the map writes to them.
 struct MapCopy {
@@ -27,8 +27,8 @@ impl MapCopy {
         }
     }
 
-    async fn written(self, pace: &mut Pace) -> StoredMap {
-        StoredMap::of_layers(&self.grid, &self.rooms, pace)
+    async fn written(self, budget: &mut StepBudget) -> StoredMap {
+        StoredMap::of_layers(&self.grid, &self.rooms, budget)
             .await
             .with_dock_location(self.dock)
             .with_annotations(self.annotations)
@@ -39,12 +39,12 @@ impl Map {
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
-        at_once(MapCopy::of(self).written(&mut Pace::at_once()))
+        at_once(MapCopy::of(self).written(&mut StepBudget::unlimited()))
     }
 
     /// As [`Self::stored`], of the present map, in steps.
     pub(crate) fn stored_in_steps(&self) -> Gradual<StoredMap> {
         let copy = MapCopy::of(self);
-        Gradual::new(async move { copy.written(&mut Pace::in_steps()).await })
+        Gradual::new(async move { copy.written(&mut StepBudget::limited()).await })
     }
 }
