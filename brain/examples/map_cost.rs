@@ -156,7 +156,7 @@ fn main() {
     let mut stored = StoredMap::default();
     timed("storing", &mut || stored = map.stored());
     println!("stored: {} runs", stored.parts().cells.len());
-    timed("taking up", &mut || Map::new(BODY, sensors()).load(&stored));
+    timed("loading", &mut || Map::new(BODY, sensors()).load(&stored));
     timed("drawing again", &mut || {
         map.redraw(&[brain::Keyframe {
             time_us: 0,

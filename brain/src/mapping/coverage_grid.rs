@@ -392,8 +392,8 @@ mod tests {
             (sweeping.passes, sweeping.last_s)
         };
         assert_eq!(passes(&[500], 0), (1, 0));
-        assert_eq!(passes(&[500], 300), (1, 300), "it stood there");
-        assert_eq!(passes(&[500, 506], 0), (1, 4), "it turned round");
+        assert_eq!(passes(&[500], 300), (1, 300), "it stayed there");
+        assert_eq!(passes(&[500, 506], 0), (1, 4), "it turned on the spot");
         assert_eq!(passes(&[500, 540, 600], 5), (3, 104));
         let often: Vec<u64> = (0..20).map(|pass| 100 * pass).collect();
         assert_eq!(passes(&often, 0), (7, 1900), "as many as are counted");

@@ -127,7 +127,7 @@ mod tests {
     use crate::mapping::Cell;
 
     #[test]
-    fn a_window_takes_over_what_it_shares_with_another_one() {
+    fn copying_takes_the_shared_cells() {
         let mut source = Raster::filled(Cell { x: 0, y: 0 }, 3, 3, 1_u8);
         *source.get_mut(Cell { x: 1, y: 2 }).unwrap() = 7;
         for (x, y) in [(-1, -1), (1, 1), (0, 2), (-5, 1), (2, -2), (9, 9)] {

@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cuts_nothing_is_refused_by_name() {
+    fn lines_that_cut_nothing_are_refused_by_name() {
         for (room, line, reason) in [
             (None, line((-3.0, 0.0), (-3.0, 2.0)), Reason::LineMissesRoom),
             (Some(2), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
@@ -244,14 +244,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_one_that_is_meant() {
+    fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_given_one() {
         let along = line((1.0, 1.0), (5.0, 1.0));
         assert_eq!(nearest_cut(&labels(), None, &along).map(|cut| cut.room), Some(1));
         assert_eq!(cut(&labels(), Some(2), &along).map(|cut| cut.room), Ok(2));
     }
 
     #[test]
-    fn a_line_that_does_not_reach_the_border_any_more_divides_what_is_near_its_sides() {
+    fn a_line_that_no_longer_reaches_the_border_divides_the_room_by_the_nearer_side() {
         let short = line((1.0, 0.7), (1.0, 1.2));
         let cut = nearest_cut(&labels(), Some(1), &short).unwrap();
         let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));

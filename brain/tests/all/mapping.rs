@@ -1,4 +1,4 @@
-//! The map of the home: from perceptions and from hand-made rasters to knowledge, distances, rooms, doors and walls.
+//! The map of the home: from observations and from hand-made rasters to knowledge, distances, rooms, doors and walls.
 
 use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
@@ -121,7 +121,7 @@ fn drive_along_wall(fed: &mut Fed, believed: impl Fn(Pose2) -> Pose2) {
 }
 
 #[test]
-fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
+fn a_wall_along_the_path_is_one_row_of_cells_right_behind_its_surface() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     for column in 4..56 {
@@ -129,7 +129,7 @@ fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
         assert_eq!(fed.knows(x_m, 0.26), CellKnowledge::Occupied, "wall at {x_m}");
         assert_eq!(fed.knows(x_m, 0.21), CellKnowledge::Free, "before it at {x_m}");
         assert_eq!(fed.knows(x_m, 0.30), CellKnowledge::Unknown, "behind it at {x_m}");
-        assert_eq!(fed.knows(x_m, 0.0), CellKnowledge::Free, "the way at {x_m}");
+        assert_eq!(fed.knows(x_m, 0.0), CellKnowledge::Free, "the path at {x_m}");
     }
     let clear_m = fed.map.distance_field().at(point(0.7, 0.0));
     assert!((clear_m - 0.25).abs() < 0.02, "{clear_m} m to the wall");
@@ -138,7 +138,7 @@ fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
 }
 
 #[test]
-fn a_contact_is_an_obstacle_for_a_robot_that_only_bumps_until_the_body_was_there() {
+fn a_contact_is_an_obstacle_until_the_body_has_been_there() {
     let mut fed = Fed::new(SensorLayout::default());
     fed.see(at(0.0, 0.0, 0.0), &Observation::default());
     let hit = Observation {
@@ -162,7 +162,7 @@ fn a_contact_is_an_obstacle_for_a_robot_that_only_bumps_until_the_body_was_there
 }
 
 #[test]
-fn an_edge_stays_though_the_body_reaches_over_it() {
+fn a_cliff_stays_although_the_body_reaches_over_it() {
     let mut fed = Fed::new(sensors());
     let edge = Observation {
         cliffs: Cliffs {
@@ -181,7 +181,7 @@ fn an_edge_stays_though_the_body_reaches_over_it() {
 }
 
 #[test]
-fn a_lost_lifted_or_silent_robot_draws_nothing() {
+fn a_robot_that_is_lost_lifted_or_without_a_link_draws_nothing() {
     let mut fed = Fed::new(sensors());
     let lifted = Observation {
         wheel_drop: true,
@@ -206,7 +206,7 @@ fn a_lost_lifted_or_silent_robot_draws_nothing() {
 }
 
 #[test]
-fn a_map_drawn_again_is_the_map_of_the_better_poses() {
+fn a_redrawn_map_is_the_map_of_the_corrected_poses() {
     let bent = |pose: Pose2| at(pose.x_m, 0.2 * pose.x_m, 0.2);
     let mut drifted = Fed::new(sensors());
     drive_along_wall(&mut drifted, bent);
@@ -244,12 +244,12 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
     }
     let known = right.map.knowledge().values().iter();
     let known = known.filter(|kind| **kind != CellKnowledge::Unknown).count();
-    // Not all: which reports are drawn depends on the way as it was believed.
+    // Not all of them: which reports are drawn depends on the estimated path.
     assert!(50 * apart <= known, "{apart} of {known} cells differ");
 }
 
 #[test]
-fn what_is_stored_and_taken_up_is_known_again() {
+fn a_stored_map_is_the_same_when_loaded() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     let corners = [(0.05, 0.0), (0.1, 0.0), (0.1, 0.05), (0.05, 0.05)];
@@ -280,7 +280,7 @@ fn what_is_stored_and_taken_up_is_known_again() {
 }
 
 #[test]
-fn what_is_reshaped_forbids_its_new_floor_and_no_other_and_keeps_number_and_name() {
+fn a_reshaped_no_go_zone_forbids_only_its_new_floor_and_keeps_number_and_name() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     let zone = |x_m: f64| {
@@ -313,7 +313,7 @@ fn what_is_reshaped_forbids_its_new_floor_and_no_other_and_keeps_number_and_name
 }
 
 #[test]
-fn distances_brought_up_to_date_piece_by_piece_are_those_computed_at_once() {
+fn incremental_distances_are_those_computed_at_once() {
     let mut fed = Fed::new(sensors());
     for step in 0..400_u32 {
         let angle = 0.05 * f64::from(step);
@@ -433,7 +433,7 @@ fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
     let before = Rooms::default().segmented(&half);
     assert_eq!(before.rooms().len(), 2);
     let (middle, last) = (before.room_at(point(5.5, 1.5)), before.room_at(point(8.5, 1.0)));
-    // Drawn again with an error of 12 cm, and with the room that was missing.
+    // Mapped again with an error of 12 cm, and with the missing room.
     let after = before.segmented(&three_rooms((0.12, -0.12)));
     assert_eq!(after.room_at(point(5.5, 1.5)), middle);
     assert_eq!(after.room_at(point(8.5, 1.0)), last);
@@ -452,7 +452,7 @@ fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
 }
 
 #[test]
-fn walls_are_straight_and_where_they_are() {
+fn walls_are_straight_and_in_the_right_place() {
     let mut map = Map::new(BODY, SensorLayout::default());
     map.load(&StoredMap::from_raster(&three_rooms((0.0, 0.0)), None));
     let walls = map.walls();
@@ -483,7 +483,7 @@ fn walls_are_straight_and_where_they_are() {
 }
 
 #[test]
-fn the_body_reaches_what_it_fits_into() {
+fn the_body_reaches_the_floor_into_which_it_fits() {
     let home = three_rooms((0.0, 0.0));
     let mut map = Map::new(BODY, SensorLayout::default());
     map.load(&StoredMap::from_raster(&home, None));
@@ -512,7 +512,7 @@ fn the_body_reaches_what_it_fits_into() {
 }
 
 #[test]
-fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touched() {
+fn a_map_reports_its_confidence_and_the_share_of_contacts() {
     let mut seen = Fed::new(sensors());
     assert_eq!(seen.map.confidence(), None, "nothing is known");
     drive_along_wall(&mut seen, |pose| pose);

@@ -85,7 +85,7 @@ fn a_split_gives_the_larger_part_the_name_and_the_smaller_one_a_new_identity() {
 }
 
 #[test]
-fn a_join_keeps_the_room_that_has_a_name_and_taking_it_back_brings_the_other_one_again() {
+fn a_join_keeps_the_named_room_and_undoing_it_restores_the_other_one() {
     let mut map = map_of(&two_rooms(0.0, true));
     map.name_room(2, RoomName::new("Den").ok()).unwrap();
     map.join_rooms([1, 2]).unwrap();
@@ -112,7 +112,7 @@ fn a_name_that_a_join_hides_is_free_again() {
 }
 
 #[test]
-fn a_split_that_is_taken_back_and_made_again_gives_the_same_identity() {
+fn a_split_that_is_undone_and_repeated_gives_the_same_identity() {
     let mut map = map_of(&two_rooms(0.0, true));
     let cut = line((1.0, 0.0), (1.0, 3.0));
     map.split_room(Some(1), cut).unwrap();
@@ -129,7 +129,7 @@ fn a_split_that_is_taken_back_and_made_again_gives_the_same_identity() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_by_name_and_changes_nothing() {
+fn invalid_changes_are_refused_by_name_and_change_nothing() {
     let mut map = map_of(&two_rooms(0.0, true));
     map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
     map.split_room(Some(1), line((2.5, 0.0), (2.5, 3.0))).unwrap();
@@ -160,7 +160,7 @@ fn what_makes_no_sense_is_refused_by_name_and_changes_nothing() {
 }
 
 #[test]
-fn changes_hold_in_a_map_that_is_drawn_again_somewhat_elsewhere() {
+fn changes_survive_a_map_that_is_drawn_again_with_an_offset() {
     let mut map = map_of(&two_rooms(0.0, false));
     map.split_room(None, line((1.5, 0.1), (1.5, 2.9))).unwrap();
     map.name_room(2, RoomName::new("Niche").ok()).unwrap();
@@ -178,7 +178,7 @@ fn changes_hold_in_a_map_that_is_drawn_again_somewhat_elsewhere() {
 }
 
 #[test]
-fn there_is_an_end_of_changes_and_taking_one_back_makes_place() {
+fn the_number_of_changes_is_limited_and_an_undo_makes_room() {
     let mut map = map_of(&two_rooms(0.0, true));
     for _ in 0..32 {
         map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
