@@ -140,7 +140,7 @@ fn main() {
         work();
         println!("{what}: {:.1} ms", (processor_s() - started_s) * 1e3);
     };
-    timed("survey of rooms", &mut || map.survey());
+    timed("segmentation of rooms", &mut || map.segment_rooms());
     timed("walls", &mut || println!("{} walls", map.walls().len()));
     timed("reachable", &mut || {
         let reached = map.reachable(Point2 { x_m: 0.3, y_m: 0.3 }, BODY.radius_m);
@@ -156,12 +156,12 @@ fn main() {
     let mut stored = StoredMap::default();
     timed("storing", &mut || stored = map.stored());
     println!("stored: {} runs", stored.parts().cells.len());
-    timed("taking up", &mut || Map::new(BODY, sensors()).take_up(&stored));
+    timed("loading", &mut || Map::new(BODY, sensors()).load(&stored));
     timed("drawing again", &mut || {
         map.redraw(&[brain::Keyframe {
             time_us: 0,
-            was: Pose2::IDENTITY,
-            is: Pose2::IDENTITY,
+            odom_from_base: Pose2::IDENTITY,
+            map_from_base: Pose2::IDENTITY,
         }]);
         map.finish_redraw();
     });

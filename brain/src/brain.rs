@@ -10,7 +10,9 @@ use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
 use crate::coverage::{JobEstimate, estimate};
 use crate::localization::Localization;
-use crate::mapping::{BeamMemory, Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
+use crate::mapping::{
+    BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
+};
 use crate::model::action::Actions;
 use crate::model::command::{Command, StrategyName};
 use crate::model::config::BrainConfig;
@@ -37,7 +39,7 @@ pub struct Brain {
     localization: Localization,
     map: Map,
     beams: BeamMemory,
-    carpet: CarpetSense,
+    carpet: CarpetDetector,
     behavior: Behavior,
     mind: Mind,
     contacts_before: Contacts,
@@ -58,7 +60,7 @@ impl Brain {
             localization,
             map: Map::new(config.body, config.sensors),
             beams: BeamMemory::default(),
-            carpet: CarpetSense::default(),
+            carpet: CarpetDetector::default(),
             behavior: Behavior::new(config),
             mind: Mind {
                 random: Random::new(seed),
@@ -73,24 +75,24 @@ impl Brain {
     #[must_use]
     pub fn with_map(config: BrainConfig, seed: u64, home: &StoredMap) -> Self {
         let mut brain = Self::new(config, seed);
-        brain.map.take_up(home);
+        brain.map.load(home);
         brain.wake_on_dock();
         brain
     }
 
     /// As [`Self::with_map`], with a home that is taken up already.
     #[must_use]
-    pub fn with_home(config: BrainConfig, seed: u64, home: ReadyHome) -> Self {
+    pub fn with_home(config: BrainConfig, seed: u64, home: LoadedHome) -> Self {
         let mut brain = Self::new(config, seed);
-        brain.map.put(home);
+        brain.map.replace_home(home);
         brain.wake_on_dock();
         brain
     }
 
     fn wake_on_dock(&mut self) {
-        let dock = self.map.dock_place();
+        let dock = self.map.dock_location();
         match dock.pose() {
-            Some(pose) if dock.is_told() => {
+            Some(pose) if dock.is_reported() => {
                 let seed = self.mind.random.state();
                 self.localization
                     .place_roughly_at(pose, (&self.map, &self.config), seed);
@@ -111,7 +113,7 @@ impl Brain {
         self.correct_map(correction);
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
-        self.beams.take(observation, &estimate);
+        self.beams.update(observation, &estimate);
         if self.localization.has_just_docked() {
             self.feel_dock(pose);
         }
@@ -140,7 +142,7 @@ impl Brain {
             self.map.avoid(self.behavior.avoided());
         }
         if let Some(pocket) = intent.pocket {
-            self.map.shut_pocket(pocket);
+            self.map.forbid_pocket(pocket);
         }
         // Where it stands may just have been told. What a robot sweeps that does not know where it is, nobody can say.
         let here = self.localization.estimate();
@@ -320,7 +322,7 @@ impl Brain {
             gyro: self.learnt_gyro(),
             swept: self.map.swept_runs(),
             path: map.path.to_vec(),
-            marks: map.marks.to_vec(),
+            hazards: map.hazards.to_vec(),
             home: None,
             tracking: self.localization.checkpoint(),
         }
@@ -344,9 +346,9 @@ impl Brain {
 
     /// Where a robot stands that is docked in a map which it has just made, and with which it does not compare yet.
     fn dock_of_new_map(&self) -> Option<Pose2> {
-        let dock = self.map.dock_place();
+        let dock = self.map.dock_location();
         let has_new_map = self.behavior.has_covered_home() && self.map_agreement().is_none();
-        let is_on_dock = self.localization.is_docked() && !dock.is_told();
+        let is_on_dock = self.localization.is_docked() && !dock.is_reported();
         dock.pose().filter(|_| has_new_map && is_on_dock)
     }
 
@@ -372,14 +374,14 @@ impl Brain {
     /// (announced as after any start) once the link is up, a job that waited waits on.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         if let Some(home) = &checkpoint.home {
-            self.map.take_up(home);
+            self.map.load(home);
         }
         self.go_on_from(checkpoint);
     }
 
     /// As [`Self::restore`], with the checkpoint's home taken up already.
-    pub fn restore_at(&mut self, home: ReadyHome, checkpoint: &Checkpoint) {
-        self.map.put(home);
+    pub fn restore_at(&mut self, home: LoadedHome, checkpoint: &Checkpoint) {
+        self.map.replace_home(home);
         self.go_on_from(checkpoint);
     }
 
@@ -388,7 +390,7 @@ impl Brain {
         self.localization.resume_backed(checkpoint.backed_m);
         self.mind.random = Random::from_state(checkpoint.random_state);
         self.map
-            .restore(&checkpoint.swept, &checkpoint.path, &checkpoint.marks);
+            .restore(&checkpoint.swept, &checkpoint.path, &checkpoint.hazards);
         if let Some(tracking) = checkpoint.tracking {
             self.track();
             self.localization.resume_tracking(tracking);
@@ -419,29 +421,29 @@ impl Brain {
         if contacts.any() && !self.contacts_before.any() {
             self.behavior.count_bump();
             let sides = (contacts.left, contacts.right);
-            self.mark(MarkKind::Contact, (time_us, estimate), sides);
+            self.mark(HazardKind::Contact, (time_us, estimate), sides);
         }
         if cliffs.any() && !self.cliffs_before.any() {
             let sides = (cliffs.left, cliffs.right);
-            self.mark(MarkKind::Cliff, (time_us, estimate), sides);
+            self.mark(HazardKind::Cliff, (time_us, estimate), sides);
         }
         (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
     }
 
     fn mark(
         &mut self,
-        kind: MarkKind,
+        kind: HazardKind,
         (time_us, estimate): (u64, &PoseEstimate),
         (left, right): (bool, bool),
     ) {
         let bearing_rad = SIDE_RAD * (f64::from(u8::from(left)) - f64::from(u8::from(right)));
         let in_base = Point2::in_direction(bearing_rad, self.config.body.radius_m);
-        let seen = SeenAt {
+        let seen = StampedOdometry {
             time_us,
             odom: estimate.odom.transform(in_base),
         };
         let at = estimate.pose.transform(in_base);
-        self.map.mark(Mark { at, kind }, seen);
+        self.map.add_hazard(Hazard { at, kind }, seen);
         self.map.begin_refresh();
     }
 }

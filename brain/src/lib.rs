@@ -20,8 +20,8 @@ pub use brain::{Brain, checkpoint};
 pub use coverage::JobEstimate;
 pub use localization::{Finding, FloorFinder, FloorPlace, TrackingCheckpoint};
 pub use mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, FloorKind, Keyframe, Map, MapCursor, MapPart, Mark, MarkKind,
-    PathPoint, Raster, ReadyHome, StoredMap, StoredMapError, Sweeping, SweptRun, TakingUp,
+    CELL_M, Cell, CellKnowledge, CellPasses, DistanceField, Hazard, HazardKind, Keyframe, LoadedHome, Map,
+    MapCursor, MapLoader, MapPart, PathPoint, Raster, StoredMap, StoredMapError, SurfaceKind, SweptRun,
 };
 pub use model::action::{Actions, Motion};
 pub use model::advance::Advance;
@@ -37,7 +37,7 @@ pub use model::kept_place::{KeptPlace, PlaceShape};
 pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::no_go::{NoGo, NoGoShape, RoomName};
 pub use model::observation::Observation;
-pub use model::order::{CleaningOrder, DISC_M as SPOT_RADIUS_M, HomePart};
+pub use model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
 pub use model::pose_estimate::PoseEstimate;
 pub use model::reason::Reason;
 pub use model::room_settings::{Pattern, RoomPower, RoomSettings};

@@ -15,7 +15,7 @@ use super::{BehaviorState, JobFigures, JobKind, Status};
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::command::Command;
 use crate::model::config::BrainConfig;
-use crate::model::energy::EnergyWatch;
+use crate::model::energy::EnergyLearner;
 use crate::model::geometry::Point2;
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
@@ -81,7 +81,7 @@ pub(crate) struct Behavior {
     pub(super) job: Option<Job>,
     /// A job that was put off for the pack's sake while the robot drives home.
     pub(super) put_off: Option<Job>,
-    pub(super) energy: EnergyWatch,
+    pub(super) energy: EnergyLearner,
     /// When the way home was looked at last.
     pub(super) way_home_us: Option<u64>,
     /// Its length is just being looked for.
@@ -122,7 +122,7 @@ impl Behavior {
             reason: Reason::StartUp,
             job: None,
             put_off: None,
-            energy: EnergyWatch::default(),
+            energy: EnergyLearner::default(),
             way_home_us: None,
             way_home: None,
             home_way_m: None,

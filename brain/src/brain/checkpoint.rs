@@ -4,7 +4,7 @@ use core::task::Poll;
 
 use crate::behavior::JobCheckpoint;
 use crate::localization::TrackingCheckpoint;
-use crate::mapping::{Mark, PathPoint, StoredMap, SweptRun};
+use crate::mapping::{Hazard, PathPoint, StoredMap, SweptRun};
 use crate::model::energy::EnergyModel;
 use crate::model::geometry::Pose2;
 use crate::model::gradual::Gradual;
@@ -26,7 +26,7 @@ pub struct Checkpoint {
     /// The way so far.
     pub path: Vec<PathPoint>,
     /// Contacts and cliffs met so far.
-    pub marks: Vec<Mark>,
+    pub hazards: Vec<Hazard>,
     /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
     pub home: Option<StoredMap>,
     /// What driving and cleaning take from the pack.

@@ -9,8 +9,8 @@ impl Brain {
     pub(super) fn feel_floor(&mut self, observation: &Observation, cleaners: bool) {
         let is_known = cleaners && self.status().state != BehaviorState::Manual;
         let brush_percent = is_known.then(|| self.power_here().main_brush);
-        if let Some(felt) = self.carpet.feel(observation, brush_percent) {
-            self.map.note_floor(observation.time_us, felt);
+        if let Some(felt) = self.carpet.update(observation, brush_percent) {
+            self.map.note_surface(observation.time_us, felt);
         }
     }
 }

@@ -16,7 +16,7 @@ impl Brain {
         match correction {
             Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
             Some(MapCorrection::Withdraw { since_us, keyframes }) => {
-                self.map.withdraw(since_us, &keyframes);
+                self.map.roll_back(since_us, &keyframes);
                 self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
             }
             None => {}
@@ -51,7 +51,7 @@ impl Brain {
     fn move_dock(&mut self, pose: Pose2, is_docked: bool) -> Result<(), Reason> {
         self.map.move_dock(pose)?;
         self.beams.forget();
-        self.localization.put_dock(self.map.dock_place());
+        self.localization.put_dock(self.map.dock_location());
         if is_docked {
             // The way so far does not lead here.
             self.map.start_anew();
@@ -63,15 +63,15 @@ impl Brain {
     /// The robot stands on the dock: where it was told to be, or was felt too seldom, if that is near enough and the robot may trust
     /// its own place.
     pub(super) fn feel_dock(&mut self, pose: Pose2) {
-        let place = self.map.dock_place();
-        let Some(known) = place.pose().filter(|_| !place.is_sure()) else {
+        let place = self.map.dock_location();
+        let Some(known) = place.pose().filter(|_| !place.is_converged()) else {
             return;
         };
         let is_near = known.position().distance_m(pose.position()) <= TOLD_M
             && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= TOLD_RAD;
         if is_near && self.localization.is_confirmed() {
-            self.map.feel_dock(pose);
-            self.localization.put_dock(self.map.dock_place());
+            self.map.measure_dock(pose);
+            self.localization.put_dock(self.map.dock_location());
             self.mind.decide("dock-found", Reason::Docked, 0.0);
         }
     }

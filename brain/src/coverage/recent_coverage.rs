@@ -37,7 +37,7 @@ struct Met {
 impl Lately {
     /// Something is met in front.
     pub(in crate::coverage) fn note(&mut self, situation: &Situation<'_>) {
-        let now_s = situation.map.sweeping_now_s();
+        let now_s = situation.map.coverage_now_s();
         let body_m = situation.config.body.radius_m;
         let at = situation.pose.transform(ahead(body_m));
         self.met.push_back(Met { at, time_s: now_s });
@@ -94,8 +94,8 @@ impl Lately {
 
 /// Whether the floor at a place was not swept within this time.
 pub(super) fn is_new(map: &Map, at: Point2, within_s: u32) -> bool {
-    map.sweeping(Cell::under(at))
-        .is_none_or(|sweeping| map.sweeping_now_s().saturating_sub(sweeping.last_s) > within_s)
+    map.cell_passes(Cell::under(at))
+        .is_none_or(|sweeping| map.coverage_now_s().saturating_sub(sweeping.last_s) > within_s)
 }
 
 fn ahead(way_m: f64) -> Point2 {

@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
-use crate::model::order::DISC_M;
+use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, EvasionStep, Mind, Plan, Situation, Task};
 
@@ -70,7 +70,7 @@ impl Spot {
         }
         let config = situation.config;
         let widening_m_per_rad = SPACING * config.body.swath_m / TAU;
-        let outermost_m = DISC_M - 0.5 * config.body.swath_m;
+        let outermost_m = SPOT_RADIUS_M - 0.5 * config.body.swath_m;
         let radius_m = (START_M + widening_m_per_rad * self.turned_rad).min(outermost_m);
         // One more turn at the outermost radius closes the disc.
         if self.turned_rad > (outermost_m - START_M) / widening_m_per_rad + TAU {

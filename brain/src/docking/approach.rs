@@ -7,7 +7,7 @@ use core::f64::consts::PI;
 
 use super::line::Line;
 use super::scan::{Scan, ScanStep};
-use crate::mapping::{Hearing, Lobe};
+use crate::mapping::{DockBeamFilter, Lobe};
 use crate::model::action::Motion;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
@@ -128,7 +128,7 @@ impl Approach {
 
     pub(super) fn step(
         &mut self,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         self.heading_rad += situation.advance.turn_rad;
@@ -169,7 +169,7 @@ impl Approach {
     fn scan(
         &mut self,
         mut scan: Scan,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         if situation.touching {
@@ -197,7 +197,7 @@ impl Approach {
     fn after_scan(
         &mut self,
         bearing_rad: f64,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> Phase {
         let dock_rad = self.heading_rad + bearing_rad;
@@ -234,7 +234,7 @@ impl Approach {
     fn leg(
         &mut self,
         mut leg: Leg,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         if situation.touching {
@@ -253,7 +253,7 @@ impl Approach {
     fn line(
         &mut self,
         mut line: Line,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         if situation.touching {
@@ -276,7 +276,7 @@ impl Approach {
     fn miss(
         &mut self,
         line: Line,
-        hearing: &Hearing,
+        hearing: &DockBeamFilter,
         (situation, mind): (&Situation<'_>, &mut Mind),
     ) -> ApproachStep {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);

@@ -20,7 +20,7 @@ pub(super) struct Vain {
 pub(super) fn goals(memory: &BeamMemory, vain: &[Vain]) -> Vec<Goal> {
     let is_vain = |place: &&BeamPlace| {
         vain.iter()
-            .any(|vain| vain.time_us >= place.heard_us && vain.at.distance_m(place.at) < vain.within_m)
+            .any(|vain| vain.time_us >= place.received_us && vain.at.distance_m(place.at) < vain.within_m)
     };
     memory
         .places()
@@ -56,7 +56,7 @@ mod tests {
                 },
                 ..PoseEstimate::default()
             };
-            memory.take(&observation, &estimate);
+            memory.update(&observation, &estimate);
         }
     }
 
@@ -78,7 +78,7 @@ mod tests {
             wheel_drop: true,
             ..Observation::default()
         };
-        memory.take(&lifted, &PoseEstimate::default());
+        memory.update(&lifted, &PoseEstimate::default());
         assert_eq!(goals(&memory, &[]).len(), 0);
     }
 
@@ -91,7 +91,7 @@ mod tests {
             sigma_m: 2.0,
             ..PoseEstimate::default()
         };
-        memory.take(&Observation::default(), &unsure);
+        memory.update(&Observation::default(), &unsure);
         assert_eq!(goals(&memory, &[]).len(), 0);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Terms are those of [`super::approach`].
 
-use crate::mapping::{Hearing, Lobe};
+use crate::mapping::{DockBeamFilter, Lobe};
 
 /// Speed on the line far from the dock, and while one lobe alone is heard.
 const LINE_M_PER_S: f64 = 0.2;
@@ -78,7 +78,7 @@ impl Line {
     }
 
     /// Takes in what is heard after a step of the drive.
-    pub(super) fn follow(&mut self, hearing: &Hearing, distance_m: f64, time_s: f64) {
+    pub(super) fn follow(&mut self, hearing: &DockBeamFilter, distance_m: f64, time_s: f64) {
         self.silent_s = if hearing.is_in_front() {
             0.0
         } else {

@@ -87,7 +87,7 @@ impl Task for Docking {
                 self.after_back(step, mind)
             }
             Phase::Approach(approach) => {
-                let step = approach.step(situation.beams.hearing(), (situation, &mut *mind));
+                let step = approach.step(situation.beams.current(), (situation, &mut *mind));
                 self.after_approach(step, situation, mind)
             }
             Phase::Search => self.search.step(situation, mind),
@@ -128,7 +128,7 @@ impl Docking {
                 mind.decide("dock-travel", Reason::DockKnown, 0.0);
                 self.phase = Phase::Travel(Box::new(Travel::to_dock(dock)));
             }
-            _ if situation.beams.hearing().is_any() && self.ignore_s <= 0.0 => {
+            _ if situation.beams.current().is_any() && self.ignore_s <= 0.0 => {
                 self.begin_approach(Reason::DockBeam, mind);
             }
             _ if matches!(self.phase, Phase::Back(_)) => {}
@@ -171,7 +171,7 @@ impl Docking {
             TravelStep::Going(motion) => return Plan::Go(motion),
             TravelStep::Held(reason) => return Plan::Trouble(reason),
             // Told by eye, its direction is too rough to drive in by.
-            TravelStep::Arrived if situation.map.dock_place().is_told() => {
+            TravelStep::Arrived if situation.map.dock_location().is_reported() => {
                 self.begin_approach(Reason::DockKnown, mind);
             }
             TravelStep::Arrived => {

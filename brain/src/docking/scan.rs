@@ -5,7 +5,7 @@
 
 use core::f64::consts::TAU;
 
-use crate::mapping::Hearing;
+use crate::mapping::DockBeamFilter;
 use crate::model::action::Motion;
 
 /// Rate of the turn, rad/s: less than the fastest, so that an edge is not smeared over many degrees.
@@ -53,7 +53,7 @@ impl Scan {
     }
 
     /// One step in which the robot has turned by `turn_rad`.
-    pub(super) fn step(&mut self, hearing: &Hearing, turn_rad: f64) -> ScanStep {
+    pub(super) fn step(&mut self, hearing: &DockBeamFilter, turn_rad: f64) -> ScanStep {
         let ahead = hearing.is_ahead();
         if !self.is_begun {
             self.begin(hearing, ahead);
@@ -89,7 +89,7 @@ impl Scan {
         })
     }
 
-    fn begin(&mut self, hearing: &Hearing, ahead: bool) {
+    fn begin(&mut self, hearing: &DockBeamFilter, ahead: bool) {
         self.is_begun = true;
         self.was_ahead = ahead;
         if hearing.side() != 0.0 {
@@ -101,12 +101,12 @@ impl Scan {
 #[cfg(test)]
 mod tests {
     use super::{Scan, ScanStep};
-    use crate::mapping::Hearing;
+    use crate::mapping::DockBeamFilter;
     use crate::model::action::Motion;
 
     /// Turns where a dock lies at `dock_rad`, and gives the direction that is found then.
     fn scanned(dock_rad: f64, symbols: u8) -> Option<f64> {
-        let (mut scan, mut hearing, mut heading_rad) = (Scan::new(), Hearing::default(), 0.0_f64);
+        let (mut scan, mut hearing, mut heading_rad) = (Scan::new(), DockBeamFilter::default(), 0.0_f64);
         let mut turn_rad = 0.0;
         let word = |heading_rad: f64| {
             [0.436, -0.436, 2.618, -2.618].map(|mount_rad: f64| {
@@ -117,10 +117,10 @@ mod tests {
             })
         };
         for _ in 0..20 {
-            hearing.take(&word(heading_rad));
+            hearing.update(&word(heading_rad));
         }
         for _ in 0..2_000 {
-            hearing.take(&word(heading_rad));
+            hearing.update(&word(heading_rad));
             match scan.step(&hearing, turn_rad) {
                 ScanStep::Going(Motion::Drive { turn_rad_per_s, .. }) => turn_rad = 0.02 * turn_rad_per_s,
                 ScanStep::Going(_) => return None,

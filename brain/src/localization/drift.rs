@@ -38,7 +38,7 @@ impl Drift {
 
 /// Variance that a motion adds to the heading, in square radians. Standing adds none: what the gyro shows then is not counted.
 pub(super) fn turn_variance(advance: Advance) -> f64 {
-    if advance.stands() {
+    if advance.is_stationary() {
         return 0.0;
     }
     match advance.gyro_turn_rad {

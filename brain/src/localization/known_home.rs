@@ -80,7 +80,7 @@ pub(super) fn flat() -> Map {
         }
     }
     let mut map = Map::new(config().body, config().sensors);
-    map.take_up(&StoredMap::from_raster(&knowledge, None));
+    map.load(&StoredMap::from_raster(&knowledge, None));
     map
 }
 
@@ -277,7 +277,7 @@ fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
         }
     }
     let mut map = Map::new(config().body, config().sensors);
-    map.take_up(&StoredMap::from_raster(&half, None));
+    map.load(&StoredMap::from_raster(&half, None));
     let mut truth = Truth::new(&home, START);
     let mut localization = placed(&map, START);
     let steps = 60 * 50 * 25;
@@ -297,7 +297,7 @@ fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
 /// A map that knows the same of the home.
 fn same(map: &Map) -> Map {
     let mut same = Map::new(config().body, config().sensors);
-    same.take_up(&map.stored());
+    same.load(&map.stored());
     same
 }
 

@@ -14,7 +14,7 @@ pub(super) struct Stand {
 impl Stand {
     /// Whether a long stand ends with this advance of a robot that has a gyro.
     pub(super) fn ends_long(&mut self, advance: Advance) -> bool {
-        if advance.stands() {
+        if advance.is_stationary() {
             self.stood_s += advance.time_s;
             return false;
         }

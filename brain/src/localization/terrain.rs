@@ -5,7 +5,7 @@
 //! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
 
 use super::particles::Surroundings;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, Map, Raster, StoredMap};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, Map, Raster, StoredMap};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
@@ -25,7 +25,7 @@ const EDGE_CELLS: i32 = 3;
 pub(super) struct Terrain {
     distance: DistanceField,
     knowledge: Raster<CellKnowledge>,
-    dock: DockPlace,
+    dock: DockLocation,
 }
 
 impl Terrain {
@@ -33,7 +33,7 @@ impl Terrain {
         Self {
             distance: map.distance_field().clone(),
             knowledge: map.knowledge().clone(),
-            dock: map.dock_place(),
+            dock: map.dock_location(),
         }
     }
 
@@ -43,7 +43,7 @@ impl Terrain {
         Self {
             distance: DistanceField::in_steps(&knowledge, budget).await,
             knowledge,
-            dock: home.dock_place(),
+            dock: home.dock_location(),
         }
     }
 
@@ -80,16 +80,16 @@ impl Terrain {
             self.distance = DistanceField::new(&knowledge);
             self.knowledge = knowledge;
         }
-        self.put_dock(map.dock_place());
+        self.put_dock(map.dock_location());
     }
 
     /// Where the robot stands when it is docked.
-    pub(super) fn dock(&self) -> DockPlace {
+    pub(super) fn dock(&self) -> DockLocation {
         self.dock
     }
 
     /// It is known to be elsewhere.
-    pub(super) fn put_dock(&mut self, dock: DockPlace) {
+    pub(super) fn put_dock(&mut self, dock: DockLocation) {
         self.dock = dock;
     }
 }

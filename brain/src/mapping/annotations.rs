@@ -1,5 +1,4 @@
-//! What people have said of the home: where the robot must not go, which rooms it has, what they are called, and which places
-//! are kept to be cleaned again.
+//! Annotations by people: no-go zones, changes and names of rooms, room settings, and saved zones and spots.
 
 use std::collections::BTreeMap;
 
@@ -11,16 +10,16 @@ use crate::model::room_settings::RoomSettings;
 
 /// Most no-go zones and virtual walls of a home.
 pub(super) const NO_GO_MAX: usize = 64;
-/// Most zones and spots that are kept.
+/// Most saved zones and spots.
 pub(super) const PLACES_MAX: usize = 64;
-/// Most rooms with names, those included that are not found any more.
+/// Most names of rooms, including those of rooms that no longer exist.
 pub(super) const NAMES_MAX: usize = 1_000;
 
-/// What people have said of the home.
+/// Everything that people added to the map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Annotations {
     pub(super) no_go: BTreeMap<u16, NoGo>,
-    /// Number of the next one; numbers are not used twice.
+    /// Next number; numbers are never reused.
     pub(super) next_no_go: u16,
     pub(super) names: BTreeMap<u16, RoomName>,
     pub(super) rooms: RoomChanges,
@@ -28,11 +27,11 @@ pub struct Annotations {
     pub(super) places: KeptPlaces,
 }
 
-/// Zones and spots that people keep.
+/// Saved zones and spots.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KeptPlaces {
     pub(super) kept: BTreeMap<u16, KeptPlace>,
-    /// Number of the next one; a number is used again only for what had it before.
+    /// Next number. A number is only reused to restore what it belonged to.
     pub(super) next: u16,
 }
 
@@ -46,7 +45,7 @@ impl Default for KeptPlaces {
 }
 
 impl KeptPlaces {
-    /// Two places of one name could not be told apart; a new one has no number yet.
+    /// Whether the name is unique. A new place has no number yet.
     pub(super) fn may_be_called(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
         let mut others = self.kept.iter().filter(|(other, _)| Some(**other) != number);
         if others.any(|(_, place)| place.name().sounds_like(name.as_str())) {
@@ -70,41 +69,41 @@ impl Default for Annotations {
 }
 
 impl Annotations {
-    /// No-go zones and virtual walls by their numbers, which are from 1.
+    /// No-go zones and virtual walls by their numbers, from 1.
     pub fn no_go(&self) -> impl Iterator<Item = (u16, &NoGo)> {
         self.no_go.iter().map(|(number, no_go)| (*number, no_go))
     }
 
-    /// What a room is called, if anybody has named it.
+    /// Name of a room, if it has one.
     #[must_use]
     pub fn name(&self, room: u16) -> Option<&RoomName> {
         self.names.get(&room)
     }
 
-    /// How the rooms that are found were changed.
+    /// Splits and joins of the segmented rooms.
     #[must_use]
     pub fn room_changes(&self) -> &RoomChanges {
         &self.rooms
     }
 
-    /// How a room is cleaned, if anybody has said it.
+    /// Settings of a room, if it has any.
     #[must_use]
     pub fn settings(&self, room: u16) -> Option<&RoomSettings> {
         self.settings.get(&room)
     }
 
-    /// Zones and spots that are kept, by their numbers, which are from 1.
+    /// Saved zones and spots by their numbers, from 1.
     pub fn places(&self) -> impl Iterator<Item = (u16, &KeptPlace)> {
         self.places.kept.iter().map(|(number, place)| (*number, place))
     }
 
-    /// The kept place of a number.
+    /// The saved place with a number.
     #[must_use]
     pub fn place(&self, number: u16) -> Option<&KeptPlace> {
         self.places.kept.get(&number)
     }
 
-    /// Rooms with settings like these.
+    /// Rooms whose settings satisfy a condition.
     pub(crate) fn rooms_with(&self, is_like: impl Fn(&RoomSettings) -> bool) -> impl Iterator<Item = u16> {
         let settings = self.settings.iter();
         settings
@@ -112,7 +111,7 @@ impl Annotations {
             .map(|(room, _)| *room)
     }
 
-    /// Whether nobody has said anything.
+    /// Whether there are no annotations.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         let says_nothing_of_rooms =
@@ -136,7 +135,7 @@ impl Annotations {
         }
     }
 
-    /// Two no-go zones of one name could not be told apart; a new one has no number yet.
+    /// Whether the name is unique. A new no-go zone has no number yet.
     pub(super) fn may_forbid_as(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
         let sounds_like = |no_go: &NoGo| no_go.name().is_some_and(|taken| taken.sounds_like(name.as_str()));
         let mut others = self.no_go.iter().filter(|(other, _)| Some(**other) != number);
@@ -146,10 +145,10 @@ impl Annotations {
         Ok(())
     }
 
-    /// Two rooms of one name could not be told apart. One that a change of people hides has none.
+    /// Whether the name is unique. Rooms that a change hides do not count.
     pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), Reason> {
         let is_taken = |(other, taken): (&u16, &RoomName)| {
-            *other != room && taken.sounds_like(name.as_str()) && !self.rooms.hide(*other)
+            *other != room && taken.sounds_like(name.as_str()) && !self.rooms.hides(*other)
         };
         if self.names.iter().any(is_taken) {
             return Err(Reason::NameTaken);

@@ -1,59 +1,61 @@
-//! What the robot hears of its dock, and where it heard it: whoever cleans passes the dock's beams, and a robot that has no map
-//! with a dock in it goes back there first.
+//! Remembers where the robot received beams of the dock.
+//!
+//! A cleaning robot crosses the beams. Without a dock in the map it returns to these positions first.
 
 use std::collections::VecDeque;
 
-use super::dock_beams::{Hearing, Lobe};
+use super::dock_beam_filter::{DockBeamFilter, Lobe};
 use crate::model::geometry::Point2;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Places nearer to each other than this are one place, metres.
+/// Positions closer together than this are one, metres.
 const SAME_M: f64 = 0.3;
-/// Places kept; those that were heard longest ago go first.
+/// Most positions; the oldest is dropped first.
 const PLACES_MAX: usize = 60;
-/// A place is forgotten when the pose has become so much less sure since, metres: beams reach 3 m.
+/// A position is dropped when the pose uncertainty has grown by this much since, metres. Beams reach 3 m.
 const DRIFTED_M: f64 = 1.5;
-/// The memory.
+
+/// Received beams: the present ones and the positions of earlier ones.
 #[derive(Debug, Default)]
 pub(crate) struct BeamMemory {
-    hearing: Hearing,
+    current: DockBeamFilter,
     places: VecDeque<BeamPlace>,
 }
 
-/// A place where a beam was heard.
+/// A position where a beam was received.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BeamPlace {
     pub(crate) at: Point2,
-    /// Both lobes were heard: it lies on the line that leads straight in.
+    /// Both beams were received: the position is on the dock's centre line.
     pub(crate) on_line: bool,
     sigma_m: f64,
-    pub(crate) heard_us: u64,
+    pub(crate) received_us: u64,
 }
 
 impl BeamMemory {
-    /// Takes in what is heard in one observation. Who carries the robot takes its memory away.
-    pub(crate) fn take(&mut self, observation: &Observation, estimate: &PoseEstimate) {
-        self.hearing.take(&observation.dock_beams);
+    /// Adds one observation. Lifting the robot or losing its pose clears the memory.
+    pub(crate) fn update(&mut self, observation: &Observation, estimate: &PoseEstimate) {
+        self.current.update(&observation.dock_beams);
         if observation.wheel_drop || estimate.lost {
             self.places.clear();
             return;
         }
         self.places
             .retain(|place| estimate.sigma_m - place.sigma_m < DRIFTED_M);
-        if self.hearing.is_any() {
+        if self.current.is_any() {
             self.note(observation.time_us, estimate);
         }
     }
 
-    /// The dock stands elsewhere now.
+    /// The dock was moved.
     pub(crate) fn forget(&mut self) {
         self.places.clear();
     }
 
     fn note(&mut self, time_us: u64, estimate: &PoseEstimate) {
         let at = estimate.pose.position();
-        let mut on_line = self.hearing.lobe() == Lobe::Both;
+        let mut on_line = self.current.lobe() == Lobe::Both;
         if let Some(index) = self
             .places
             .iter()
@@ -62,7 +64,7 @@ impl BeamMemory {
         {
             if before.on_line && !on_line {
                 self.places.push_back(BeamPlace {
-                    heard_us: time_us,
+                    received_us: time_us,
                     ..before
                 });
                 return;
@@ -76,21 +78,21 @@ impl BeamMemory {
             at,
             on_line,
             sigma_m: estimate.sigma_m,
-            heard_us: time_us,
+            received_us: time_us,
         });
     }
 
-    /// Whether a beam was heard somewhere that the robot could go back to.
-    pub(crate) fn knows_a_dock(&self) -> bool {
+    /// Whether there is a position to return to.
+    pub(crate) fn has_received_dock(&self) -> bool {
         !self.places.is_empty()
     }
 
-    /// What is heard now.
-    pub(crate) fn hearing(&self) -> &Hearing {
-        &self.hearing
+    /// What the receivers receive now.
+    pub(crate) fn current(&self) -> &DockBeamFilter {
+        &self.current
     }
 
-    /// Places where a beam was heard, those of long ago first.
+    /// Positions where a beam was received, the oldest first.
     pub(crate) fn places(&self) -> impl Iterator<Item = &BeamPlace> {
         self.places.iter()
     }

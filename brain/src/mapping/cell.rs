@@ -1,4 +1,4 @@
-//! The unit of every grid of the map.
+//! The unit of all grids of the map.
 
 use crate::model::geometry::Point2;
 
@@ -24,7 +24,7 @@ impl Cell {
         }
     }
 
-    /// The point in the middle.
+    /// The centre of the cell.
     #[must_use]
     pub fn middle(self) -> Point2 {
         Point2 {
@@ -34,12 +34,12 @@ impl Cell {
     }
 }
 
-/// Column or row under a coordinate.
+/// Column or row of a coordinate.
 pub(super) fn index(coordinate_m: f64) -> i32 {
     libm::floor(coordinate_m / CELL_M) as i32
 }
 
-/// The cells beside, below and above.
+/// The four neighbours: right, above, left and below.
 pub(super) fn neighbours(cell: Cell) -> [Cell; 4] {
     [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(x, y)| Cell {
         x: cell.x.saturating_add(x),

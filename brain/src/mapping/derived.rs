@@ -1,14 +1,14 @@
-//! Dense rasters made of the layers, brought up to date piece by piece.
+//! Dense rasters derived from the occupancy grid, updated incrementally.
 
 use super::distance::{DistanceField, grown, window};
-use super::layers::{CellBox, Layers};
+use super::occupancy_grid::{CellBox, OccupancyGrid};
 use super::{Cell, CellKnowledge, Raster};
 use crate::model::gradual::StepBudget;
 
-/// Work of finding a cell among the tiles.
+/// Work of looking up a cell in the tiles.
 const LOOK_UP_WORK: usize = 6;
 
-/// Knowledge and distances over everything that was ever seen.
+/// Knowledge and distances of all observed cells.
 #[derive(Clone, Debug)]
 pub(super) struct Derived {
     pub(super) knowledge: Raster<CellKnowledge>,
@@ -25,15 +25,15 @@ impl Default for Derived {
 }
 
 impl Derived {
-    /// Everything that `layers` tell.
-    pub(super) async fn anew(layers: &mut Layers, budget: &mut StepBudget) -> Self {
-        layers.take_dirty();
+    /// Derives everything from `grid`.
+    pub(super) async fn compute(grid: &mut OccupancyGrid, budget: &mut StepBudget) -> Self {
+        grid.take_dirty();
         let mut derived = Self::default();
-        derived.cover(layers);
+        derived.cover(grid);
         for index in 0..derived.knowledge.values().len() {
             let cell = derived.knowledge.cell(index);
             if let Some(place) = derived.knowledge.values_mut().get_mut(index) {
-                *place = layers.at(cell).knowledge();
+                *place = grid.at(cell).knowledge();
             }
             budget.spend(LOOK_UP_WORK).await;
         }
@@ -41,13 +41,13 @@ impl Derived {
         derived
     }
 
-    /// Takes up what is dirty in `layers`.
-    pub(super) fn refresh(&mut self, layers: &mut Layers) {
-        let changed = layers.take_dirty();
-        self.cover(layers);
+    /// Updates from all dirty cells of `grid`.
+    pub(super) fn refresh(&mut self, grid: &mut OccupancyGrid) {
+        let changed = grid.take_dirty();
+        self.cover(grid);
         let mut solid: Option<CellBox> = None;
         for part in changed {
-            if let Some(moved) = self.copy(layers, part) {
+            if let Some(moved) = self.copy(grid, part) {
                 solid = Some(match solid {
                     Some(before) if are_near(before, moved) => before.joined(moved),
                     Some(before) => {
@@ -63,20 +63,20 @@ impl Derived {
         }
     }
 
-    /// Takes up what is dirty in one tile of `layers`, if there is one.
-    pub(super) fn refresh_tile(&mut self, layers: &mut Layers) {
-        let Some(part) = layers.take_dirty_tile() else {
+    /// Updates from one dirty tile of `grid`, if there is one.
+    pub(super) fn refresh_tile(&mut self, grid: &mut OccupancyGrid) {
+        let Some(part) = grid.take_dirty_tile() else {
             return;
         };
-        self.cover(layers);
-        if let Some(solid) = self.copy(layers, part) {
+        self.cover(grid);
+        if let Some(solid) = self.copy(grid, part) {
             self.distance.renew(&self.knowledge, solid);
         }
     }
 
-    /// The rasters grow with the layers.
-    fn cover(&mut self, layers: &Layers) {
-        if let Some(bounds) = layers.bounds()
+    /// Extends the rasters to the bounds of the grid.
+    fn cover(&mut self, grid: &OccupancyGrid) {
+        if let Some(bounds) = grid.bounds()
             && window(&self.knowledge) != Some(bounds)
         {
             self.knowledge = grown(&self.knowledge, bounds, CellKnowledge::Unknown);
@@ -84,8 +84,8 @@ impl Derived {
         }
     }
 
-    /// Copies the knowledge of `part` and gives the box in which something became occupied or ceased to be.
-    fn copy(&mut self, layers: &Layers, part: CellBox) -> Option<CellBox> {
+    /// Copies the knowledge of `part`. Returns the box of cells that became or ceased to be occupied.
+    fn copy(&mut self, grid: &OccupancyGrid, part: CellBox) -> Option<CellBox> {
         let mut solid: Option<CellBox> = None;
         for y in part.low.y..=part.high.y {
             for x in part.low.x..=part.high.x {
@@ -93,7 +93,7 @@ impl Derived {
                 let Some(place) = self.knowledge.get_mut(cell) else {
                     continue;
                 };
-                let before = core::mem::replace(place, layers.at(cell).knowledge());
+                let before = core::mem::replace(place, grid.at(cell).knowledge());
                 let occupied = |kind: CellKnowledge| kind == CellKnowledge::Occupied;
                 if occupied(before) != occupied(*place) {
                     let here = CellBox::of(cell);
@@ -105,7 +105,7 @@ impl Derived {
     }
 }
 
-/// Whether one piece of work on both boxes is less than two: a box is worked on with a margin around it.
+/// Whether updating the joint box costs no more than updating both boxes: each update includes a margin.
 fn are_near(one: CellBox, other: CellBox) -> bool {
     let area = |cells: CellBox| {
         let (width, height) = cells.grown(2 * super::distance::FAR_CELLS).size();

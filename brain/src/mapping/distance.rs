@@ -1,26 +1,26 @@
-//! Distance to the nearest occupied cell, exact on the grid up to [`FAR_M`] and brought up to date piece by piece.
+//! Distance to the nearest occupied cell, exact on the grid up to [`COORDINATE_MAX_M`] and updated incrementally.
 //!
 //! Two passes after Felzenszwalb and Huttenlocher (2012): along columns, then the lower envelope of parabolas along rows.
-//! What lies farther away than [`FAR_M`] is cut off, so a changed cell concerns only its surroundings.
+//! Distances saturate at [`COORDINATE_MAX_M`], so a changed cell affects only its surroundings.
 
-use super::layers::CellBox;
+use super::occupancy_grid::CellBox;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
 
-/// Cells up to which distances are exact.
+/// Largest exact distance, cells.
 pub(super) const FAR_CELLS: i32 = 32;
-/// Distance in metres that stands for itself and everything farther.
-pub const FAR_M: f64 = FAR_CELLS as f64 * CELL_M;
-const FAR_MM: i16 = (FAR_M * 1000.0) as i16;
-/// Work of a cell: along its column, and along its row.
+/// Distances saturate at this value, metres.
+pub const COORDINATE_MAX_M: f64 = FAR_CELLS as f64 * CELL_M;
+const FAR_MM: i16 = (COORDINATE_MAX_M * 1000.0) as i16;
+/// Work per cell: along its column, and along its row.
 const COLUMN_WORK: usize = 3;
 const ENVELOPE_WORK: usize = 8;
 /// Half a cell in millimetres: from the centre of a cell to its border.
 const HALF_MM: f64 = 500.0 * CELL_M;
 
-/// Signed distance from a place to the border of the nearest occupied cell: positive outside of obstacles, negative inside.
-/// Outside of the mapped window it is [`FAR_M`].
+/// Signed distance to the border of the nearest occupied cell: positive outside of obstacles, negative inside. Outside of the
+/// mapped window it is [`COORDINATE_MAX_M`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
     millimetres: Raster<i16>,
@@ -58,7 +58,7 @@ impl DistanceField {
         Self { millimetres }
     }
 
-    /// Lower left cell, columns and rows of the window that has values.
+    /// Lower left cell, columns and rows of the field.
     #[must_use]
     pub fn window(&self) -> (Cell, usize, usize) {
         (
@@ -68,7 +68,7 @@ impl DistanceField {
         )
     }
 
-    /// Distance at the centre of a cell in metres, -[`FAR_M`]..=[`FAR_M`].
+    /// Distance at the centre of a cell in metres, -[`COORDINATE_MAX_M`]..=[`COORDINATE_MAX_M`].
     #[must_use]
     pub fn cell_m(&self, cell: Cell) -> f64 {
         f64::from(self.millimetres.get(cell).copied().unwrap_or(FAR_MM)) * 1e-3
@@ -84,8 +84,7 @@ impl DistanceField {
         (below + (above - below) * up) * 1e-3
     }
 
-    /// How the distance grows along x and y at a point, metres per metre: away from the nearest obstacle, and 0 where
-    /// everything is far.
+    /// Gradient along x and y at a point, metres per metre: it points away from the nearest obstacle, and is 0 far from all.
     #[must_use]
     pub fn gradient(&self, point: Point2) -> Point2 {
         let (low, across, up) = between(point);
@@ -97,7 +96,7 @@ impl DistanceField {
         }
     }
 
-    /// Millimetres at the centres of the four cells from `low` on.
+    /// Millimetres at the centres of four cells, the lower left of which is `low`.
     fn corners(&self, low: Cell) -> [f64; 4] {
         let values = self.millimetres.values();
         let width = self.millimetres.width();
@@ -124,12 +123,12 @@ impl DistanceField {
         [single(0, 0), single(1, 0), single(0, 1), single(1, 1)]
     }
 
-    /// Takes up a window that has grown; what is new is far until [`Self::renew`].
+    /// Extends the field to a larger window; new cells are far from everything until [`Self::renew`].
     pub(super) fn cover(&mut self, window: CellBox) {
         self.millimetres = grown(&self.millimetres, window, FAR_MM);
     }
 
-    /// Brings up to date what cells of `changed` may have to do with.
+    /// Updates all cells that changes in `changed` may affect.
     pub(super) fn renew(&mut self, knowledge: &Raster<CellKnowledge>, changed: CellBox) {
         let Some(all) = window(knowledge) else { return };
         let Some(target) = meet(changed.grown(FAR_CELLS), all) else {
@@ -167,7 +166,7 @@ impl DistanceField {
     }
 }
 
-/// The lower left of the four cells whose centres surround a point, and the shares towards the others.
+/// The lower left of the four cells whose centres surround a point, and the interpolation weights towards the others.
 fn between(point: Point2) -> (Cell, f64, f64) {
     let (column, row) = (point.x_m / CELL_M - 0.5, point.y_m / CELL_M - 0.5);
     let (left, low) = (libm::floor(column), libm::floor(row));
@@ -194,7 +193,7 @@ pub(super) fn window<T>(raster: &Raster<T>) -> Option<CellBox> {
     })
 }
 
-/// The cells that two boxes share.
+/// Intersection of two boxes.
 pub(super) fn meet(one: CellBox, other: CellBox) -> Option<CellBox> {
     let both = CellBox {
         low: Cell {
@@ -209,7 +208,7 @@ pub(super) fn meet(one: CellBox, other: CellBox) -> Option<CellBox> {
     (both.low.x <= both.high.x && both.low.y <= both.high.y).then_some(both)
 }
 
-/// A raster over `window` with the values of `raster` where it has some.
+/// A raster over `window` with the values of `raster` where it has any.
 pub(super) fn grown<T: Clone>(raster: &Raster<T>, window: CellBox, empty: T) -> Raster<T> {
     let (width, height) = window.size();
     let mut larger = Raster::filled(window.low, width, height, empty);
@@ -223,8 +222,8 @@ pub(super) fn grown<T: Clone>(raster: &Raster<T>, window: CellBox, empty: T) -> 
     larger
 }
 
-/// Squared distance in cells from each cell's centre to the centre of the nearest source cell within the box; at least
-/// [`FAR_CELLS`] squared where there is none so near.
+/// Squared distance in cells from each cell's centre to the centre of the nearest source cell in the box; at least [`FAR_CELLS`]
+/// squared where there is none that near.
 pub(super) async fn squared_cells(
     window: CellBox,
     is_source: impl Fn(Cell) -> bool,
@@ -245,7 +244,7 @@ pub(super) async fn squared_cells(
     cells
 }
 
-/// Distance in cells to the nearest source of the same column, cut off one beyond [`FAR_CELLS`].
+/// Distance in cells to the nearest source in the same column, limited to one more than [`FAR_CELLS`].
 async fn column_distances(
     window: CellBox,
     is_source: impl Fn(Cell) -> bool,
@@ -282,7 +281,7 @@ async fn column_distances(
 struct Envelope {
     /// Columns whose parabola is lowest somewhere.
     columns: Vec<usize>,
-    /// Where each begins to be lowest.
+    /// Start of the interval in which each is lowest.
     starts: Vec<f64>,
 }
 
@@ -310,8 +309,8 @@ impl Envelope {
                 place += 1;
             }
             let apex = self.columns.get(place).copied().unwrap_or(column);
-            let way = column as f32 - apex as f32;
-            *value = way * way + heights.get(apex).copied().unwrap_or_default();
+            let offset = column as f32 - apex as f32;
+            *value = offset * offset + heights.get(apex).copied().unwrap_or_default();
         }
     }
 

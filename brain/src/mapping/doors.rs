@@ -1,4 +1,4 @@
-//! Doors: where the cells of two rooms lie beside each other.
+//! Doors: where two rooms touch.
 
 use std::collections::BTreeMap;
 
@@ -8,9 +8,9 @@ use super::{CELL_M, Cell, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// Cells of one door lie within this many cells of each other.
+/// Largest distance between cells of one door, cells.
 const DOOR_GAP_CELLS: i32 = 8;
-/// Work of looking at a cell.
+/// Work of checking a cell.
 const DOOR_WORK: usize = 10;
 
 /// A passage between two rooms.
@@ -18,13 +18,13 @@ const DOOR_WORK: usize = 10;
 pub struct Door {
     /// Identities of the rooms, the lower one first.
     pub rooms: [u16; 2],
-    /// Its middle.
+    /// Its centre.
     pub at: Point2,
     /// Its width in metres.
     pub width_m: f64,
 }
 
-/// Where cells of two rooms lie beside each other.
+/// The doors between labelled rooms.
 pub(super) async fn doors(labels: &Raster<u16>, squared: &[f32], budget: &mut StepBudget) -> Vec<Door> {
     let mut borders: BTreeMap<[u16; 2], Vec<(Cell, f32)>> = BTreeMap::new();
     for (index, label) in labels.values().iter().enumerate() {
@@ -55,7 +55,7 @@ pub(super) async fn doors(labels: &Raster<u16>, squared: &[f32], budget: &mut St
         .collect()
 }
 
-/// Cells joined to groups that lie together.
+/// Groups nearby cells.
 fn clusters(cells: Vec<(Cell, f32)>) -> Vec<Vec<(Cell, f32)>> {
     let mut groups: Vec<Vec<(Cell, f32)>> = Vec::new();
     for member in cells {
@@ -85,7 +85,7 @@ fn door(cells: &[(Cell, f32)]) -> Door {
             x_m: sum.0 / count,
             y_m: sum.1 / count,
         },
-        // From centre to border is half a cell less than from centre to centre, on both sides.
+        // A distance to a border is half a cell less than to a cell centre, on both sides.
         width_m: (2.0 * f64::from(widest).sqrt() - 1.0).max(0.0) * CELL_M,
     }
 }

@@ -1,15 +1,15 @@
-//! Flood fill: all places that can be reached from one over neighbours.
+//! Flood fill: everything that is connected to a start over passable neighbours.
 
-/// A fill over numbered places, as far as it has got.
+/// A flood fill over indexed places, in progress.
 #[derive(Debug)]
 pub(crate) struct FloodFill {
     reached: Vec<bool>,
-    /// Places whose neighbours are still to be looked at.
+    /// Reached places whose neighbours were not visited yet.
     waiting: Vec<usize>,
 }
 
 impl FloodFill {
-    /// One that has reached none of so many places.
+    /// A fill over this many places, none of them reached.
     pub(crate) fn over(places: usize) -> Self {
         Self {
             reached: vec![false; places],
@@ -17,7 +17,7 @@ impl FloodFill {
         }
     }
 
-    /// Reaches a place from outside, unless it has been reached before.
+    /// Marks a place as reached, unless it already is.
     pub(crate) fn reach(&mut self, place: usize) {
         if let Some(reached) = self.reached.get_mut(place)
             && !core::mem::replace(reached, true)
@@ -30,13 +30,12 @@ impl FloodFill {
         self.reached.get(place) == Some(&true)
     }
 
-    /// Whether nothing more can be reached.
+    /// Whether the fill is complete.
     pub(crate) fn is_done(&self) -> bool {
         self.waiting.is_empty()
     }
 
-    /// Goes on from the place that was reached last: reaches those of its neighbours that are passable, and gives the place; `None`
-    /// at the end.
+    /// Expands the place reached last: reaches its passable neighbours. Returns the place; `None` at the end.
     pub(crate) fn go_on<Places: IntoIterator<Item = usize>>(
         &mut self,
         neighbours: impl FnOnce(usize) -> Places,
@@ -51,7 +50,7 @@ impl FloodFill {
         Some(place)
     }
 
-    /// Which places it has reached.
+    /// Whether each place was reached.
     pub(crate) fn into_reached(self) -> Vec<bool> {
         self.reached
     }

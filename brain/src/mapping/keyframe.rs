@@ -1,14 +1,14 @@
-//! What turns out later about where the robot was.
+//! Corrections of past poses.
 
 use crate::model::geometry::Pose2;
 
-/// A pose of the past that turned out to have been another one.
+/// A past pose that was corrected later.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Keyframe {
-    /// Time of the observation at which the robot was there, in microseconds.
+    /// Time of the observation, microseconds.
     pub time_us: u64,
-    /// Where it was by odometry, [`crate::PoseEstimate::odom`].
-    pub was: Pose2,
-    /// Where it was, as far as is known now.
-    pub is: Pose2,
+    /// The pose by odometry, [`crate::PoseEstimate::odom`].
+    pub odom_from_base: Pose2,
+    /// The pose in the map by the best present estimate.
+    pub map_from_base: Pose2,
 }

@@ -1,29 +1,31 @@
-//! What the robot remembers of its surroundings.
+//! The map: what the robot remembers of its surroundings.
 //!
-//! Two parts. *The job*: the swept layer, the way and where something was met; a new job starts it anew. *The home*: what
-//! stands where and where carpets lie, gathered over all jobs in [`layers`], from which everything else is derived: knowledge and distances
-//! (brought up to date every other second), what the body can reach, walls, rooms and doors (on demand).
+//! It has two parts. The *job* holds the coverage grid, the path and the hazards; a new job starts with none of them. The *home*
+//! holds the occupancy grid with obstacles and carpets, and accumulates over all jobs. Everything else derives from the occupancy
+//! grid: cell knowledge and distances (updated every two seconds), reachable floor, walls, rooms and doors (on demand).
 //!
-//! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first painted.
-//! *Mark*: a place where a contact or a cliff was met. *Cursor*: how much of the map somebody has already seen; the map
-//! of a job only grows, so what is new since a cursor is three slices. *Generation*: number of the map; a new job starts a
-//! new one, and so does a map that was drawn again with better poses.
+//! Terms. *Cell*: a square of 2.5 cm with integer coordinates. *Tile*: 64 x 64 cells, allocated when first written. *Hazard*: a
+//! position where the robot touched something or detected a cliff. *Cursor*: how much of the map a client has already received.
+//! The map of a job only grows, so three slices hold everything since a cursor. *Generation*: the number of the map. It
+//! increments with a new job and when the map is redrawn with corrected poses.
 
 mod annotations;
 mod beam_memory;
 mod carpet;
 mod cell;
+mod coverage_grid;
 mod derived;
 mod distance;
-mod dock;
-mod dock_beams;
+mod dock_beam_filter;
+mod dock_location;
 mod doors;
-mod draw;
 mod flood_fill;
 mod home;
+mod inverse_sensor_model;
 mod keyframe;
-mod layers;
 mod map;
+mod occupancy_grid;
+mod path_and_hazards;
 mod raster;
 mod reach;
 mod room_changes;
@@ -31,35 +33,33 @@ mod room_cut;
 mod rooms;
 mod sighting;
 mod stored;
-mod swept;
 mod tile_grid;
-mod traces;
 mod wall_direction;
 mod walls;
 mod zone_cells;
 
 pub use annotations::Annotations;
 pub(crate) use beam_memory::{BeamMemory, BeamPlace};
-pub(crate) use carpet::CarpetSense;
-pub use carpet::FloorKind;
+pub(crate) use carpet::CarpetDetector;
+pub use carpet::SurfaceKind;
 pub use cell::{CELL_M, Cell};
-pub use distance::{DistanceField, FAR_M};
-pub use dock::{DockPlace, Felt};
-pub(crate) use dock_beams::{Hearing, Lobe};
+pub use coverage_grid::{CellPasses, SweptRun};
+pub use distance::{COORDINATE_MAX_M, DistanceField};
+pub(crate) use dock_beam_filter::{DockBeamFilter, Lobe};
+pub use dock_location::{DockLocation, MeasuredDock};
 pub use doors::Door;
 pub(crate) use flood_fill::FloodFill;
 pub use keyframe::Keyframe;
-pub use layers::CellKnowledge;
 pub(crate) use map::Brushes;
-pub use map::{Map, MapCursor, MapPart, ReadyHome, Sureness, TakingUp};
+pub use map::{LoadedHome, Map, MapConfidence, MapCursor, MapLoader, MapPart};
+pub use occupancy_grid::CellKnowledge;
+pub(crate) use path_and_hazards::StampedOdometry;
+pub use path_and_hazards::{Hazard, HazardKind, PathPoint};
 pub use raster::Raster;
 pub use reach::reachable;
 pub use room_changes::{RoomChange, RoomChanges, RoomJoin, RoomSplit};
 pub use room_cut::PartSide;
 pub use rooms::{Room, Rooms};
-pub use stored::{Numbered, Run, StoredMap, StoredMapError, StoredMapParts};
-pub use swept::{Sweeping, SweptRun};
-pub(crate) use traces::SeenAt;
-pub use traces::{Mark, MarkKind, PathPoint};
+pub use stored::{CellRun, Numbered, StoredMap, StoredMapError, StoredMapParts};
 pub(crate) use wall_direction::wall_direction_rad;
 pub use walls::WallSegment;

@@ -1,11 +1,11 @@
-//! A dense window of cells.
+//! A dense rectangle of cells.
 
 use super::Cell;
 
-/// Cells that are looked at between two looks at the budget.
+/// Cells processed between two checks of the step budget.
 pub(super) const CELLS: usize = 128;
 
-/// Values of the cells of a rectangle whose lower left cell is `origin`; rows from low to high y.
+/// One value per cell of a rectangle. `origin` is its lower left cell; rows go from low to high y.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster<T> {
     origin: Cell,
@@ -14,7 +14,7 @@ pub struct Raster<T> {
 }
 
 impl<T: Clone> Raster<T> {
-    /// A window of `width` times `height` cells that all hold `value`.
+    /// A rectangle of `width` times `height` cells that all hold `value`.
     #[must_use]
     pub fn filled(origin: Cell, width: usize, height: usize, value: T) -> Self {
         Self {
@@ -26,7 +26,7 @@ impl<T: Clone> Raster<T> {
 }
 
 impl<T: Copy> Raster<T> {
-    /// Takes over the values of another window where both have cells.
+    /// Copies the values of the cells that both rasters contain.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         let low = i64::from(other.origin.x) - i64::from(self.origin.x);
         let (first, end) = (low.max(0), (low + other.width as i64).min(self.width as i64));
@@ -56,13 +56,13 @@ impl<T> Raster<T> {
         self.origin
     }
 
-    /// Cells of a row.
+    /// Number of columns.
     #[must_use]
     pub const fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn height(&self) -> usize {
         self.values.len().checked_div(self.width).unwrap_or(0)
@@ -85,23 +85,23 @@ impl<T> Raster<T> {
         self.values.get(self.index(cell)?)
     }
 
-    /// The value of a cell, to be changed; `None` outside.
+    /// The value of a cell, mutable; `None` outside.
     pub fn get_mut(&mut self, cell: Cell) -> Option<&mut T> {
         let index = self.index(cell)?;
         self.values.get_mut(index)
     }
 
-    /// Place of a cell among [`Self::values`]; `None` outside.
+    /// Index of a cell in [`Self::values`]; `None` outside.
     #[must_use]
     pub fn index(&self, cell: Cell) -> Option<usize> {
         let column = usize::try_from(i64::from(cell.x) - i64::from(self.origin.x)).ok()?;
         let row = usize::try_from(i64::from(cell.y) - i64::from(self.origin.y)).ok()?;
-        // Not compared with the height: that is a division, which a Pi Zero has no instruction for.
+        // There is no comparison with the height: that needs a division, and a Pi Zero has no instruction for it.
         let index = row.checked_mul(self.width)?.checked_add(column)?;
         (column < self.width && index < self.values.len()).then_some(index)
     }
 
-    /// The cell at a place of [`Self::values`].
+    /// The cell at an index of [`Self::values`].
     #[must_use]
     pub fn cell(&self, index: usize) -> Cell {
         let (row, column) = (
@@ -127,7 +127,7 @@ mod tests {
     use crate::mapping::Cell;
 
     #[test]
-    fn a_window_takes_over_what_it_shares_with_another_one() {
+    fn copying_takes_the_shared_cells() {
         let mut source = Raster::filled(Cell { x: 0, y: 0 }, 3, 3, 1_u8);
         *source.get_mut(Cell { x: 1, y: 2 }).unwrap() = 7;
         for (x, y) in [(-1, -1), (1, 1), (0, 2), (-5, 1), (2, -2), (9, 9)] {

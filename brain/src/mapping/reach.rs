@@ -1,4 +1,4 @@
-//! Where the body can be.
+//! Which cells the robot can reach.
 
 use super::cell::neighbours;
 use super::distance::{squared_cells, window};
@@ -7,10 +7,10 @@ use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
 
-/// The start is looked for in this many cells around a point that the body itself cannot be on.
+/// When the body does not fit at the start, the nearest cell within this distance is used, cells.
 const START_CELLS: i32 = 12;
 
-/// As [`super::Map::reachable`], for knowledge from elsewhere.
+/// As [`super::Map::reachable`], for any raster of knowledge.
 #[must_use]
 pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f64) -> Raster<bool> {
     let mut reached = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
@@ -53,9 +53,9 @@ fn nearest(from: Cell, fits: &impl Fn(Cell) -> bool) -> Option<Cell> {
                 x: from.x.saturating_add(x),
                 y: from.y.saturating_add(y),
             };
-            let way = x * x + y * y;
-            if best.is_none_or(|(least, _)| way < least) && fits(cell) {
-                best = Some((way, cell));
+            let square = x * x + y * y;
+            if best.is_none_or(|(least, _)| square < least) && fits(cell) {
+                best = Some((square, cell));
             }
         }
     }

@@ -1,8 +1,7 @@
-//! What people change of the rooms that are found: a room is cut in two along a line, or two rooms are one.
+//! Changes of rooms by people: splits along a line, and joins.
 //!
-//! Changes are kept in the order in which they were made, with the identities that they gave. Whenever rooms are looked for
-//! again, the changes are made again in what was found; so they hold in a map that was drawn anew, and taking one back brings
-//! the rooms and identities that were there before it.
+//! Changes keep their order and the identities that they gave. They are applied again after each segmentation. So they survive a
+//! redrawn map, and undoing one restores the earlier rooms and identities.
 
 use std::collections::BTreeMap;
 
@@ -13,46 +12,46 @@ use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 use crate::model::reason::Reason;
 
-/// Most changes of a home's rooms, and most splits that were taken back and may be made again under their identities.
+/// Most changes, and most undone splits that keep their identities.
 pub(super) const CHANGES_MAX: usize = 64;
-/// Work on a cell that is looked at.
+/// Work of checking a cell.
 const CELL_WORK: usize = 2;
 
 /// A change of the rooms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RoomChange {
-    /// A room was cut in two.
+    /// A room was split in two.
     Split(RoomSplit),
-    /// Two rooms are one.
+    /// Two rooms were joined.
     Join(RoomJoin),
 }
 
-/// A room that was cut in two.
+/// A room that was split in two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoomSplit {
-    /// The room, which keeps its identity with its larger part.
+    /// The room. Its larger part keeps the identity.
     pub room: u16,
     /// Identity of the other part.
     pub part: u16,
-    /// Where that one lies, seen along the line.
+    /// Side of that part, seen along the line.
     pub side: PartSide,
-    /// As the person drew it.
+    /// The line as drawn.
     pub line: CutLine,
 }
 
-/// Two rooms that are one.
+/// Two rooms that were joined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoomJoin {
-    /// Identity of both now.
+    /// Identity of the joined room.
     pub kept: u16,
-    /// Identity of the other one before.
+    /// Former identity of the other room.
     pub lost: u16,
-    /// A place in the middle of each, in case they are found under other identities one day.
+    /// The centres of both rooms, in case their identities change.
     pub at: [Point2; 2],
 }
 
 impl RoomChange {
-    /// Identities that mean something else without it.
+    /// Identities that mean something else without this change.
     pub(super) fn rooms(&self) -> [u16; 2] {
         match self {
             Self::Split(split) => [split.room, split.part],
@@ -61,14 +60,14 @@ impl RoomChange {
     }
 }
 
-/// All changes of the rooms of a home.
+/// All changes of a home's rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomChanges {
     pub(super) made: BTreeMap<u16, RoomChange>,
-    /// Number of the next one; numbers are not used twice.
+    /// Next number; numbers are never reused.
     pub(super) next: u16,
-    /// Splits that were taken back: made again, they give the same identity.
-    pub(super) taken_back: Vec<RoomSplit>,
+    /// Undone splits: when repeated, they give the same identity.
+    pub(super) undone: Vec<RoomSplit>,
 }
 
 impl Default for RoomChanges {
@@ -76,30 +75,30 @@ impl Default for RoomChanges {
         Self {
             made: BTreeMap::new(),
             next: 1,
-            taken_back: Vec::new(),
+            undone: Vec::new(),
         }
     }
 }
 
 impl RoomChanges {
-    /// All of them by their numbers, which are from 1, in the order in which they were made.
+    /// All changes by their numbers, from 1, in their order.
     pub fn made(&self) -> impl Iterator<Item = (u16, &RoomChange)> {
         self.made.iter().map(|(number, change)| (*number, change))
     }
 
-    /// Whether nobody has changed anything.
+    /// Whether there are no changes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.made.is_empty()
     }
 
-    /// Whether a room is not there only because of a change, or because one was taken back.
-    pub(super) fn hide(&self, room: u16) -> bool {
+    /// Whether a change or its undoing hides a room.
+    pub(super) fn hides(&self, room: u16) -> bool {
         let is_joined = |change: &RoomChange| matches!(change, RoomChange::Join(join) if join.lost == room);
-        self.made.values().any(is_joined) || self.taken_back.iter().any(|split| split.part == room)
+        self.made.values().any(is_joined) || self.undone.iter().any(|split| split.part == room)
     }
 
-    /// The number of the change that a later one builds on it, if one does.
+    /// The number of a later change that builds on this one, if there is one.
     #[must_use]
     pub fn built_on(&self, number: u16) -> Option<u16> {
         let rooms = self.made.get(&number)?.rooms();
@@ -120,20 +119,20 @@ impl RoomChanges {
     pub(super) fn add(&mut self, change: RoomChange) -> Result<(), Reason> {
         self.has_room_for_another()?;
         if let RoomChange::Split(split) = &change {
-            self.taken_back.retain(|before| before.part != split.part);
+            self.undone.retain(|before| before.part != split.part);
         }
         self.made.insert(self.next, change);
         self.next = self.next.saturating_add(1);
         Ok(())
     }
 
-    /// Identity that the same split had before it was taken back.
-    pub(super) fn part_before(&self, (room, side, line): (u16, PartSide, CutLine)) -> Option<u16> {
+    /// Identity that the same split gave before it was undone.
+    pub(super) fn part_before(&self, room: u16, side: PartSide, line: CutLine) -> Option<u16> {
         let is_same = |split: &&RoomSplit| (split.room, split.side, split.line) == (room, side, line);
-        self.taken_back.iter().rev().find(is_same).map(|split| split.part)
+        self.undone.iter().rev().find(is_same).map(|split| split.part)
     }
 
-    pub(super) fn may_be_taken_back(&self, number: u16) -> Result<(), Reason> {
+    pub(super) fn may_undo(&self, number: u16) -> Result<(), Reason> {
         if !self.made.contains_key(&number) {
             return Err(Reason::NoSuchRoomChange);
         }
@@ -143,19 +142,19 @@ impl RoomChanges {
         }
     }
 
-    pub(super) fn take_back(&mut self, number: u16) -> Result<(), Reason> {
-        self.may_be_taken_back(number)?;
+    pub(super) fn undo(&mut self, number: u16) -> Result<(), Reason> {
+        self.may_undo(number)?;
         if let Some(RoomChange::Split(split)) = self.made.remove(&number) {
-            if self.taken_back.len() >= CHANGES_MAX {
-                self.taken_back.remove(0);
+            if self.undone.len() >= CHANGES_MAX {
+                self.undone.remove(0);
             }
-            self.taken_back.push(split);
+            self.undone.push(split);
         }
         Ok(())
     }
 
-    /// The rooms that are found, with all changes made in them. Every cell of a room stays in a room.
-    pub(super) async fn made_in(&self, found: &Raster<u16>, budget: &mut StepBudget) -> Raster<u16> {
+    /// Applies all changes to segmented rooms. Every cell of a room stays in a room.
+    pub(super) async fn apply_to(&self, found: &Raster<u16>, budget: &mut StepBudget) -> Raster<u16> {
         let mut labels = found.clone();
         for change in self.made.values() {
             match change {
@@ -168,8 +167,8 @@ impl RoomChanges {
 }
 
 impl RoomSplit {
-    /// Cuts its room, or the one under its line if that has another identity now. A line that does not reach from border to
-    /// border any more divides what is nearest to its sides; one that misses all rooms waits until there is one again.
+    /// Splits its room, or the one under its line if the identity has changed. If the line no longer reaches from border to
+    /// border, each cell goes to the nearer side. A line that misses all rooms has no effect until it crosses one again.
     async fn make(&self, labels: &mut Raster<u16>, budget: &mut StepBudget) {
         budget.spend(CELL_WORK * labels.values().len()).await;
         let cut = nearest_cut(labels, Some(self.room), &self.line)

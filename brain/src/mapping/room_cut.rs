@@ -1,4 +1,4 @@
-//! A line across a room, and the two parts into which it cuts it.
+//! A line across a room, and the two parts that it cuts.
 
 use std::collections::VecDeque;
 
@@ -8,17 +8,17 @@ use crate::model::cut_line::CutLine;
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 
-/// People end a line before the wall: it goes on by so much, metres.
+/// People end a line short of the wall, so it is extended by this much, metres.
 const BEYOND_M: f64 = 0.5;
-/// Smallest part of a room that a person may cut off, square metres.
+/// Smallest part that a person may cut off, square metres.
 const PART_MIN_M2: f64 = 0.5;
-/// Places of a line that are looked at, per cell.
+/// Samples of a line per cell.
 const STEPS_PER_CELL: f64 = 4.0;
 
-/// Which part of a room, seen from the beginning of the line to its end.
+/// A part of a room, seen from the start of the line to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartSide {
-    /// On the left, with what lies under the line.
+    /// On the left, including the cells under the line.
     Left,
     /// On the right.
     Right,
@@ -29,8 +29,8 @@ pub(super) struct Cut {
     pub(super) room: u16,
     left: Vec<Cell>,
     right: Vec<Cell>,
-    /// Whether a way leads round an end of the line.
-    leaks: bool,
+    /// Whether the parts are connected around an end of the line.
+    is_connected: bool,
 }
 
 impl Cut {
@@ -50,10 +50,10 @@ impl Cut {
     }
 }
 
-/// Cuts a room from border to border; without a room, the one in which the line is longest.
+/// Cuts a room from border to border; without a room, the one with the longest part of the line.
 pub(super) fn cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Result<Cut, Reason> {
     let cut = nearest_cut(labels, room, line).ok_or(Reason::LineMissesRoom)?;
-    if cut.leaks {
+    if cut.is_connected {
         return Err(Reason::LineEndsInRoom);
     }
     let least = PART_MIN_M2 / (CELL_M * CELL_M);
@@ -63,29 +63,29 @@ pub(super) fn cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Re
     Ok(cut)
 }
 
-/// The same, however small a part is, and where a way leads round the line each cell belongs to the side that is nearer.
-/// `None` when the line misses the room, or all of it lies on one side.
+/// The same for parts of any size. If the parts are connected around the line, each cell belongs to the nearer side. `None` when
+/// the line misses the room, or the whole room lies on one side.
 pub(super) fn nearest_cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Option<Cut> {
-    let (room, under) = stretch(labels, room, line)?;
-    let mut places = Raster::filled(labels.origin(), labels.width(), labels.height(), Place::Open);
+    let (room, under) = longest_part(labels, room, line)?;
+    let mut states = Raster::filled(labels.origin(), labels.width(), labels.height(), CutState::Open);
     for cell in &under {
-        if let Some(place) = places.get_mut(*cell) {
-            *place = Place::Line;
+        if let Some(state) = states.get_mut(*cell) {
+            *state = CutState::Line;
         }
     }
     let beside = under.iter().flat_map(|cell| neighbours(*cell));
     let mut next: VecDeque<(Cell, PartSide)> =
         beside.map(|cell| (cell, side_of(line, cell.middle()))).collect();
-    let (mut left, mut right, mut leaks) = (under.clone(), Vec::new(), false);
+    let (mut left, mut right, mut is_connected) = (under.clone(), Vec::new(), false);
     while let Some((cell, side)) = next.pop_front() {
-        let Some(place) = places.get_mut(cell).filter(|_| labels.get(cell) == Some(&room)) else {
+        let Some(state) = states.get_mut(cell).filter(|_| labels.get(cell) == Some(&room)) else {
             continue;
         };
-        match *place {
-            Place::Line => {}
-            Place::On(other) => leaks |= other != side,
-            Place::Open => {
-                *place = Place::On(side);
+        match *state {
+            CutState::Line => {}
+            CutState::On(other) => is_connected |= other != side,
+            CutState::Open => {
+                *state = CutState::On(side);
                 match side {
                     PartSide::Left => left.push(cell),
                     PartSide::Right => right.push(cell),
@@ -99,11 +99,11 @@ pub(super) fn nearest_cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLin
         room,
         left,
         right,
-        leaks,
+        is_connected,
     })
 }
 
-/// On which side of a line a point lies.
+/// The side of a line on which a point lies.
 fn side_of(line: &CutLine, point: Point2) -> PartSide {
     let [from, to] = line.ends();
     let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
@@ -115,8 +115,8 @@ fn side_of(line: &CutLine, point: Point2) -> PartSide {
     }
 }
 
-/// Cells under a line from one place of it to another; each one shares an edge with the next.
-fn cells_under(line: &CutLine, (from_m, to_m): (f64, f64)) -> Vec<Cell> {
+/// Cells under a part of a line; consecutive cells share an edge.
+fn cells_under(line: &CutLine, from_m: f64, to_m: f64) -> Vec<Cell> {
     let steps = ((to_m - from_m).abs() * STEPS_PER_CELL / CELL_M) as u32 + 1;
     let mut cells: Vec<Cell> = Vec::new();
     for step in 0..=steps {
@@ -136,31 +136,31 @@ fn cells_under(line: &CutLine, (from_m, to_m): (f64, f64)) -> Vec<Cell> {
     cells
 }
 
-/// Where a cell of the room was found to lie.
+/// State of a cell during the cut.
 #[derive(Clone, Copy)]
-enum Place {
+enum CutState {
     Open,
     Line,
     On(PartSide),
 }
 
-/// The longest piece of a line that lies in one room, to the room's border at both ends, and the room.
-fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<(u16, Vec<Cell>)> {
-    let cells = cells_under(line, (0.0, line.length_m()));
+/// The longest part of a line within one room, extended to the room's border at both ends, and the room.
+fn longest_part(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<(u16, Vec<Cell>)> {
+    let cells = cells_under(line, 0.0, line.length_m());
     let room_of = |cell: &Cell| {
         let label = labels.get(*cell).copied().filter(|label| *label != 0);
         label.filter(|label| wanted.is_none_or(|room| room == *label))
     };
     let pieces = cells.chunk_by(|one, other| room_of(one) == room_of(other));
     let in_rooms = pieces.filter_map(|piece| Some((room_of(piece.first()?)?, piece)));
-    // The first of equally long ones.
+    // The first of equal length.
     let (room, piece) = in_rooms.rev().max_by_key(|(_, piece)| piece.len())?;
     let end = line.length_m();
     let mut under = piece.to_vec();
     let inside = |cell: &Cell| labels.get(*cell) == Some(&room);
     if piece.first() == cells.first() {
         under.extend(
-            cells_under(line, (0.0, -BEYOND_M))
+            cells_under(line, 0.0, -BEYOND_M)
                 .into_iter()
                 .take_while(inside)
                 .skip(1),
@@ -168,7 +168,7 @@ fn stretch(labels: &Raster<u16>, wanted: Option<u16>, line: &CutLine) -> Option<
     }
     if piece.last() == cells.last() {
         under.extend(
-            cells_under(line, (end, end + BEYOND_M))
+            cells_under(line, end, end + BEYOND_M)
                 .into_iter()
                 .take_while(inside)
                 .skip(1),
@@ -193,7 +193,7 @@ mod tests {
         CutLine::new(at(from.0, from.1), at(to.0, to.1)).unwrap()
     }
 
-    /// Room 1 of 4 x 2 m, and room 2 of 1 x 2 m on its right.
+    /// Room 1 of 4 x 2 m, and room 2 of 1 x 2 m to its right.
     fn labels() -> Raster<u16> {
         let mut labels = Raster::filled(Cell { x: -1, y: -1 }, 202, 82, 0);
         for index in 0..labels.values().len() {
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cuts_nothing_is_refused_by_name() {
+    fn lines_that_cut_nothing_are_refused_by_name() {
         for (room, line, reason) in [
             (None, line((-3.0, 0.0), (-3.0, 2.0)), Reason::LineMissesRoom),
             (Some(2), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
@@ -244,14 +244,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_one_that_is_meant() {
+    fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_given_one() {
         let along = line((1.0, 1.0), (5.0, 1.0));
         assert_eq!(nearest_cut(&labels(), None, &along).map(|cut| cut.room), Some(1));
         assert_eq!(cut(&labels(), Some(2), &along).map(|cut| cut.room), Ok(2));
     }
 
     #[test]
-    fn a_line_that_does_not_reach_the_border_any_more_divides_what_is_near_its_sides() {
+    fn a_line_that_no_longer_reaches_the_border_divides_the_room_by_the_nearer_side() {
         let short = line((1.0, 0.7), (1.0, 1.2));
         let cut = nearest_cut(&labels(), Some(1), &short).unwrap();
         let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));

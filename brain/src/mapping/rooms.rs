@@ -1,9 +1,9 @@
-//! Rooms by distance segmentation, and the doors between them.
+//! Room segmentation: a watershed of the distance transform, and the doors between rooms.
 //!
-//! Water rises in a relief of distances to the nearest obstacle, from the widest places down. A pool that meets another one
-//! in a passage narrower than a wide door stays apart from it; else the two become one. Furniture that stands free is no
-//! obstacle here, or every chair would divide a room. Rooms keep their identities: a new room takes over that of the old
-//! room with which it shares most cells. What people have changed of the rooms is done after that.
+//! The watershed starts at the largest distances to obstacles. Two basins that meet in a passage narrower than a wide door stay
+//! separate; otherwise they merge. Free-standing furniture is not an obstacle here, or every chair would divide a room. Rooms
+//! keep their identities: a new room takes the identity of the old room with which it shares most cells. Splits and joins by
+//! people apply afterwards.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,39 +17,39 @@ use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
 
-/// Half of the widest passage that still divides two rooms, metres.
+/// Half of the widest passage that separates two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;
-/// A room is wider than the passage to it by this factor at least.
-const WIDER: f64 = 1.25;
-/// A pool smaller than this when it meets another one is a corner of it, square metres.
+/// Least ratio of a room's width to that of the passage into it.
+const WIDTH_RATIO_MIN: f64 = 1.25;
+/// A smaller basin merges when it meets another one, square metres.
 const CORE_M2: f64 = 0.2;
-/// Rooms smaller than this are none, square metres.
+/// Least area of a room, square metres.
 const ROOM_M2: f64 = 1.0;
-/// What is not free and smaller than this is furniture, square metres.
+/// Largest area of furniture, square metres.
 const FURNITURE_M2: f64 = 1.2;
 
-/// Work of a cell: visited, named, flooded.
+/// Work per cell: visit, relabel, flood.
 const VISIT_WORK: usize = 8;
-const NAME_WORK: usize = 6;
+const RELABEL_WORK: usize = 6;
 const FLOOD_WORK: usize = 25;
 
 /// A room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
-    /// Identity, from 1; kept when the home is mapped again.
+    /// Identity, from 1. It survives a new segmentation.
     pub id: u16,
-    /// Its floor in square metres.
+    /// Floor area in square metres.
     pub area_m2: f64,
-    /// The place in it that is farthest from everything.
+    /// The position in the room farthest from all obstacles.
     pub middle: Point2,
 }
 
 /// Rooms and doors of a home.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rooms {
-    /// Shared with the search that goes on from it.
+    /// Shared with the segmentation that continues from it.
     found: Arc<Raster<u16>>,
-    /// After the changes of people, if there are any.
+    /// With the changes by people, if there are any.
     changed: Option<Raster<u16>>,
     rooms: Vec<Room>,
     doors: Vec<Door>,
@@ -81,13 +81,13 @@ impl Rooms {
         &self.doors
     }
 
-    /// Identity of the room of each cell, 0 = none.
+    /// Room identity of each cell, 0 = none.
     #[must_use]
     pub fn labels(&self) -> &Raster<u16> {
         self.changed.as_ref().unwrap_or(&self.found)
     }
 
-    /// The same without the changes of people.
+    /// The labels without the changes by people.
     pub(super) fn found(&self) -> &Raster<u16> {
         &self.found
     }
@@ -101,20 +101,20 @@ impl Rooms {
             .filter(|id| *id > 0)
     }
 
-    /// Identity that the next new room gets.
-    pub(super) fn next(&self) -> u16 {
+    /// Identity of the next new room.
+    pub(super) fn next_id(&self) -> u16 {
         self.next
     }
 
-    /// Another identity that no room has had.
-    pub(super) fn take_next(&mut self) -> u16 {
+    /// Allocates an identity that no room has had.
+    pub(super) fn allocate_id(&mut self) -> u16 {
         let next = self.next;
         self.next = next.saturating_add(1);
         next
     }
 
-    /// Rooms of an earlier time, of which only cells and identities are known.
-    pub(super) fn remembered(found: Raster<u16>, next: u16) -> Self {
+    /// Rooms of a stored map, of which only cells and identities are known.
+    pub(super) fn from_stored(found: Raster<u16>, next: u16) -> Self {
         let highest = found.values().iter().copied().max().unwrap_or(0);
         Self {
             found: Arc::new(found),
@@ -123,17 +123,18 @@ impl Rooms {
         }
     }
 
-    /// The rooms of what is known now; those that were there before keep their identities.
+    /// Segments the present map; existing rooms keep their identities.
     #[must_use]
-    pub fn renewed(&self, knowledge: &Raster<CellKnowledge>) -> Self {
+    pub fn segmented(&self, knowledge: &Raster<CellKnowledge>) -> Self {
         let unchanged = RoomChanges::default();
-        at_once(self.renewed_in_steps((knowledge, &unchanged), &mut StepBudget::unlimited()))
+        at_once(self.segmented_in_steps(knowledge, &unchanged, &mut StepBudget::unlimited()))
     }
 
-    /// As [`Self::renewed`], and changed as people want them, step by step.
-    pub(super) async fn renewed_in_steps(
+    /// As [`Self::segmented`], with the changes by people, in steps.
+    pub(super) async fn segmented_in_steps(
         &self,
-        (knowledge, changes): (&Raster<CellKnowledge>, &RoomChanges),
+        knowledge: &Raster<CellKnowledge>,
+        changes: &RoomChanges,
         budget: &mut StepBudget,
     ) -> Self {
         let Some(all) = window(knowledge) else {
@@ -142,13 +143,13 @@ impl Rooms {
         let space = space(knowledge, budget).await;
         let is_border = |cell| space.get(cell) != Some(&true);
         let squared = squared_cells(all, is_border, budget).await;
-        let labels = labels_of_pools(&squared, &space, budget).await;
-        let (names, next) = self.names(&labels, budget).await;
+        let labels = watershed(&squared, &space, budget).await;
+        let (names, next) = self.identities(&labels, budget).await;
         let found = renamed(labels, &names, budget).await;
         let changed = if changes.is_empty() {
             None
         } else {
-            Some(changes.made_in(&found, budget).await)
+            Some(changes.apply_to(&found, budget).await)
         };
         let labels = changed.as_ref().unwrap_or(&found);
         let rooms = measured(labels, &squared, budget).await;
@@ -162,12 +163,12 @@ impl Rooms {
         }
     }
 
-    /// An identity for each new label, by the cells shared with rooms of old; and the next free one.
-    async fn names(&self, labels: &Raster<u16>, budget: &mut StepBudget) -> (BTreeMap<u16, u16>, u16) {
+    /// An identity for each new label, by the cells shared with old rooms; and the next free one.
+    async fn identities(&self, labels: &Raster<u16>, budget: &mut StepBudget) -> (BTreeMap<u16, u16>, u16) {
         let mut shared: BTreeMap<(u16, u16), u32> = BTreeMap::new();
         for (index, label) in labels.values().iter().enumerate() {
             if index % CELLS == 0 {
-                budget.spend(NAME_WORK * CELLS).await;
+                budget.spend(RELABEL_WORK * CELLS).await;
             }
             if *label == 0 {
                 continue;
@@ -195,7 +196,7 @@ impl Rooms {
     }
 }
 
-/// Free cells, and furniture that stands in them.
+/// Free cells, and the furniture that stands in them.
 async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Raster<bool> {
     let mut space = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
@@ -221,7 +222,7 @@ async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Ra
     space
 }
 
-/// The connected cells that were not seen yet; they are seen afterwards.
+/// The unvisited cells connected to one. Marks them as visited.
 async fn island(seen: &mut Raster<bool>, index: usize, budget: &mut StepBudget) -> Vec<Cell> {
     let mut cells = vec![seen.cell(index)];
     if let Some(place) = seen.values_mut().get_mut(index) {
@@ -251,38 +252,38 @@ fn touches_border(space: &Raster<bool>, island: &[Cell]) -> bool {
         .any(|cell| neighbours(*cell).iter().any(|next| space.get(*next).is_none()))
 }
 
-/// A pool of the rising water. One that has become part of another one tells of which.
+/// A basin of the watershed: an element of a disjoint-set forest.
 #[derive(Clone, Copy, Debug)]
-struct Pool {
-    /// The pool that it is part of; its own number while it stands alone.
+struct Basin {
+    /// Parent in the forest; its own index at the root.
     parent: u32,
     cells: u32,
-    /// Greatest squared depth.
+    /// Largest squared distance to an obstacle.
     deepest: f32,
 }
 
-/// Pools of the rising water: a forest, each tree one pool.
-struct Pools<'relief> {
+/// The basins of the watershed as a disjoint-set forest: each tree is one basin.
+struct Basins<'relief> {
     squared: &'relief [f32],
-    /// Number of the pool of each cell, [`DRY`] where there is no water yet.
-    pool_of: Vec<u32>,
-    pools: Vec<Pool>,
+    /// Basin of each cell, [`UNLABELLED`] before it is flooded.
+    basin_of: Vec<u32>,
+    basins: Vec<Basin>,
 }
 
-/// The pool of a cell that the water has not reached.
-const DRY: u32 = u32::MAX;
+/// The basin of a cell that is not flooded yet.
+const UNLABELLED: u32 = u32::MAX;
 
-impl<'relief> Pools<'relief> {
+impl<'relief> Basins<'relief> {
     fn new(squared: &'relief [f32]) -> Self {
         Self {
             squared,
-            pool_of: vec![DRY; squared.len()],
-            pools: Vec::new(),
+            basin_of: vec![UNLABELLED; squared.len()],
+            basins: Vec::new(),
         }
     }
 
     async fn fill(&mut self, space: &Raster<bool>, budget: &mut StepBudget) {
-        // Squared distances are whole numbers, and not many: each has a list of its own.
+        // Squared distances are small whole numbers, so a bucket per value sorts them.
         let mut levels: Vec<Vec<u32>> = Vec::new();
         for (index, squared) in self.squared.iter().enumerate() {
             if index % CELLS == 0 {
@@ -306,59 +307,64 @@ impl<'relief> Pools<'relief> {
         }
     }
 
-    /// The water reaches a cell: it falls to the pools beside it, which perhaps become one, or is a pool by itself.
+    /// Floods a cell: it joins the basins beside it, which may merge, or begins one.
     fn flood(&mut self, index: u32, space: &Raster<bool>) {
         let place = index as usize;
         let level = self.squared.get(place).copied().unwrap_or(0.0);
         let mut joined = None;
         for neighbour in neighbours(space.cell(place)) {
-            let Some(other) = space.index(neighbour).and_then(|beside| self.pool_at(beside)) else {
+            let Some(other) = space.index(neighbour).and_then(|beside| self.root_at(beside)) else {
                 continue;
             };
             joined = Some(match joined {
-                None => self.take_in(other, level),
-                Some(one) if one != other && self.become_one((one, other), level) => self.join(one, other),
+                None => self.add_cell(other, level),
+                Some(one) if one != other && self.merges(one, other, level) => self.merge(one, other),
                 Some(one) => one,
             });
         }
-        let pool = joined.unwrap_or_else(|| self.begin(level));
-        if let Some(slot) = self.pool_of.get_mut(place) {
-            *slot = pool;
+        let basin = joined.unwrap_or_else(|| self.begin(level));
+        if let Some(slot) = self.basin_of.get_mut(place) {
+            *slot = basin;
         }
     }
 
-    /// The pool, standing alone, that a cell belongs to.
-    fn pool_at(&mut self, place: usize) -> Option<u32> {
-        let pool = self.pool_of.get(place).copied().filter(|pool| *pool != DRY)?;
-        let root = self.root(pool);
-        if root != pool
-            && let Some(slot) = self.pool_of.get_mut(place)
+    /// Index of the root basin of a cell.
+    fn root_at(&mut self, place: usize) -> Option<u32> {
+        let basin = self
+            .basin_of
+            .get(place)
+            .copied()
+            .filter(|basin| *basin != UNLABELLED)?;
+        let root = self.root(basin);
+        if root != basin
+            && let Some(slot) = self.basin_of.get_mut(place)
         {
             *slot = root;
         }
         Some(root)
     }
 
-    fn root(&mut self, pool: u32) -> u32 {
-        let parent = |pools: &[Pool], pool: u32| pools.get(pool as usize).map_or(pool, |pool| pool.parent);
-        let mut at = pool;
+    fn root(&mut self, basin: u32) -> u32 {
+        let parent =
+            |basins: &[Basin], basin: u32| basins.get(basin as usize).map_or(basin, |basin| basin.parent);
+        let mut at = basin;
         loop {
-            let above = parent(&self.pools, at);
+            let above = parent(&self.basins, at);
             if above == at {
                 return at;
             }
-            let next = parent(&self.pools, above);
-            if let Some(pool) = self.pools.get_mut(at as usize) {
-                pool.parent = next;
+            let next = parent(&self.basins, above);
+            if let Some(basin) = self.basins.get_mut(at as usize) {
+                basin.parent = next;
             }
             at = next;
         }
     }
 
-    /// A new pool of one cell.
+    /// A new basin of one cell.
     fn begin(&mut self, level: f32) -> u32 {
-        let number = self.pools.len() as u32;
-        self.pools.push(Pool {
+        let number = self.basins.len() as u32;
+        self.basins.push(Basin {
             parent: number,
             cells: 1,
             deepest: level,
@@ -366,34 +372,35 @@ impl<'relief> Pools<'relief> {
         number
     }
 
-    /// A pool that stands alone takes in another cell.
-    fn take_in(&mut self, root: u32, level: f32) -> u32 {
-        if let Some(pool) = self.pools.get_mut(root as usize) {
-            pool.cells += 1;
-            pool.deepest = pool.deepest.max(level);
+    /// Adds a cell to a root basin.
+    fn add_cell(&mut self, root: u32, level: f32) -> u32 {
+        if let Some(basin) = self.basins.get_mut(root as usize) {
+            basin.cells += 1;
+            basin.deepest = basin.deepest.max(level);
         }
         root
     }
 
-    fn become_one(&self, (one, other): (u32, u32), level: f32) -> bool {
+    fn merges(&self, one: u32, other: u32, level: f32) -> bool {
         let half_m = f64::from(level).sqrt() * CELL_M;
         if half_m > DOOR_HALF_M {
             return true;
         }
         let is_room = |root: u32| {
-            let pool = self.pools.get(root as usize);
-            pool.is_some_and(|pool| {
-                let wide_enough = f64::from(pool.deepest) >= WIDER * WIDER * f64::from(level);
-                f64::from(pool.cells) * CELL_M * CELL_M >= CORE_M2 && wide_enough
+            let basin = self.basins.get(root as usize);
+            basin.is_some_and(|basin| {
+                let is_wide_enough =
+                    f64::from(basin.deepest) >= WIDTH_RATIO_MIN * WIDTH_RATIO_MIN * f64::from(level);
+                f64::from(basin.cells) * CELL_M * CELL_M >= CORE_M2 && is_wide_enough
             })
         };
         !(is_room(one) && is_room(other))
     }
 
-    /// Two pools that stand alone become one; gives its number.
-    fn join(&mut self, one: u32, other: u32) -> u32 {
-        let pool = |pools: &Self, root: u32| pools.pools.get(root as usize).copied();
-        let (Some(first), Some(second)) = (pool(self, one), pool(self, other)) else {
+    /// Merges two root basins and returns the root.
+    fn merge(&mut self, one: u32, other: u32) -> u32 {
+        let basin = |basins: &Self, root: u32| basins.basins.get(root as usize).copied();
+        let (Some(first), Some(second)) = (basin(self, one), basin(self, other)) else {
             return one;
         };
         let (large, small) = if first.cells >= second.cells {
@@ -401,28 +408,28 @@ impl<'relief> Pools<'relief> {
         } else {
             (other, one)
         };
-        if let Some(pool) = self.pools.get_mut(small as usize) {
-            pool.parent = large;
+        if let Some(basin) = self.basins.get_mut(small as usize) {
+            basin.parent = large;
         }
-        if let Some(pool) = self.pools.get_mut(large as usize) {
-            pool.cells = first.cells + second.cells;
-            pool.deepest = first.deepest.max(second.deepest);
+        if let Some(basin) = self.basins.get_mut(large as usize) {
+            basin.cells = first.cells + second.cells;
+            basin.deepest = first.deepest.max(second.deepest);
         }
         large
     }
 
-    /// A label for each cell of a pool that is large enough for a room; 0 for the others.
+    /// A label for each cell of a basin that is large enough for a room; 0 for the others.
     async fn labels(&mut self, space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
         let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
         let mut known: BTreeMap<u32, u16> = BTreeMap::new();
-        for index in 0..self.pool_of.len() {
+        for index in 0..self.basin_of.len() {
             if index % CELLS == 0 {
-                budget.spend(NAME_WORK * CELLS).await;
+                budget.spend(RELABEL_WORK * CELLS).await;
             }
-            let Some(root) = self.pool_at(index) else {
+            let Some(root) = self.root_at(index) else {
                 continue;
             };
-            let cells = self.pools.get(root as usize).map_or(0, |pool| pool.cells);
+            let cells = self.basins.get(root as usize).map_or(0, |basin| basin.cells);
             if f64::from(cells) * CELL_M * CELL_M < ROOM_M2 {
                 continue;
             }
@@ -436,11 +443,11 @@ impl<'relief> Pools<'relief> {
     }
 }
 
-/// As [`Pools::labels`]. The pools are given back before anything else is looked for: they take most of the memory.
-async fn labels_of_pools(squared: &[f32], space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
-    let mut pools = Pools::new(squared);
-    pools.fill(space, budget).await;
-    pools.labels(space, budget).await
+/// As [`Basins::labels`]. The basins take most of the memory, so they are freed before the next stage.
+async fn watershed(squared: &[f32], space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
+    let mut basins = Basins::new(squared);
+    basins.fill(space, budget).await;
+    basins.labels(space, budget).await
 }
 
 async fn renamed(
@@ -452,7 +459,7 @@ async fn renamed(
         for label in some.iter_mut().filter(|label| **label > 0) {
             *label = names.get(label).copied().unwrap_or(0);
         }
-        budget.spend(NAME_WORK * some.len()).await;
+        budget.spend(RELABEL_WORK * some.len()).await;
     }
     labels
 }
@@ -461,7 +468,7 @@ async fn measured(labels: &Raster<u16>, squared: &[f32], budget: &mut StepBudget
     let mut found: BTreeMap<u16, (u32, usize, f32)> = BTreeMap::new();
     for (index, label) in labels.values().iter().enumerate() {
         if index % CELLS == 0 {
-            budget.spend(NAME_WORK * CELLS).await;
+            budget.spend(RELABEL_WORK * CELLS).await;
         }
         if *label == 0 {
             continue;

@@ -1,15 +1,15 @@
-//! What one observation says about the cells around the robot.
+//! Compact observations for the map.
 //!
-//! *Sighting*: an observation as far as the map needs it, with the pose at which it was made. Sightings are kept, so that
-//! the map can be drawn again when the poses turn out to have been others.
+//! *Sighting*: the part of an observation that the map needs, with the pose at that time. The map keeps sightings to redraw
+//! itself when past poses are corrected.
 
-use super::carpet::FloorFelt;
+use super::carpet::SurfaceObservation;
 use crate::model::config::PROXIMITY_MAX;
 use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// An observation as far as the map needs it.
+/// The part of an observation that the map needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sighting {
     pub(super) time_us: u64,
@@ -20,19 +20,19 @@ pub(super) struct Sighting {
     pub(super) sigma_cm: u8,
     /// Levels of the proximity sensors, 255 = touching.
     pub(super) levels: [u8; PROXIMITY_MAX],
-    /// Bumper halves left and right that were pressed, and cliff sensors left, middle and right that saw no floor.
-    pub(super) touched: Touched,
-    /// What the motors' loads say of the floor.
-    pub(super) floor: Option<FloorFelt>,
+    /// Bumper halves left and right, and cliff sensors left, middle and right without floor.
+    pub(super) switches: SwitchStates,
+    /// The floor surface, from the motor currents.
+    pub(super) surface: Option<SurfaceObservation>,
 }
 
-/// Switches of a sighting.
+/// Switch states of a sighting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Touched {
+pub(super) struct SwitchStates {
     bits: u8,
 }
 
-impl Touched {
+impl SwitchStates {
     fn of(observation: &Observation) -> Self {
         let (contacts, cliffs) = (observation.contacts, observation.cliffs);
         let switches = [
@@ -45,40 +45,40 @@ impl Touched {
         let bits = switches
             .iter()
             .enumerate()
-            .fold(0, |bits, (place, on)| bits | u8::from(*on) << place);
+            .fold(0, |bits, (index, on)| bits | u8::from(*on) << index);
         Self { bits }
     }
 
-    fn bit(self, place: u8) -> bool {
-        self.bits & (1 << place) != 0
+    fn bit(self, index: u8) -> bool {
+        self.bits & (1 << index) != 0
     }
 
-    /// The cleaning parts ran.
+    /// Whether the cleaning motors run.
     pub(super) fn sweeps(self) -> bool {
         self.bit(6)
     }
 
-    /// Notes that the cleaning parts run.
+    /// Records that the cleaning motors run.
     pub(super) fn note_sweeping(&mut self) {
         self.bits |= 1 << 6;
     }
 
-    /// Without what came of the sighting before.
-    fn switches(self) -> u8 {
+    /// The switches alone, without derived bits.
+    fn without_history(self) -> u8 {
         self.bits & 0b1_1111
     }
 
-    /// The contact was not there at the sighting before.
-    pub(super) fn begins(self) -> bool {
+    /// Whether a contact closed since the sighting before.
+    pub(super) fn has_new_contact(self) -> bool {
         self.bit(5)
     }
 
-    /// The same after a sighting with those switches.
+    /// The same, marked with the contacts that closed since `before`.
     pub(super) fn after(self, before: Self) -> Self {
         const CONTACTS: u8 = 0b11;
-        let begins = self.bits & CONTACTS & !before.bits != 0;
+        let has_new_contact = self.bits & CONTACTS & !before.bits != 0;
         Self {
-            bits: self.bits | u8::from(begins) << 5,
+            bits: self.bits | u8::from(has_new_contact) << 5,
         }
     }
 
@@ -105,19 +105,21 @@ impl Sighting {
             odom: estimate.odom,
             sigma_cm: (100.0 * estimate.sigma_m) as u8,
             levels,
-            touched: Touched::of(observation),
-            floor: None,
+            switches: SwitchStates::of(observation),
+            surface: None,
         }
     }
 
-    /// Whether so little happened since `before` that this one would only say the same again.
+    /// Whether the robot has moved so little since `before` that this sighting adds no information.
     pub(super) fn repeats(&self, before: &Self) -> bool {
         /// Half a cell.
         const STEP_M: f64 = 0.0125;
         /// Half a cell at the end of a beam.
         const TURN_RAD: f64 = 0.03;
-        let way_m = self.pose.position().distance_m(before.pose.position());
+        let distance_m = self.pose.position().distance_m(before.pose.position());
         let turn_rad = crate::model::geometry::normalize_rad(self.pose.heading_rad - before.pose.heading_rad);
-        self.touched.switches() == before.touched.switches() && way_m < STEP_M && turn_rad.abs() < TURN_RAD
+        self.switches.without_history() == before.switches.without_history()
+            && distance_m < STEP_M
+            && turn_rad.abs() < TURN_RAD
     }
 }

@@ -1,4 +1,4 @@
-//! A grid of square tiles, which come to be where something is kept.
+//! A sparse grid of square tiles.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ pub(super) const TILE_CELLS: i32 = 64;
 /// Column and row of a tile.
 pub(super) type TileKey = (i32, i32);
 
-/// The tiles that there are.
+/// The allocated tiles.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TileGrid<T> {
     tiles: Vec<T>,
     place_at: BTreeMap<TileKey, usize>,
-    /// The tile used last: nearly every cell falls into it.
+    /// The tile used last: nearly every access hits it.
     recent: Option<(TileKey, usize)>,
 }
 
@@ -29,23 +29,23 @@ impl<T> TileGrid<T> {
         self.tiles.get(*self.place_at.get(&key)?)
     }
 
-    /// Tiles in the order of their keys, which goes by columns.
+    /// Tiles in the order of their keys: column by column.
     pub(super) fn iter(&self) -> impl Iterator<Item = (TileKey, &T)> {
         let places = self.place_at.iter();
         places.filter_map(|(key, place)| Some((*key, self.tiles.get(*place)?)))
     }
 
-    /// The places of the tiles, in the order of their keys.
+    /// Keys and indices of the tiles, in the order of their keys.
     pub(super) fn places(&self) -> impl Iterator<Item = (TileKey, usize)> {
         self.place_at.iter().map(|(key, place)| (*key, *place))
     }
 
-    /// The tile of a place.
+    /// The tile at an index.
     pub(super) fn at_mut(&mut self, place: usize) -> Option<&mut T> {
         self.tiles.get_mut(place)
     }
 
-    /// The place of a tile, which is made if there is none; `None` if it may not be made.
+    /// The index of a tile, which is allocated if missing; `None` if `make` refuses.
     pub(super) fn place(&mut self, key: TileKey, make: impl FnOnce() -> Option<T>) -> Option<usize> {
         if let Some((recent, place)) = self.recent
             && recent == key
@@ -73,11 +73,11 @@ pub(super) const fn first_cell((column, row): TileKey) -> Cell {
     }
 }
 
-/// Where a cell is kept.
+/// The position of a cell in the tiles.
 pub(super) struct Located {
     /// Its tile.
     pub(super) key: TileKey,
-    /// Row and column in that.
+    /// Row and column in the tile.
     pub(super) row: usize,
     pub(super) column: usize,
 }

@@ -1,8 +1,8 @@
-//! In which direction most walls of a home stand, if they stand at right angles.
+//! The dominant direction of the walls, if they are at right angles.
 //!
-//! Seen along a wall its cells fall on few lines, seen askew they spread over many. So for each direction of a quarter turn the
-//! cells of all surfaces are counted line by line, along it and across; the direction with the largest sum of squares is that of
-//! the walls (a Hough transform that keeps only its energy).
+//! Along a wall its cells fall on few lines, at other angles they spread over many. For each direction of a quarter turn this
+//! counts the boundary cells per line, along and across. The direction with the largest sum of squares wins (a Hough transform
+//! that keeps only its energy).
 
 use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -12,78 +12,78 @@ use super::{CELL_M, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// Width of the lines, metres: walls on a map are some two cells thick.
+/// Width of the lines, metres: walls in a map are about two cells thick.
 const LINE_M: f64 = 2.0 * CELL_M;
-/// Directions of the first look in a quarter turn: 1.5 degrees each.
+/// Directions of the coarse search in a quarter turn: 1.5 degrees each.
 const DIRECTIONS: u32 = 60;
-/// The second look: so many steps to each side of the best one, of this many radians (0.1 degrees).
+/// The fine search: steps to each side of the best direction, and their size in radians (0.1 degrees).
 const FINE_STEPS: i32 = 20;
 const FINE_RAD: f64 = 0.1 * core::f64::consts::PI / 180.0;
-/// Surface cells that are looked at, at most.
+/// Most boundary cells in the search.
 const CELLS_MAX: usize = 1_500;
-/// Fewer cells tell nothing: two metres of wall.
+/// Fewer cells are no evidence: two metres of wall.
 const CELLS_MIN: usize = 80;
-/// The best direction must have this many times the energy of the median one. A round room has 1.04.
+/// Least ratio of the best energy to the median one. A round room has 1.04.
 const CLEAR: f64 = 1.15;
-/// Work of looking for surfaces in a cell, and of counting a cell in one direction.
-const LOOK_WORK: usize = 1;
+/// Work of scanning a cell for boundaries, and of counting a cell in one direction.
+const SCAN_WORK: usize = 1;
 const COUNT_WORK: usize = 2;
 
-/// The direction that was found last, and at which revision of the map.
+/// The wall direction of one revision of the map.
 #[derive(Debug, Default)]
-pub(super) struct DirectionAt {
+pub(super) struct CachedDirection {
     found: Cell<Option<(u32, Option<f64>)>>,
 }
 
-impl DirectionAt {
-    /// The direction at a revision, looked for if that is another one than last time.
-    pub(super) fn at(&self, revision: u32, look: impl FnOnce() -> Option<f64>) -> Option<f64> {
+impl CachedDirection {
+    /// The direction at a revision, computed once per revision.
+    pub(super) fn at(&self, revision: u32, compute: impl FnOnce() -> Option<f64>) -> Option<f64> {
         if let Some((found_at, direction_rad)) = self.found.get()
             && found_at == revision
         {
             return direction_rad;
         }
-        let direction_rad = look();
+        let direction_rad = compute();
         self.found.set(Some((revision, direction_rad)));
         direction_rad
     }
 }
 
-/// Direction of the walls in radians, above -pi/4 and up to pi/4; `None` when the home does not show one.
+/// Direction of the walls in radians, above -pi/4 and up to pi/4; `None` when there is no dominant one.
 pub(crate) async fn wall_direction_rad(
     knowledge: &Raster<CellKnowledge>,
     budget: &mut StepBudget,
 ) -> Option<f64> {
-    let surface = surface(knowledge, budget).await;
-    if surface.len() < CELLS_MIN {
+    let boundary = boundary(knowledge, budget).await;
+    if boundary.len() < CELLS_MIN {
         return None;
     }
-    let mut lines = Lines::around(&surface);
-    let mut looks: Vec<(u64, f64)> = Vec::with_capacity(DIRECTIONS as usize);
+    let mut lines = Lines::around(&boundary);
+    let mut candidates: Vec<(u64, f64)> = Vec::with_capacity(DIRECTIONS as usize);
     for step in 0..DIRECTIONS {
         let direction_rad = f64::from(step) * FRAC_PI_2 / f64::from(DIRECTIONS);
-        looks.push((lines.energy(&surface, direction_rad), direction_rad));
-        budget.spend(COUNT_WORK * surface.len()).await;
+        candidates.push((lines.energy(&boundary, direction_rad), direction_rad));
+        budget.spend(COUNT_WORK * boundary.len()).await;
     }
-    looks.sort_unstable_by_key(|look| look.0);
-    let (median, _) = *looks.get(looks.len() / 2)?;
-    let (most, coarse_rad) = *looks.last()?;
+    candidates.sort_unstable_by_key(|candidate| candidate.0);
+    let (median, _) = *candidates.get(candidates.len() / 2)?;
+    let (most, coarse_rad) = *candidates.last()?;
     if (most as f64) < CLEAR * median as f64 {
         return None;
     }
     let mut best = (most, coarse_rad);
     for step in -FINE_STEPS..=FINE_STEPS {
         let direction_rad = coarse_rad + f64::from(step) * FINE_RAD;
-        let energy = lines.energy(&surface, direction_rad);
+        let energy = lines.energy(&boundary, direction_rad);
         if energy > best.0 {
             best = (energy, direction_rad);
         }
-        budget.spend(COUNT_WORK * surface.len()).await;
+        budget.spend(COUNT_WORK * boundary.len()).await;
     }
     Some(folded_rad(best.1))
 }
 
-/// The same direction of a cross, above -pi/4 and up to pi/4.
+/// The equivalent direction modulo a quarter turn, above -pi/4 and up to pi/4.
 fn folded_rad(direction_rad: f64) -> f64 {
     let turned = direction_rad.rem_euclid(FRAC_PI_2);
     if turned > FRAC_PI_4 {
@@ -93,12 +93,12 @@ fn folded_rad(direction_rad: f64) -> f64 {
     }
 }
 
-/// Middles of occupied cells beside free ones, evenly thinned out.
-async fn surface(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Vec<Point2> {
-    let mut surface = Vec::new();
+/// Centres of occupied cells next to free ones, evenly thinned out.
+async fn boundary(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Vec<Point2> {
+    let mut boundary = Vec::new();
     for (index, kind) in knowledge.values().iter().enumerate() {
         if index % knowledge.width() == 0 {
-            budget.spend(LOOK_WORK * knowledge.width()).await;
+            budget.spend(SCAN_WORK * knowledge.width()).await;
         }
         if *kind != CellKnowledge::Occupied {
             continue;
@@ -108,14 +108,14 @@ async fn surface(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> 
             .into_iter()
             .any(|beside| knowledge.get(beside) == Some(&CellKnowledge::Free));
         if is_beside_floor {
-            surface.push(cell.middle());
+            boundary.push(cell.middle());
         }
     }
-    let thin = surface.len().div_ceil(CELLS_MAX).max(1);
-    surface.into_iter().step_by(thin).collect()
+    let stride = boundary.len().div_ceil(CELLS_MAX).max(1);
+    boundary.into_iter().step_by(stride).collect()
 }
 
-/// Counters of the lines in two directions at right angles.
+/// Counters of the lines in two perpendicular directions.
 struct Lines {
     middle: Point2,
     half: f64,
@@ -123,7 +123,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// Enough lines for these points in any direction.
+    /// Counters for these points in any direction.
     fn around(points: &[Point2]) -> Self {
         let count = points.len().max(1) as f64;
         let middle = Point2 {
@@ -143,7 +143,7 @@ impl Lines {
         }
     }
 
-    /// Sum of the squares of how many points lie on each line along and across a direction.
+    /// Sum of the squared numbers of points per line, along and across a direction.
     fn energy(&mut self, points: &[Point2], direction_rad: f64) -> u64 {
         let (sin, cos) = libm::sincos(direction_rad);
         for counts in &mut self.counts {
@@ -154,8 +154,8 @@ impl Lines {
                 (point.x_m - self.middle.x_m) / LINE_M,
                 (point.y_m - self.middle.y_m) / LINE_M,
             );
-            for (counts, way) in self.counts.iter_mut().zip([x * cos + y * sin, y * cos - x * sin]) {
-                if let Some(count) = counts.get_mut((way + self.half + 0.5) as usize) {
+            for (counts, line) in self.counts.iter_mut().zip([x * cos + y * sin, y * cos - x * sin]) {
+                if let Some(count) = counts.get_mut((line + self.half + 0.5) as usize) {
                     *count += 1;
                 }
             }
@@ -167,12 +167,12 @@ impl Lines {
 
 #[cfg(test)]
 mod tests {
-    use super::{DirectionAt, folded_rad, wall_direction_rad};
+    use super::{CachedDirection, folded_rad, wall_direction_rad};
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::gradual::{StepBudget, at_once};
 
-    /// A map of what lies inside of a shape, with a border two cells thick.
+    /// A map of the inside of a shape, with a border two cells thick.
     fn map(is_inside: impl Fn(Point2) -> bool) -> Raster<CellKnowledge> {
         let mut knowledge = Raster::filled(Cell { x: -160, y: -160 }, 320, 320, CellKnowledge::Unknown);
         for index in 0..knowledge.values().len() {
@@ -196,7 +196,7 @@ mod tests {
         at_once(wall_direction_rad(knowledge, &mut StepBudget::unlimited())).map(f64::to_degrees)
     }
 
-    /// An L of two rooms, turned.
+    /// An L of two rooms, rotated.
     fn home(turned_deg: f64) -> Raster<CellKnowledge> {
         let home_from_map = Pose2 {
             x_m: 0.013,
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_tell_their_direction_to_some_tenths_of_a_degree() {
+    fn the_wall_direction_is_found_to_half_a_degree() {
         for turned_deg in [0.0, 0.7, 3.0, 17.0, 30.0, 44.0, -44.0, -20.0, -1.2] {
             let found_deg = direction_deg(&home(turned_deg)).unwrap();
             assert!((found_deg - turned_deg).abs() < 0.5, "{turned_deg}: {found_deg}");
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_those_of_a_cross() {
+    fn directions_are_folded_into_a_quarter_turn() {
         for (direction_deg, folded_deg) in [(10.0_f64, 10.0), (80.0, -10.0), (170.0, -10.0), (-100.0, -10.0)]
         {
             let found_deg = folded_rad(direction_deg.to_radians()).to_degrees();
@@ -242,11 +242,11 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_is_looked_for_once_in_each_revision() {
-        let (direction, looks) = (DirectionAt::default(), core::cell::Cell::new(0));
+    fn a_direction_is_computed_once_per_revision() {
+        let (direction, candidates) = (CachedDirection::default(), core::cell::Cell::new(0));
         let at = |revision, found_rad| {
             direction.at(revision, || {
-                looks.set(looks.get() + 1);
+                candidates.set(candidates.get() + 1);
                 found_rad
             })
         };
@@ -254,6 +254,6 @@ mod tests {
         assert_eq!(at(3, Some(0.2)), Some(0.1));
         assert_eq!(at(4, None), None);
         assert_eq!(at(4, Some(0.3)), None, "that there is none is known, too");
-        assert_eq!(looks.get(), 2);
+        assert_eq!(candidates.get(), 2);
     }
 }

@@ -1,7 +1,8 @@
-//! Straight walls: lines that many surface cells agree on.
+//! Straight walls, by a Hough transform.
 //!
-//! *Surface*: occupied cells beside free ones. Each votes for the lines through it that run across the direction in which
-//! the distance to obstacles grows there; the line with most votes becomes walls, its cells are taken away, and so on.
+//! *Boundary cell*: an occupied cell next to a free one. Each votes for the lines through it that are perpendicular to the
+//! gradient of the distance field there. The line with most votes becomes wall segments, its cells are removed, and the search
+//! repeats.
 
 use std::collections::BTreeMap;
 
@@ -9,50 +10,56 @@ use super::cell::neighbours;
 use super::{CELL_M, Cell, CellKnowledge, DistanceField, Raster};
 use crate::model::geometry::Point2;
 
-/// A straight piece of wall, or of furniture that stands like one.
+/// A straight piece of wall, or of furniture that looks like one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallSegment {
     /// One end.
     pub from: Point2,
     /// The other end.
     pub to: Point2,
-    /// Standard deviation of its place across, in metres: scatter of its cells and uncertainty of the poses.
+    /// Standard deviation across the segment, in metres: scatter of its cells and uncertainty of the poses.
     pub sigma_m: f64,
 }
 
-/// Directions of lines that are told apart: 3 degrees.
+/// Number of line directions in a half turn: 3 degrees each.
 const DIRECTIONS: i32 = 60;
-/// Lines side by side, metres.
+/// Distance between parallel lines, metres.
 const LINE_STEP_M: f64 = 2.0 * CELL_M;
-/// Cells this far from a line belong to it, metres.
+/// Largest distance of a cell from its line, metres.
 const NEAR_M: f64 = 1.6 * CELL_M;
-/// A longer gap ends a wall, metres: where another wall meets it, cells see neither side clearly, and doors are wider.
+/// A longer gap ends a wall, metres. Where another wall meets it, cells are not clearly seen from either side; doors are wider.
 const GAP_M: f64 = 0.45;
 /// Shorter pieces are not walls, metres.
 const LENGTH_MIN_M: f64 = 0.5;
-/// Lines that are looked at, at most.
+/// Most lines in one search.
 const LINES_MAX: usize = 400;
 
 #[derive(Clone, Copy)]
-struct Surface {
+struct BoundaryCell {
     at: Point2,
-    /// Direction in which the free space lies, as a number of half of the [`DIRECTIONS`] of a full turn.
+    /// Direction of the free side, in steps of half a turn over [`DIRECTIONS`].
     direction: i32,
     sigma_m: f64,
 }
 
-/// A line: points whose way along the direction is the number of steps.
-type Line = (i32, i32);
+/// A line of the Hough transform.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct HoughLine {
+    /// Direction of its normal, in steps of half a turn over [`DIRECTIONS`].
+    direction: i32,
+    /// Distance from the origin along the normal, in steps of [`LINE_STEP_M`].
+    step: i32,
+}
 
-/// The walls of what is known. `sigma_m` tells how sure the pose was when a cell was seen.
+/// The walls in a map. `sigma_m` is the uncertainty of the pose when a cell was observed.
 pub(super) fn walls(
     knowledge: &Raster<CellKnowledge>,
     distance: &DistanceField,
     sigma_m: impl Fn(Cell) -> f64,
 ) -> Vec<WallSegment> {
-    let mut surface = surface(knowledge, distance, sigma_m);
-    let mut votes: BTreeMap<Line, u32> = BTreeMap::new();
-    for line in surface.iter().flat_map(lines_of) {
+    let mut boundary = boundary(knowledge, distance, sigma_m);
+    let mut votes: BTreeMap<HoughLine, u32> = BTreeMap::new();
+    for line in boundary.iter().flat_map(lines_of) {
         *votes.entry(line).or_default() += 1;
     }
     let mut walls = Vec::new();
@@ -64,9 +71,9 @@ pub(super) fn walls(
         let Some((&line, _)) = strongest.filter(|(_, count)| **count >= votes_min) else {
             break;
         };
-        let (mut on_it, others): (Vec<Surface>, Vec<Surface>) =
-            surface.iter().partition(|cell| lies_on(cell, line));
-        surface = others;
+        let (mut on_it, others): (Vec<BoundaryCell>, Vec<BoundaryCell>) =
+            boundary.iter().partition(|cell| lies_on(cell, line));
+        boundary = others;
         for spent in on_it.iter().flat_map(lines_of) {
             if let Some(count) = votes.get_mut(&spent) {
                 *count = count.saturating_sub(1);
@@ -77,12 +84,12 @@ pub(super) fn walls(
     walls
 }
 
-fn surface(
+fn boundary(
     knowledge: &Raster<CellKnowledge>,
     distance: &DistanceField,
     sigma_m: impl Fn(Cell) -> f64,
-) -> Vec<Surface> {
-    let mut surface = Vec::new();
+) -> Vec<BoundaryCell> {
+    let mut boundary = Vec::new();
     for (index, kind) in knowledge.values().iter().enumerate() {
         if *kind != CellKnowledge::Occupied {
             continue;
@@ -94,17 +101,17 @@ fn surface(
         }
         let at = cell.middle();
         if let Some(direction) = outward(distance, at) {
-            surface.push(Surface {
+            boundary.push(BoundaryCell {
                 at,
                 direction,
                 sigma_m: sigma_m(cell),
             });
         }
     }
-    surface
+    boundary
 }
 
-/// Direction in which the distance grows around a place, from some cells around so that single cells do not matter.
+/// Direction of the gradient of the distance field, averaged over neighbouring cells against noise.
 fn outward(distance: &DistanceField, at: Point2) -> Option<i32> {
     const AROUND: i32 = 3;
     let (mut x, mut y) = (0.0, 0.0);
@@ -126,7 +133,7 @@ fn outward(distance: &DistanceField, at: Point2) -> Option<i32> {
     Some(libm::round(turns * f64::from(2 * DIRECTIONS)) as i32)
 }
 
-/// Unit vector across a line.
+/// Unit normal of a line.
 fn normal(direction: i32) -> (f64, f64) {
     let (sin, cos) = libm::sincos(f64::from(direction) * core::f64::consts::PI / f64::from(DIRECTIONS));
     (cos, sin)
@@ -138,24 +145,24 @@ fn across_m(at: Point2, direction: i32) -> f64 {
 }
 
 /// The lines for which a cell votes.
-fn lines_of(cell: &Surface) -> [Line; 3] {
+fn lines_of(cell: &BoundaryCell) -> [HoughLine; 3] {
     [-1, 0, 1].map(|turned| {
         let direction = (cell.direction + turned).rem_euclid(2 * DIRECTIONS);
         let step = libm::round(across_m(cell.at, direction) / LINE_STEP_M) as i32;
-        (direction, step)
+        HoughLine { direction, step }
     })
 }
 
-fn lies_on(cell: &Surface, (direction, step): Line) -> bool {
-    let off_m = across_m(cell.at, direction) - f64::from(step) * LINE_STEP_M;
-    let turned = (cell.direction - direction).rem_euclid(2 * DIRECTIONS);
+fn lies_on(cell: &BoundaryCell, line: HoughLine) -> bool {
+    let off_m = across_m(cell.at, line.direction) - f64::from(line.step) * LINE_STEP_M;
+    let turned = (cell.direction - line.direction).rem_euclid(2 * DIRECTIONS);
     off_m.abs() <= NEAR_M && (turned <= 4 || turned >= 2 * DIRECTIONS - 4)
 }
 
-/// The cells of one line in pieces without gaps, each as a fitted segment.
-fn pieces(cells: &mut [Surface], (direction, _): Line) -> Vec<WallSegment> {
-    let (x, y) = normal(direction);
-    let along_m = |cell: &Surface| cell.at.y_m * x - cell.at.x_m * y;
+/// Splits the cells of one line at gaps and fits a segment to each piece.
+fn pieces(cells: &mut [BoundaryCell], line: HoughLine) -> Vec<WallSegment> {
+    let (x, y) = normal(line.direction);
+    let along_m = |cell: &BoundaryCell| cell.at.y_m * x - cell.at.x_m * y;
     cells.sort_by(|one, other| along_m(one).total_cmp(&along_m(other)));
     cells
         .chunk_by(|one, next| along_m(next) - along_m(one) <= GAP_M)
@@ -164,26 +171,26 @@ fn pieces(cells: &mut [Surface], (direction, _): Line) -> Vec<WallSegment> {
         .collect()
 }
 
-/// The straight line through cells with the least squares across it.
-fn fitted(cells: &[Surface]) -> Option<WallSegment> {
+/// Fits a line by least squares of the perpendicular distances.
+fn fitted(cells: &[BoundaryCell]) -> Option<WallSegment> {
     let count = cells.len() as f64;
     if count < 2.0 {
         return None;
     }
-    let mean = |value: &dyn Fn(&Surface) -> f64| cells.iter().map(value).sum::<f64>() / count;
+    let mean = |value: &dyn Fn(&BoundaryCell) -> f64| cells.iter().map(value).sum::<f64>() / count;
     let (x_m, y_m) = (mean(&|cell| cell.at.x_m), mean(&|cell| cell.at.y_m));
     let xx = mean(&|cell| (cell.at.x_m - x_m) * (cell.at.x_m - x_m));
     let yy = mean(&|cell| (cell.at.y_m - y_m) * (cell.at.y_m - y_m));
     let xy = mean(&|cell| (cell.at.x_m - x_m) * (cell.at.y_m - y_m));
     let (sin, cos) = libm::sincos(0.5 * libm::atan2(2.0 * xy, xx - yy));
-    let along = |cell: &Surface| (cell.at.x_m - x_m) * cos + (cell.at.y_m - y_m) * sin;
+    let along = |cell: &BoundaryCell| (cell.at.x_m - x_m) * cos + (cell.at.y_m - y_m) * sin;
     let first = cells.iter().map(along).fold(f64::INFINITY, f64::min);
     let last = cells.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
     let scatter_m2 = (xx * sin * sin + yy * cos * cos - 2.0 * xy * sin * cos).max(0.0);
     let pose_m = mean(&|cell| cell.sigma_m);
-    let end = |way_m: f64| Point2 {
-        x_m: x_m + way_m * cos,
-        y_m: y_m + way_m * sin,
+    let end = |along_m: f64| Point2 {
+        x_m: x_m + along_m * cos,
+        y_m: y_m + along_m * sin,
     };
     Some(WallSegment {
         from: end(first - 0.5 * CELL_M),

@@ -1,24 +1,25 @@
-//! Which cells a zone covers.
+//! Cells of zones and rectangles.
 
 use super::Cell;
-use super::layers::CellBox;
+use super::occupancy_grid::CellBox;
 use crate::model::geometry::Point2;
 use crate::model::zone::Zone;
 
-/// Cells whose middles lie in a zone and that lie in `window`, row after row.
+/// Cells of `window` whose centres lie in a zone, row after row.
 pub(super) fn cells_of(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + '_ {
-    cells_between(around(zone), window).filter(|cell| zone.contains(cell.middle()))
+    let (low, high) = around(zone);
+    cells_between(low, high, window).filter(|cell| zone.contains(cell.middle()))
 }
 
-/// Cells of a rectangle that lie in `window`, row after row.
-pub(super) fn cells_between((low, high): (Point2, Point2), window: CellBox) -> impl Iterator<Item = Cell> {
+/// Cells of a rectangle within `window`, row after row.
+pub(super) fn cells_between(low: Point2, high: Point2, window: CellBox) -> impl Iterator<Item = Cell> {
     let (low, high) = (Cell::under(low), Cell::under(high));
     let columns = low.x.max(window.low.x)..=high.x.min(window.high.x);
     let rows = low.y.max(window.low.y)..=high.y.min(window.high.y);
     rows.flat_map(move |y| columns.clone().map(move |x| Cell { x, y }))
 }
 
-/// Lowest and highest corner of the rectangle around a zone.
+/// Bounding box of a zone.
 fn around(zone: &Zone) -> (Point2, Point2) {
     let first = zone.corners().first().copied().unwrap_or_default();
     zone.corners().iter().fold((first, first), |(low, high), corner| {

@@ -1,9 +1,9 @@
-//! What the brain wants done. The shells perform it; the brain touches nothing.
+//! Actions that the brain requests. The shells perform them; the brain has no side effects.
 
 /// The answer to one observation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actions {
-    /// What the wheels should do until the next observation.
+    /// Motion of the wheels until the next observation.
     pub motion: Motion,
     /// Whether brushes and suction should run.
     pub cleaners: bool,
@@ -15,12 +15,12 @@ pub struct Actions {
     pub decisions: Vec<Decision>,
 }
 
-/// What the wheels should do.
+/// Motion of the wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// Nothing is asked: no motion command is sent, leases run out.
+    /// No motion command is sent, leases run out.
     Rest,
-    /// Stand still now.
+    /// Stop now.
     Halt,
     /// Drive; the shell gives it a lease and repeats it.
     Drive {
@@ -34,7 +34,7 @@ pub enum Motion {
 /// How to arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arm {
-    /// Leaving the dock is meant.
+    /// The robot is about to leave the dock.
     pub undock: bool,
 }
 
@@ -43,22 +43,22 @@ pub struct Arm {
 pub struct Tone {
     /// Pitch; 0 is a pause.
     pub pitch_hz: u32,
-    /// Length.
+    /// Duration.
     pub duration_ms: u16,
 }
 
-/// A change of mind with its reason, for the log, the recording and "why did you do that".
+/// A decision and its reason, for the log, the recording and `rvac why`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// What was decided, for example `back-off`, `turn`, `state-cleaning`.
+    /// Name of the decision, for example `back-off`, `turn`, `state-cleaning`.
     pub what: &'static str,
     /// Named reason, for example `bump-left`, `cliff`, `command`, `wheel-drop`.
     pub reason: &'static str,
-    /// A number that belongs to it, for example the angle of a turn in radians; 0 where there is none.
+    /// A value of the decision, for example the angle of a turn in radians; 0 where there is none.
     pub value: f64,
 }
 
-/// The names of all decisions, for those who put them into words.
+/// Names of all decisions, for translations.
 pub const DECISIONS: [&str; 53] = [
     "approach",
     "arc",
@@ -123,7 +123,7 @@ mod tests {
 
     use super::DECISIONS;
 
-    /// All code of this crate besides this file.
+    /// All code of this crate except this file.
     fn code(folder: &Path) -> String {
         let mut text = String::new();
         for entry in fs::read_dir(folder).expect("is there") {
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn every_decision_stands_in_the_list_and_nothing_else_does() {
+    fn the_list_contains_exactly_the_decisions_in_the_code() {
         let code = code(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
         let decided = code.split("decide(").skip(1);
         let named = decided.filter_map(|rest| rest.trim_start().strip_prefix('"')?.split('"').next());

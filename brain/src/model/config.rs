@@ -1,4 +1,4 @@
-//! What the brain must know of the machine it thinks for.
+//! Description of the robot that the brain controls.
 
 use super::geometry::{Point2, Pose2};
 
@@ -13,54 +13,54 @@ pub struct Body {
     pub track_m: f64,
 }
 
-/// Speeds of the machine.
+/// Speeds of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speeds {
-    /// Speed at which it cleans, m/s.
+    /// Cleaning speed, m/s.
     pub cruise_m_per_s: f64,
-    /// Highest forward speed, m/s; manual driving may use it.
+    /// Highest forward speed, m/s; only manual driving uses it.
     pub max_m_per_s: f64,
     /// Highest turn rate, rad/s.
     pub turn_max_rad_per_s: f64,
 }
 
-/// Most proximity sensors that a layout holds; as many as the wire carries.
+/// Most proximity sensors of a layout; as many as the wire carries.
 pub const PROXIMITY_MAX: usize = 8;
 
-/// Where the sensors sit and how they answer. Comes from `robots/*/robot.toml`: the wire tells only how many there are.
+/// Poses and responses of the sensors. From `robots/*/robot.toml`: the wire only carries their number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorLayout {
-    /// Infrared proximity sensors; without any nothing is mapped from afar.
+    /// Infrared proximity sensors. Without any, only contacts and the body map the floor.
     pub proximity: ProximityLayout,
     /// The bumper.
     pub bumper: BumperLayout,
-    /// Places of the cliff sensors left, middle and right, in the body's frame; `None` = not known.
+    /// Positions of the cliff sensors left, middle and right, in the body's frame; `None` = not known.
     pub cliffs: Option<[Point2; 3]>,
 }
 
-/// Infrared proximity sensors. The level of one falls with the square of the distance to what it sees:
-/// `level = albedo / (1 + (beyond / half_level)^2)`, where `beyond` begins at the rim and the albedo is 1 on average.
+/// Infrared proximity sensors. The level falls with the square of the distance: `level = albedo / (1 + (beyond / half_level)^2)`,
+/// where `beyond` begins at the rim and the albedo is 1 on average.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProximityLayout {
     sensors: [Pose2; PROXIMITY_MAX],
     count: usize,
-    /// How the sensors answer.
+    /// Response of the sensors.
     pub response: ProximityResponse,
 }
 
-/// How an infrared proximity sensor answers; the same for all of a robot.
+/// Response of an infrared proximity sensor; the same for all sensors of a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProximityResponse {
-    /// Nothing is seen beyond this distance from the sensor, metres.
+    /// Range from the sensor, metres.
     pub range_m: f64,
-    /// Half of the beam's opening, radians.
+    /// Half of the beam's opening angle, radians.
     pub half_angle_rad: f64,
     /// Distance beyond the rim at which a white wall gives half of the full level, metres.
     pub half_level_m: f64,
-    /// Way from the sensor to the rim along its beam, metres.
+    /// Distance from the sensor to the rim along its beam, metres.
     pub skin_m: f64,
-    /// Distance from the sensor at which a white wall makes a sensor with one line say near (1) and not far (0), metres;
-    /// `None` = it tells levels.
+    /// For a sensor with a single digital line: distance from the sensor within which a white wall reads near (1) instead of far
+    /// (0), metres; `None` = the sensor reports levels.
     pub near_m: Option<f64>,
 }
 
@@ -74,7 +74,7 @@ pub struct BumperLayout {
 }
 
 impl Default for SensorLayout {
-    /// Nothing but a bumper over the front half, which is all that is known of a robot that nobody described.
+    /// Only a bumper over the front half: the default for a robot without a description.
     fn default() -> Self {
         Self {
             proximity: ProximityLayout::new(&[], ProximityResponse::default()),
@@ -88,7 +88,7 @@ impl Default for SensorLayout {
 }
 
 impl SensorLayout {
-    /// Places of cliff sensors, from left to right, as far as the brain understands them: three, or none.
+    /// Positions of the cliff sensors from left to right; the brain supports three or none.
     #[must_use]
     pub fn three_cliffs(places: impl IntoIterator<Item = Point2>) -> Option<[Point2; 3]> {
         let places: Vec<Point2> = places.into_iter().collect();
@@ -97,8 +97,8 @@ impl SensorLayout {
 }
 
 impl ProximityLayout {
-    /// Sensors at `poses` in the body's frame, each looking along its x axis, in the order of
-    /// [`crate::Observation::proximity`]. What exceeds [`PROXIMITY_MAX`] is left out.
+    /// Sensors at `poses` in the body's frame, each facing along its x axis, in the order of [`crate::Observation::proximity`].
+    /// Poses beyond [`PROXIMITY_MAX`] are ignored.
     #[must_use]
     pub fn new(poses: &[Pose2], response: ProximityResponse) -> Self {
         let mut sensors = [Pose2::IDENTITY; PROXIMITY_MAX];
@@ -112,8 +112,8 @@ impl ProximityLayout {
         }
     }
 
-    /// Sensors that look outward from a circle of `mount_radius_m` around the middle of the body, the first ones of
-    /// `headings_rad` first; zero is ahead, counter-clockwise.
+    /// Sensors that face outward from a circle of `mount_radius_m` around the body's centre, in the order of `headings_rad`. Zero
+    /// is ahead, counter-clockwise positive.
     #[must_use]
     pub fn ring(headings_rad: &[f64], mount_radius_m: f64, response: ProximityResponse) -> Self {
         let outward = |&heading_rad: &f64| {
@@ -139,11 +139,11 @@ impl ProximityLayout {
 }
 
 impl ProximityResponse {
-    /// Distance from the sensor to a white wall that gives `level` (0..=1), in metres; `None` when that is beyond the range
-    /// or the level is nothing. For a sensor that only says near it is the middle of what near can mean.
+    /// Distance from the sensor to a white wall at `level` (0..=1), in metres; `None` beyond the range or without a level. For a
+    /// digital sensor it is the middle of its near range.
     #[must_use]
     pub fn distance_m(&self, level: f64) -> Option<f64> {
-        // Written so that NaN is nothing.
+        // Written so that NaN counts as no level.
         let seen = level > 0.0;
         if !seen {
             return None;
@@ -181,11 +181,11 @@ pub struct BrainConfig {
     pub sensors: SensorLayout,
     /// Seconds of motion after which a job ends and the robot looks for its dock (S26).
     pub task_budget_s: f64,
-    /// Seconds after which the search for the dock is given up.
+    /// Seconds after which the search for the dock ends.
     pub dock_budget_s: f64,
     /// Battery charge, 0..1, below which a job ends and the robot looks for its dock.
     pub battery_low: f32,
-    /// Battery charge, 0..1, from which on a job goes on that was put off for the pack's sake.
+    /// Battery charge, 0..1, above which an interrupted job continues.
     pub battery_charged: f32,
 }
 
@@ -208,7 +208,7 @@ impl BrainConfig {
 
 #[cfg(test)]
 impl BrainConfig {
-    /// A robot with nothing but a bumper, for tests in which its size and its speeds do not matter.
+    /// A robot with nothing but a bumper, for tests that do not depend on its size and speeds.
     pub(crate) fn of_tests() -> Self {
         let body = Body {
             radius_m: 0.175,
@@ -229,7 +229,7 @@ mod tests {
     use super::ProximityResponse;
 
     #[test]
-    fn level_and_distance_undo_each_other_and_nothing_is_seen_out_of_range() {
+    fn level_and_distance_are_inverse_within_the_range() {
         let response = ProximityResponse {
             range_m: 0.25,
             half_angle_rad: 0.09,

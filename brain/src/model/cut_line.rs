@@ -1,14 +1,14 @@
-//! A line by which a person cuts a room in two.
+//! The line along which a person splits a room.
 
 use super::geometry::Point2;
 use super::no_go::in_micrometres;
 use super::reason::Reason;
-use super::zone::FAR_M;
+use super::zone::COORDINATE_MAX_M;
 
 /// Shortest line, metres.
 const LINE_MIN_M: f64 = 0.05;
 
-/// A line that a person has drawn. Its ends are whole micrometres, as a stored map keeps them.
+/// A drawn line. Its ends are whole micrometres, as in a stored map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutLine {
     from: Point2,
@@ -16,12 +16,12 @@ pub struct CutLine {
 }
 
 impl CutLine {
-    /// A line between two places.
+    /// A line between two points.
     ///
     /// # Errors
-    /// [`Reason::BadLine`] when they are one place or far away.
+    /// [`Reason::BadLine`] when they coincide or are too far away.
     pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
-        let is_near = |end: &Point2| end.x_m.abs() < FAR_M && end.y_m.abs() < FAR_M;
+        let is_near = |end: &Point2| end.x_m.abs() < COORDINATE_MAX_M && end.y_m.abs() < COORDINATE_MAX_M;
         let line = Self {
             from: in_micrometres(from),
             to: in_micrometres(to),
@@ -44,9 +44,9 @@ impl CutLine {
         self.from.distance_m(self.to)
     }
 
-    /// The place so many metres along it; it goes on beyond its ends.
-    pub(crate) fn at(&self, way_m: f64) -> Point2 {
-        let share = way_m / self.length_m();
+    /// The point at this distance along the line; it continues beyond its ends.
+    pub(crate) fn at(&self, distance_m: f64) -> Point2 {
+        let share = distance_m / self.length_m();
         Point2 {
             x_m: self.from.x_m + share * (self.to.x_m - self.from.x_m),
             y_m: self.from.y_m + share * (self.to.y_m - self.from.y_m),

@@ -1,18 +1,18 @@
 //! Long computations in steps of bounded work, so that no command waits for one.
 //!
-//! A long computation is an `async` function, because the compiler turns that into something that can be left in the middle
-//! and taken up again. There is no executor, no thread and no clock in it: it counts its own work in a [`StepBudget`] and pauses
-//! when a step's share is done, so equal inputs pause at equal places on every machine. Pauses change nothing in the result.
+//! A long computation is an `async` function, because the compiler makes that resumable. There is no executor, no thread and no
+//! clock: it counts its own work in a [`StepBudget`] and pauses when the budget of the step is spent. So equal inputs pause at equal
+//! points on every machine. Pauses do not change the result.
 
 use core::fmt;
 use core::future::poll_fn;
 use core::pin::Pin;
 use core::task::{Context, Poll, Waker};
 
-/// Work of one step, in cells looked at and things that take as long: some millisecond of a desktop's core.
+/// Work of one step, in visited cells or equivalents: about a millisecond on one core of a desktop.
 const STEP_WORK: usize = 600_000;
 
-/// How much work may be done before the next pause.
+/// The work budget until the next pause.
 #[derive(Debug)]
 pub(crate) struct StepBudget {
     left: usize,
@@ -20,7 +20,7 @@ pub(crate) struct StepBudget {
 }
 
 impl StepBudget {
-    /// Pauses after each step's work.
+    /// Pauses after the work of each step.
     pub(crate) const fn limited() -> Self {
         Self::of(STEP_WORK)
     }
@@ -30,12 +30,12 @@ impl StepBudget {
         Self::of(usize::MAX)
     }
 
-    /// Pauses when so much work was done.
+    /// Pauses after this much work.
     pub(crate) const fn of(step: usize) -> Self {
         Self { left: step, step }
     }
 
-    /// Counts work that was done, and pauses if that was enough for a step.
+    /// Counts completed work, and pauses when the budget is spent.
     pub(crate) async fn spend(&mut self, done: usize) {
         self.left = self.left.saturating_sub(done);
         if self.left == 0 {
@@ -43,7 +43,7 @@ impl StepBudget {
         }
     }
 
-    /// Leaves the rest to the next step, however much was done in this one.
+    /// Pauses now, whatever is left of the budget.
     pub(crate) async fn pause(&mut self) {
         self.left = self.step;
         let mut has_paused = false;
@@ -58,20 +58,20 @@ impl StepBudget {
     }
 }
 
-/// A computation that is under way.
+/// A computation in progress.
 pub(crate) struct Gradual<T> {
     rest: Pin<Box<dyn Future<Output = T> + Send>>,
 }
 
 impl<T> Gradual<T> {
-    /// Begins it; nothing is done yet. It must await nothing but [`StepBudget::spend`].
+    /// Prepares a computation; nothing is done yet. It must await nothing but [`StepBudget::spend`].
     pub(crate) fn new(computation: impl Future<Output = T> + Send + 'static) -> Self {
         Self {
             rest: Box::pin(computation),
         }
     }
 
-    /// Does the next step. Not to be called again once it is ready.
+    /// Does the next step. Must not be called again after it returned `Ready`.
     pub(crate) fn go_on(&mut self) -> Poll<T> {
         self.rest.as_mut().poll(&mut Context::from_waker(Waker::noop()))
     }
@@ -83,7 +83,7 @@ impl<T> fmt::Debug for Gradual<T> {
     }
 }
 
-/// Does all of a computation in one go.
+/// Runs a computation to its end.
 pub(crate) fn at_once<T>(computation: impl Future<Output = T>) -> T {
     let mut computation = core::pin::pin!(computation);
     loop {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn it_pauses_after_each_steps_work_and_ends_with_the_same_result() {
+    fn a_computation_pauses_when_the_budget_is_spent_and_the_result_stays_the_same() {
         let mut gradual = Gradual::new(sum(25, StepBudget::of(10)));
         assert_eq!(gradual.go_on(), Poll::Pending);
         assert_eq!(gradual.go_on(), Poll::Pending);

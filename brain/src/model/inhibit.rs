@@ -1,6 +1,6 @@
-//! What keeps a robot from moving or from doing its work, in words that are no make's own.
+//! Reasons that keep a robot from moving or working, independent of its make.
 
-/// What keeps a robot from moving or from doing its work. The names stand in logs, in recordings and on clients' pages.
+/// A reason that keeps a robot from moving or working. The names appear in logs, recordings and clients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Inhibit {
     /// No `arm` since the reset, or disarmed.
@@ -13,13 +13,13 @@ pub enum Inhibit {
     Bumper,
     /// A bumper stays pressed.
     BumperStuck,
-    /// A cliff sensor sees no floor: only slow reverse is allowed.
+    /// A cliff sensor detects no floor: only slow reverse is allowed.
     Cliff,
-    /// Cliffs kept coming or reversing did not help.
+    /// Repeated cliffs, or reversing did not help.
     CliffTrapped,
     /// A cliff sensor fails its self-test.
     CliffSensorFault,
-    /// A wheel hangs: the robot is lifted or fell.
+    /// A wheel has dropped: the robot was lifted or fell.
     WheelDrop,
     /// A wheel motor drew too much current or did not turn.
     WheelStall,
@@ -29,7 +29,7 @@ pub enum Inhibit {
     Runaway,
     /// An encoder disagrees with its command in direction or is silent.
     EncoderFault,
-    /// Wheels turn but the robot does not come forward.
+    /// Wheels turn but the robot does not move.
     NotMoving,
     /// On the dock: motion needs an undock command.
     Docked,
@@ -45,13 +45,13 @@ pub enum Inhibit {
     BatteryWeak,
     /// The pack is below 0.9 V a cell: everything is off.
     BatteryEmpty,
-    /// The pack is hotter than 55 degrees: motors are off until it has cooled.
+    /// The pack is hotter than 55 degrees Celsius: motors are off until it has cooled.
     BatteryHot,
-    /// The pack was hotter than 60 degrees.
+    /// The pack was hotter than 60 degrees Celsius.
     BatteryOverheated,
     /// The pack's temperature cannot be measured.
     Thermistor,
-    /// The charger has found a fault: no charging. Forbids no motion.
+    /// The charger reports a fault: no charging. Forbids no motion.
     ChargerFault,
     /// Current flows into the pack though the charger is off: stay off the dock. Forbids no motion.
     ChargerShorted,
@@ -62,7 +62,7 @@ pub enum Inhibit {
 }
 
 impl Inhibit {
-    /// All of them, in the order in which they are listed everywhere.
+    /// All of them, in display order.
     pub const ALL: [Self; 28] = [
         Self::NotArmed,
         Self::ResetLoop,
@@ -135,7 +135,7 @@ impl Inhibit {
         Self::ALL.into_iter().find(|inhibit| inhibit.name() == name)
     }
 
-    /// Whether it stays until somebody clears it by its name and its cause is gone.
+    /// Whether it stays until it is cleared by name after its cause is gone.
     #[must_use]
     pub const fn is_latched(self) -> bool {
         matches!(
@@ -162,7 +162,7 @@ impl Inhibit {
     }
 }
 
-/// Name of what has no word and whose own name is not known either.
+/// Name of an inhibit that is not known here and came without a name.
 const UNKNOWN: &str = "unknown-inhibit";
 
 /// A set of inhibits.
@@ -201,18 +201,18 @@ impl Inhibits {
         self.known &= !inhibit.bit();
     }
 
-    /// Adds something for which [`Inhibit`] has no word, by the name that the make gives to it. The newest one is kept: the
-    /// robot needs a person for any of them.
+    /// Adds an inhibit that [`Inhibit`] lacks, by the name that the make gives it. Only the newest is kept: the robot needs a
+    /// person for any of them.
     pub const fn insert_other(&mut self, name: &'static str) {
         self.other = Some(name);
     }
 
-    /// Adds something of which not even a name is known.
+    /// Adds an inhibit without a known name.
     pub const fn insert_unknown(&mut self) {
         self.insert_other(UNKNOWN);
     }
 
-    /// The set of these names, as [`Self::names`] told them; one without a word is only known to be there.
+    /// The set of these names, as from [`Self::names`]. An unknown name becomes an unknown inhibit.
     #[must_use]
     pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let mut all = Self::NONE;
@@ -225,20 +225,20 @@ impl Inhibits {
         all
     }
 
-    /// Something for which [`Inhibit`] has no word.
+    /// An inhibit that [`Inhibit`] lacks.
     #[must_use]
     pub const fn other(self) -> Option<&'static str> {
         self.other
     }
 
-    /// The members that have a word, in the order of [`Inhibit::ALL`].
+    /// The known members, in the order of [`Inhibit::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Inhibit> {
         Inhibit::ALL
             .into_iter()
             .filter(move |inhibit| self.contains(*inhibit))
     }
 
-    /// The names of all members; one without a word comes last.
+    /// The names of all members; one that [`Inhibit`] lacks comes last.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         self.iter().map(Inhibit::name).chain(self.other)
     }
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_word_is_not_lost() {
+    fn unknown_inhibits_are_kept() {
         let mut inhibits: Inhibits = [Inhibit::WheelDrop, Inhibit::NotArmed].into_iter().collect();
         inhibits.insert_other("flux-capacitor");
         assert!(inhibits.names().eq(["not-armed", "wheel-drop", "flux-capacitor"]));

@@ -1,17 +1,17 @@
-//! Zones and spots that people keep under a name, to have them cleaned again.
+//! Saved zones and spots, which people can have cleaned again.
 
 use super::geometry::Point2;
 use super::no_go::{RoomName, in_micrometres};
 use super::order::HomePart;
 use super::reason::Reason;
-use super::zone::{FAR_M, Zone};
+use super::zone::{COORDINATE_MAX_M, Zone};
 
-/// What a person has drawn.
+/// Shape of a saved place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlaceShape {
     /// A zone.
     Zone(Zone),
-    /// A spot, by its middle.
+    /// A spot, by its centre.
     Spot(Point2),
 }
 
@@ -26,7 +26,7 @@ impl PlaceShape {
     }
 }
 
-/// A zone or spot with a name. Its corners are whole micrometres, as a stored map keeps them.
+/// A zone or spot with a name. Its coordinates are whole micrometres, as in a stored map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptPlace {
     name: RoomName,
@@ -34,17 +34,19 @@ pub struct KeptPlace {
 }
 
 impl KeptPlace {
-    /// A place under a name.
+    /// A place with a name.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for one that is far away.
+    /// [`Reason::BadZone`] for one that is too far away.
     pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, Reason> {
         let shape = match shape {
             PlaceShape::Zone(zone) => {
                 let corners = zone.corners().iter().copied().map(in_micrometres);
                 PlaceShape::Zone(Zone::new(corners.collect())?)
             }
-            PlaceShape::Spot(place) if place.x_m.abs() < FAR_M && place.y_m.abs() < FAR_M => {
+            PlaceShape::Spot(place)
+                if place.x_m.abs() < COORDINATE_MAX_M && place.y_m.abs() < COORDINATE_MAX_M =>
+            {
                 PlaceShape::Spot(in_micrometres(*place))
             }
             PlaceShape::Spot(_) => return Err(Reason::BadZone),
@@ -58,21 +60,21 @@ impl KeptPlace {
         Self { name, ..self }
     }
 
-    /// The same elsewhere.
+    /// The same with another shape.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for a shape that is far away.
+    /// [`Reason::BadZone`] for a shape that is too far away.
     pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, Reason> {
         Self::new(self.name, shape)
     }
 
-    /// What people call it.
+    /// Its name.
     #[must_use]
     pub const fn name(&self) -> &RoomName {
         &self.name
     }
 
-    /// What a person has drawn.
+    /// Its shape.
     #[must_use]
     pub const fn shape(&self) -> &PlaceShape {
         &self.shape

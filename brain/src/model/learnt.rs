@@ -1,50 +1,50 @@
-//! What a robot has learnt of itself: it outlives every map, every job, and the shell.
+//! Calibration that a robot learns. It outlives maps, jobs and the shell.
 
 use super::energy::EnergyModel;
 
-/// Largest scale error, its deviation and bias that are believed of somebody else's word: more is no gyro that works.
+/// Limits for values from outside: no working gyro exceeds them.
 const SCALE_MAX: f64 = 0.05;
 const SCALE_SIGMA_MAX: f64 = 0.01;
 const BIAS_MAX_RAD_PER_S: f64 = 0.03;
 
-/// What is wrong with the gyro.
+/// Calibration of the gyro.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroLearnt {
-    /// Error of its scale, relative.
+    /// Relative error of the scale.
     pub scale: f64,
-    /// Standard deviation of that.
+    /// Standard deviation of the scale error.
     pub scale_sigma: f64,
-    /// Its bias, rad/s.
+    /// Bias, rad/s.
     pub bias_rad_per_s: f64,
 }
 
 impl GyroLearnt {
-    /// Itself, if it can be.
+    /// The same, if it is within the limits.
     #[must_use]
     pub fn checked(self) -> Option<Self> {
-        // Written so that NaN cannot be.
-        let can_be = self.scale.abs() <= SCALE_MAX
+        // Written so that NaN is refused.
+        let is_plausible = self.scale.abs() <= SCALE_MAX
             && (0.0..=SCALE_SIGMA_MAX).contains(&self.scale_sigma)
             && self.bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S;
-        can_be.then_some(self)
+        is_plausible.then_some(self)
     }
 }
 
-/// All that it has learnt.
+/// Everything that the robot has learnt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Learnt {
-    /// `None` = nothing that is worth keeping.
+    /// `None` = not learnt yet.
     pub gyro: Option<GyroLearnt>,
-    /// What driving and cleaning take from the pack.
+    /// Energy consumption of driving and cleaning.
     pub energy: EnergyModel,
 }
 
-/// A part of what it has learnt.
+/// A part of what the robot has learnt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LearntPart {
-    /// What is wrong with the gyro.
+    /// Calibration of the gyro.
     Gyro,
-    /// What driving and cleaning take from the pack.
+    /// Energy consumption of driving and cleaning.
     Energy,
 }
 
@@ -59,7 +59,7 @@ mod tests {
     };
 
     #[test]
-    fn what_no_gyro_can_be_is_not_believed() {
+    fn implausible_calibrations_are_refused() {
         assert_eq!(GYRO.checked(), Some(GYRO));
         for wrong in [
             GyroLearnt { scale: 0.2, ..GYRO },

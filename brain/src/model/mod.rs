@@ -1,4 +1,4 @@
-//! The words of the brain: plain data that every layer above speaks with, and the little arithmetic that belongs to it.
+//! Data types of the brain that all layers share, and their basic arithmetic.
 
 pub mod action;
 pub(crate) mod advance;

@@ -1,15 +1,15 @@
-//! Where a person does not want the robot, and what people call a room or a place.
+//! No-go zones, virtual walls, and names.
 
 use super::geometry::Point2;
 use super::reason::Reason;
 use super::zone::Zone;
 
-/// Thickness of a virtual wall, metres: no cell on it is missed.
+/// Thickness of a virtual wall, metres: thick enough to cover every cell on its line.
 const WALL_M: f64 = 0.06;
 /// Most characters of a room's name.
 const NAME_MAX: usize = 40;
 
-/// Floor that the robot must not enter. Its corners are whole micrometres, as a stored map keeps them.
+/// Floor that the robot must not enter. Its coordinates are whole micrometres, as in a stored map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoGo {
     shape: NoGoShape,
@@ -17,12 +17,12 @@ pub struct NoGo {
     name: Option<RoomName>,
 }
 
-/// What a person has drawn.
+/// Shape of a no-go zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoGoShape {
     /// A zone.
     Zone,
-    /// A wall that the robot shall see where there is none.
+    /// A virtual wall.
     Wall {
         /// One end.
         from: Point2,
@@ -45,10 +45,10 @@ impl NoGo {
         })
     }
 
-    /// A thin zone along a line.
+    /// A virtual wall, as a thin zone along a line.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] when the ends are one place or far away.
+    /// [`Reason::BadZone`] when the ends coincide or are too far away.
     pub fn wall(from: Point2, to: Point2) -> Result<Self, Reason> {
         let (from, to) = (in_micrometres(from), in_micrometres(to));
         Ok(Self {
@@ -64,19 +64,19 @@ impl NoGo {
         Self { name, ..self }
     }
 
-    /// What people call it, if anybody has named it.
+    /// Its name, if it has one.
     #[must_use]
     pub const fn name(&self) -> Option<&RoomName> {
         self.name.as_ref()
     }
 
-    /// What a person has drawn.
+    /// Its shape.
     #[must_use]
     pub fn shape(&self) -> NoGoShape {
         self.shape
     }
 
-    /// The floor that it forbids.
+    /// The forbidden floor.
     #[must_use]
     pub fn area(&self) -> &Zone {
         &self.area
@@ -102,7 +102,7 @@ fn thin_zone(from: Point2, to: Point2) -> Result<Zone, Reason> {
     ])
 }
 
-/// The same steps as in the bytes of a stored map: what comes back from the disk is equal bit for bit.
+/// Rounds to the resolution of a stored map, so that a loaded point is bit-identical.
 pub(crate) fn in_micrometres(point: Point2) -> Point2 {
     let rounded = |metres: f64| (libm::round(metres * 1e6) as i64) as f64 * 1e-6;
     if !(point.x_m.is_finite() && point.y_m.is_finite()) {
@@ -114,15 +114,15 @@ pub(crate) fn in_micrometres(point: Point2) -> Point2 {
     }
 }
 
-/// What people call a room, a place or a floor: 1 to 40 characters in one line, no space at its ends.
+/// Name of a room, place or storey: 1 to 40 characters on one line, without spaces at its ends.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RoomName(String);
 
 impl RoomName {
-    /// A name; spaces around it do not count.
+    /// A name; surrounding spaces are removed.
     ///
     /// # Errors
-    /// [`Reason::BadName`] for one that is empty, longer than 40 characters, or holds characters that cannot be seen.
+    /// [`Reason::BadName`] for one that is empty, longer than 40 characters, or contains control characters.
     pub fn new(text: &str) -> Result<Self, Reason> {
         let text = text.trim();
         if text.is_empty() || text.chars().count() > NAME_MAX || text.chars().any(char::is_control) {
@@ -131,13 +131,13 @@ impl RoomName {
         Ok(Self(text.to_owned()))
     }
 
-    /// The name.
+    /// The text.
     #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Whether people would take both for one.
+    /// Whether the names are equal but for case and surrounding spaces.
     #[must_use]
     pub fn sounds_like(&self, other: &str) -> bool {
         self.0.to_lowercase() == other.trim().to_lowercase()
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_without_length_or_out_of_this_world_is_refused() {
+    fn a_wall_without_length_or_too_far_away_is_refused() {
         for (from, to) in [
             (at(1.0, 1.0), at(1.0, 1.0)),
             (at(0.0, 0.0), at(1e9, 0.0)),

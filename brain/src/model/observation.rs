@@ -1,39 +1,39 @@
-//! What the robot perceived, in SI units and REP-103 axes, whatever the make of the robot.
+//! What the robot perceives, in SI units and REP-103 axes, independent of its make.
 
 use super::inhibit::{Inhibit, Inhibits};
 
-/// One view of the robot at one moment. Totals, not rates, so that a lost observation loses nothing.
+/// The state of all sensors at one moment. It holds totals instead of rates, so a lost observation loses nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// Host time in microseconds since the daemon's start; rises strictly.
+    /// Host time in microseconds since the daemon's start; strictly increasing.
     pub time_us: u64,
-    /// Way of the left wheel's rim since the device was attached, in metres, forward positive.
+    /// Distance travelled by the left wheel's rim since the device was attached, in metres, forward positive.
     pub travel_left_m: f64,
-    /// Way of the right wheel's rim since the device was attached, in metres, forward positive.
+    /// Distance travelled by the right wheel's rim since the device was attached, in metres, forward positive.
     pub travel_right_m: f64,
     /// Unwrapped heading of the gyro in radians, if the robot has one.
     pub gyro_heading_rad: Option<f64>,
     /// Bumper zones that are pressed.
     pub contacts: Contacts,
-    /// Cliff sensors that see no floor.
+    /// Cliff sensors that detect no floor.
     pub cliffs: Cliffs,
-    /// A wheel hangs.
+    /// A wheel has dropped.
     pub wheel_drop: bool,
     /// Proximity from the right side counter-clockwise, 0..1 (1 = touching); empty if the robot has none.
     pub proximity: Vec<f32>,
-    /// Symbols heard by the dock receivers (0 = none); empty if the robot has none.
+    /// Symbols at the dock receivers (0 = none); empty if the robot has none.
     pub dock_beams: Vec<u8>,
-    /// What a radio has measured of beacons since the last observation; empty where there is no radio.
+    /// Radio measurements of beacons since the last observation; empty without a radio.
     pub beacons: Vec<BeaconSignal>,
     /// On the dock's contacts.
     pub docked: bool,
     /// Battery charge 0..1, if measured.
     pub battery_charge: Option<f32>,
-    /// What the charger says; `None` where the firmware controls none or has not measured yet.
+    /// State of the charging current; `None` where the firmware has no charger or no measurement yet.
     pub charge_flow: Option<ChargeFlow>,
-    /// What the motors draw; `None` where the robot does not measure it.
+    /// Motor currents; `None` where the robot does not measure them.
     pub currents: Option<MotorCurrents>,
-    /// What keeps the robot from moving; empty when it may move.
+    /// Reasons why the robot may not move; empty when it may.
     pub inhibits: Inhibits,
     /// The link to the firmware is up and its telemetry is fresh.
     pub link_up: bool,
@@ -42,13 +42,13 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// A bumper is pressed, or the firmware still holds the wheels because of one.
+    /// Whether a bumper is pressed, or the firmware still inhibits motion because of one.
     #[must_use]
     pub fn is_touching(&self) -> bool {
         self.contacts.any() || self.inhibits.contains(Inhibit::Bumper)
     }
 
-    /// A cliff is seen, or the firmware still holds the wheels because of one.
+    /// Whether a cliff is detected, or the firmware still inhibits motion because of one.
     #[must_use]
     pub fn is_at_cliff(&self) -> bool {
         self.cliffs.any() || self.inhibits.contains(Inhibit::Cliff)
@@ -80,7 +80,7 @@ impl Default for Observation {
     }
 }
 
-/// What the motors draw, in amperes.
+/// Motor currents in amperes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotorCurrents {
     /// Of the left wheel.
@@ -91,31 +91,31 @@ pub struct MotorCurrents {
     pub brush_main_a: f32,
 }
 
-/// What flows from the dock into the pack.
+/// State of the current from the dock into the pack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChargeFlow {
     /// Current flows.
     Flowing,
-    /// None flows, and that has a reason: the pack is full, too warm or too cold, or the charger names a fault.
+    /// No current for a good reason: the pack is full, too warm or too cold, or the charger reports a fault.
     Withheld,
-    /// None flows, though the pack needs it and could take it.
+    /// No current although the pack needs charge and could take it.
     Missing,
 }
 
-/// What a radio has measured of a beacon. A strength is no distance: walls, bodies and the way an antenna points change it by as
-/// much as walking half or twice as far does.
+/// A radio measurement of a beacon. A strength is not a distance: walls, bodies and the orientation of an antenna change it as
+/// much as half or twice the distance does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BeaconSignal {
-    /// How far it is.
+    /// Distance to a beacon.
     Range(BeaconRange),
-    /// How strongly it is received.
+    /// Received signal strength of a beacon.
     Strength(BeaconStrength),
 }
 
-/// Strength with which a radio beacon is received.
+/// Received signal strength of a radio beacon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconStrength {
-    /// Number of the beacon, the same as long as the daemon runs.
+    /// Number of the beacon, constant while the daemon runs.
     pub beacon: u16,
     /// Received power, decibels above a milliwatt.
     pub dbm: f64,
@@ -124,11 +124,11 @@ pub struct BeaconStrength {
 /// Distance to a radio beacon, measured by time of flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconRange {
-    /// Number of the beacon, the same as long as the daemon runs.
+    /// Number of the beacon, constant while the daemon runs.
     pub beacon: u16,
     /// Measured distance, metres.
     pub range_m: f64,
-    /// Standard deviation that the one who measured gives to it with nothing in the way, metres.
+    /// Standard deviation in line of sight, as reported by the radio, metres.
     pub sigma_m: f64,
 }
 
@@ -161,7 +161,7 @@ impl Contacts {
 }
 
 impl Cliffs {
-    /// Whether any sensor sees no floor.
+    /// Whether any sensor detects no floor.
     #[must_use]
     pub fn any(self) -> bool {
         self.left || self.middle || self.right

@@ -1,4 +1,4 @@
-//! What of the home a job cleans, in which order and how often; and where the robot must not go.
+//! Cleaning orders: which parts of the home, how often, and which areas to avoid.
 
 use super::geometry::Point2;
 use super::no_go::NoGo;
@@ -8,10 +8,10 @@ use super::zone::Zone;
 
 /// Most parts of an order.
 const PARTS_MAX: usize = 32;
-/// Most places that a job may be told to keep out of.
+/// Most areas to avoid in a job.
 const AVOID_MAX: usize = 16;
 /// Radius of a spot in metres.
-pub const DISC_M: f64 = 0.5;
+pub const SPOT_RADIUS_M: f64 = 0.5;
 
 /// A part of the home.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,11 +20,11 @@ pub enum HomePart {
     Room(u16),
     /// A zone.
     Zone(Zone),
-    /// The disc of [`DISC_M`] around a place.
+    /// The disc of [`SPOT_RADIUS_M`] around a point.
     Spot(Point2),
 }
 
-/// What a job shall clean. The default is the whole home, once.
+/// What a job cleans. The default is the whole home, once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CleaningOrder {
     parts: Vec<HomePart>,
@@ -47,7 +47,7 @@ impl Default for CleaningOrder {
 }
 
 impl CleaningOrder {
-    /// Up to 32 parts, cleaned one after the other, each 1 to 3 times before the next. No part means the whole home.
+    /// Up to 32 parts, cleaned one after the other, each 1 to 3 times before the next. No parts means the whole home.
     ///
     /// # Errors
     /// [`Reason::BadOrder`] for more parts or another number of passes.
@@ -63,7 +63,7 @@ impl CleaningOrder {
         }
     }
 
-    /// The same, and the robot keeps out of up to 16 places until the next job begins.
+    /// The same, with up to 16 areas to avoid until the next job begins.
     ///
     /// # Errors
     /// [`Reason::TooManyNoGos`] for more of them.
@@ -75,7 +75,7 @@ impl CleaningOrder {
         }
     }
 
-    /// The same, with brushes and suction running so wherever the job cleans, whatever is set for the rooms.
+    /// The same, with this power of brushes and suction everywhere, regardless of room settings.
     ///
     /// # Errors
     /// [`Reason::BadSettings`] for more than 100 percent, or when nothing would run.
@@ -90,7 +90,7 @@ impl CleaningOrder {
         }
     }
 
-    /// The same, swept by this pattern, whatever is set for the rooms.
+    /// The same, with this pattern everywhere, regardless of room settings.
     #[must_use]
     pub fn with_pattern(self, pattern: Pattern) -> Self {
         Self {
@@ -99,19 +99,19 @@ impl CleaningOrder {
         }
     }
 
-    /// How hard brushes and suction run if the order says it.
+    /// Power of brushes and suction, if the order sets it.
     #[must_use]
     pub const fn power(&self) -> Option<RoomPower> {
         self.power
     }
 
-    /// By which pattern floor is swept if the order says it.
+    /// Cleaning pattern, if the order sets it.
     #[must_use]
     pub const fn pattern(&self) -> Option<Pattern> {
         self.pattern
     }
 
-    /// Where the robot does not go in this job.
+    /// Areas to avoid in this job.
     #[must_use]
     pub fn avoid(&self) -> &[NoGo] {
         &self.avoid
@@ -123,13 +123,13 @@ impl CleaningOrder {
         &self.parts
     }
 
-    /// Whether it is for the whole home, and not for parts of it.
+    /// Whether it is for the whole home.
     #[must_use]
     pub const fn is_for_whole_home(&self) -> bool {
         self.parts.is_empty()
     }
 
-    /// How often each part is cleaned at least.
+    /// Least number of passes over each part.
     #[must_use]
     pub const fn passes(&self) -> u8 {
         self.passes
@@ -142,7 +142,7 @@ mod tests {
     use crate::model::reason::Reason;
 
     #[test]
-    fn what_makes_no_sense_is_refused_by_name() {
+    fn invalid_orders_are_refused_by_name() {
         for passes in [0, 4] {
             assert_eq!(CleaningOrder::new(vec![], passes), Err(Reason::BadOrder));
         }

@@ -18,7 +18,7 @@ impl Random {
         random
     }
 
-    /// A generator that goes on where [`Random::state`] was read.
+    /// A generator that continues from [`Random::state`].
     pub(crate) fn from_state(state: u64) -> Self {
         Self { state }
     }
@@ -39,15 +39,15 @@ impl Random {
         low + (high - low) * (f64::from(self.next()) / 4_294_967_296.0)
     }
 
-    /// Close to normal, with mean 0 and deviation 1, never beyond 3.5: the sum of four uniform numbers of 16 bits. Cheap,
-    /// and without the far tails that nothing here needs.
+    /// Approximately normal, with mean 0 and standard deviation 1, never beyond 3.5: the sum of four uniform numbers of 16 bits.
+    /// It is cheap and has no far tails, which nothing here needs.
     pub(crate) fn normal(&mut self) -> f64 {
         let (first, second) = (self.next(), self.next());
         let sum = (first & 0xffff) + (first >> 16) + (second & 0xffff) + (second >> 16);
         (f64::from(sum) / 65_536.0 - 2.0) * 1.732_050_807_568_877_2
     }
 
-    /// Heads or tails.
+    /// `true` or `false` with equal probability.
     pub(crate) fn coin(&mut self) -> bool {
         self.next() & 0x8000_0000 != 0
     }

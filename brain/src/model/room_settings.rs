@@ -1,11 +1,11 @@
-//! How a room is cleaned when nobody says it otherwise.
+//! Settings of a room, used when an order does not override them.
 
 use super::reason::Reason;
 
 /// Most passes over a part.
 pub(crate) const PASSES_MAX: u8 = 3;
 
-/// How a room is cleaned.
+/// Settings of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RoomSettings {
     passes: u8,
@@ -13,7 +13,7 @@ pub struct RoomSettings {
     pattern: Pattern,
 }
 
-/// In which way floor is swept.
+/// Cleaning pattern.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pattern {
     /// Straight lanes side by side.
@@ -23,7 +23,7 @@ pub enum Pattern {
     Contour,
 }
 
-/// How hard brushes and suction run, in percent. What a robot lacks is ignored.
+/// Power of brushes and suction, in percent. Parts that the robot lacks are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RoomPower {
     /// Suction.
@@ -35,14 +35,14 @@ pub struct RoomPower {
 }
 
 impl RoomPower {
-    /// As in a room without settings.
+    /// The power in a room without settings.
     pub const FULL: Self = Self {
         suction: 100,
         main_brush: 100,
         side_brushes: 100,
     };
 
-    /// Whether a robot can clean so: no share beyond 100 percent, and something runs.
+    /// Whether the power is valid: no share above 100 percent, and at least one above 0.
     pub(crate) fn is_possible(self) -> bool {
         let shares = [self.suction, self.main_brush, self.side_brushes];
         shares.iter().all(|share| *share <= 100) && shares.iter().any(|share| *share > 0)
@@ -60,7 +60,7 @@ impl Default for RoomSettings {
 }
 
 impl RoomSettings {
-    /// 1 to 3 passes at least, whenever a job names the room, and this power; swept in lines.
+    /// Settings with 1 to 3 passes at least, this power, and the pattern `Lines`.
     ///
     /// # Errors
     /// [`Reason::BadSettings`] for another number of passes, more than 100 percent, or when nothing would run.
@@ -76,25 +76,25 @@ impl RoomSettings {
         }
     }
 
-    /// The same, swept by this pattern.
+    /// The same with another pattern.
     #[must_use]
     pub const fn with_pattern(self, pattern: Pattern) -> Self {
         Self { pattern, ..self }
     }
 
-    /// In which way it is swept.
+    /// The cleaning pattern.
     #[must_use]
     pub const fn pattern(&self) -> Pattern {
         self.pattern
     }
 
-    /// How often it is cleaned at least.
+    /// Least number of passes.
     #[must_use]
     pub const fn passes(&self) -> u8 {
         self.passes
     }
 
-    /// How hard brushes and suction run.
+    /// Power of brushes and suction.
     #[must_use]
     pub const fn power(&self) -> RoomPower {
         self.power
@@ -107,7 +107,7 @@ mod tests {
     use crate::model::reason::Reason;
 
     #[test]
-    fn what_no_robot_can_do_is_refused() {
+    fn invalid_settings_are_refused() {
         let none = RoomPower {
             suction: 0,
             main_brush: 0,

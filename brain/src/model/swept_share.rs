@@ -1,12 +1,12 @@
-//! How much of its floor a job has swept.
+//! Progress of a job: the share of its floor that is swept.
 
-/// Share of the floor that a job wants and knows which it has swept.
+/// Share of the job's known floor that is swept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SweptShare {
-    /// As the robot believes, 0..=1.
+    /// Best estimate, 0..=1.
     pub share: f64,
-    /// The same if it knows its place half as well as it believes.
+    /// Lower estimate: with twice the present pose uncertainty.
     pub share_low: f64,
-    /// What of it is left, square metres.
+    /// Unswept floor, square metres.
     pub left_m2: f64,
 }

@@ -1,14 +1,14 @@
-//! A part of the floor that a person has drawn.
+//! A polygon that a person draws on the floor.
 
 use super::geometry::Point2;
 use super::reason::Reason;
 
 /// Most corners of a zone.
 pub(crate) const CORNERS_MAX: usize = 64;
-/// Corners of a zone are nearer to the map's origin than this, metres.
-pub const FAR_M: f64 = 500.0;
+/// Limit of a zone's coordinates from the map's origin, metres.
+pub const COORDINATE_MAX_M: f64 = 500.0;
 
-/// A polygon on the floor in the map frame. Edges may cross; what lies inside an odd number of times is in it.
+/// A polygon on the floor in the map frame. Edges may cross; the even-odd rule decides what is inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
     corners: Vec<Point2>,
@@ -20,7 +20,8 @@ impl Zone {
     /// # Errors
     /// [`Reason::BadZone`] for anything else.
     pub fn new(corners: Vec<Point2>) -> Result<Self, Reason> {
-        let is_near = |corner: &Point2| corner.x_m.abs() < FAR_M && corner.y_m.abs() < FAR_M;
+        let is_near =
+            |corner: &Point2| corner.x_m.abs() < COORDINATE_MAX_M && corner.y_m.abs() < COORDINATE_MAX_M;
         if (3..=CORNERS_MAX).contains(&corners.len()) && corners.iter().all(is_near) {
             Ok(Self { corners })
         } else {
@@ -34,7 +35,7 @@ impl Zone {
         &self.corners
     }
 
-    /// Whether a point lies in it.
+    /// Whether it contains a point.
     #[must_use]
     pub fn contains(&self, point: Point2) -> bool {
         let mut is_inside = false;
@@ -49,7 +50,7 @@ impl Zone {
         is_inside
     }
 
-    /// How far a point is from it, in metres; 0 inside.
+    /// Distance of a point in metres; 0 inside.
     #[must_use]
     pub fn distance_m(&self, point: Point2) -> f64 {
         if self.contains(point) {
@@ -58,14 +59,14 @@ impl Zone {
         let mut nearest_m = f64::INFINITY;
         let mut before = self.corners.last().copied().unwrap_or_default();
         for corner in &self.corners {
-            nearest_m = nearest_m.min(distance_to_edge_m(point, (before, *corner)));
+            nearest_m = nearest_m.min(distance_to_edge_m(point, before, *corner));
             before = *corner;
         }
         nearest_m
     }
 }
 
-fn distance_to_edge_m(point: Point2, (from, to): (Point2, Point2)) -> f64 {
+fn distance_to_edge_m(point: Point2, from: Point2, to: Point2) -> f64 {
     let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let square = along_x * along_x + along_y * along_y;
     let ahead = (point.x_m - from.x_m) * along_x + (point.y_m - from.y_m) * along_y;
@@ -91,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zone_holds_what_lies_within_its_corners() {
+    fn a_zone_contains_the_points_within_its_corners() {
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 1.0), (0.0, 4.0)];
         let zone = Zone::new(corners.map(|(x, y)| at(x, y)).to_vec()).unwrap();
         for (place, inside) in [
@@ -116,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_polygon_nearby_is_refused_by_name() {
+    fn invalid_polygons_are_refused_by_name() {
         for corners in [
             vec![],
             vec![at(0.0, 0.0), at(1.0, 0.0)],

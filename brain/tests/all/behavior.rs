@@ -226,7 +226,7 @@ fn a_bump_backs_off_and_turns_away() {
     });
     assert!(turned, "right, away from the left");
     assert_eq!(stage.brain.job().bumps, 1);
-    assert_eq!(stage.brain.map().snapshot().marks.len(), 1);
+    assert_eq!(stage.brain.map().snapshot().hazards.len(), 1);
 }
 
 #[test]

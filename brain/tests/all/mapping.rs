@@ -1,6 +1,6 @@
-//! The map of the home: from perceptions and from hand-made rasters to knowledge, distances, rooms, doors and walls.
+//! The map of the home: from observations and from hand-made rasters to knowledge, distances, rooms, doors and walls.
 
-use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
+use brain::mapping::{COORDINATE_MAX_M, Door, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
     Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, NoGo, Observation, Point2, Pose2, PoseEstimate,
@@ -121,7 +121,7 @@ fn drive_along_wall(fed: &mut Fed, believed: impl Fn(Pose2) -> Pose2) {
 }
 
 #[test]
-fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
+fn a_wall_along_the_path_is_one_row_of_cells_right_behind_its_surface() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     for column in 4..56 {
@@ -129,7 +129,7 @@ fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
         assert_eq!(fed.knows(x_m, 0.26), CellKnowledge::Occupied, "wall at {x_m}");
         assert_eq!(fed.knows(x_m, 0.21), CellKnowledge::Free, "before it at {x_m}");
         assert_eq!(fed.knows(x_m, 0.30), CellKnowledge::Unknown, "behind it at {x_m}");
-        assert_eq!(fed.knows(x_m, 0.0), CellKnowledge::Free, "the way at {x_m}");
+        assert_eq!(fed.knows(x_m, 0.0), CellKnowledge::Free, "the path at {x_m}");
     }
     let clear_m = fed.map.distance_field().at(point(0.7, 0.0));
     assert!((clear_m - 0.25).abs() < 0.02, "{clear_m} m to the wall");
@@ -138,7 +138,7 @@ fn a_wall_that_infrared_passes_is_one_row_of_cells_right_behind_its_surface() {
 }
 
 #[test]
-fn a_contact_is_an_obstacle_for_a_robot_that_only_bumps_until_the_body_was_there() {
+fn a_contact_is_an_obstacle_until_the_body_has_been_there() {
     let mut fed = Fed::new(SensorLayout::default());
     fed.see(at(0.0, 0.0, 0.0), &Observation::default());
     let hit = Observation {
@@ -162,7 +162,7 @@ fn a_contact_is_an_obstacle_for_a_robot_that_only_bumps_until_the_body_was_there
 }
 
 #[test]
-fn an_edge_stays_though_the_body_reaches_over_it() {
+fn a_cliff_stays_although_the_body_reaches_over_it() {
     let mut fed = Fed::new(sensors());
     let edge = Observation {
         cliffs: Cliffs {
@@ -181,7 +181,7 @@ fn an_edge_stays_though_the_body_reaches_over_it() {
 }
 
 #[test]
-fn a_lost_lifted_or_silent_robot_draws_nothing() {
+fn a_robot_that_is_lost_lifted_or_without_a_link_draws_nothing() {
     let mut fed = Fed::new(sensors());
     let lifted = Observation {
         wheel_drop: true,
@@ -206,7 +206,7 @@ fn a_lost_lifted_or_silent_robot_draws_nothing() {
 }
 
 #[test]
-fn a_map_drawn_again_is_the_map_of_the_better_poses() {
+fn a_redrawn_map_is_the_map_of_the_corrected_poses() {
     let bent = |pose: Pose2| at(pose.x_m, 0.2 * pose.x_m, 0.2);
     let mut drifted = Fed::new(sensors());
     drive_along_wall(&mut drifted, bent);
@@ -215,8 +215,8 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
         let is = at(0.005 * step as f64, 0.0, 0.0);
         Keyframe {
             time_us: 20_000 * (step + 1),
-            was: bent(is),
-            is,
+            odom_from_base: bent(is),
+            map_from_base: is,
         }
     };
     let keyframes: Vec<Keyframe> = (0..300)
@@ -244,25 +244,25 @@ fn a_map_drawn_again_is_the_map_of_the_better_poses() {
     }
     let known = right.map.knowledge().values().iter();
     let known = known.filter(|kind| **kind != CellKnowledge::Unknown).count();
-    // Not all: which reports are drawn depends on the way as it was believed.
+    // Not all of them: which reports are drawn depends on the estimated path.
     assert!(50 * apart <= known, "{apart} of {known} cells differ");
 }
 
 #[test]
-fn what_is_stored_and_taken_up_is_known_again() {
+fn a_stored_map_is_the_same_when_loaded() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     let corners = [(0.05, 0.0), (0.1, 0.0), (0.1, 0.05), (0.05, 0.05)];
     let forbidden = Zone::new(corners.map(|(x_m, y_m)| at(x_m, y_m, 0.0).position()).to_vec()).unwrap();
     fed.map.add_no_go(NoGo::zone(&forbidden).unwrap()).unwrap();
-    fed.map.feel_dock(at(0.25, 0.5, -1.0));
+    fed.map.measure_dock(at(0.25, 0.5, -1.0));
     fed.map.refresh();
     let stored = fed.map.stored();
     // Three or four bytes each.
     let runs = stored.parts().cells.len();
     assert!(runs < 1000, "{runs} runs for 1.5 m of wall");
     let mut again = Map::new(BODY, sensors());
-    again.take_up(&StoredMap::from_parts(stored.parts()).unwrap());
+    again.load(&StoredMap::from_parts(stored.parts()).unwrap());
     for (index, kind) in fed.map.knowledge().values().iter().enumerate() {
         let cell = fed.map.knowledge().cell(index);
         assert_eq!(
@@ -280,7 +280,7 @@ fn what_is_stored_and_taken_up_is_known_again() {
 }
 
 #[test]
-fn what_is_reshaped_forbids_its_new_floor_and_no_other_and_keeps_number_and_name() {
+fn a_reshaped_no_go_zone_forbids_only_its_new_floor_and_keeps_number_and_name() {
     let mut fed = Fed::new(sensors());
     drive_along_wall(&mut fed, |pose| pose);
     let zone = |x_m: f64| {
@@ -313,7 +313,7 @@ fn what_is_reshaped_forbids_its_new_floor_and_no_other_and_keeps_number_and_name
 }
 
 #[test]
-fn distances_brought_up_to_date_piece_by_piece_are_those_computed_at_once() {
+fn incremental_distances_are_those_computed_at_once() {
     let mut fed = Fed::new(sensors());
     for step in 0..400_u32 {
         let angle = 0.05 * f64::from(step);
@@ -353,7 +353,7 @@ fn distances_are_those_of_brute_force() {
         let expected_m = if nearest_m == 0.0 {
             -0.5 * CELL_M
         } else {
-            (nearest_m - 0.5 * CELL_M).min(FAR_M)
+            (nearest_m - 0.5 * CELL_M).min(COORDINATE_MAX_M)
         };
         let found_m = field.cell_m(cell);
         assert!(
@@ -361,8 +361,8 @@ fn distances_are_those_of_brute_force() {
             "{found_m} at {cell:?}, not {expected_m}"
         );
     }
-    assert_eq!(field.cell_m(Cell { x: 900, y: 0 }), FAR_M);
-    assert_eq!(field.at(point(-9.0, 900.0)), FAR_M);
+    assert_eq!(field.cell_m(Cell { x: 900, y: 0 }), COORDINATE_MAX_M);
+    assert_eq!(field.at(point(-9.0, 900.0)), COORDINATE_MAX_M);
 }
 
 /// Metres as a rectangle of cells of one kind.
@@ -408,7 +408,7 @@ fn three_rooms(origin: (f64, f64)) -> Raster<CellKnowledge> {
 
 #[test]
 fn doors_divide_rooms_and_furniture_does_not() {
-    let rooms = Rooms::default().renewed(&three_rooms((0.0, 0.0)));
+    let rooms = Rooms::default().segmented(&three_rooms((0.0, 0.0)));
     let areas: Vec<f64> = rooms.rooms().iter().map(|room| room.area_m2).collect();
     assert_eq!(areas.len(), 3, "{areas:?}");
     for (found, expected) in areas.iter().zip([12.0, 9.0, 7.5]) {
@@ -430,11 +430,11 @@ fn doors_divide_rooms_and_furniture_does_not() {
 fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
     let mut half = three_rooms((0.0, 0.0));
     paint(&mut half, (-0.2, -0.2), (4.0, 3.2), CellKnowledge::Unknown);
-    let before = Rooms::default().renewed(&half);
+    let before = Rooms::default().segmented(&half);
     assert_eq!(before.rooms().len(), 2);
     let (middle, last) = (before.room_at(point(5.5, 1.5)), before.room_at(point(8.5, 1.0)));
-    // Drawn again with an error of 12 cm, and with the room that was missing.
-    let after = before.renewed(&three_rooms((0.12, -0.12)));
+    // Mapped again with an error of 12 cm, and with the missing room.
+    let after = before.segmented(&three_rooms((0.12, -0.12)));
     assert_eq!(after.room_at(point(5.5, 1.5)), middle);
     assert_eq!(after.room_at(point(8.5, 1.0)), last);
     assert_eq!(
@@ -443,18 +443,18 @@ fn rooms_keep_their_identities_when_the_home_is_mapped_again() {
         "the new one gets a new identity"
     );
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&half, None));
+    map.load(&StoredMap::from_raster(&half, None));
     let stored = map.stored();
     let mut again = Map::new(BODY, SensorLayout::default());
-    again.take_up(&stored);
+    again.load(&stored);
     assert_eq!(again.rooms(), map.rooms(), "rooms outlive the disk");
     assert_eq!(again.rooms().rooms().len(), 2);
 }
 
 #[test]
-fn walls_are_straight_and_where_they_are() {
+fn walls_are_straight_and_in_the_right_place() {
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&three_rooms((0.0, 0.0)), None));
+    map.load(&StoredMap::from_raster(&three_rooms((0.0, 0.0)), None));
     let walls = map.walls();
     let longest = walls
         .iter()
@@ -483,10 +483,10 @@ fn walls_are_straight_and_where_they_are() {
 }
 
 #[test]
-fn the_body_reaches_what_it_fits_into() {
+fn the_body_reaches_the_floor_into_which_it_fits() {
     let home = three_rooms((0.0, 0.0));
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(&StoredMap::from_raster(&home, None));
+    map.load(&StoredMap::from_raster(&home, None));
     let area_m2 = |clearance_m: f64| {
         let cells = map.reachable(point(0.5, 0.5), clearance_m);
         cells.values().iter().filter(|there| **there).count() as f64 * CELL_M * CELL_M
@@ -512,12 +512,12 @@ fn the_body_reaches_what_it_fits_into() {
 }
 
 #[test]
-fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touched() {
+fn a_map_reports_its_confidence_and_the_share_of_contacts() {
     let mut seen = Fed::new(sensors());
-    assert_eq!(seen.map.sureness(), None, "nothing is known");
+    assert_eq!(seen.map.confidence(), None, "nothing is known");
     drive_along_wall(&mut seen, |pose| pose);
     seen.map.refresh();
-    let seen = seen.map.sureness().expect("there is floor");
+    let seen = seen.map.confidence().expect("there is floor");
     assert!((seen.sigma_m - 0.01).abs() < 0.002, "{seen:?}");
     assert!(seen.touched < 0.1 && seen.driven < 1.0, "{seen:?}");
     let mut blind = Fed::new(SensorLayout::default());
@@ -537,6 +537,6 @@ fn a_map_says_how_sure_it_is_and_a_robot_that_only_bumps_says_that_it_only_touch
         }
     }
     blind.map.refresh();
-    let blind = blind.map.sureness().expect("there is floor");
+    let blind = blind.map.confidence().expect("there is floor");
     assert!(blind.touched > 0.9 && blind.driven > 0.9, "{blind:?}");
 }

@@ -1,7 +1,7 @@
 //! Jobs for parts of a known home: rooms, zones, spots, passes, no-go zones, and what a job is expected to take.
 
 use crate::plane::{Rectangle, Room, World, config, run};
-use brain::mapping::DockPlace;
+use brain::mapping::DockLocation;
 use brain::{
     BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
     Raster, Reason, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
@@ -379,7 +379,7 @@ fn edits_that_make_no_sense_are_refused_by_name() {
         .brain
         .map()
         .stored()
-        .with_dock_place(DockPlace::sure(Pose2::IDENTITY));
+        .with_dock_location(DockLocation::converged(Pose2::IDENTITY));
     let brain = Brain::with_map(config(), 1, &dock);
     let around = NoGo::zone(&zone((0.9, 0.9), (1.1, 1.1))).unwrap();
     assert_eq!(

@@ -181,9 +181,9 @@ fn stairs_are_left_alone() {
             brain
                 .map()
                 .snapshot()
-                .marks
+                .hazards
                 .iter()
-                .any(|mark| mark.kind == brain::MarkKind::Cliff)
+                .any(|mark| mark.kind == brain::HazardKind::Cliff)
         );
     }
 }

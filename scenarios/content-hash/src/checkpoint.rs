@@ -1,6 +1,6 @@
 //! What a checkpoint holds.
 
-use brain::mapping::MarkKind;
+use brain::mapping::HazardKind;
 use brain::{Checkpoint, CleaningOrder, HomePart, JobCheckpoint, JobKind, StrategyName, TrackingCheckpoint};
 
 use crate::ContentHash;
@@ -21,9 +21,9 @@ impl ContentHash {
             hash.add(point.x_mm);
             hash.add(point.y_mm);
         }
-        for mark in &checkpoint.marks {
+        for mark in &checkpoint.hazards {
             hash.add_point(mark.at);
-            hash.add_flag(mark.kind == MarkKind::Contact);
+            hash.add_flag(mark.kind == HazardKind::Contact);
         }
         hash.add_bits(checkpoint.energy.cleaning_per_s);
         hash.add_bits(checkpoint.energy.driving_per_s);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use brain::{Cell, CellKnowledge, FloorKind, Map, StoredMap};
+use brain::{Cell, CellKnowledge, Map, StoredMap, SurfaceKind};
 
 use crate::ContentHash;
 
@@ -16,11 +16,11 @@ const fn number_of(kind: CellKnowledge) -> u8 {
     }
 }
 
-const fn floor_number(kind: Option<FloorKind>) -> u8 {
+const fn floor_number(kind: Option<SurfaceKind>) -> u8 {
     match kind {
         None => 0,
-        Some(FloorKind::Hard) => 1,
-        Some(FloorKind::Carpet) => 2,
+        Some(SurfaceKind::Hard) => 1,
+        Some(SurfaceKind::Carpet) => 2,
     }
 }
 
@@ -34,7 +34,7 @@ impl ContentHash {
         for (index, kind) in knowledge.values().iter().enumerate() {
             let cell = knowledge.cell(index);
             let sigma_m = map.sigma_m(cell);
-            let floor = floor_number(map.floor_kind(cell));
+            let floor = floor_number(map.surface_kind(cell));
             let room = labels.get(cell).copied().unwrap_or(0);
             let kind = number_of(*kind);
             // The window around what is known may be of any size.
@@ -46,15 +46,15 @@ impl ContentHash {
             }
         }
         hash.add_rooms(map);
-        hash.add_dock(map.dock_place());
+        hash.add_dock(map.dock_location());
         hash.add_annotations(map.annotations());
         hash.add_swept(&map.swept_runs());
         for cell in swept_cells(&map.swept_runs()) {
-            let sweeping = map.sweeping(Cell { x: cell.1, y: cell.0 });
+            let sweeping = map.cell_passes(Cell { x: cell.1, y: cell.0 });
             hash.add(sweeping.map_or(0, |sweeping| sweeping.passes));
             hash.add(sweeping.map_or(0, |sweeping| sweeping.last_s));
         }
-        hash.add_bits(map.way_m());
+        hash.add_bits(map.path_length_m());
         hash
     }
 
@@ -69,7 +69,7 @@ impl ContentHash {
                 hash.add(number_of(*kind));
             }
         }
-        hash.add_dock(map.dock_place());
+        hash.add_dock(map.dock_location());
         hash.add_annotations(map.annotations());
         hash.add(map.room_count() as u64);
         hash
@@ -80,9 +80,9 @@ impl ContentHash {
         self.add(cell.y);
     }
 
-    fn add_dock(&mut self, dock: brain::mapping::DockPlace) {
-        self.add_flag(dock.is_told());
-        self.add_flag(dock.is_sure());
+    fn add_dock(&mut self, dock: brain::mapping::DockLocation) {
+        self.add_flag(dock.is_reported());
+        self.add_flag(dock.is_converged());
         if let Some(pose) = dock.pose() {
             self.add_pose(pose);
         }

@@ -1,7 +1,7 @@
 //! Where carpets lie, as a whole system feels it on a virtual clock by what the motors draw.
 
 use brain::command::StrategyName;
-use brain::mapping::FloorKind;
+use brain::mapping::SurfaceKind;
 use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use scenarios::{relax, scene, settings};
@@ -19,8 +19,8 @@ fn after_minutes(scene: &Scene, minutes: u64) -> Household {
 
 fn carpet_cells(household: &Household) -> usize {
     let brain = household.host().and_then(Host::brain).expect("a brain");
-    let floors = brain.map().floor_kinds();
-    floors.filter(|(_, kind)| *kind == FloorKind::Carpet).count()
+    let floors = brain.map().surface_kinds();
+    floors.filter(|(_, kind)| *kind == SurfaceKind::Carpet).count()
 }
 
 #[test]

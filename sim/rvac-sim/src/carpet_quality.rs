@@ -1,7 +1,7 @@
 //! Agreement of the carpets in the robot's map with the rugs of the home.
 
 use brain::Point2;
-use brain::mapping::{Cell, FloorKind, Map};
+use brain::mapping::{Cell, Map, SurfaceKind};
 use home::{Pose, World};
 
 /// Agreement of the carpets that were felt with the truth.
@@ -35,7 +35,7 @@ fn recall(map: &Map, world: &World, map_from_plan: Pose) -> Option<f64> {
         let (x_m, y_m) = grid.centre(index);
         let (x_m, y_m) = map_from_plan.point(x_m, y_m);
         swept += 1;
-        found += u32::from(map.floor_kind(Cell::under(Point2 { x_m, y_m })) == Some(FloorKind::Carpet));
+        found += u32::from(map.surface_kind(Cell::under(Point2 { x_m, y_m })) == Some(SurfaceKind::Carpet));
     }
     share(found, swept)
 }
@@ -43,7 +43,10 @@ fn recall(map: &Map, world: &World, map_from_plan: Pose) -> Option<f64> {
 fn precision(map: &Map, world: &World, plan_from_map: Pose) -> Option<f64> {
     let grid = world.home().grid();
     let (mut reported, mut right) = (0_u32, 0_u32);
-    for (cell, _) in map.floor_kinds().filter(|(_, kind)| *kind == FloorKind::Carpet) {
+    for (cell, _) in map
+        .surface_kinds()
+        .filter(|(_, kind)| *kind == SurfaceKind::Carpet)
+    {
         let at = cell.middle();
         let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
         reported += 1;

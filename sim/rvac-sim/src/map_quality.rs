@@ -111,7 +111,7 @@ mod tests {
             track_m: 0.24,
         };
         let mut map = Map::new(body, SensorLayout::default());
-        map.take_up(&known_map(home, map_from_plan, None));
+        map.load(&known_map(home, map_from_plan, None));
         map
     }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use brain::mapping::{CELL_M, CellKnowledge, FloorKind};
+use brain::mapping::{CELL_M, CellKnowledge, SurfaceKind};
 use home::{Cell, Home, Pose, Truth};
 use serde::{Deserialize, Serialize};
 
@@ -140,7 +140,7 @@ impl Drawing {
         if knowledge.values().is_empty() {
             return None;
         }
-        let carpet = |index| map.floor_kind(knowledge.cell(index)) == Some(FloorKind::Carpet);
+        let carpet = |index| map.surface_kind(knowledge.cell(index)) == Some(SurfaceKind::Carpet);
         let kinds = knowledge
             .values()
             .iter()

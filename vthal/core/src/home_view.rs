@@ -1,7 +1,7 @@
 //! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
 
-use brain::mapping::{Annotations, Door, Room, RoomChange, Sureness, WallSegment};
-use brain::{CELL_M, Cell, CellKnowledge, FloorKind, KeptPlace, Map, NoGo, Raster};
+use brain::mapping::{Annotations, Door, MapConfidence, Room, RoomChange, WallSegment};
+use brain::{CELL_M, Cell, CellKnowledge, KeptPlace, Map, NoGo, Raster, SurfaceKind};
 use rvac_api::{
     CarpetView, DoorView, HomeView, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, SurenessView,
     WallView,
@@ -32,7 +32,7 @@ pub(crate) enum FeltFloors {
 impl FeltFloors {
     /// Of a map whose robot is not at hand: whoever has felt floors can.
     pub(crate) fn in_map(map: &Map) -> Self {
-        match map.floor_kinds().next() {
+        match map.surface_kinds().next() {
             Some(_) => Self::Measured,
             None => Self::NotMeasured,
         }
@@ -55,7 +55,7 @@ pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
         doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
-        dock_told: map.dock_place().is_told(),
+        dock_told: map.dock_location().is_reported(),
         no_go: map.annotations().no_go().map(no_go).collect(),
         places: map.annotations().places().map(place).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
@@ -66,14 +66,14 @@ pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
 
 /// How sure the home is, then each room.
 fn sureness(map: &Map) -> Vec<SurenessView> {
-    let known = |room, sureness: Sureness| SurenessView {
+    let known = |room, sureness: MapConfidence| SurenessView {
         room,
         sigma_m: sureness.sigma_m,
         driven: sureness.driven,
         touched: sureness.touched,
     };
-    let home = map.sureness().map(|sureness| known(None, sureness));
-    let rooms = map.room_sureness().into_iter().take(ITEMS_MAX);
+    let home = map.confidence().map(|sureness| known(None, sureness));
+    let rooms = map.room_confidence().into_iter().take(ITEMS_MAX);
     home.into_iter()
         .chain(rooms.map(|(room, sureness)| known(Some(room), sureness)))
         .collect()
@@ -86,11 +86,11 @@ fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
     }
     let knowledge = map.knowledge();
     let mut floors = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), 0);
-    for (cell, kind) in map.floor_kinds() {
+    for (cell, kind) in map.surface_kinds() {
         if let Some(place) = floors.get_mut(cell) {
             *place = match kind {
-                FloorKind::Hard => HARD,
-                FloorKind::Carpet => CARPET,
+                SurfaceKind::Hard => HARD,
+                SurfaceKind::Carpet => CARPET,
             };
         }
     }

@@ -169,7 +169,7 @@ impl Mind {
         let map = self.brain.map();
         self.home_base
             .wrapping_add(map.revision())
-            .wrapping_add(map.floor_revision())
+            .wrapping_add(map.surface_revision())
     }
 
     /// Whether the robot measures what its motors draw.

@@ -1,6 +1,6 @@
 //! From the core's types to those of the interface to clients: the only place where a struct exists twice.
 
-use brain::{Brain, CELL_M, JobFigures, MapPart, Mark, MarkKind, Pose2, SweptShare};
+use brain::{Brain, CELL_M, Hazard, HazardKind, JobFigures, MapPart, Pose2, SweptShare};
 use rvac_api::{
     BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
     RobotDescription,
@@ -67,16 +67,16 @@ pub(crate) fn map_delta(map: u32, part: &MapPart<'_>, sigma: &SweptSigma) -> Map
             .iter()
             .flat_map(|point| [point.x_mm, point.y_mm])
             .collect(),
-        bumps: part.marks.iter().map(bump).collect(),
+        bumps: part.hazards.iter().map(bump).collect(),
     }
 }
 
 /// A place where something was met.
-pub(crate) fn bump(mark: &Mark) -> BumpMark {
+pub(crate) fn bump(mark: &Hazard) -> BumpMark {
     BumpMark {
         x: mark.at.x_m,
         y: mark.at.y_m,
-        contact: mark.kind == MarkKind::Contact,
+        contact: mark.kind == HazardKind::Contact,
     }
 }
 

@@ -1216,9 +1216,9 @@ fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
     assert_eq!(pair.ask(ANNA, dock_at(3.0, 1.0)), None);
     pair.run_ms(200);
     assert_eq!(pair.edits.len(), 1);
-    let kept = pair.edits[0].home.home.dock_place();
+    let kept = pair.edits[0].home.home.dock_location();
     assert_eq!(
-        (kept.pose().map(|pose| pose.x_m), kept.is_told()),
+        (kept.pose().map(|pose| pose.x_m), kept.is_reported()),
         (Some(3.0), true)
     );
     let pose = pair.core.pose();
@@ -1245,7 +1245,7 @@ fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
     };
     assert_eq!(pair.ask(ANNA, taken_back), None);
     pair.run_ms(200);
-    assert!(!pair.edits[1].home.home.dock_place().is_told());
+    assert!(!pair.edits[1].home.home.dock_location().is_reported());
     assert!((pair.core.pose().x - 2.0).abs() < 1e-6);
 }
 

@@ -11,7 +11,7 @@ use crate::behavior::job::Job;
 use crate::behavior::{JobCheckpoint, JobKind};
 use crate::docking;
 use crate::model::command::StrategyName;
-use crate::model::energy::{Activity, EnergyModel, EnergyWatch, Leftover};
+use crate::model::energy::{Activity, EnergyLearner, EnergyModel, RemainingWork};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::{Mind, Situation};
@@ -31,7 +31,7 @@ impl Behavior {
 
     /// Takes up what was learnt earlier.
     pub(crate) fn learn_energy(&mut self, model: EnergyModel) {
-        self.energy = EnergyWatch::of(model);
+        self.energy = EnergyLearner::of(model);
     }
 
     /// Learns from what the pack lost since the last step.
@@ -42,7 +42,7 @@ impl Behavior {
             _ => Activity::Other,
         };
         let charge = situation.observation.battery_charge;
-        self.energy.follow(situation.advance.time_s, activity, charge);
+        self.energy.update(situation.advance.time_s, activity, charge);
     }
 
     /// The running job ends for the pack's sake: it is put off, unless what is left of it is not worth a charge.
@@ -59,13 +59,12 @@ impl Behavior {
         let (Some(swept), Some(way_m)) = (self.swept_share(situation.map), self.home_way_m) else {
             return false;
         };
-        let left = Leftover {
+        let left = RemainingWork {
             left_m2: swept.left_m2,
             share: 1.0 - swept.share,
-            way_m,
+            dock_path_m: way_m,
         };
-        let budget = (self.config.body.swath_m, self.config.speeds.cruise_m_per_s);
-        self.energy.model().are_crumbs(left, budget)
+        self.energy.model().is_negligible(left, &self.config)
     }
 
     /// Whether so little charge is left that the way home might become too long.
@@ -131,7 +130,7 @@ impl Behavior {
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
-        let has_home = situation.map.dock().is_some() || situation.beams.knows_a_dock();
+        let has_home = situation.map.dock().is_some() || situation.beams.has_received_dock();
         if has_cleaned && has_home {
             self.turn_home(reason, mind);
         } else {

@@ -88,7 +88,7 @@ mod tests {
             let config = BrainConfig::of_tests();
             let floor = Raster::filled(Cell { x: 0, y: 0 }, 80, 80, CellKnowledge::Free);
             let mut map = Map::new(config.body, config.sensors);
-            map.take_up(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)));
+            map.load(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)));
             let mut behavior = Behavior::new(config);
             behavior.mode = Mode::Working;
             behavior.job = Some(Job {

@@ -50,7 +50,7 @@ impl Novelty {
 
     pub(super) fn follow(&mut self, situation: &Situation<'_>) {
         let tally = self.tally.get_or_insert_with(|| Tally {
-            before_m: situation.map.way_m(),
+            before_m: situation.map.path_length_m(),
             ..Tally::default()
         });
         tally.time_s += situation.advance.time_s;

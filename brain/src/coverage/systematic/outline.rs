@@ -8,7 +8,7 @@ use crate::navigation::Situation;
 const SHUT_IN_SHARE: f64 = 0.4;
 /// Floor is hoped for so far beyond what is known, metres: a little, and as far as a room reaches.
 const NEAR_M: f64 = 0.6;
-const FAR_M: f64 = 2.5;
+const COORDINATE_MAX_M: f64 = 2.5;
 /// A robot that sees nothing plans in a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
 
@@ -41,12 +41,12 @@ impl Hope {
     /// After one that ended because it showed nothing new any more.
     pub(super) const KNOWN: Self = Self {
         beyond_m: NEAR_M,
-        at_last_m: FAR_M,
+        at_last_m: COORDINATE_MAX_M,
     };
     /// After one that ended for another reason.
     pub(super) const OPEN: Self = Self {
-        beyond_m: FAR_M,
-        at_last_m: FAR_M,
+        beyond_m: COORDINATE_MAX_M,
+        at_last_m: COORDINATE_MAX_M,
     };
 
     /// Whether floor is hoped for as far as a room reaches: where a wall was missed that is also what lies outside of the home.

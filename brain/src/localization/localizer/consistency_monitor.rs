@@ -214,7 +214,7 @@ mod tests {
             knowledge.values_mut()[index] = CellKnowledge::Free;
         }
         let mut map = Map::new(config().body, config().sensors);
-        map.take_up(&StoredMap::from_raster(&knowledge, None));
+        map.load(&StoredMap::from_raster(&knowledge, None));
         let terrain = Terrain::of(&map);
         let below = |solid_m: f64| {
             let estimate = PoseEstimate {
@@ -334,10 +334,10 @@ mod tests {
         assert!(later > before + before / 10, "{before} cells, then {later}");
         let keyframe = Keyframe {
             time_us: 0,
-            was: Pose2::IDENTITY,
-            is: Pose2::IDENTITY,
+            odom_from_base: Pose2::IDENTITY,
+            map_from_base: Pose2::IDENTITY,
         };
-        map.withdraw(20_000 * 1_001, &[keyframe]);
+        map.roll_back(20_000 * 1_001, &[keyframe]);
         let left = known(&mut map);
         assert!(
             left.abs_diff(before) <= before / 100,

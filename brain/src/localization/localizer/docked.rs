@@ -7,7 +7,7 @@ use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
 use crate::localization::tracker::PROBATION_BEAMS;
-use crate::mapping::{DockPlace, Map};
+use crate::mapping::{DockLocation, Map};
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 
@@ -42,7 +42,7 @@ impl Localization {
     }
 
     /// The dock is known to be elsewhere.
-    pub fn put_dock(&mut self, dock: DockPlace) {
+    pub fn put_dock(&mut self, dock: DockLocation) {
         if let Some(tracked) = &mut self.tracked {
             tracked.terrain.put_dock(dock);
         }

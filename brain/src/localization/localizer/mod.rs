@@ -262,7 +262,7 @@ impl Localization {
         tracker.search_on(terrain);
         // Where the dock is not known better than the robot knows its own place, that one stays.
         let place = terrain.dock();
-        let is_better = !place.is_told() && (place.is_sure() || !tracker.is_confirmed());
+        let is_better = !place.is_reported() && (place.is_converged() || !tracker.is_confirmed());
         if docks
             && is_better
             && let Some(dock) = place.pose()

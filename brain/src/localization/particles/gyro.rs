@@ -38,7 +38,7 @@ pub(in crate::localization) struct GyroCount {
 impl GyroCount {
     /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
     pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroBelief) {
-        let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.stands()) else {
+        let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.is_stationary()) else {
             return;
         };
         self.shown_rad += turn_rad / (1.0 + belief.scale) + belief.bias_rad_per_s * advance.time_s;

@@ -30,7 +30,7 @@ fn twins() -> Map {
         }
     }
     let mut map = Map::new(config().body, config().sensors);
-    map.take_up(&StoredMap::from_raster(&knowledge, None));
+    map.load(&StoredMap::from_raster(&knowledge, None));
     map
 }
 

@@ -114,7 +114,7 @@ struct Pending {
 impl Pending {
     /// Adds an advance that ended at `odom`. Standing turns nobody, however long it lasts.
     fn add(&mut self, advance: Advance, odom: Pose2) {
-        if advance.stands() {
+        if advance.is_stationary() {
             return;
         }
         let heading_rad = odom.heading_rad - 0.5 * advance.turn_rad;
@@ -371,8 +371,8 @@ impl Survey {
     pub(super) fn keyframes(&self) -> Vec<Keyframe> {
         let keyframe = |node: &Node| Keyframe {
             time_us: node.time_us,
-            was: node.odom,
-            is: node.pose,
+            odom_from_base: node.odom,
+            map_from_base: node.pose,
         };
         self.graph.nodes.iter().map(keyframe).collect()
     }

@@ -1,6 +1,6 @@
-//! What is felt of the floor, in the map: drawn, drawn again, stored and taken up.
+//! Surfaces in the map: drawn, redrawn, stored and loaded.
 
-use super::{FloorFelt, FloorKind};
+use super::{SurfaceKind, SurfaceObservation};
 use crate::mapping::{Cell, Keyframe, Map};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::{Point2, Pose2};
@@ -14,10 +14,10 @@ const BODY: Body = Body {
 };
 const STEP_US: u64 = 50_000;
 const STEP_M: f64 = 0.0126;
-/// Where the loads are of, behind the robot.
+/// Distance from the robot back to the floor that caused the load.
 const BEHIND_MM: u8 = 75;
 
-/// A robot that drives along x, again and again, and a rug from 1 m to 2 m.
+/// A robot that drives along x repeatedly, and a rug from 1 m to 2 m.
 struct Walker {
     map: Map,
     time_us: u64,
@@ -31,7 +31,7 @@ impl Walker {
         }
     }
 
-    /// Drives three metres; `believed` is where it takes itself to be.
+    /// Drives three metres; `believed` is the pose estimate.
     fn drive(&mut self, y_m: f64, is_rug: impl Fn(f64) -> bool, believed: impl Fn(Pose2) -> Pose2) {
         for step in 0..240 {
             let x_m = STEP_M * f64::from(step);
@@ -53,22 +53,27 @@ impl Walker {
             };
             self.map.insert(&estimate, &observation);
             let kind = match is_rug(x_m - 0.001 * f64::from(BEHIND_MM)) {
-                true => FloorKind::Carpet,
-                false => FloorKind::Hard,
+                true => SurfaceKind::Carpet,
+                false => SurfaceKind::Hard,
             };
             let behind_mm = BEHIND_MM;
-            self.map.note_floor(self.time_us, FloorFelt { kind, behind_mm });
+            self.map
+                .note_surface(self.time_us, SurfaceObservation { kind, behind_mm });
         }
     }
 
-    fn kind_at(&self, x_m: f64, y_m: f64) -> Option<FloorKind> {
-        self.map.floor_kind(Cell::under(Point2 { x_m, y_m }))
+    fn kind_at(&self, x_m: f64, y_m: f64) -> Option<SurfaceKind> {
+        self.map.surface_kind(Cell::under(Point2 { x_m, y_m }))
     }
 
-    /// Cells that are carpet and cells that are hard.
+    /// Number of carpet cells and of hard cells.
     fn counts(&self) -> [usize; 2] {
-        [FloorKind::Carpet, FloorKind::Hard]
-            .map(|wanted| self.map.floor_kinds().filter(|(_, kind)| *kind == wanted).count())
+        [SurfaceKind::Carpet, SurfaceKind::Hard].map(|wanted| {
+            self.map
+                .surface_kinds()
+                .filter(|(_, kind)| *kind == wanted)
+                .count()
+        })
     }
 }
 
@@ -85,14 +90,14 @@ fn same(pose: Pose2) -> Pose2 {
 }
 
 #[test]
-fn a_rug_lies_under_the_brush_where_it_was_felt_and_nowhere_else() {
+fn a_rug_is_drawn_under_the_brush_where_it_was_detected() {
     let mut walker = Walker::new();
     walker.drive(0.0, rug, same);
     for (x_m, kind) in [
-        (0.90, FloorKind::Hard),
-        (1.10, FloorKind::Carpet),
-        (1.90, FloorKind::Carpet),
-        (2.10, FloorKind::Hard),
+        (0.90, SurfaceKind::Hard),
+        (1.10, SurfaceKind::Carpet),
+        (1.90, SurfaceKind::Carpet),
+        (2.10, SurfaceKind::Hard),
     ] {
         assert_eq!(walker.kind_at(x_m, 0.0), Some(kind), "at {x_m} m");
         assert_eq!(
@@ -105,7 +110,7 @@ fn a_rug_lies_under_the_brush_where_it_was_felt_and_nowhere_else() {
 }
 
 #[test]
-fn nothing_that_robots_drive_by_comes_of_it() {
+fn surfaces_do_not_affect_navigation() {
     let (mut with, mut without) = (Walker::new(), Walker::new());
     with.drive(0.0, rug, same);
     without.drive(0.0, nowhere, same);
@@ -115,19 +120,19 @@ fn nothing_that_robots_drive_by_comes_of_it() {
     assert_eq!(with.knowledge(), without.knowledge());
     assert_eq!(with.revision(), without.revision());
     assert_eq!(with.stored().knowledge(), without.stored().knowledge());
-    let mut unfelt = Map::new(BODY, SensorLayout::default());
-    unfelt.note_floor(
+    let mut unknown = Map::new(BODY, SensorLayout::default());
+    unknown.note_surface(
         0,
-        FloorFelt {
-            kind: FloorKind::Carpet,
+        SurfaceObservation {
+            kind: SurfaceKind::Carpet,
             behind_mm: 0,
         },
     );
-    assert_eq!(unfelt.floor_kinds().count(), 0, "where no body was");
+    assert_eq!(unknown.surface_kinds().count(), 0, "where no body was");
 }
 
 #[test]
-fn a_rug_that_is_taken_away_is_forgotten_after_two_passes() {
+fn a_removed_rug_is_forgotten_after_two_passes() {
     let mut walker = Walker::new();
     for _ in 0..5 {
         walker.drive(0.0, rug, same);
@@ -137,52 +142,52 @@ fn a_rug_that_is_taken_away_is_forgotten_after_two_passes() {
     walker.drive(0.0, nowhere, same);
     let [after, _] = walker.counts();
     assert!(before > 300, "{before} cells");
-    assert_eq!(walker.kind_at(1.5, 0.0), Some(FloorKind::Hard));
+    assert_eq!(walker.kind_at(1.5, 0.0), Some(SurfaceKind::Hard));
     walker.drive(0.0, nowhere, same);
     assert!(walker.counts()[0] <= after);
-    let revision = walker.map.floor_revision();
+    let revision = walker.map.surface_revision();
     walker.drive(0.0, rug, same);
-    assert_ne!(walker.map.floor_revision(), revision, "clients are told of it");
+    assert_ne!(walker.map.surface_revision(), revision, "clients notice");
 }
 
 #[test]
-fn a_map_drawn_again_has_its_rugs_at_the_better_poses() {
+fn a_redrawn_map_has_its_rugs_at_the_corrected_poses() {
     let aside = |pose: Pose2| Pose2 {
         y_m: pose.y_m + 0.5,
         ..pose
     };
     let mut walker = Walker::new();
     walker.drive(0.0, rug, aside);
-    assert_eq!(walker.kind_at(1.5, 0.5), Some(FloorKind::Carpet));
+    assert_eq!(walker.kind_at(1.5, 0.5), Some(SurfaceKind::Carpet));
     let before = walker.counts();
     walker.map.redraw(&[Keyframe {
         time_us: STEP_US,
-        was: aside(Pose2::IDENTITY),
-        is: Pose2::IDENTITY,
+        odom_from_base: aside(Pose2::IDENTITY),
+        map_from_base: Pose2::IDENTITY,
     }]);
     walker.map.finish_redraw();
-    assert_eq!(walker.kind_at(1.5, 0.0), Some(FloorKind::Carpet));
+    assert_eq!(walker.kind_at(1.5, 0.0), Some(SurfaceKind::Carpet));
     assert_eq!(walker.kind_at(1.5, 0.5), None);
     assert_eq!(walker.counts(), before);
-    walker.map.withdraw(
+    walker.map.roll_back(
         0,
         &[Keyframe {
             time_us: STEP_US,
-            was: Pose2::IDENTITY,
-            is: Pose2::IDENTITY,
+            odom_from_base: Pose2::IDENTITY,
+            map_from_base: Pose2::IDENTITY,
         }],
     );
     walker.map.finish_redraw();
-    assert_eq!(walker.counts(), [0, 0], "what was withdrawn is gone");
+    assert_eq!(walker.counts(), [0, 0], "what was rolled back is gone");
 }
 
 #[test]
-fn what_is_felt_while_the_map_is_drawn_again_is_in_it() {
+fn a_surface_detected_during_a_redraw_is_in_the_map() {
     let mut walker = Walker::new();
     walker.map.redraw(&[Keyframe {
         time_us: 1,
-        was: Pose2::IDENTITY,
-        is: Pose2::IDENTITY,
+        odom_from_base: Pose2::IDENTITY,
+        map_from_base: Pose2::IDENTITY,
     }]);
     walker.drive(0.0, rug, same);
     let mut calm = Walker::new();
@@ -192,17 +197,17 @@ fn what_is_felt_while_the_map_is_drawn_again_is_in_it() {
 }
 
 #[test]
-fn rugs_are_stored_and_taken_up_and_forgotten_as_others_are() {
+fn rugs_are_stored_and_loaded_and_forgotten_like_others() {
     let mut walker = Walker::new();
     walker.drive(0.0, rug, same);
     let stored = walker.map.stored();
     let mut again = Walker::new();
-    again.map.take_up(&stored);
+    again.map.load(&stored);
     assert_eq!(again.counts(), walker.counts());
     assert_eq!(again.map.stored(), stored, "storing it again gives the same");
     again.drive(0.0, nowhere, same);
     again.drive(0.0, nowhere, same);
-    assert_eq!(again.kind_at(1.5, 0.0), Some(FloorKind::Hard));
+    assert_eq!(again.kind_at(1.5, 0.0), Some(SurfaceKind::Hard));
     again.map.start_anew();
     assert!(again.counts()[1] > 0, "a new job forgets nothing of the home");
 }

@@ -1,123 +1,128 @@
-//! Whether the robot is on carpet, by what its motors draw.
+//! Detects carpet by the currents of the motors.
 //!
-//! *Load*: what the wheels and the main brush draw. *Steady*: ahead, as good as straight and at one speed, with nothing in the
-//! way; only then do the loads of both tell of the floor. *Usual load*: the load of the same way of driving on this home's hard
-//! floor, see [`usual`]. *Excess*: by how much a load is above the usual one, relative.
+//! *Load*: the currents of the wheels and the main brush. *Steady driving*: forwards, nearly straight, at constant speed and
+//! without contact. Only then do both loads depend on the floor alone. *Baseline*: the load on this home's hard floor in the same
+//! driving mode, see [`baseline_load`]. *Excess*: by how much a load is above the baseline, relative.
 //!
-//! A pile takes force from a wheel that rolls in it and from bristles that turn in it. A robot of this class was pulled over a
-//! loop pile with 18 N (robotreviews.com, topic 16830), and makers tell floors by steps of the roller's current above a base
-//! (US 11882986). Both must be in excess here, because each alone has other reasons: a slope, a threshold or a chair that is
-//! pushed loads the wheels, hair loads the brush. In simulated homes flat mats raise the wheels' load by some 45 % and the
-//! brush's by 35 %, deep piles by 200 % and 100 %, over readings that scatter by less than 5 %.
+//! Pile resists a wheel that rolls in it and bristles that turn in it. Pulling a robot of this class over a loop pile took 18 N
+//! (robotreviews.com, topic 16830), and makers detect floors by steps of the roller's current above a baseline (US 11882986).
+//! Both loads must be in excess here, because each alone has other causes: a slope, a threshold or a pushed chair loads the
+//! wheels, hair loads the brush. In simulated homes flat mats raise the wheels' load by some 45 % and the brush's by 35 %, deep
+//! piles by 200 % and 100 %, with a scatter below 5 %.
 //!
-//! What it does not tell: carpet in a home that has nothing else, since loads are compared and not known beforehand; it then
-//! says nothing at all. A robot that does not measure its currents is told of as such and never as one without carpets.
+//! Limits: a home that is all carpet shows no difference, so the detector reports nothing. Clients distinguish a robot without
+//! current measurement from a home without carpets.
 
-mod steady;
-mod usual;
+mod baseline_load;
+mod steady_driving;
 
 use crate::model::observation::Observation;
-use steady::{Drawn, SteadyWatch};
-use usual::{Load, UsualLoad, Way};
+use baseline_load::{BaselineLoad, DrivingMode, Load};
+use steady_driving::{FilteredLoad, SteadyDrivingDetector};
 
-/// What lies under the brush.
+/// The floor surface under the brush.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FloorKind {
-    /// Hard floor, or whatever the home has most of.
+pub enum SurfaceKind {
+    /// Hard floor, or the most common surface of the home.
     Hard,
     /// A rug or a carpet.
     Carpet,
 }
 
-/// What was felt, and where.
+/// A detected surface and its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FloorFelt {
-    pub(crate) kind: FloorKind,
-    /// So far behind the robot it was, in millimetres: loads are looked at for a while before they are believed.
+pub(crate) struct SurfaceObservation {
+    pub(crate) kind: SurfaceKind,
+    /// Distance behind the robot, millimetres: the load is filtered over some time.
     pub(crate) behind_mm: u8,
 }
 
-/// Least excess of carpet, and that below which it ends. Half of what the flattest mats add, and four times the scatter.
+/// Least excess at which carpet begins, and at which it ends. Half of what the flattest mats add, and four times the scatter.
 const EXCESS_ON: f32 = 0.20;
 const EXCESS_OFF: f32 = 0.12;
-/// A mark of the usual load is taken this often, microseconds.
-const MARK_US: u64 = 500_000;
-/// Marks on carpet from which on the robot knows both kinds of floor, and may say of one that it is hard: half a metre of way.
-const CONTRAST_MARKS: u32 = 4;
-/// Ways of driving whose usual loads are kept: powers of the brush and speeds.
-const WAYS_MAX: usize = 6;
+/// Interval of baseline samples, microseconds.
+const SAMPLE_INTERVAL_US: u64 = 500_000;
+/// Carpet samples after which the robot knows both surfaces and may report hard floor: half a metre of travel.
+const CONTRAST_SAMPLES: u32 = 4;
+/// Most driving modes with a baseline: brush powers and speeds.
+const MODES_MAX: usize = 6;
 
-/// Decides from observations what the robot is on.
+/// Detects the surface under the robot from observations.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct CarpetSense {
-    watch: SteadyWatch,
-    /// The one used last is the last.
-    usual: Vec<UsualLoad>,
+pub(crate) struct CarpetDetector {
+    steady: SteadyDrivingDetector,
+    /// One per driving mode, the most recently used one last.
+    baseline: Vec<BaselineLoad>,
     is_on_carpet: bool,
-    carpet_marks: u32,
-    marked_us: u64,
+    carpet_samples: u32,
+    sampled_us: u64,
 }
 
-impl CarpetSense {
-    /// Takes an observation in; `brush_percent` is the power of the main brush, `None` while it rests or nobody knows it.
-    pub(crate) fn feel(&mut self, observation: &Observation, brush_percent: Option<u8>) -> Option<FloorFelt> {
-        let Some(drawn) = self.watch.take(observation, brush_percent) else {
+impl CarpetDetector {
+    /// Adds an observation. `brush_percent` is the power of the main brush, `None` while it rests or is unknown.
+    pub(crate) fn update(
+        &mut self,
+        observation: &Observation,
+        brush_percent: Option<u8>,
+    ) -> Option<SurfaceObservation> {
+        let Some(filtered) = self.steady.update(observation, brush_percent) else {
             self.is_on_carpet = false;
             return None;
         };
-        let kind = match drawn.way {
-            Some(way) => self.judge(observation.time_us, way, drawn.load),
-            None => self.lasts(&drawn).then_some(FloorKind::Carpet),
+        let kind = match filtered.mode {
+            Some(mode) => self.classify(observation.time_us, mode, filtered.load),
+            None => self.persists(&filtered).then_some(SurfaceKind::Carpet),
         };
-        self.is_on_carpet = kind == Some(FloorKind::Carpet);
-        kind.map(|kind| FloorFelt {
+        self.is_on_carpet = kind == Some(SurfaceKind::Carpet);
+        kind.map(|kind| SurfaceObservation {
             kind,
-            behind_mm: drawn.behind_mm,
+            behind_mm: filtered.behind_mm,
         })
     }
 
-    /// What a load of steady driving says. Of a home that seems to be all alike nothing is said.
-    fn judge(&mut self, now_us: u64, way: Way, load: Load) -> Option<FloorKind> {
-        let is_mark = now_us >= self.marked_us.saturating_add(MARK_US);
-        if is_mark {
-            self.marked_us = now_us;
+    /// The surface of a load in steady driving. In a home with a single surface it is unknown.
+    fn classify(&mut self, now_us: u64, mode: DrivingMode, load: Load) -> Option<SurfaceKind> {
+        let is_sample = now_us >= self.sampled_us.saturating_add(SAMPLE_INTERVAL_US);
+        if is_sample {
+            self.sampled_us = now_us;
         }
         let least = if self.is_on_carpet { EXCESS_OFF } else { EXCESS_ON };
-        let usual = self.usual_of(way);
-        let excess = usual.excess(load);
+        let baseline = self.baseline_of(mode);
+        let excess = baseline.excess(load);
         let is_carpet = excess.is_some_and(|excess| excess.wheels >= least && excess.brush >= least);
-        if is_mark && !is_carpet {
-            usual.learn(load);
+        if is_sample && !is_carpet {
+            baseline.learn(load);
         }
-        self.carpet_marks = self.carpet_marks.saturating_add(u32::from(is_mark && is_carpet));
+        self.carpet_samples = self
+            .carpet_samples
+            .saturating_add(u32::from(is_sample && is_carpet));
         match excess? {
-            _ if is_carpet => Some(FloorKind::Carpet),
-            _ if self.carpet_marks >= CONTRAST_MARKS => Some(FloorKind::Hard),
+            _ if is_carpet => Some(SurfaceKind::Carpet),
+            _ if self.carpet_samples >= CONTRAST_SAMPLES => Some(SurfaceKind::Hard),
             _ => None,
         }
     }
 
-    /// Carpet that was felt in steady driving goes on in curves and against things as long as the brush stays loaded: what loads
-    /// the wheels there does not load the brush.
-    fn lasts(&self, drawn: &Drawn) -> bool {
-        let same_power = |usual: &&UsualLoad| usual.way.brush_percent == drawn.brush_percent;
-        let usual = self.usual.iter().rev().find(same_power);
-        let excess = usual.and_then(|usual| usual.excess(drawn.load));
+    /// Carpet from steady driving persists in curves and contacts while the brush stays loaded: those load only the wheels.
+    fn persists(&self, filtered: &FilteredLoad) -> bool {
+        let same_power = |baseline: &&BaselineLoad| baseline.mode.brush_percent == filtered.brush_percent;
+        let baseline = self.baseline.iter().rev().find(same_power);
+        let excess = baseline.and_then(|baseline| baseline.excess(filtered.load));
         self.is_on_carpet && excess.is_some_and(|excess| excess.brush >= EXCESS_ON)
     }
 
-    fn usual_of(&mut self, way: Way) -> &mut UsualLoad {
-        let known = self.usual.iter().position(|usual| usual.way == way);
-        let usual = match known {
-            Some(place) => self.usual.remove(place),
-            None => UsualLoad::new(way),
+    fn baseline_of(&mut self, mode: DrivingMode) -> &mut BaselineLoad {
+        let known = self.baseline.iter().position(|baseline| baseline.mode == mode);
+        let baseline = match known {
+            Some(index) => self.baseline.remove(index),
+            None => BaselineLoad::new(mode),
         };
-        if self.usual.len() >= WAYS_MAX {
-            self.usual.remove(0);
+        if self.baseline.len() >= MODES_MAX {
+            self.baseline.remove(0);
         }
-        let last = self.usual.len();
-        self.usual.push(usual);
-        &mut self.usual[last]
+        let last = self.baseline.len();
+        self.baseline.push(baseline);
+        &mut self.baseline[last]
     }
 }
 

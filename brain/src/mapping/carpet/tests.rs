@@ -1,31 +1,31 @@
-//! Loads of floors and of whatever is not one, and what is said of them.
+//! Loads on different floors and obstacles, and the surfaces detected from them.
 
-use super::{CarpetSense, FloorFelt, FloorKind};
+use super::{CarpetDetector, SurfaceKind, SurfaceObservation};
 use crate::model::inhibit::{Inhibit, Inhibits};
 use crate::model::observation::{Contacts, MotorCurrents, Observation};
 
-/// Loads of hard floor, of a flat mat and of a deep pile, amperes: a wheel's and the brush's.
+/// Loads on hard floor, on a flat mat and on a deep pile, amperes: one wheel and the brush.
 const HARD: [f32; 2] = [0.06, 0.5];
 const MAT: [f32; 2] = [0.087, 0.675];
 const PILE: [f32; 2] = [0.18, 1.0];
-/// Readings scatter by so much around a load.
+/// Relative scatter of readings.
 const SCATTER: f32 = 0.1;
 const CRUISE_M_PER_S: f64 = 0.25;
 const STEP_US: u64 = 50_000;
-/// From what happens on the floor to what is told of it, seconds.
-const LATE_S: f64 = 0.06;
+/// Delay of the measured current, seconds.
+const DELAY_S: f64 = 0.06;
 
-/// A robot on a long straight way.
+/// A robot that drives straight ahead.
 struct Drive {
-    sense: CarpetSense,
+    detector: CarpetDetector,
     view: Observation,
     percent: u8,
     noise: u32,
 }
 
-/// Observations after which something was said.
+/// Number of observations by reported surface.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Said {
+struct Reports {
     carpet: u32,
     hard: u32,
     nothing: u32,
@@ -34,14 +34,14 @@ struct Said {
 impl Drive {
     fn new() -> Self {
         Self {
-            sense: CarpetSense::default(),
+            detector: CarpetDetector::default(),
             view: Observation::default(),
             percent: 100,
             noise: 1,
         }
     }
 
-    /// One that has met both kinds of floor.
+    /// A drive that has seen both surfaces.
     fn experienced() -> Self {
         let mut drive = Self::new();
         drive.on(40.0, HARD);
@@ -60,7 +60,7 @@ impl Drive {
         &mut self,
         [left_m_per_s, right_m_per_s]: [f64; 2],
         [wheel_a, brush_a]: [f32; 2],
-    ) -> Option<FloorFelt> {
+    ) -> Option<SurfaceObservation> {
         self.view.time_us += STEP_US;
         self.view.travel_left_m += 1e-6 * STEP_US as f64 * left_m_per_s;
         self.view.travel_right_m += 1e-6 * STEP_US as f64 * right_m_per_s;
@@ -69,32 +69,32 @@ impl Drive {
             wheel_right_a: self.scattered(wheel_a),
             brush_main_a: self.scattered(brush_a),
         });
-        self.sense.feel(&self.view, Some(self.percent))
+        self.detector.update(&self.view, Some(self.percent))
     }
 
     /// Straight ahead for some seconds.
-    fn on(&mut self, time_s: f64, load_a: [f32; 2]) -> Said {
+    fn on(&mut self, time_s: f64, load_a: [f32; 2]) -> Reports {
         self.at((time_s, [CRUISE_M_PER_S; 2]), |_| load_a)
     }
 
-    /// With wheels at these speeds; the load is one of the time since the beginning.
-    fn at(&mut self, (time_s, wheels): (f64, [f64; 2]), load_a: impl Fn(f64) -> [f32; 2]) -> Said {
-        let mut said = Said::default();
+    /// With these wheel speeds; the load depends on the time since the start.
+    fn at(&mut self, (time_s, wheels): (f64, [f64; 2]), load_a: impl Fn(f64) -> [f32; 2]) -> Reports {
+        let mut reports = Reports::default();
         let steps = (time_s * 1e6) as u64 / STEP_US;
         for step in 0..steps {
             let since_s = 1e-6 * (step * STEP_US) as f64;
-            match self.step(wheels, load_a(since_s)).map(|felt| felt.kind) {
-                Some(FloorKind::Carpet) => said.carpet += 1,
-                Some(FloorKind::Hard) => said.hard += 1,
-                None => said.nothing += 1,
+            match self.step(wheels, load_a(since_s)).map(|observed| observed.kind) {
+                Some(SurfaceKind::Carpet) => reports.carpet += 1,
+                Some(SurfaceKind::Hard) => reports.hard += 1,
+                None => reports.nothing += 1,
             }
         }
-        said
+        reports
     }
 }
 
 #[test]
-fn mats_and_piles_are_found_and_the_floor_between_them_is_none() {
+fn mats_and_piles_are_detected_and_the_floor_between_them_is_not() {
     let mut drive = Drive::experienced();
     for rug in [MAT, PILE, MAT] {
         let found = drive.on(3.0, rug);
@@ -105,17 +105,17 @@ fn mats_and_piles_are_found_and_the_floor_between_them_is_none() {
 }
 
 #[test]
-fn where_it_was_felt_is_where_it_lay() {
+fn the_edge_of_a_carpet_is_located() {
     let mut drive = Drive::experienced();
-    // What is measured comes late.
-    let edge_m = drive.view.travel_left_m - LATE_S * CRUISE_M_PER_S;
-    let felt = loop {
-        let felt = drive.step([CRUISE_M_PER_S; 2], PILE);
-        if let Some(felt) = felt.filter(|felt| felt.kind == FloorKind::Carpet) {
-            break felt;
+    // Measurements are late.
+    let edge_m = drive.view.travel_left_m - DELAY_S * CRUISE_M_PER_S;
+    let observed = loop {
+        let observed = drive.step([CRUISE_M_PER_S; 2], PILE);
+        if let Some(observed) = observed.filter(|observed| observed.kind == SurfaceKind::Carpet) {
+            break observed;
         }
     };
-    let place_m = drive.view.travel_left_m - 0.001 * f64::from(felt.behind_mm);
+    let place_m = drive.view.travel_left_m - 0.001 * f64::from(observed.behind_mm);
     assert!(
         (place_m - edge_m).abs() < 0.025,
         "{:.3} m beyond its edge",
@@ -124,15 +124,15 @@ fn where_it_was_felt_is_where_it_lay() {
 }
 
 #[test]
-fn nothing_is_said_of_a_home_that_is_all_alike() {
+fn a_home_with_a_single_surface_reports_nothing() {
     for floor in [HARD, PILE] {
-        let said = Drive::new().on(600.0, floor);
-        assert_eq!((said.carpet, said.hard), (0, 0), "{floor:?}");
+        let reports = Drive::new().on(600.0, floor);
+        assert_eq!((reports.carpet, reports.hard), (0, 0), "{floor:?}");
     }
 }
 
 #[test]
-fn a_robot_that_begins_on_a_rug_learns_what_hard_floor_is() {
+fn a_robot_that_starts_on_a_rug_learns_the_hard_floor() {
     let mut drive = Drive::new();
     drive.on(30.0, PILE);
     assert_eq!(drive.on(60.0, HARD).carpet, 0);
@@ -140,7 +140,7 @@ fn a_robot_that_begins_on_a_rug_learns_what_hard_floor_is() {
 }
 
 #[test]
-fn a_large_carpet_does_not_become_usual() {
+fn a_large_carpet_does_not_become_the_baseline() {
     let mut drive = Drive::experienced();
     drive.on(1_500.0, MAT);
     let late = drive.on(10.0, MAT);
@@ -149,7 +149,7 @@ fn a_large_carpet_does_not_become_usual() {
 }
 
 #[test]
-fn what_is_pushed_or_climbed_is_no_carpet() {
+fn pushing_and_climbing_are_not_carpet() {
     let mut drive = Drive::experienced();
     drive.view.contacts = Contacts {
         left: true,
@@ -167,7 +167,7 @@ fn what_is_pushed_or_climbed_is_no_carpet() {
 }
 
 #[test]
-fn curves_and_changes_of_speed_say_nothing() {
+fn curves_and_changes_of_speed_report_nothing() {
     let mut drive = Drive::experienced();
     let turning = drive.at((3.0, [0.2, 0.3]), |_| PILE);
     assert!(turning.carpet == 0 && turning.hard <= 2, "{turning:?}");
@@ -184,11 +184,11 @@ fn curves_and_changes_of_speed_say_nothing() {
 }
 
 #[test]
-fn hair_and_an_emptying_pack_become_usual_and_rugs_are_still_found() {
+fn the_baseline_follows_hair_and_an_emptying_pack_and_rugs_are_still_detected() {
     for end in [1.6, 0.8] {
         let mut drive = Drive::experienced();
         let [wheel_a, brush_a] = HARD;
-        // An emptying pack takes from both motors, hair loads the brush.
+        // An emptying pack lowers both currents, hair loads the brush.
         let wheels_end = f64::min(end, 1.0);
         let at = |since_s: f64| {
             let share = since_s / 3_000.0;
@@ -197,8 +197,8 @@ fn hair_and_an_emptying_pack_become_usual_and_rugs_are_still_found() {
                 brush_a * (1.0 + share * (end - 1.0)) as f32,
             ]
         };
-        let said = drive.at((3_000.0, [CRUISE_M_PER_S; 2]), at);
-        assert_eq!(said.carpet, 0, "times {end}");
+        let reports = drive.at((3_000.0, [CRUISE_M_PER_S; 2]), at);
+        assert_eq!(reports.carpet, 0, "times {end}");
         let [wheel_a, brush_a] = MAT;
         let rug = [wheel_a * wheels_end as f32, brush_a * end as f32];
         let found = drive.on(3.0, rug);
@@ -222,21 +222,21 @@ fn only_loads_of_the_same_power_and_speed_are_compared() {
 }
 
 #[test]
-fn what_is_not_measured_says_nothing() {
+fn missing_measurements_report_nothing() {
     let mut drive = Drive::experienced();
     drive.view.currents = None;
     drive.view.time_us += STEP_US;
-    assert_eq!(drive.sense.feel(&drive.view, Some(100)), None);
+    assert_eq!(drive.detector.update(&drive.view, Some(100)), None);
     assert_eq!(drive.on(2.0, [f32::NAN, 0.5]).nothing, 40);
     assert_eq!(drive.on(2.0, [0.0, f32::INFINITY]).nothing, 40);
     assert!(drive.on(5.0, HARD).hard > 60, "and is forgotten");
     drive.percent = 0;
     assert_eq!(drive.on(2.0, PILE).nothing, 40, "a brush that rests");
     let mut idle = Drive::new();
-    let said = idle.on(60.0, [0.001, 0.001]);
+    let reports = idle.on(60.0, [0.001, 0.001]);
     let more = idle.on(60.0, [0.01, 0.01]);
     assert_eq!(
-        (said.carpet, more.carpet),
+        (reports.carpet, more.carpet),
         (0, 0),
         "less than the converter can tell"
     );

@@ -1,18 +1,18 @@
-//! The part of the map that outlives a job: what stands where.
+//! The part of the map that outlives a job.
 
 mod painting;
 
 use core::task::Poll;
 
 use super::annotations::Annotations;
-use super::carpet::FloorFelt;
+use super::carpet::SurfaceObservation;
 use super::derived::Derived;
-use super::dock::DockPlace;
-use super::draw::Pencil;
-use super::layers::{CellBox, CellKnowledge, Flag, Layers};
+use super::dock_location::DockLocation;
+use super::inverse_sensor_model::InverseSensorModel;
+use super::occupancy_grid::{CellBox, CellKnowledge, Flag, OccupancyGrid};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
-use super::wall_direction::DirectionAt;
+use super::wall_direction::CachedDirection;
 use super::{CELL_M, Cell, Raster, StoredMap};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::Point2;
@@ -20,75 +20,75 @@ use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Derived rasters are brought up to date after this time, microseconds.
+/// Interval of updating the derived rasters, microseconds.
 const REFRESH_US: u64 = 2_000_000;
-/// Rooms are looked for again after this time, microseconds.
-const SURVEY_US: u64 = 120_000_000;
-/// Sightings kept for drawing the map again: half a centimetre of way apart at least, some two hours of cleaning.
+/// Interval of segmenting rooms, microseconds.
+const SEGMENTATION_INTERVAL_US: u64 = 120_000_000;
+/// Most sightings for a redraw: at least half a centimetre of travel apart, some two hours of cleaning.
 const SIGHTINGS_MAX: usize = 100_000;
-/// Radius of what is shut around a place that trapped the robot; plans keep the body's radius away from it, too.
+/// Radius of the forbidden disc where the robot got stuck. Plans also keep the body's radius away from it.
 const POCKET_M: f64 = 0.1;
 
 /// Whether a cell may be entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Entry {
-    /// It may.
+pub(super) enum Access {
+    /// It may be entered.
     Allowed,
-    /// It may not.
+    /// It may not be entered.
     Forbidden,
 }
 
-/// What is known of the home.
+/// The map of the home.
 #[derive(Debug)]
 pub(super) struct HomeMap {
-    pub(super) pencil: Pencil,
-    pub(super) layers: Layers,
+    pub(super) sensor_model: InverseSensorModel,
+    pub(super) grid: OccupancyGrid,
     pub(super) derived: Derived,
-    /// What was known before the first of the sightings.
-    pub(super) base: Layers,
+    /// The grid before the first sighting.
+    pub(super) base: OccupancyGrid,
     pub(super) sightings: Vec<Sighting>,
     last: Option<Sighting>,
     refreshed_us: u64,
-    /// Tiles that are not brought up to date yet, of those that were to be.
+    /// Dirty tiles that the current update has still to process.
     pub(super) stale_tiles: usize,
     pub(super) rooms: Rooms,
-    surveyed_us: u64,
-    surveying: Option<Gradual<Rooms>>,
-    pub(super) dock: DockPlace,
+    segmented_us: u64,
+    segmentation: Option<Gradual<Rooms>>,
+    pub(super) dock: DockLocation,
     pub(super) revision: u32,
-    /// Grows when a kind of floor has changed; apart from `revision`, by which plans are judged.
-    pub(super) floor_revision: u32,
-    /// Something was felt of the floor since that grew.
-    floor_is_new: bool,
-    /// Direction of the walls at a revision.
-    pub(super) direction: DirectionAt,
+    /// Increments when a surface changed. It is separate from `revision`, which invalidates plans.
+    pub(super) surface_revision: u32,
+    /// Whether a surface was added since that increment.
+    surface_is_new: bool,
+    /// Wall direction of one revision.
+    pub(super) direction: CachedDirection,
     pub(super) redrawn: u32,
-    /// Cells that are shut until the next job.
+    /// Cells that are forbidden until the next job.
     pub(super) pockets: Vec<Cell>,
     pub(super) annotations: Annotations,
-    /// Where no-go zones were last painted.
+    /// Bounds of the grid when no-go zones were last painted.
     pub(super) painted: Option<CellBox>,
 }
 
 impl HomeMap {
     pub(super) fn new(body: Body, sensors: SensorLayout) -> Self {
         Self {
-            pencil: Pencil { body, sensors },
-            layers: Layers::default(),
+            sensor_model: InverseSensorModel { body, sensors },
+            grid: OccupancyGrid::default(),
             derived: Derived::default(),
-            base: Layers::default(),
+            base: OccupancyGrid::default(),
             sightings: Vec::new(),
             last: None,
             refreshed_us: 0,
             stale_tiles: 0,
             rooms: Rooms::default(),
-            surveyed_us: 0,
-            surveying: None,
-            dock: DockPlace::default(),
+            segmented_us: 0,
+            segmentation: None,
+            dock: DockLocation::default(),
             revision: 0,
-            floor_revision: 0,
-            floor_is_new: false,
-            direction: DirectionAt::default(),
+            surface_revision: 0,
+            surface_is_new: false,
+            direction: CachedDirection::default(),
             redrawn: 0,
             pockets: Vec::new(),
             annotations: Annotations::default(),
@@ -102,168 +102,167 @@ impl HomeMap {
             return;
         }
         if observation.docked && self.dock.pose().is_none() {
-            self.dock = DockPlace::sure(estimate.pose);
+            self.dock = DockLocation::converged(estimate.pose);
         }
         let mut sighting = Sighting::new(estimate, observation);
-        let before = self.last.map(|last| last.touched).unwrap_or_default();
-        sighting.touched = sighting.touched.after(before);
+        let before = self.last.map(|last| last.switches).unwrap_or_default();
+        sighting.switches = sighting.switches.after(before);
         if self.last.is_some_and(|last| sighting.repeats(&last)) {
             return;
         }
         self.last = Some(sighting);
         self.sightings.push(sighting);
-        self.pencil.draw(&sighting, &mut self.layers);
+        self.sensor_model.draw(&sighting, &mut self.grid);
         if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
             self.refreshed_us = observation.time_us;
             self.begin_refresh();
         }
-        if observation.time_us >= self.surveyed_us.saturating_add(SURVEY_US) {
-            self.surveyed_us = observation.time_us;
-            self.begin_survey();
+        if observation.time_us >= self.segmented_us.saturating_add(SEGMENTATION_INTERVAL_US) {
+            self.segmented_us = observation.time_us;
+            self.begin_segmentation();
         }
     }
 
-    /// Sets or clears a flag, whatever is drawn again later.
-    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, entry: Entry) {
-        let change = |evidence: &mut super::layers::Evidence| match entry {
-            Entry::Forbidden => evidence.set(flag),
-            Entry::Allowed => evidence.clear(flag),
+    /// Sets or clears a flag so that a redraw keeps it.
+    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, access: Access) {
+        let change = |evidence: &mut super::occupancy_grid::Evidence| match access {
+            Access::Forbidden => evidence.set(flag),
+            Access::Allowed => evidence.clear(flag),
         };
         self.base.change(cell, change);
-        self.layers.change(cell, change);
+        self.grid.change(cell, change);
     }
 
-    /// Forbids the cells around a place until [`Self::open_pockets`].
-    pub(super) fn shut_pocket(&mut self, place: Point2) {
+    /// Forbids a disc of cells until [`Self::allow_pockets`].
+    pub(super) fn forbid_pocket(&mut self, place: Point2) {
         let reach = libm::ceil(POCKET_M / CELL_M) as i32;
         let middle = Cell::under(place);
         let around = (-reach..=reach).flat_map(|row| (-reach..=reach).map(move |column| (column, row)));
         let within = around.filter(|(column, row)| column * column + row * row <= reach * reach);
-        self.shut(within.map(|(column, row)| Cell {
+        self.forbid_for_job(within.map(|(column, row)| Cell {
             x: middle.x.saturating_add(column),
             y: middle.y.saturating_add(row),
         }));
     }
 
-    /// Forbids cells until [`Self::open_pockets`].
-    pub(super) fn shut(&mut self, cells: impl Iterator<Item = Cell>) {
+    /// Forbids cells until [`Self::allow_pockets`].
+    pub(super) fn forbid_for_job(&mut self, cells: impl Iterator<Item = Cell>) {
         for cell in cells {
-            self.flag(cell, Flag::Pocket, Entry::Forbidden);
+            self.flag(cell, Flag::Pocket, Access::Forbidden);
             self.pockets.push(cell);
         }
         self.refresh();
     }
 
-    /// A new job may go everywhere again: things are moved.
-    pub(super) fn open_pockets(&mut self) {
+    /// Allows everything that was forbidden for the job: things may have been moved.
+    pub(super) fn allow_pockets(&mut self) {
         for cell in core::mem::take(&mut self.pockets) {
-            self.flag(cell, Flag::Pocket, Entry::Allowed);
+            self.flag(cell, Flag::Pocket, Access::Allowed);
         }
         self.refresh();
     }
 
-    pub(super) fn survey(&mut self) {
+    pub(super) fn segment_rooms(&mut self) {
         self.refresh();
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
-        let with_changes = (knowledge, self.annotations.room_changes());
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
+        let changes = self.annotations.room_changes();
         self.rooms = at_once(
             self.rooms
-                .renewed_in_steps(with_changes, &mut StepBudget::unlimited()),
+                .segmented_in_steps(knowledge, changes, &mut StepBudget::unlimited()),
         );
-        self.surveying = None;
+        self.segmentation = None;
     }
 
-    /// Begins to look for rooms in what is known now. That goes on with [`Self::survey_on`].
-    fn begin_survey(&mut self) {
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.unwrap_or_else(|| self.derived.knowledge.clone());
+    /// Begins to segment rooms. [`Self::continue_segmentation`] does the work.
+    fn begin_segmentation(&mut self) {
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.unwrap_or_else(|| self.derived.knowledge.clone());
         let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
-        self.surveying = Some(Gradual::new(async move {
-            let with_changes = (&knowledge, &changes);
+        self.segmentation = Some(Gradual::new(async move {
             before
-                .renewed_in_steps(with_changes, &mut StepBudget::limited())
+                .segmented_in_steps(&knowledge, &changes, &mut StepBudget::limited())
                 .await
         }));
     }
 
-    pub(super) fn survey_on(&mut self) {
-        if let Some(surveying) = &mut self.surveying
-            && let Poll::Ready(rooms) = surveying.go_on()
+    pub(super) fn continue_segmentation(&mut self) {
+        if let Some(segmentation) = &mut self.segmentation
+            && let Poll::Ready(rooms) = segmentation.go_on()
         {
             self.rooms = rooms;
-            self.surveying = None;
+            self.segmentation = None;
         }
     }
 
-    /// Cells that tiles cover.
+    /// Bounding box of all tiles.
     pub(super) fn bounds(&self) -> Option<CellBox> {
-        self.layers.bounds()
+        self.grid.bounds()
     }
 
     pub(super) fn knowledge(&self) -> &Raster<CellKnowledge> {
         &self.derived.knowledge
     }
 
-    /// What would be known of a cell without a flag.
+    /// Knowledge of a cell as if the flags were clear.
     pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
-        let mut evidence = self.layers.at(cell);
+        let mut evidence = self.grid.at(cell);
         flags.iter().for_each(|flag| evidence.clear(*flag));
         evidence.knowledge()
     }
 
-    /// Something that people see has changed.
-    pub(super) fn touch(&mut self) {
+    /// Records a visible change.
+    pub(super) fn increment_revision(&mut self) {
         self.refresh();
         self.revision = self.revision.wrapping_add(1);
     }
 
-    /// Whether there is no room for another sighting.
+    /// Whether the list of sightings is full.
     pub(super) fn is_full(&self) -> bool {
         self.sightings.len() >= SIGHTINGS_MAX
     }
 
-    /// What was seen up to now stays where it is.
-    pub(super) fn settle(&mut self) {
-        self.base = self.layers.clone();
+    /// Makes everything up to now final.
+    pub(super) fn finalize(&mut self) {
+        self.base = self.grid.clone();
         self.sightings.clear();
     }
 
-    /// Notes that the cleaning parts run where the robot was seen last.
+    /// Records that the cleaning motors run at the last sighting.
     pub(super) fn note_sweeping(&mut self) {
         if self.last.is_some()
             && let Some(newest) = self.sightings.last_mut()
         {
-            newest.touched.note_sweeping();
+            newest.switches.note_sweeping();
         }
     }
 
-    /// Takes in what is felt of the floor at an observation, if that was new to the map.
-    pub(super) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) -> Option<Sighting> {
+    /// Adds a detected surface to the sighting of this time, if there is one.
+    pub(super) fn note_surface(&mut self, time_us: u64, observed: SurfaceObservation) -> Option<Sighting> {
         let newest = self.sightings.last_mut()?;
         if newest.time_us != time_us {
             return None;
         }
-        newest.floor = Some(felt);
-        self.pencil.draw_floor(newest, &mut self.layers);
-        self.floor_is_new = true;
+        newest.surface = Some(observed);
+        self.sensor_model.draw_surface(newest, &mut self.grid);
+        self.surface_is_new = true;
         Some(*newest)
     }
 
-    /// Begins to bring up to date what changed up to now, tile by tile.
+    /// Begins to update the derived rasters, tile by tile.
     pub(super) fn begin_refresh(&mut self) {
-        if core::mem::take(&mut self.floor_is_new) {
-            self.floor_revision = self.floor_revision.wrapping_add(1);
+        if core::mem::take(&mut self.surface_is_new) {
+            self.surface_revision = self.surface_revision.wrapping_add(1);
         }
-        self.paint_what_came();
-        self.stale_tiles = self.layers.dirty_tiles();
+        self.paint_no_go_in_new_tiles();
+        self.stale_tiles = self.grid.dirty_tiles();
     }
 
     pub(super) fn refresh_on(&mut self) {
         if self.stale_tiles == 0 {
             return;
         }
-        self.derived.refresh_tile(&mut self.layers);
+        self.derived.refresh_tile(&mut self.grid);
         self.stale_tiles -= 1;
         if self.stale_tiles == 0 {
             self.revision = self.revision.wrapping_add(1);
@@ -272,50 +271,53 @@ impl HomeMap {
 
     pub(super) fn refresh(&mut self) {
         self.stale_tiles = 0;
-        self.paint_what_came();
-        if self.layers.is_dirty() {
-            self.derived.refresh(&mut self.layers);
+        self.paint_no_go_in_new_tiles();
+        if self.grid.is_dirty() {
+            self.derived.refresh(&mut self.grid);
             self.revision = self.revision.wrapping_add(1);
         }
     }
 
-    /// Takes up layers that were drawn again; what was seen meanwhile is in them.
-    pub(super) fn take_redrawn(&mut self, layers: Layers, derived: Derived) {
-        self.layers = layers;
+    /// Replaces the grid by a redrawn one, which includes everything seen meanwhile.
+    pub(super) fn replace_grid(&mut self, grid: OccupancyGrid, derived: Derived) {
+        self.grid = grid;
         self.paint_no_go();
         self.derived = derived;
         self.stale_tiles = 0;
-        self.derived.refresh(&mut self.layers);
+        self.derived.refresh(&mut self.grid);
         self.revision = self.revision.wrapping_add(1);
         self.redrawn = self.redrawn.wrapping_add(1);
     }
 
-    /// The same with a stored home instead of nothing.
+    /// Fills an empty map from a stored one.
     pub(super) async fn filled(mut self, stored: &StoredMap, budget: &mut StepBudget) -> Self {
-        self.layers = stored.layers(budget).await;
-        self.base = self.layers.clone();
-        self.dock = stored.dock_place();
+        self.grid = stored.grid(budget).await;
+        self.base = self.grid.clone();
+        self.dock = stored.dock_location();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
-        self.derived = Derived::anew(&mut self.layers, budget).await;
-        let beneath = self.knowledge_beneath();
-        let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
-        let with_changes = (knowledge, self.annotations.room_changes());
-        self.rooms = stored.rooms().renewed_in_steps(with_changes, budget).await;
+        self.derived = Derived::compute(&mut self.grid, budget).await;
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
+        let changes = self.annotations.room_changes();
+        self.rooms = stored
+            .rooms()
+            .segmented_in_steps(knowledge, changes, budget)
+            .await;
         self
     }
 
-    /// Goes on with the counters of the home that was there before.
-    pub(super) fn count_on(&mut self, before: &Self) {
+    /// Continues the counters of the replaced home.
+    pub(super) fn continue_counters(&mut self, before: &Self) {
         self.revision = before.revision.wrapping_add(1);
-        self.floor_revision = before.floor_revision.wrapping_add(1);
+        self.surface_revision = before.surface_revision.wrapping_add(1);
         self.redrawn = before.redrawn;
         self.refreshed_us = before.refreshed_us;
-        self.surveyed_us = before.surveyed_us;
+        self.segmented_us = before.segmented_us;
     }
 }
 
-/// Nothing is learnt in the air, without news, or by a robot that does not know where it is.
+/// Whether an observation is valid for the map: not from a robot that is lifted, lost or without a link.
 fn is_of_use(estimate: &PoseEstimate, observation: &Observation) -> bool {
     let pose = estimate.pose;
     let is_finite = (pose.x_m + pose.y_m + pose.heading_rad).is_finite();

@@ -1,27 +1,27 @@
-//! People change the map: no-go zones, virtual walls, names and settings of rooms, and where the dock stands.
+//! Edits by people: no-go zones, virtual walls, names and settings of rooms, and the location of the dock.
 
 use core::f64::consts::TAU;
 
 use super::Map;
 use crate::mapping::annotations::NAMES_MAX;
-use crate::mapping::home::Entry;
-use crate::mapping::layers::{CellBox, Flag};
+use crate::mapping::home::Access;
+use crate::mapping::occupancy_grid::{CellBox, Flag};
 use crate::mapping::zone_cells::{cells_between, cells_of};
 use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::reason::Reason;
 use crate::model::room_settings::RoomSettings;
-use crate::model::zone::{FAR_M, Zone};
+use crate::model::zone::{COORDINATE_MAX_M, Zone};
 
 impl Map {
-    /// What people have said of the home.
+    /// Everything that people added to the map.
     #[must_use]
     pub fn annotations(&self) -> &Annotations {
         &self.home.annotations
     }
 
-    /// Whether `no_go` can be added: the map must know floor there, and the dock must stay within reach.
+    /// Whether `no_go` can be added: it must cover known floor and keep clear of the dock.
     ///
     /// # Errors
     /// The named reason against it.
@@ -33,7 +33,7 @@ impl Map {
         self.may_forbid(no_go)
     }
 
-    /// Whether there is floor that `no_go` forbids, and the dock stays within reach.
+    /// Whether `no_go` covers known floor and keeps clear of the dock.
     pub(crate) fn may_forbid(&self, no_go: &NoGo) -> Result<(), Reason> {
         if self.knowledge().values().is_empty() {
             return Err(Reason::NoMap);
@@ -47,14 +47,14 @@ impl Map {
         if !cells_of(no_go.area(), window).any(is_floor) {
             return Err(Reason::NoFloorThere);
         }
-        let radius_m = self.home.pencil.body.radius_m;
+        let radius_m = self.home.sensor_model.body.radius_m;
         match self.dock() {
             Some(dock) if no_go.area().distance_m(dock.position()) < radius_m => Err(Reason::DockInside),
             _ => Ok(()),
         }
     }
 
-    /// Forbids floor to all ways that are planned.
+    /// Adds a no-go zone or virtual wall, which no planned path enters.
     ///
     /// # Errors
     /// As [`Self::admit_no_go`]; then nothing is changed.
@@ -62,7 +62,7 @@ impl Map {
         self.admit_no_go(&no_go)?;
         self.home.annotations.add(no_go)?;
         self.home.paint_no_go();
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
@@ -70,10 +70,10 @@ impl Map {
     pub(crate) fn avoid(&mut self, avoid: &[NoGo]) {
         let Some(window) = self.home.bounds() else { return };
         let cells = avoid.iter().flat_map(|no_go| cells_of(no_go.area(), window));
-        self.home.shut(cells);
+        self.home.forbid_for_job(cells);
     }
 
-    /// Cells of what is known that a job would have to keep out of.
+    /// The knowledge with cells to avoid in a job as no-go cells.
     pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
         let mut knowledge = self.knowledge().clone();
         if let Some(window) = self.home.bounds() {
@@ -86,7 +86,7 @@ impl Map {
         knowledge
     }
 
-    /// Whether there is a no-go zone or virtual wall of this number.
+    /// Whether there is a no-go zone or virtual wall with this number.
     ///
     /// # Errors
     /// [`Reason::NoSuchNoGo`] when not.
@@ -98,7 +98,7 @@ impl Map {
         }
     }
 
-    /// Allows again what a no-go zone or virtual wall forbade, unless another one does, too.
+    /// Removes a no-go zone or virtual wall. Cells in other ones stay forbidden.
     ///
     /// # Errors
     /// [`Reason::NoSuchNoGo`]; then nothing is changed.
@@ -107,32 +107,31 @@ impl Map {
         let removed = removed.ok_or(Reason::NoSuchNoGo)?;
         self.allow(removed.area());
         self.home.paint_no_go();
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Takes the mark off all cells of an area; those that are forbidden all the same are to be painted again.
+    /// Clears the flag of all cells of an area. The caller then paints the remaining no-go zones again.
     fn allow(&mut self, area: &Zone) {
         let Some(window) = self.home.bounds() else { return };
         for cell in cells_of(area, window) {
-            self.home.flag(cell, Flag::NoGo, Entry::Allowed);
+            self.home.flag(cell, Flag::NoGo, Access::Allowed);
             if let Some(redrawing) = &mut self.redrawing {
                 redrawing.allow(cell);
             }
         }
     }
 
-    /// Whether a no-go zone or virtual wall may forbid this floor in place of its own.
+    /// Whether a no-go zone or virtual wall can have this shape instead of its own.
     ///
     /// # Errors
-    /// [`Reason::NoSuchNoGo`], or what speaks against a new one there.
+    /// [`Reason::NoSuchNoGo`], or the reason against a new one there.
     pub fn admit_no_go_shape(&self, number: u16, no_go: &NoGo) -> Result<(), Reason> {
         self.admit_no_go_removal(number)?;
         self.may_forbid(no_go)
     }
 
-    /// Lets a no-go zone or virtual wall forbid other floor, under its number and name. There is no step in between in which
-    /// neither of both is forbidden.
+    /// Changes the shape of a no-go zone or virtual wall and keeps its number and name. At no moment are both shapes allowed.
     ///
     /// # Errors
     /// As [`Self::admit_no_go_shape`]; then nothing is changed.
@@ -144,11 +143,11 @@ impl Map {
         let before = core::mem::replace(known, no_go);
         self.allow(before.area());
         self.home.paint_no_go();
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Whether a no-go zone or virtual wall may be called so; without a name it is called by its number.
+    /// Whether a no-go zone or virtual wall can have this name; without a name clients show its number.
     ///
     /// # Errors
     /// [`Reason::NoSuchNoGo`], or [`Reason::NameTaken`] by another one.
@@ -159,7 +158,7 @@ impl Map {
         })
     }
 
-    /// Names a no-go zone or virtual wall, or takes its name away.
+    /// Names a no-go zone or virtual wall, or removes its name.
     ///
     /// # Errors
     /// As [`Self::admit_no_go_name`]; then nothing is changed.
@@ -168,11 +167,11 @@ impl Map {
         let no_go = self.home.annotations.no_go.get_mut(&number);
         let no_go = no_go.ok_or(Reason::NoSuchNoGo)?;
         *no_go = no_go.clone().with_name(name);
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Whether a room may be called so; without a name it is called by its number.
+    /// Whether a room can have this name; without a name clients show its number.
     ///
     /// # Errors
     /// [`Reason::NoSuchRoom`], or [`Reason::NameTaken`] by another room.
@@ -183,14 +182,14 @@ impl Map {
         name.map_or(Ok(()), |name| self.home.annotations.may_be_called(room, name))
     }
 
-    /// Names a room, or takes its name away.
+    /// Names a room, or removes its name.
     ///
     /// # Errors
     /// As [`Self::admit_room_name`]; then nothing is changed.
     pub fn name_room(&mut self, room: u16, name: Option<RoomName>) -> Result<(), Reason> {
         self.admit_room_name(room, name.as_ref())?;
         self.home.annotations.call(room, name);
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 }
@@ -199,7 +198,7 @@ impl Map {
     /// Whether a room can have settings.
     ///
     /// # Errors
-    /// [`Reason::NoSuchRoom`], or [`Reason::BadSettings`] when more rooms have some than a home can have.
+    /// [`Reason::NoSuchRoom`], or [`Reason::BadSettings`] when too many rooms have settings.
     pub fn admit_room_settings(&self, room: u16) -> Result<(), Reason> {
         if self.rooms().rooms().iter().all(|known| known.id != room) {
             return Err(Reason::NoSuchRoom);
@@ -211,7 +210,7 @@ impl Map {
         Ok(())
     }
 
-    /// Says how a room is cleaned; without settings as any other.
+    /// Sets or removes the settings of a room.
     ///
     /// # Errors
     /// As [`Self::admit_room_settings`]; then nothing is changed.
@@ -222,24 +221,25 @@ impl Map {
             Some(settings) => kept.insert(room, settings),
             None => kept.remove(&room),
         };
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 }
 
 impl Map {
-    /// Whether the dock can stand so that a robot on it has this pose: there is floor that the map knows under its body, and no
-    /// no-go zone.
+    /// Whether the dock can be where a docked robot has this pose: known floor under its body and no no-go zone.
     ///
     /// # Errors
     /// The named reason against it.
     pub fn admit_dock_move(&self, pose: Pose2) -> Result<(), Reason> {
-        let is_near = pose.x_m.abs() < FAR_M && pose.y_m.abs() < FAR_M && pose.heading_rad.is_finite();
+        let is_near = pose.x_m.abs() < COORDINATE_MAX_M
+            && pose.y_m.abs() < COORDINATE_MAX_M
+            && pose.heading_rad.is_finite();
         let window = self.home.bounds().ok_or(Reason::NoMap)?;
         if !is_near || !self.has_floor_under(pose.position(), window) {
             return Err(Reason::NoFloorThere);
         }
-        let radius_m = self.home.pencil.body.radius_m;
+        let radius_m = self.home.sensor_model.body.radius_m;
         let mut no_gos = self.home.annotations.no_go.values();
         if no_gos.any(|no_go| no_go.area().distance_m(pose.position()) < radius_m) {
             return Err(Reason::DockInside);
@@ -247,28 +247,28 @@ impl Map {
         Ok(())
     }
 
-    /// A person says where the dock stands now.
+    /// Moves the dock to where a person reports it.
     ///
     /// # Errors
     /// As [`Self::admit_dock_move`]; then nothing is changed.
     pub fn move_dock(&mut self, pose: Pose2) -> Result<(), Reason> {
         self.admit_dock_move(pose)?;
-        self.home.dock.tell(Pose2 {
+        self.home.dock.report(Pose2 {
             heading_rad: normalize_rad(pose.heading_rad % TAU),
             ..pose
         });
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
     fn has_floor_under(&self, place: Point2, window: CellBox) -> bool {
-        let reach_m = self.home.pencil.body.radius_m;
+        let reach_m = self.home.sensor_model.body.radius_m;
         let corner = |sign: f64| Point2 {
             x_m: place.x_m + sign * reach_m,
             y_m: place.y_m + sign * reach_m,
         };
         let knowledge = self.knowledge();
-        cells_between((corner(-1.0), corner(1.0)), window)
+        cells_between(corner(-1.0), corner(1.0), window)
             .filter(|cell| cell.middle().distance_m(place) <= reach_m)
             .any(|cell| {
                 let kind = knowledge.get(cell);

@@ -1,40 +1,39 @@
-//! What the map knows of the home, for those who ask.
+//! The map's view of the home.
 
 use super::Map;
-use crate::mapping::layers::Flag;
+use crate::mapping::occupancy_grid::Flag;
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
 use crate::mapping::walls::walls;
 use crate::mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, FloorKind, Raster, Rooms, WallSegment,
+    CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, Raster, Rooms, SurfaceKind, WallSegment,
 };
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// What is known of the home.
 impl Map {
-    /// Takes in what was perceived at a pose. Nothing is taken from a robot that is lost, lifted or silent, and nothing
-    /// twice while it stands still.
+    /// Adds an observation at a pose. Observations of a robot that is lost, lifted or without a link are ignored, and so are
+    /// repeated ones at rest.
     pub fn insert(&mut self, estimate: &PoseEstimate, observation: &Observation) {
         if self.home.is_full() {
             self.finish_redraw();
-            self.settle();
+            self.finalize();
         }
         self.home.insert(estimate, observation);
         self.home.refresh_on();
-        self.home.survey_on();
+        self.home.continue_segmentation();
         self.redraw_on();
     }
 
-    /// What is known of each cell. Up to two seconds old; [`Self::refresh`] brings it up to date.
+    /// Knowledge of each cell. Up to two seconds old; [`Self::refresh`] updates it.
     #[must_use]
     pub fn knowledge(&self) -> &Raster<CellKnowledge> {
         &self.home.derived.knowledge
     }
 
-    /// Area of all free floor that is known, in square metres. Counts all cells: not for every step.
+    /// Known free floor in square metres. It visits all cells, so it is not for every step.
     #[must_use]
     pub fn free_m2(&self) -> f64 {
         let free = self.knowledge().values().iter();
@@ -48,59 +47,59 @@ impl Map {
         &self.home.derived.distance
     }
 
-    /// Begins to bring up to date what is derived, over the next steps: something was met, and plans must not miss it.
+    /// Begins to update the derived rasters over the next steps, for plans that need a new obstacle.
     pub(crate) fn begin_refresh(&mut self) {
         self.home.begin_refresh();
     }
 
-    /// Whether nothing is just being brought up to date.
+    /// Whether no update is in progress.
     pub(crate) fn is_fresh(&self) -> bool {
         self.home.stale_tiles == 0
     }
 
-    /// Brings everything derived up to date now: for a planner that must not miss the last contact.
+    /// Updates everything derived now, for a planner that needs the last contact.
     pub fn refresh(&mut self) {
         self.home.refresh();
     }
 
-    /// Grows whenever something derived has changed.
+    /// Increments whenever anything derived has changed.
     #[must_use]
     pub fn revision(&self) -> u32 {
         self.home.revision
     }
 
-    /// Grows when something is known of the kinds of floor that was not, up to two seconds late.
+    /// Increments when a surface has changed, up to two seconds late.
     #[must_use]
-    pub fn floor_revision(&self) -> u32 {
-        self.home.floor_revision
+    pub fn surface_revision(&self) -> u32 {
+        self.home.surface_revision
     }
 
-    /// The kind of floor of a cell, if it was felt.
+    /// The surface of a cell, if known.
     #[must_use]
-    pub fn floor_kind(&self, cell: Cell) -> Option<FloorKind> {
-        self.home.layers.at(cell).floor()
+    pub fn surface_kind(&self, cell: Cell) -> Option<SurfaceKind> {
+        self.home.grid.at(cell).surface()
     }
 
-    /// The cells whose kind of floor is known, tile by tile.
-    pub fn floor_kinds(&self) -> impl Iterator<Item = (Cell, FloorKind)> + '_ {
-        let gathered = self.home.layers.gathered();
-        gathered.filter_map(|(cell, evidence)| Some((cell, evidence.floor()?)))
+    /// The cells with a known surface, tile by tile.
+    pub fn surface_kinds(&self) -> impl Iterator<Item = (Cell, SurfaceKind)> + '_ {
+        let gathered = self.home.grid.gathered();
+        gathered.filter_map(|(cell, evidence)| Some((cell, evidence.surface()?)))
     }
 
-    /// Grows whenever the map was drawn again with other poses of the past: whoever has a plan in it needs another one.
+    /// Increments whenever the map was redrawn; existing plans are then invalid.
     #[must_use]
     pub fn redrawn(&self) -> u32 {
         self.home.redrawn
     }
 
-    /// Rooms and doors, up to two minutes old; [`Self::survey`] brings them up to date.
+    /// Rooms and doors, up to two minutes old; [`Self::segment_rooms`] updates them.
     #[must_use]
     pub fn rooms(&self) -> &Rooms {
         &self.home.rooms
     }
 
-    /// Direction of the walls, above -pi/4 and up to pi/4; `None` when the home does not show one. Some ten milliseconds for a home
-    /// that has changed since it was asked last.
+    /// Direction of the walls, above -pi/4 and up to pi/4; `None` when there is no dominant one. Takes some ten milliseconds when
+    /// the map has changed since the last call.
     pub(crate) fn wall_direction_rad(&self) -> Option<f64> {
         let home = &self.home;
         home.direction.at(home.revision, || {
@@ -111,12 +110,12 @@ impl Map {
         })
     }
 
-    /// Looks for rooms and doors in what is known now. Some ten milliseconds for a home.
-    pub fn survey(&mut self) {
-        self.home.survey();
+    /// Segments rooms and doors now. Takes some ten milliseconds for a home.
+    pub fn segment_rooms(&mut self) {
+        self.home.segment_rooms();
     }
 
-    /// Straight walls in what is known, longest line first. Some ten milliseconds for a home: for people who look at it.
+    /// Straight walls, the line with most votes first. Takes some ten milliseconds for a home, so it is for display only.
     #[must_use]
     pub fn walls(&self) -> Vec<WallSegment> {
         walls(self.knowledge(), self.distance_field(), |cell| {
@@ -124,48 +123,48 @@ impl Map {
         })
     }
 
-    /// Pose of a robot that stands on the dock, once it has been there or a person has said where it is.
+    /// Pose of a docked robot, once measured or reported.
     #[must_use]
     pub fn dock(&self) -> Option<Pose2> {
         self.home.dock.pose()
     }
 
-    /// The same with what it is known from.
+    /// Location of the dock and its source.
     #[must_use]
-    pub fn dock_place(&self) -> DockPlace {
+    pub fn dock_location(&self) -> DockLocation {
         self.home.dock
     }
 
-    /// The robot stands on its dock there.
-    pub fn feel_dock(&mut self, pose: Pose2) {
-        self.home.dock.feel(pose);
-        self.home.touch();
+    /// Records that the robot is docked at this pose.
+    pub fn measure_dock(&mut self, pose: Pose2) {
+        self.home.dock.measure(pose);
+        self.home.increment_revision();
     }
 
-    /// Forbids a place that trapped the robot, until the next job.
-    pub(crate) fn shut_pocket(&mut self, place: Point2) {
-        self.home.shut_pocket(place);
+    /// Forbids a place where the robot got stuck, until the next job.
+    pub(crate) fn forbid_pocket(&mut self, place: Point2) {
+        self.home.forbid_pocket(place);
     }
 
-    /// Allows again what [`Self::shut_pocket`] forbade.
-    pub(super) fn open_pockets(&mut self) {
-        self.home.open_pockets();
+    /// Allows again what [`Self::forbid_pocket`] forbade.
+    pub(super) fn allow_pockets(&mut self) {
+        self.home.allow_pockets();
     }
 
-    /// Standard deviation of the pose when a cell was seen best, in metres; `None` if it never was.
+    /// Smallest pose uncertainty at which a cell was seen, metres; `None` if it never was.
     #[must_use]
     pub fn sigma_m(&self, cell: Cell) -> Option<f64> {
-        let evidence = self.home.layers.at(cell);
+        let evidence = self.home.grid.at(cell);
         evidence
             .has(Flag::Seen)
             .then(|| 0.01 * f64::from(evidence.sigma_cm))
     }
 
-    /// Bytes that the map of the home takes, sightings included.
+    /// Bytes of the home's map, including sightings.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let home = &self.home;
-        home.layers.memory_bytes()
+        home.grid.memory_bytes()
             + home.base.memory_bytes()
             + home.derived.distance.memory_bytes()
             + home.derived.knowledge.values().len()

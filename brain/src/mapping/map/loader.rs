@@ -1,6 +1,6 @@
-//! A stored home is taken up: layers, what is derived from them, and rooms.
+//! Loading a stored home: the occupancy grid, the derived rasters and the rooms.
 //!
-//! Some hundred thousand cells, which take a small board seconds, so it can be done in steps while something else goes on.
+//! A home has some hundred thousand cells. A small board needs seconds for them, so loading can run in steps beside other work.
 
 use core::task::Poll;
 
@@ -10,27 +10,27 @@ use crate::mapping::home::HomeMap;
 use crate::model::config::BrainConfig;
 use crate::model::gradual::{Gradual, StepBudget, at_once};
 
-/// A stored home that is being taken up.
+/// Loads a stored home in steps.
 #[derive(Debug)]
-pub struct TakingUp(Gradual<ReadyHome>);
+pub struct MapLoader(Gradual<LoadedHome>);
 
-/// A home that can be used.
+/// A loaded home, ready for use.
 #[derive(Debug)]
-pub struct ReadyHome(HomeMap);
+pub struct LoadedHome(HomeMap);
 
-impl TakingUp {
-    /// Begins; nothing is done yet.
+impl MapLoader {
+    /// Prepares the loading; nothing is done yet.
     #[must_use]
     pub fn new(config: &BrainConfig, stored: StoredMap) -> Self {
         let (body, sensors) = (config.body, config.sensors);
         Self(Gradual::new(async move {
             let blank = HomeMap::new(body, sensors);
-            ReadyHome(blank.filled(&stored, &mut StepBudget::limited()).await)
+            LoadedHome(blank.filled(&stored, &mut StepBudget::limited()).await)
         }))
     }
 
-    /// Does the next step. Not to be called again once the home is there.
-    pub fn go_on(&mut self) -> Option<ReadyHome> {
+    /// Does the next step. Must not be called again after it returned the home.
+    pub fn go_on(&mut self) -> Option<LoadedHome> {
         match self.0.go_on() {
             Poll::Ready(home) => Some(home),
             Poll::Pending => None,
@@ -39,19 +39,19 @@ impl TakingUp {
 }
 
 impl Map {
-    /// Takes up a stored home in place of what is known.
-    pub fn take_up(&mut self, stored: &StoredMap) {
-        let blank = HomeMap::new(self.home.pencil.body, self.home.pencil.sensors);
-        self.put(ReadyHome(at_once(
+    /// Replaces the home by a stored one.
+    pub fn load(&mut self, stored: &StoredMap) {
+        let blank = HomeMap::new(self.home.sensor_model.body, self.home.sensor_model.sensors);
+        self.replace_home(LoadedHome(at_once(
             blank.filled(stored, &mut StepBudget::unlimited()),
         )));
     }
 
-    /// Puts a home in place of what is known.
-    pub(crate) fn put(&mut self, ready: ReadyHome) {
+    /// Replaces the home by a loaded one.
+    pub(crate) fn replace_home(&mut self, ready: LoadedHome) {
         self.redrawing = None;
-        self.settle();
+        self.finalize();
         let before = core::mem::replace(&mut self.home, ready.0);
-        self.home.count_on(&before);
+        self.home.continue_counters(&before);
     }
 }

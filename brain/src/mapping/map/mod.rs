@@ -1,70 +1,70 @@
 //! The map of the home and of one job in it.
 
+mod confidence;
 mod editing;
 mod known_home;
 mod loader;
-mod order_resolution;
+mod orders;
 mod place_editing;
 mod reach;
-mod redraw;
+mod redrawing;
 mod room_editing;
 mod saving;
-mod sureness;
 
-pub use loader::{ReadyHome, TakingUp};
-pub use sureness::Sureness;
+pub use confidence::MapConfidence;
+pub use loader::{LoadedHome, MapLoader};
 
+use super::coverage_grid::{CoverageGrid, Swath};
 use super::home::HomeMap;
-use super::swept::{Swath, SweptLayer};
-use super::traces::{Marks, Path};
-use super::{Cell, Mark, PathPoint, Sweeping, SweptRun};
+use super::path_and_hazards::{HazardLog, Path};
+use super::{Cell, CellPasses, Hazard, PathPoint, SweptRun};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::{Point2, Pose2};
-use redraw::Redrawing;
+use redrawing::Redrawing;
 
 /// The map of the home and of one job in it.
 #[derive(Debug)]
 pub struct Map {
     generation: u32,
-    swept: SweptLayer,
+    swept: CoverageGrid,
     swath: Swath,
     path: Path,
-    marks: Marks,
+    hazards: HazardLog,
     home: HomeMap,
     job_base: JobBase,
-    /// The map with better poses, while it is being drawn.
+    /// The map with corrected poses, while it is being drawn.
     redrawing: Option<Box<Redrawing>>,
 }
 
-/// What of a job does not come from the sightings that are kept.
+/// The part of a job that does not come from the present sightings.
 #[derive(Clone, Debug, Default)]
 struct JobBase {
-    swept: SweptLayer,
+    swept: CoverageGrid,
     path: Path,
     /// Its first sighting.
     sightings: usize,
 }
 
-/// How much of a map somebody has seen.
+/// How much of a map a client has received.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MapCursor {
     generation: u32,
     swept: usize,
     path: usize,
-    marks: usize,
+    hazards: usize,
 }
 
-/// Part of a map, in the order in which it came to be.
+/// A part of a map, in order of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapPart<'map> {
     /// Number of the map, from 1.
     pub generation: u32,
     /// Swept cells.
     pub swept: &'map [Cell],
-    /// The way, thinned to 2 cm.
+    /// The path, thinned to 2 cm.
     pub path: &'map [PathPoint],
     /// Contacts and cliffs.
-    pub marks: &'map [Mark],
+    pub hazards: &'map [Hazard],
 }
 
 impl Map {
@@ -73,10 +73,10 @@ impl Map {
     pub fn new(body: Body, sensors: SensorLayout) -> Self {
         Self {
             generation: 1,
-            swept: SweptLayer::default(),
+            swept: CoverageGrid::default(),
             swath: Swath::new(body.swath_m),
             path: Path::default(),
-            marks: Marks::default(),
+            hazards: HazardLog::default(),
             home: HomeMap::new(body, sensors),
             job_base: JobBase::default(),
             redrawing: None,
@@ -90,35 +90,35 @@ impl Map {
             generation: self.generation,
             swept: self.swept.cells(),
             path: self.path.points(),
-            marks: self.marks.all(),
+            hazards: self.hazards.all(),
         }
     }
 
-    /// A cursor that has seen everything up to now.
+    /// A cursor at the present state.
     #[must_use]
     pub fn cursor(&self) -> MapCursor {
         MapCursor {
             generation: self.generation,
             swept: self.swept.cells().len(),
             path: self.path.points().len(),
-            marks: self.marks.all().len(),
+            hazards: self.hazards.all().len(),
         }
     }
 
-    /// What came since `cursor`; `None` if that cursor belongs to another map, then a snapshot is needed.
+    /// Everything since `cursor`; `None` if the cursor belongs to another generation and the client needs a snapshot.
     #[must_use]
     pub fn since(&self, cursor: MapCursor) -> Option<MapPart<'_>> {
         (cursor.generation == self.generation).then(|| MapPart {
             generation: self.generation,
             swept: self.swept.cells().get(cursor.swept..).unwrap_or_default(),
             path: self.path.points().get(cursor.path..).unwrap_or_default(),
-            marks: self.marks.all().get(cursor.marks..).unwrap_or_default(),
+            hazards: self.hazards.all().get(cursor.hazards..).unwrap_or_default(),
         })
     }
 
-    /// Length of the way of this job, metres.
+    /// Path length of this job, metres.
     #[must_use]
-    pub fn way_m(&self) -> f64 {
+    pub fn path_length_m(&self) -> f64 {
         self.path.length_m()
     }
 
@@ -136,29 +136,29 @@ impl Map {
 
     /// How a cell was swept in this job; `None` = it was not.
     #[must_use]
-    pub fn sweeping(&self, cell: Cell) -> Option<Sweeping> {
-        self.swept.sweeping(cell)
+    pub fn cell_passes(&self, cell: Cell) -> Option<CellPasses> {
+        self.swept.cell_passes(cell)
     }
 
-    /// The time that [`Sweeping::last_s`] of a cell has that is swept now.
+    /// [`CellPasses::last_s`] of a cell that is swept now.
     #[must_use]
-    pub fn sweeping_now_s(&self) -> u32 {
+    pub fn coverage_now_s(&self) -> u32 {
         self.swept.now_s()
     }
 
-    /// Swept cells joined to rows, in a fixed order.
+    /// Swept cells as runs, in a fixed order.
     #[must_use]
     pub fn swept_runs(&self) -> Vec<SweptRun> {
         self.swept.runs()
     }
 
-    /// Forgets the job and counts one map on; what is known of the home stays, except for places that were shut for the job.
+    /// Starts a new job and generation. The home stays, except for places that were forbidden for the job.
     pub(crate) fn start_anew(&mut self) {
         self.generation += 1;
-        self.swept = SweptLayer::default();
+        self.swept = CoverageGrid::default();
         self.path = Path::default();
-        self.marks = Marks::default();
-        self.open_pockets();
+        self.hazards = HazardLog::default();
+        self.allow_pockets();
         self.swath.lift();
         self.job_base = JobBase {
             sightings: self.home.sightings.len(),
@@ -167,7 +167,7 @@ impl Map {
         self.redrawing = None;
     }
 
-    /// Follows the robot to where it is at a time; with `Brushes::Sweeping` the floor under the swath becomes swept.
+    /// Adds a pose to the path. With `Brushes::Sweeping` the swath becomes swept.
     pub(crate) fn follow(&mut self, pose: Pose2, brushes: Brushes, time_us: u64) {
         self.path.follow(pose.position());
         match brushes {
@@ -180,22 +180,22 @@ impl Map {
         }
     }
 
-    /// Takes up an earlier map as a new generation.
-    pub(crate) fn restore(&mut self, runs: &[SweptRun], path: &[PathPoint], marks: &[Mark]) {
+    /// Restores the job of an earlier map, as a new generation.
+    pub(crate) fn restore(&mut self, runs: &[SweptRun], path: &[PathPoint], hazards: &[Hazard]) {
         self.start_anew();
         for run in runs {
             self.swept.paint_run(*run);
         }
         self.path.extend(path);
-        for mark in marks {
-            self.marks.add(*mark, None);
+        for mark in hazards {
+            self.hazards.add(*mark, None);
         }
         self.job_base.swept = self.swept.clone();
         self.job_base.path = self.path.clone();
     }
 }
 
-/// Whether the cleaning parts run.
+/// Whether the cleaning motors run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Brushes {
     /// They run.

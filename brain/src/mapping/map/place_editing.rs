@@ -1,4 +1,4 @@
-//! People keep zones and spots of the map under names.
+//! Edits of saved zones and spots.
 
 use super::Map;
 use crate::mapping::annotations::PLACES_MAX;
@@ -8,7 +8,7 @@ use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 
 impl Map {
-    /// Whether a place can be kept: the map must know floor there. With a number it comes back under the one that it had.
+    /// Whether a place can be saved: it must contain known floor. With a number it is restored under that number.
     ///
     /// # Errors
     /// The named reason against it.
@@ -29,7 +29,7 @@ impl Map {
         self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)
     }
 
-    /// Keeps a place under its name.
+    /// Saves a place under its name.
     ///
     /// # Errors
     /// As [`Self::admit_place`]; then nothing is changed.
@@ -39,11 +39,11 @@ impl Map {
         let number = number.unwrap_or(known.next);
         known.next = known.next.max(number + 1);
         known.kept.insert(number, place);
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Whether a place may be called so.
+    /// Whether a place can have this name.
     ///
     /// # Errors
     /// [`Reason::NoSuchPlace`], or [`Reason::NameTaken`] by another one.
@@ -52,7 +52,7 @@ impl Map {
         self.annotations().places.may_be_called(Some(number), name)
     }
 
-    /// Gives a place another name.
+    /// Renames a place.
     ///
     /// # Errors
     /// As [`Self::admit_place_name`]; then nothing is changed.
@@ -61,14 +61,14 @@ impl Map {
         let known = self.home.annotations.places.kept.get_mut(&number);
         let known = known.ok_or(Reason::NoSuchPlace)?;
         *known = known.clone().with_name(name);
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Whether a place may be there in place of where it is.
+    /// Whether a place can have this shape.
     ///
     /// # Errors
-    /// [`Reason::NoSuchPlace`], or what speaks against a new one there.
+    /// [`Reason::NoSuchPlace`], or the reason against a new one there.
     pub fn admit_place_shape(&self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
         self.reshaped(number, shape).map(drop)
     }
@@ -80,18 +80,18 @@ impl Map {
         Ok(place)
     }
 
-    /// Lets a place be elsewhere, under its number and name.
+    /// Changes the shape of a place and keeps its number and name.
     ///
     /// # Errors
     /// As [`Self::admit_place_shape`]; then nothing is changed.
     pub fn reshape_place(&mut self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
         let place = self.reshaped(number, shape)?;
         self.home.annotations.places.kept.insert(number, place);
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 
-    /// Whether there is a place of this number.
+    /// Whether there is a place with this number.
     ///
     /// # Errors
     /// [`Reason::NoSuchPlace`] when not.
@@ -102,14 +102,14 @@ impl Map {
         }
     }
 
-    /// Keeps a place no longer.
+    /// Deletes a saved place.
     ///
     /// # Errors
     /// [`Reason::NoSuchPlace`]; then nothing is changed.
     pub fn forget_place(&mut self, number: u16) -> Result<(), Reason> {
         let known = &mut self.home.annotations.places.kept;
         known.remove(&number).ok_or(Reason::NoSuchPlace)?;
-        self.home.touch();
+        self.home.increment_revision();
         Ok(())
     }
 }

@@ -1,4 +1,4 @@
-//! People change the rooms: one is split, two are joined, a change is taken back.
+//! Edits of rooms by people: splitting, joining and undoing.
 
 use super::Map;
 use crate::mapping::Room;
@@ -9,7 +9,7 @@ use crate::model::no_go::in_micrometres;
 use crate::model::reason::Reason;
 
 impl Map {
-    /// Whether a line can cut a room in two; without a room, the one in which the line is longest.
+    /// Whether a line can split a room; without a room, the one with the longest part of the line.
     ///
     /// # Errors
     /// [`Reason::NoMap`], [`Reason::NoSuchRoom`], [`Reason::LineMissesRoom`], [`Reason::LineEndsInRoom`],
@@ -18,7 +18,7 @@ impl Map {
         self.split_of(room, line).map(|_| ())
     }
 
-    /// The room that a line would cut, and the part that would get another identity.
+    /// The room that a line splits, and the part that gets another identity.
     fn split_of(&self, room: Option<u16>, line: &CutLine) -> Result<(u16, PartSide), Reason> {
         if self.rooms().rooms().is_empty() {
             return Err(Reason::NoMap);
@@ -27,22 +27,22 @@ impl Map {
             self.room(room)?;
         }
         self.home.annotations.rooms.has_room_for_another()?;
-        if self.home.rooms.next() == u16::MAX {
+        if self.home.rooms.next_id() == u16::MAX {
             return Err(Reason::TooManyRoomChanges);
         }
         let cut = cut(self.rooms().labels(), room, line)?;
         Ok((cut.room, cut.smaller()))
     }
 
-    /// Cuts a room in two. The larger part keeps identity and name; the other one gets an identity that no room has had,
-    /// or the one that the same split gave before it was taken back.
+    /// Splits a room. The larger part keeps identity and name. The other part gets a new identity, or the one that the same split
+    /// gave before it was undone.
     ///
     /// # Errors
     /// As [`Self::admit_room_split`]; then nothing is changed.
     pub fn split_room(&mut self, room: Option<u16>, line: CutLine) -> Result<(), Reason> {
         let (room, side) = self.split_of(room, &line)?;
-        let before = self.home.annotations.rooms.part_before((room, side, line));
-        let part = before.unwrap_or_else(|| self.home.rooms.take_next());
+        let before = self.home.annotations.rooms.part_before(room, side, line);
+        let part = before.unwrap_or_else(|| self.home.rooms.allocate_id());
         let split = RoomSplit {
             room,
             part,
@@ -54,7 +54,7 @@ impl Map {
         Ok(())
     }
 
-    /// Whether two rooms can be one: they must lie beside each other.
+    /// Whether two rooms can be joined: they must be adjacent.
     ///
     /// # Errors
     /// [`Reason::NoSuchRoom`], [`Reason::RoomsApart`] or [`Reason::TooManyRoomChanges`].
@@ -83,7 +83,7 @@ impl Map {
         })
     }
 
-    /// A room with a name goes before one without; else the larger one.
+    /// A named room wins over one without a name; otherwise the larger one wins.
     fn is_kept(&self, one: &Room, other: &Room) -> bool {
         let is_named = |room: &Room| self.home.annotations.name(room.id).is_some();
         match (is_named(one), is_named(other)) {
@@ -93,7 +93,7 @@ impl Map {
         }
     }
 
-    /// Makes two rooms one, which has identity and name of the one with a name, or else of the larger one.
+    /// Joins two rooms. The result has identity and name of the named one, or else of the larger one.
     ///
     /// # Errors
     /// As [`Self::admit_room_join`]; then nothing is changed.
@@ -104,20 +104,20 @@ impl Map {
         Ok(())
     }
 
-    /// Whether a change of the rooms can be taken back: no later one may build on it.
+    /// Whether a change can be undone: no later one may build on it.
     ///
     /// # Errors
     /// [`Reason::NoSuchRoomChange`] or [`Reason::RoomChangeInUse`].
     pub fn admit_room_change_undo(&self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.may_be_taken_back(number)
+        self.home.annotations.rooms.may_undo(number)
     }
 
-    /// Takes a change of the rooms back; identities and names are again as they were before it.
+    /// Undoes a change. Identities and names are as before it.
     ///
     /// # Errors
     /// As [`Self::admit_room_change_undo`]; then nothing is changed.
     pub fn undo_room_change(&mut self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.take_back(number)?;
+        self.home.annotations.rooms.undo(number)?;
         self.rooms_have_changed();
         Ok(())
     }
@@ -128,8 +128,8 @@ impl Map {
     }
 
     fn rooms_have_changed(&mut self) {
-        self.home.survey();
-        self.home.touch();
+        self.home.segment_rooms();
+        self.home.increment_revision();
     }
 }
 

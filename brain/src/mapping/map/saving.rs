@@ -1,25 +1,26 @@
-//! The home is written down as plain data.
+//! Saving the home as plain data.
 //!
-//! Some hundred thousand cells, which take a small board a quarter of a second, so it can be done in steps while the robot drives.
+//! A home has some hundred thousand cells. A small board needs a quarter of a second for them, so saving can run in steps while
+//! the robot drives.
 
 use super::Map;
-use crate::mapping::layers::Layers;
+use crate::mapping::occupancy_grid::OccupancyGrid;
 use crate::mapping::rooms::Rooms;
-use crate::mapping::{Annotations, DockPlace, StoredMap};
+use crate::mapping::{Annotations, DockLocation, StoredMap};
 use crate::model::gradual::{Gradual, StepBudget, at_once};
 
-/// A copy of what is written down. It shares the cells with the map as long as that does not change them.
-struct Draft {
-    layers: Layers,
+/// A copy of what is saved. It shares its cells with the map until the map writes to them.
+struct MapCopy {
+    grid: OccupancyGrid,
     rooms: Rooms,
-    dock: DockPlace,
+    dock: DockLocation,
     annotations: Annotations,
 }
 
-impl Draft {
+impl MapCopy {
     fn of(map: &Map) -> Self {
         Self {
-            layers: map.home.layers.clone(),
+            grid: map.home.grid.clone(),
             rooms: map.home.rooms.clone(),
             dock: map.home.dock,
             annotations: map.home.annotations.clone(),
@@ -27,9 +28,9 @@ impl Draft {
     }
 
     async fn written(self, budget: &mut StepBudget) -> StoredMap {
-        StoredMap::of_layers(&self.layers, &self.rooms, budget)
+        StoredMap::of_layers(&self.grid, &self.rooms, budget)
             .await
-            .with_dock_place(self.dock)
+            .with_dock_location(self.dock)
             .with_annotations(self.annotations)
     }
 }
@@ -38,12 +39,12 @@ impl Map {
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
-        at_once(Draft::of(self).written(&mut StepBudget::unlimited()))
+        at_once(MapCopy::of(self).written(&mut StepBudget::unlimited()))
     }
 
-    /// As [`Self::stored`], of the map as it is now, in steps.
+    /// As [`Self::stored`], of the present map, in steps.
     pub(crate) fn stored_in_steps(&self) -> Gradual<StoredMap> {
-        let copy = Draft::of(self);
+        let copy = MapCopy::of(self);
         Gradual::new(async move { copy.written(&mut StepBudget::limited()).await })
     }
 }

@@ -1,13 +1,13 @@
-//! Plain parts of a stored map, for what makes bytes of it and what reads them.
+//! The plain parts of a stored map, for serialization.
 
 use core::fmt;
 use std::collections::BTreeMap;
 
-use super::{CELLS_MAX, FLOOR_BITS, Run, StoredMap};
+use super::{CELLS_MAX, CellRun, SURFACE_BITS, StoredMap};
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
-use crate::mapping::dock::Felt;
+use crate::mapping::dock_location::MeasuredDock;
 use crate::mapping::room_changes::CHANGES_MAX;
-use crate::mapping::{Annotations, Cell, DockPlace, RoomChange, RoomChanges, RoomSplit};
+use crate::mapping::{Annotations, Cell, DockLocation, RoomChange, RoomChanges, RoomSplit};
 use crate::model::geometry::Pose2;
 use crate::model::kept_place::KeptPlace;
 use crate::model::no_go::{NoGo, RoomName};
@@ -16,73 +16,73 @@ use crate::model::room_settings::RoomSettings;
 /// Everything that a stored map holds. [`StoredMap::from_parts`] checks it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredMapParts {
-    /// Where the dock was felt.
-    pub felt_dock: Option<Felt>,
-    /// Where a person says that it stands.
-    pub told_dock: Option<Pose2>,
-    /// Lowest cell of the window.
+    /// Location of the dock as measured by docking.
+    pub measured_dock: Option<MeasuredDock>,
+    /// Location of the dock as a person reported it.
+    pub reported_dock: Option<Pose2>,
+    /// Lowest cell of the map.
     pub origin: Cell,
-    /// Columns of the window.
+    /// Columns of the map.
     pub width: u32,
-    /// Rows of the window.
+    /// Rows of the map.
     pub height: u32,
-    /// What each cell holds, row by row; no runs at all when nothing is known.
-    pub cells: Vec<Run>,
-    /// Room of each cell, 0 = none; no runs at all when the map has no rooms yet.
-    pub rooms: Vec<Run>,
-    /// Identity of the next room that has none yet.
+    /// Packed evidence of each cell, row by row; empty when all cells are unknown.
+    pub cells: Vec<CellRun>,
+    /// Room of each cell, 0 = none; empty when the map has no rooms yet.
+    pub rooms: Vec<CellRun>,
+    /// Identity of the next new room.
     pub next_room: u16,
     /// No-go zones and virtual walls.
     pub no_go: Numbered<NoGo>,
     /// Names of rooms.
     pub names: BTreeMap<u16, RoomName>,
-    /// How people changed the rooms.
+    /// Splits and joins of rooms.
     pub room_changes: Numbered<RoomChange>,
-    /// Splits that were taken back and keep their identities.
-    pub splits_taken_back: Vec<RoomSplit>,
-    /// How rooms are cleaned.
+    /// Undone splits that keep their identities.
+    pub undone_splits: Vec<RoomSplit>,
+    /// Settings of rooms.
     pub room_settings: BTreeMap<u16, RoomSettings>,
-    /// Zones and spots that are kept.
+    /// Saved zones and spots.
     pub places: Numbered<KeptPlace>,
 }
 
-/// Things with numbers that are given once.
+/// Items with numbers that are never reused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbered<T> {
-    /// Number of the next one.
+    /// Next number.
     pub next: u16,
-    /// All that there are.
+    /// All items.
     pub items: Vec<(u16, T)>,
 }
 
-/// Why parts make no map.
+/// Why parts are not a valid map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StoredMapError {
-    /// More cells than a map can have.
+    /// Too many cells.
     TooLarge {
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
     },
-    /// A layer has another number of cells than the window.
+    /// The runs of a layer have a wrong number of cells.
     Cells {
-        /// Of the window.
+        /// Number of cells in the map.
         expected: u64,
-        /// Of the layer.
+        /// Number of cells in the layer.
         found: u64,
     },
-    /// A kind of floor that is not known here.
-    Floor,
-    /// A no-go zone that no map can have, or too many.
+    /// Unknown surface.
+    Surface,
+    /// Invalid no-go zone, or too many.
     NoGo,
-    /// A place that no map can keep, or too many.
+    /// Invalid saved place, or too many.
     Place,
-    /// A name that no room can have, or too many.
+    /// Invalid room name, or too many.
     Name,
-    /// A change of rooms that no map can have, or too many.
+    /// Invalid change of rooms, or too many.
     RoomChange,
-    /// Settings that no room can have, or too many.
+    /// Invalid room settings, or too many.
     RoomSettings,
 }
 
@@ -98,7 +98,7 @@ impl fmt::Display for StoredMapError {
             Self::Cells { expected, found } => {
                 write!(formatter, "a layer has {found} cells instead of {expected}")
             }
-            Self::Floor => formatter.write_str("it has a kind of floor that cannot be"),
+            Self::Surface => formatter.write_str("it has a kind of floor that cannot be"),
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::Place => formatter.write_str("it keeps a place that cannot be"),
@@ -111,13 +111,13 @@ impl fmt::Display for StoredMapError {
 impl core::error::Error for StoredMapError {}
 
 impl StoredMap {
-    /// Takes a copy of it apart.
+    /// A copy of all parts.
     #[must_use]
     pub fn parts(&self) -> StoredMapParts {
         let words = &self.annotations;
         StoredMapParts {
-            felt_dock: self.dock.felt(),
-            told_dock: self.dock.told(),
+            measured_dock: self.dock.measured(),
+            reported_dock: self.dock.reported(),
             origin: self.origin,
             width: self.width,
             height: self.height,
@@ -127,16 +127,16 @@ impl StoredMap {
             no_go: Numbered::of(words.next_no_go, &words.no_go),
             names: words.names.clone(),
             room_changes: Numbered::of(words.rooms.next, &words.rooms.made),
-            splits_taken_back: words.rooms.taken_back.clone(),
+            undone_splits: words.rooms.undone.clone(),
             room_settings: words.settings.clone(),
             places: Numbered::of(words.places.next, &words.places.kept),
         }
     }
 
-    /// The map of these parts.
+    /// Builds a map of parts.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The first part that is not valid.
     pub fn from_parts(parts: StoredMapParts) -> Result<Self, StoredMapError> {
         parts.check_layers()?;
         parts.check_room_changes()?;
@@ -152,14 +152,14 @@ impl StoredMap {
             made: parts
                 .room_changes
                 .checked(CHANGES_MAX, StoredMapError::RoomChange)?,
-            taken_back: parts.splits_taken_back,
+            undone: parts.undone_splits,
         };
         let places = KeptPlaces {
             next: parts.places.next,
             kept: parts.places.checked(PLACES_MAX, StoredMapError::Place)?,
         };
         Ok(Self {
-            dock: DockPlace::from_parts(parts.felt_dock, parts.told_dock),
+            dock: DockLocation::from_parts(parts.measured_dock, parts.reported_dock),
             origin: parts.origin,
             width: parts.width,
             height: parts.height,
@@ -187,7 +187,7 @@ impl<T: Clone> Numbered<T> {
         }
     }
 
-    /// By their numbers, if there are at most so many and each number was given, and once.
+    /// The items by number, if there are not too many and each has a unique number that was given.
     fn checked(self, most: usize, error: StoredMapError) -> Result<BTreeMap<u16, T>, StoredMapError> {
         let count = self.items.len();
         let checked: BTreeMap<u16, T> = self.items.into_iter().collect();
@@ -211,22 +211,18 @@ impl StoredMapParts {
                 return Err(StoredMapError::Cells { expected, found });
             }
         }
-        let has_known_floor = |run: &Run| run.value & FLOOR_BITS != FLOOR_BITS;
+        let has_known_floor = |run: &CellRun| run.value & SURFACE_BITS != SURFACE_BITS;
         let is_known = self.cells.iter().all(has_known_floor);
-        is_known.then_some(()).ok_or(StoredMapError::Floor)
+        is_known.then_some(()).ok_or(StoredMapError::Surface)
     }
 
-    /// Each change speaks of two rooms that the map has given an identity.
+    /// Each change must name two different existing rooms.
     fn check_room_changes(&self) -> Result<(), StoredMapError> {
         let known = 1..self.next_room;
         let is_good = |[one, other]: [u16; 2]| one != other && known.contains(&one) && known.contains(&other);
         let mut made = self.room_changes.items.iter().map(|(_, change)| change.rooms());
-        let mut taken_back = self
-            .splits_taken_back
-            .iter()
-            .map(|split| [split.room, split.part]);
-        let are_good =
-            self.splits_taken_back.len() <= CHANGES_MAX && made.all(is_good) && taken_back.all(is_good);
+        let mut undone = self.undone_splits.iter().map(|split| [split.room, split.part]);
+        let are_good = self.undone_splits.len() <= CHANGES_MAX && made.all(is_good) && undone.all(is_good);
         are_good.then_some(()).ok_or(StoredMapError::RoomChange)
     }
 }

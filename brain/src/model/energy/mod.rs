@@ -1,64 +1,65 @@
-//! What driving and cleaning take from the pack, learnt from its charge.
+//! Energy consumption of driving and cleaning, learnt from the battery charge.
 //!
-//! Terms. *Rate*: share of the whole charge (0..1) that a second takes. *Window*: minutes over which what was expected is
-//! compared with what the pack lost; the error is given to the rates by the time spent with each.
+//! Terms. *Rate*: share of the full charge (0..1) per second. *Learning window*: minutes over which the predicted consumption is
+//! compared with the measured one. The error corrects the rates in proportion to the time spent in each activity.
 //!
-//! A model belongs to one robot and its pack. It knows two activities, because one brain drives with two: with cleaning
-//! parts and without.
+//! A model belongs to one robot and its pack. It has two activities: driving with and without cleaning motors.
 
-/// A pack of 2 Ah empties in an hour of cleaning, and in three of driving alone: the data sheet figures of
-/// `robots/samsung-sr8730/robot.toml`, until the robot knows better.
+use super::config::BrainConfig;
+
+/// A pack of 2 Ah lasts an hour of cleaning, or three of driving: the data sheet values of `robots/samsung-sr8730/robot.toml`,
+/// used until the robot has learnt its own.
 const CLEANING_PER_S: f64 = 1.0 / 3_600.0;
 const DRIVING_PER_S: f64 = 1.0 / 10_800.0;
-/// Length of a window: the charge is told in steps and wavers by some percent with the load.
+/// Length of a window: the reported charge is quantized and varies by some percent with the load.
 const WINDOW_S: f64 = 300.0;
-/// Share of a window's error that the rates take up.
+/// Share of a window's error that corrects the rates.
 const GAIN: f64 = 0.4;
-/// A rate is believed within these factors of the first guess.
+/// Limits of a learnt rate, as factors of the data sheet value.
 const FACTOR: (f64, f64) = (0.2, 5.0);
-/// The way home may take so many times what the model tells.
+/// Safety factor on the predicted consumption of the return to the dock.
 const MARGIN: f64 = 1.3;
-/// Charge that is left on the dock after that.
+/// Charge that must remain at the dock.
 const RESERVE: f64 = 0.05;
-/// A way by the map takes so many times its length at cruise speed.
-const WAY_FACTOR: f64 = 1.5;
-/// Finding the line and driving in, with a few tries, seconds.
+/// Ratio of the driving time along a planned path to its length at cruise speed.
+const PATH_TIME_FACTOR: f64 = 1.5;
+/// Time to find the dock's centre line and drive in, with a few attempts, seconds.
 const APPROACH_S: f64 = 90.0;
 
-/// Lanes in corners take so many times what the same floor takes in the open.
+/// Ratio of the cleaning time in corners to that of the same area in the open.
 const CORNER_FACTOR: f64 = 2.0;
-/// Rest of a job that may be left at all, share of its floor: in clutter a job ends by itself with hardly less.
-const CRUMBS_MAX: f64 = 0.05;
+/// Largest share of a job's floor that may be left: in clutter a normal job leaves about as much.
+const NEGLIGIBLE_SHARE_MAX: f64 = 0.05;
 
-/// What of a job is left when the pack is low.
+/// The work that remains when the pack is low.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Leftover {
-    /// Floor, square metres, and its share of what the job wants, 0..=1.
+pub(crate) struct RemainingWork {
+    /// Floor in square metres, and its share of the job's floor, 0..=1.
     pub(crate) left_m2: f64,
     pub(crate) share: f64,
-    /// Way to the dock, metres.
-    pub(crate) way_m: f64,
+    /// Path length to the dock, metres.
+    pub(crate) dock_path_m: f64,
 }
 
-/// What the wheels and the cleaning parts do.
+/// Activity of wheels and cleaning motors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
-    /// The robot drives and cleans.
+    /// Driving and cleaning.
     Cleaning,
-    /// It drives.
+    /// Driving.
     Driving,
-    /// It rests, is charged, or is in somebody's hands: nothing is learnt.
+    /// Rest, charging or handling by a person: nothing is learnt.
     Other,
 }
 
-/// Learnt rates, shares of the whole charge a second.
+/// Learnt rates, shares of the full charge per second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyModel {
-    /// Driving with cleaning parts.
+    /// Driving with cleaning motors.
     pub cleaning_per_s: f64,
-    /// Driving without.
+    /// Driving without cleaning motors.
     pub driving_per_s: f64,
-    /// Seconds that were learnt from; 0 = the rates are those of the data sheet.
+    /// Seconds of learning; 0 = the rates are those of the data sheet.
     pub seen_s: f64,
 }
 
@@ -73,12 +74,12 @@ impl Default for EnergyModel {
 }
 
 impl EnergyModel {
-    /// A model from outside, within what is believed.
+    /// A model from outside, limited to plausible values.
     #[must_use]
     pub fn checked(self) -> Self {
         Self {
-            cleaning_per_s: within(self.cleaning_per_s, CLEANING_PER_S),
-            driving_per_s: within(self.driving_per_s, DRIVING_PER_S),
+            cleaning_per_s: limited(self.cleaning_per_s, CLEANING_PER_S),
+            driving_per_s: limited(self.driving_per_s, DRIVING_PER_S),
             seen_s: if self.seen_s.is_finite() {
                 self.seen_s.max(0.0)
             } else {
@@ -87,32 +88,35 @@ impl EnergyModel {
         }
     }
 
-    /// Share of the whole charge that a job of so many seconds takes.
+    /// Share of the full charge that a job of this duration takes.
     #[must_use]
     pub fn charge_for(&self, cleaning_s: f64, driving_s: f64) -> f64 {
         self.cleaning_per_s * cleaning_s + self.driving_per_s * driving_s
     }
 
-    /// The charge with which the robot must set out on a way home of `way_m` metres at `cruise_m_per_s`.
+    /// Least charge at which the robot must start its return over `path_m` metres at `cruise_m_per_s`.
     #[must_use]
-    pub fn charge_to_return(&self, way_m: f64, cruise_m_per_s: f64) -> f64 {
-        MARGIN * self.charge_for(0.0, time_to_return_s(way_m, cruise_m_per_s)) + RESERVE
+    pub fn charge_to_return(&self, path_m: f64, cruise_m_per_s: f64) -> f64 {
+        MARGIN * self.charge_for(0.0, time_to_return_s(path_m, cruise_m_per_s)) + RESERVE
     }
 
-    /// Whether so little is left that a charge for it would mostly go into the ways there and back: then the job is over.
-    pub(crate) fn are_crumbs(&self, left: Leftover, (swath_m, cruise_m_per_s): (f64, f64)) -> bool {
-        let cleaning_s = CORNER_FACTOR * left.left_m2 / (swath_m * cruise_m_per_s).max(0.01);
-        let ways_s = 2.0 * time_to_return_s(left.way_m, cruise_m_per_s);
-        left.share <= CRUMBS_MAX && self.charge_for(cleaning_s, 0.0) < self.charge_for(0.0, ways_s)
+    /// Whether the rest is too small to charge for, because driving there and back takes more than cleaning it. Then the job
+    /// ends.
+    pub(crate) fn is_negligible(&self, left: RemainingWork, config: &BrainConfig) -> bool {
+        let cruise_m_per_s = config.speeds.cruise_m_per_s;
+        let cleaning_s = CORNER_FACTOR * left.left_m2 / (config.body.swath_m * cruise_m_per_s).max(0.01);
+        let driving_s = 2.0 * time_to_return_s(left.dock_path_m, cruise_m_per_s);
+        left.share <= NEGLIGIBLE_SHARE_MAX
+            && self.charge_for(cleaning_s, 0.0) < self.charge_for(0.0, driving_s)
     }
 }
 
-/// Seconds that a way home of `way_m` metres takes, docking included.
-pub(crate) fn time_to_return_s(way_m: f64, cruise_m_per_s: f64) -> f64 {
-    WAY_FACTOR * way_m / cruise_m_per_s.max(0.05) + APPROACH_S
+/// Time to return over `path_m` metres, including docking, seconds.
+pub(crate) fn time_to_return_s(path_m: f64, cruise_m_per_s: f64) -> f64 {
+    PATH_TIME_FACTOR * path_m / cruise_m_per_s.max(0.05) + APPROACH_S
 }
 
-fn within(rate: f64, guess: f64) -> f64 {
+fn limited(rate: f64, guess: f64) -> f64 {
     if rate.is_finite() {
         rate.clamp(FACTOR.0 * guess, FACTOR.1 * guess)
     } else {
@@ -120,21 +124,21 @@ fn within(rate: f64, guess: f64) -> f64 {
     }
 }
 
-/// A model that learns.
+/// Learns an energy model.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct EnergyWatch {
+pub(crate) struct EnergyLearner {
     model: EnergyModel,
-    window: Option<Window>,
+    window: Option<LearningWindow>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Window {
+struct LearningWindow {
     charge: f64,
     cleaning_s: f64,
     driving_s: f64,
 }
 
-impl EnergyWatch {
+impl EnergyLearner {
     pub(crate) fn of(model: EnergyModel) -> Self {
         Self {
             model: model.checked(),
@@ -146,14 +150,14 @@ impl EnergyWatch {
         self.model
     }
 
-    /// Takes in `time_s` of an activity, after which the pack holds `charge`.
-    pub(crate) fn follow(&mut self, time_s: f64, activity: Activity, charge: Option<f32>) {
+    /// Adds `time_s` of an activity, after which the pack holds `charge`.
+    pub(crate) fn update(&mut self, time_s: f64, activity: Activity, charge: Option<f32>) {
         let charge = charge.map(f64::from).filter(|charge| charge.is_finite());
         let (Some(charge), true) = (charge, activity != Activity::Other) else {
             self.window = None;
             return;
         };
-        let window = self.window.get_or_insert(Window {
+        let window = self.window.get_or_insert(LearningWindow {
             charge,
             cleaning_s: 0.0,
             driving_s: 0.0,
@@ -170,8 +174,8 @@ impl EnergyWatch {
         }
     }
 
-    fn learn(&mut self, window: Window, lost: f64) {
-        // A pack that gained was exchanged, or its charge is a guess that was put right.
+    fn learn(&mut self, window: LearningWindow, lost: f64) {
+        // A rising charge means that the pack was exchanged or its charge estimate was corrected.
         if lost <= 0.0 {
             return;
         }
@@ -189,29 +193,30 @@ impl EnergyWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Activity, EnergyModel, EnergyWatch, Leftover};
+    use super::{Activity, EnergyLearner, EnergyModel, RemainingWork};
+    use crate::model::config::BrainConfig;
 
     #[test]
-    fn what_is_left_is_worth_a_charge_unless_the_ways_take_more_than_the_floor() {
+    fn the_rest_is_worth_a_charge_unless_driving_takes_more_than_cleaning() {
         let model = EnergyModel::default();
-        let are_crumbs = |left_m2, share, way_m| {
-            let left = Leftover {
+        let is_negligible = |left_m2, share, dock_path_m| {
+            let left = RemainingWork {
                 left_m2,
                 share,
-                way_m,
+                dock_path_m,
             };
-            model.are_crumbs(left, (0.3, 0.25))
+            model.is_negligible(left, &BrainConfig::of_tests())
         };
-        assert!(are_crumbs(0.3, 0.005, 8.0));
-        assert!(!are_crumbs(0.3, 0.06, 8.0), "a corner of a small room");
-        assert!(!are_crumbs(4.0, 0.03, 8.0), "some minutes of a large home");
-        assert!(are_crumbs(4.0, 0.03, 60.0), "far away");
-        assert!(!are_crumbs(f64::NAN, 0.01, 8.0));
+        assert!(is_negligible(0.3, 0.005, 8.0));
+        assert!(!is_negligible(0.3, 0.06, 8.0), "a corner of a small room");
+        assert!(!is_negligible(4.0, 0.03, 8.0), "some minutes of a large home");
+        assert!(is_negligible(4.0, 0.03, 60.0), "far away");
+        assert!(!is_negligible(f64::NAN, 0.01, 8.0));
     }
 
-    /// Hours of cleaning and driving in turns, with these rates.
+    /// Hours of alternating cleaning and driving at these rates.
     fn learnt(cleaning_per_s: f64, driving_per_s: f64) -> EnergyModel {
-        let mut watch = EnergyWatch::default();
+        let mut learner = EnergyLearner::default();
         for round in 0..8 {
             let mut charge = 1.0;
             for second in 0..3_000 {
@@ -222,13 +227,13 @@ mod tests {
                     (Activity::Driving, driving_per_s)
                 };
                 charge -= rate;
-                // The wire tells the charge in steps.
-                let told = (charge * 1_000.0_f64).round() / 1_000.0;
-                watch.follow(1.0, activity, Some(told as f32));
+                // The wire quantizes the charge.
+                let reported = (charge * 1_000.0_f64).round() / 1_000.0;
+                learner.update(1.0, activity, Some(reported as f32));
             }
-            watch.follow(60.0, Activity::Other, Some(1.0));
+            learner.update(60.0, Activity::Other, Some(1.0));
         }
-        watch.model()
+        learner.model()
     }
 
     #[test]
@@ -241,10 +246,10 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_not_learnt() {
-        let mut watch = EnergyWatch::default();
+    fn implausible_charges_are_not_learnt() {
+        let mut learner = EnergyLearner::default();
         for charge in [Some(f32::NAN), None, Some(0.2), Some(0.9)] {
-            watch.follow(400.0, Activity::Cleaning, charge);
+            learner.update(400.0, Activity::Cleaning, charge);
         }
         let wild = EnergyModel {
             cleaning_per_s: f64::NAN,
@@ -257,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_longer_way_home_needs_more() {
+    fn a_longer_return_needs_more_charge() {
         let model = EnergyModel::default();
         let near = model.charge_to_return(2.0, 0.25);
         let far = model.charge_to_return(60.0, 0.25);

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-/// The same direction within -pi..=pi.
+/// The equivalent angle within -pi..=pi.
 #[must_use]
 pub fn normalize_rad(angle_rad: f64) -> f64 {
     let wrapped = angle_rad - TAU * libm::floor((angle_rad + PI) / TAU);
@@ -28,7 +28,7 @@ impl TurnSide {
         }
     }
 
-    /// The other one.
+    /// The opposite side.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -44,7 +44,7 @@ mod tests {
     use core::f64::consts::{FRAC_PI_2, PI};
 
     #[test]
-    fn every_angle_lands_in_one_turn() {
+    fn every_angle_is_normalized_to_one_turn() {
         for turns in -5..=5 {
             let angle = FRAC_PI_2 + f64::from(turns) * 2.0 * PI;
             assert!((normalize_rad(angle) - FRAC_PI_2).abs() < 1e-12);

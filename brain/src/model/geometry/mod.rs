@@ -1,7 +1,7 @@
 //! Plane geometry: points, angles, rigid transforms.
 //!
-//! Sines and cosines come from a portable implementation, so that a recording made on the robot replays with the same
-//! bits on any other machine.
+//! Sines and cosines come from a portable implementation, so that a recording from the robot replays bit-identically on any other
+//! machine.
 
 mod angle;
 mod pose2;

@@ -17,7 +17,7 @@ impl Point2 {
     /// The origin.
     pub const ORIGIN: Self = Self { x_m: 0.0, y_m: 0.0 };
 
-    /// The point so many metres from the origin, in a direction counter-clockwise from the x axis.
+    /// The point at this distance from the origin, in a direction counter-clockwise from the x axis.
     #[must_use]
     pub fn in_direction(bearing_rad: f64, distance_m: f64) -> Self {
         let (sin, cos) = libm::sincos(bearing_rad);
@@ -36,8 +36,8 @@ impl Point2 {
     }
 }
 
-/// A pose, and at the same time the rigid transform that carries points of the posed frame into its parent frame: a
-/// value named `map_from_odom` maps odom coordinates to map coordinates.
+/// A pose, and also the rigid transform from the posed frame into its parent frame: a value named `map_from_odom` maps odom
+/// coordinates to map coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose2 {
     /// Metres.
@@ -49,7 +49,7 @@ pub struct Pose2 {
 }
 
 impl Pose2 {
-    /// No displacement.
+    /// The identity transform.
     pub const IDENTITY: Self = Self {
         x_m: 0.0,
         y_m: 0.0,
@@ -65,7 +65,7 @@ impl Pose2 {
         }
     }
 
-    /// The point of the parent frame that lies at `local` in the posed frame.
+    /// Transforms a point of the posed frame into the parent frame.
     #[must_use]
     pub fn transform(self, local: Point2) -> Point2 {
         let (sin, cos) = libm::sincos(self.heading_rad);
@@ -75,7 +75,7 @@ impl Pose2 {
         }
     }
 
-    /// The opposite transform: of `a_from_b` it is `b_from_a`.
+    /// The inverse transform: of `a_from_b` it is `b_from_a`.
     #[must_use]
     pub fn inverse(self) -> Self {
         let (sin, cos) = libm::sincos(self.heading_rad);
@@ -89,7 +89,7 @@ impl Pose2 {
     /// The pose after an arc of constant curvature: `distance_m` along it (backwards negative) while turning `turn_rad`.
     #[must_use]
     pub fn after_arc(self, distance_m: f64, turn_rad: f64) -> Self {
-        // The chord of the arc has the direction of the middle heading; its length tends to the arc's for small turns.
+        // The chord of the arc has the direction of the mean heading; its length tends to the arc's for small turns.
         let half = 0.5 * turn_rad;
         let chord_m = if half.abs() < 1e-3 {
             distance_m * (1.0 - half * half / 6.0)
@@ -104,7 +104,7 @@ impl Pose2 {
         }
     }
 
-    /// The pose on the straight way to `other` after this share of it, turned the shorter way round.
+    /// Linear interpolation towards `other`, turning the shorter way round.
     #[must_use]
     pub fn towards(self, other: Self, share: f64) -> Self {
         let turn_rad = normalize_rad(other.heading_rad - self.heading_rad);

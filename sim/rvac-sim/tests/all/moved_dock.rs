@@ -80,7 +80,11 @@ impl Move {
             heading: wrap_angle(docked.heading_rad + turn),
         });
         self.household.pass_ms(500);
-        assert!(self.brain().map().dock_place().is_told(), "{}", self.story());
+        assert!(
+            self.brain().map().dock_location().is_reported(),
+            "{}",
+            self.story()
+        );
     }
 
     /// Asks for the dock and waits until the robot stands on it.
@@ -106,12 +110,12 @@ impl Move {
     /// How far from the true place the robot believes the dock to be, metres and radians; `None` while it only knows what it
     /// was told.
     fn felt_off(&self) -> Option<(f64, f64)> {
-        let place = self.brain().map().dock_place();
+        let place = self.brain().map().dock_location();
         let Pose2 {
             x_m,
             y_m,
             heading_rad,
-        } = place.pose().filter(|_| !place.is_told())?;
+        } = place.pose().filter(|_| !place.is_reported())?;
         let docked = self.docked();
         Some((
             (x_m - docked.x_m).hypot(y_m - docked.y_m),

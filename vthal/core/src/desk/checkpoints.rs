@@ -69,7 +69,7 @@ impl CheckpointClock {
         }
         let map = mind.brain().map().snapshot();
         let home_cells = mind.brain().map().knowledge().values().len();
-        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len() + home_cells / 8) as u64;
+        let entries = (map.swept.len() / 8 + map.path.len() + map.hazards.len() + home_cells / 8) as u64;
         self.next_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
         None
     }

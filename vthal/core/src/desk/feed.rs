@@ -244,7 +244,7 @@ impl Feed {
         self.map_cursor = mind.map_cursor();
         self.map_number = number;
         let update = match delta {
-            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.marks.is_empty() => return,
+            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.hazards.is_empty() => return,
             Some(part) => Update::MapDelta(to_api::map_delta(number, &part, &self.swept_sigma)),
             None => Update::Map(self.whole_map(mind)),
         };

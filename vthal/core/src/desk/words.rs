@@ -1,6 +1,6 @@
 //! Names, places and orders in the words of clients, read into those of the brain.
 
-use brain::zone::FAR_M;
+use brain::zone::COORDINATE_MAX_M;
 use brain::{CleaningOrder, HomePart, NoGo, Point2, Reason, RoomName, Zone};
 use rvac_api::{JobOrder, JobPart};
 
@@ -53,10 +53,10 @@ pub(crate) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal>
     Zone::new(points.collect()).map_err(|reason| {
         let far = corners
             .iter()
-            .find(|[x, y]| !(x.abs() < FAR_M && y.abs() < FAR_M));
+            .find(|[x, y]| !(x.abs() < COORDINATE_MAX_M && y.abs() < COORDINATE_MAX_M));
         let text = match far {
             Some([x, y]) => {
-                format!("{what} has a corner at x {x} m, y {y} m: they must lie within {FAR_M} m.")
+                format!("{what} has a corner at x {x} m, y {y} m: they must lie within {COORDINATE_MAX_M} m.")
             }
             None => format!(
                 "{what} is a zone with {} corners: it must have 3 to 64.",

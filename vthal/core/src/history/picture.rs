@@ -1,6 +1,6 @@
 //! What a run drew, in the words of the interface to clients: bounded, whatever the map holds.
 
-use brain::{Brain, CELL_M, CellKnowledge, Map, Mark, PathPoint, SweptRun};
+use brain::{Brain, CELL_M, CellKnowledge, Hazard, Map, PathPoint, SweptRun};
 use rvac_api::{RunJob, RunPicture};
 
 use crate::home_view::{FeltFloors, home_view};
@@ -29,7 +29,7 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
     };
     let marks = match job {
         RunJob::Dock => &[],
-        RunJob::Clean { .. } | RunJob::Spot => part.marks,
+        RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
     RunPicture {
         home: Some(home_view(map, FeltFloors::in_map(map))).filter(|home| !home.cells.is_empty()),
@@ -47,16 +47,16 @@ pub(super) fn of_checkpoint(checkpoint: &brain::Checkpoint) -> RunPicture {
             track_m: 0.0,
         };
         let mut map = Map::new(body, brain::SensorLayout::default());
-        map.take_up(stored);
+        map.load(stored);
         home_view(&map, FeltFloors::in_map(&map))
     });
     RunPicture {
         home,
-        ..drawn(&checkpoint.swept, &checkpoint.path, &checkpoint.marks)
+        ..drawn(&checkpoint.swept, &checkpoint.path, &checkpoint.hazards)
     }
 }
 
-fn drawn(swept: &[SweptRun], way: &[PathPoint], marks: &[Mark]) -> RunPicture {
+fn drawn(swept: &[SweptRun], way: &[PathPoint], marks: &[Hazard]) -> RunPicture {
     let (coarse, rows) = rows(swept);
     RunPicture {
         cell_m: CELL_M * f64::from(coarse),

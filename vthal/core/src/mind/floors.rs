@@ -1,7 +1,7 @@
 //! On which floor the robot is: found out, said by a person, or lost.
 
 use brain::mapping::StoredMap;
-use brain::{Brain, Checkpoint, FloorPlace, ReadyHome};
+use brain::{Brain, Checkpoint, FloorPlace, LoadedHome};
 
 use super::next_run::FloorOnItsWay;
 use super::{Mind, Recorder};
@@ -127,7 +127,7 @@ impl Mind {
     }
 
     /// The home of a floor; it takes some steps until it is ready.
-    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<ReadyHome> {
+    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<LoadedHome> {
         let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
         let ready = floor.take();
         if ready.is_none() {
@@ -140,7 +140,7 @@ impl Mind {
     fn move_to(
         &mut self,
         now_us: u64,
-        (place, home, ready): (FloorPlace, &StoredMap, ReadyHome),
+        (place, home, ready): (FloorPlace, &StoredMap, LoadedHome),
         recorder: &mut Recorder<'_>,
     ) {
         let checkpoint = Checkpoint {
@@ -171,7 +171,7 @@ impl Mind {
     fn go_on_with(
         &mut self,
         now_us: u64,
-        (checkpoint, ready): (Checkpoint, Option<ReadyHome>),
+        (checkpoint, ready): (Checkpoint, Option<LoadedHome>),
         recorder: &mut Recorder<'_>,
     ) {
         if self.run.is_some() {

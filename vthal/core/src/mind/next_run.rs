@@ -4,7 +4,7 @@
 //! commanded waits for the next one, in its order.
 
 use brain::config::BrainConfig;
-use brain::{Brain, CheckpointWork, ReadyHome, StoredMap, TakingUp};
+use brain::{Brain, CheckpointWork, LoadedHome, MapLoader, StoredMap};
 
 use crate::RunCause;
 
@@ -20,13 +20,16 @@ pub(super) struct NextRun {
 #[derive(Debug)]
 enum Stage {
     WritingDown(Box<CheckpointWork>),
-    TakingUp { written: Box<StoredMap>, home: TakingUp },
+    Loading {
+        written: Box<StoredMap>,
+        home: MapLoader,
+    },
 }
 
 /// A home for the next brain: as it is recorded, and as it is used.
 pub(super) struct NextHome {
     pub(super) written: StoredMap,
-    pub(super) ready: ReadyHome,
+    pub(super) ready: LoadedHome,
 }
 
 impl NextRun {
@@ -44,13 +47,13 @@ impl NextRun {
         match &mut self.stage {
             Stage::WritingDown(work) => {
                 let written = work.go_on()?.home.unwrap_or_default();
-                self.stage = Stage::TakingUp {
-                    home: TakingUp::new(config, written.clone()),
+                self.stage = Stage::Loading {
+                    home: MapLoader::new(config, written.clone()),
                     written: Box::new(written),
                 };
                 None
             }
-            Stage::TakingUp { written, home } => Some(NextHome {
+            Stage::Loading { written, home } => Some(NextHome {
                 ready: home.go_on()?,
                 written: core::mem::take(&mut **written),
             }),
@@ -62,8 +65,8 @@ impl NextRun {
 #[derive(Debug)]
 pub(super) struct FloorOnItsWay {
     number: u16,
-    home: TakingUp,
-    ready: Option<ReadyHome>,
+    home: MapLoader,
+    ready: Option<LoadedHome>,
 }
 
 impl FloorOnItsWay {
@@ -77,7 +80,7 @@ impl FloorOnItsWay {
             .filter(|floor| floor.number == number)
             .unwrap_or_else(|| Self {
                 number,
-                home: TakingUp::new(config, stored.clone()),
+                home: MapLoader::new(config, stored.clone()),
                 ready: None,
             })
     }
@@ -90,7 +93,7 @@ impl FloorOnItsWay {
     }
 
     /// The home, once it is ready.
-    pub(super) fn take(&mut self) -> Option<ReadyHome> {
+    pub(super) fn take(&mut self) -> Option<LoadedHome> {
         self.ready.take()
     }
 }

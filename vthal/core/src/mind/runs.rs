@@ -1,6 +1,6 @@
 //! The borders of runs: what is recorded to one file.
 
-use brain::{Brain, Checkpoint, ReadyHome};
+use brain::{Brain, Checkpoint, LoadedHome};
 
 use super::Mind;
 use crate::{Outputs, Record, Recording, RunCause, RunEnd, RunStart};
@@ -77,7 +77,7 @@ impl Mind {
     pub(super) fn begin_run(
         &mut self,
         now_us: u64,
-        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<ReadyHome>),
+        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<LoadedHome>),
         recorder: &mut Recorder<'_>,
     ) {
         self.map_base = self.map_number();

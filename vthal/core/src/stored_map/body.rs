@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use brain::mapping::{self, Felt, RoomSplit, StoredMapParts};
+use brain::mapping::{self, MeasuredDock, RoomSplit, StoredMapParts};
 use brain::{Cell, Pose2, StoredMap, StoredMapError};
 use serde::{Deserialize, Serialize};
 
@@ -50,11 +50,11 @@ impl Body {
     pub(super) fn of(map: &StoredMap) -> Self {
         let parts = map.parts();
         Self {
-            felt_dock: parts.felt_dock.map(|felt| FeltDock {
+            felt_dock: parts.measured_dock.map(|felt| FeltDock {
                 times: felt.times,
                 pose: pose(felt.pose),
             }),
-            told_dock: parts.told_dock.map(pose),
+            told_dock: parts.reported_dock.map(pose),
             layers: Layers {
                 origin_x: parts.origin.x,
                 origin_y: parts.origin.y,
@@ -72,11 +72,7 @@ impl Body {
                 .collect(),
             room_changes: RoomChanges {
                 made: Numbered::of(parts.room_changes),
-                taken_back: parts
-                    .splits_taken_back
-                    .into_iter()
-                    .map(RoomChange::from)
-                    .collect(),
+                taken_back: parts.undone_splits.into_iter().map(RoomChange::from).collect(),
             },
             room_settings: parts
                 .room_settings
@@ -91,11 +87,11 @@ impl Body {
         let layers = self.layers;
         let taken_back = self.room_changes.taken_back.into_iter().map(RoomSplit::try_from);
         StoredMap::from_parts(StoredMapParts {
-            felt_dock: self.felt_dock.map(|felt| Felt {
+            measured_dock: self.felt_dock.map(|felt| MeasuredDock {
                 times: felt.times,
                 pose: to_pose(felt.pose),
             }),
-            told_dock: self.told_dock.map(to_pose),
+            reported_dock: self.told_dock.map(to_pose),
             origin: Cell {
                 x: layers.origin_x,
                 y: layers.origin_y,
@@ -107,7 +103,7 @@ impl Body {
             next_room: layers.next_room,
             no_go: self.no_go.parts()?,
             names: by_room(self.names, |name| room_name(&name))?,
-            splits_taken_back: taken_back.collect::<Result<_, _>>()?,
+            undone_splits: taken_back.collect::<Result<_, _>>()?,
             room_changes: self.room_changes.made.parts()?,
             room_settings: by_room(self.room_settings, brain::RoomSettings::try_from)?,
             places: self.places.parts()?,
@@ -136,12 +132,12 @@ fn to_pose(pose: Pose) -> Pose2 {
     }
 }
 
-fn runs(runs: Vec<mapping::Run>) -> Vec<Run> {
+fn runs(runs: Vec<mapping::CellRun>) -> Vec<Run> {
     runs.into_iter().map(|run| (run.value, run.length)).collect()
 }
 
-fn to_runs(runs: Vec<Run>) -> Vec<mapping::Run> {
+fn to_runs(runs: Vec<Run>) -> Vec<mapping::CellRun> {
     let runs = runs.into_iter();
-    runs.map(|(value, length)| mapping::Run { value, length })
+    runs.map(|(value, length)| mapping::CellRun { value, length })
         .collect()
 }

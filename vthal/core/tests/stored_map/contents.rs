@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use brain::mapping::{Felt, Numbered, PartSide, RoomChange, RoomJoin, RoomSplit, Run, StoredMapParts};
+use brain::mapping::{
+    CellRun, MeasuredDock, Numbered, PartSide, RoomChange, RoomJoin, RoomSplit, StoredMapParts,
+};
 use brain::{
     Cell, CutLine, KeptPlace, NoGo, Pattern, PlaceShape, Point2, Pose2, RoomName, RoomPower, RoomSettings,
     StoredMap, Zone,
@@ -23,7 +25,7 @@ pub(crate) fn map() -> StoredMap {
 /// What the file of version 9 holds.
 pub(crate) fn parts() -> StoredMapParts {
     StoredMapParts {
-        felt_dock: Some(Felt {
+        measured_dock: Some(MeasuredDock {
             pose: Pose2 {
                 x_m: -1.25,
                 y_m: 2.5,
@@ -31,7 +33,7 @@ pub(crate) fn parts() -> StoredMapParts {
             },
             times: 4,
         }),
-        told_dock: Some(Pose2 {
+        reported_dock: Some(Pose2 {
             x_m: 0.5,
             y_m: -0.25,
             heading_rad: 1.5,
@@ -45,7 +47,7 @@ pub(crate) fn parts() -> StoredMapParts {
         no_go: no_go(),
         names: BTreeMap::from([(3, name("Köök"))]),
         room_changes: room_changes(),
-        splits_taken_back: vec![split(5)],
+        undone_splits: vec![split(5)],
         room_settings: room_settings(Pattern::Contour),
         places: places(),
     }
@@ -67,9 +69,9 @@ pub(crate) fn parts_of_version(version: u8) -> StoredMapParts {
         }
     }
     if version < 6 {
-        parts.told_dock = None;
+        parts.reported_dock = None;
         // Such a dock counts as felt often enough.
-        parts.felt_dock = parts.felt_dock.map(|felt| Felt { times: 6, ..felt });
+        parts.measured_dock = parts.measured_dock.map(|felt| MeasuredDock { times: 6, ..felt });
     }
     match version {
         ..4 => parts.room_settings = BTreeMap::new(),
@@ -78,7 +80,7 @@ pub(crate) fn parts_of_version(version: u8) -> StoredMapParts {
     }
     if version < 3 {
         parts.room_changes = none();
-        parts.splits_taken_back = Vec::new();
+        parts.undone_splits = Vec::new();
     }
     if version < 2 {
         parts.no_go = none();
@@ -94,11 +96,11 @@ fn none<T>() -> Numbered<T> {
     }
 }
 
-fn run((value, length): (u16, u32)) -> Run {
-    Run { value, length }
+fn run((value, length): (u16, u32)) -> CellRun {
+    CellRun { value, length }
 }
 
-fn cells() -> Vec<Run> {
+fn cells() -> Vec<CellRun> {
     let values = [
         0, 4361, 4800, 6144, 4359, 4617, 4288, 6400, 4615, 4105, 4544, 6656, 4103, 4361, 4800,
     ];

@@ -178,7 +178,7 @@ fn kinds_of_floor_are_read_since_version_nine_and_what_stood_there_before_is_not
     for kind in 0..3 {
         assert_eq!(floor(9, &[0, 0], &[0; 9], kind), Ok(kind));
     }
-    assert_eq!(floor(9, &[0, 0], &[0; 9], 3), Err(StoredMapError::Floor.into()));
+    assert_eq!(floor(9, &[0, 0], &[0; 9], 3), Err(StoredMapError::Surface.into()));
     for slip in 0..4 {
         assert_eq!(floor(1, &[0], &[], slip), Ok(0), "slip of {slip}");
         assert_eq!(floor(2, &[0], &[0; 3], slip), Ok(0), "slip of {slip}");

@@ -5,7 +5,7 @@
 mod contents;
 mod earlier;
 
-use brain::mapping::{Felt, Numbered, StoredMapParts};
+use brain::mapping::{MeasuredDock, Numbered, StoredMapParts};
 use brain::{Pose2, StoredMap, StoredMapError};
 use contents::{map, parts};
 use proptest::prelude::*;
@@ -30,17 +30,17 @@ fn a_map_comes_back_and_its_knowledge_with_it() {
         (None, None),
         (None, Some(Pose2::IDENTITY)),
         (
-            Some(Felt {
+            Some(MeasuredDock {
                 pose: Pose2::IDENTITY,
                 times: 1,
             }),
             Some(Pose2::IDENTITY),
         ),
     ];
-    let docks = docks.map(|(felt_dock, told_dock)| {
+    let docks = docks.map(|(measured_dock, reported_dock)| {
         map_of(StoredMapParts {
-            felt_dock,
-            told_dock,
+            measured_dock,
+            reported_dock,
             ..parts()
         })
     });
@@ -87,7 +87,7 @@ fn what_is_wrong_is_named() {
         body[name + 4] = 7;
     };
     assert_eq!(refused(spot), DecodeError::Kind);
-    let content = DecodeError::from(StoredMapError::Floor);
+    let content = DecodeError::from(StoredMapError::Surface);
     assert_eq!(content.to_string(), "it has a kind of floor that cannot be");
 }
 
@@ -113,7 +113,7 @@ fn parts_that_fit_no_map_are_refused() {
     assert_eq!(wrong(|parts| parts.rooms[0].length += 1), cells);
     assert_eq!(
         wrong(|parts| parts.cells[0].value |= 0x300),
-        StoredMapError::Floor
+        StoredMapError::Surface
     );
     fn twice<T: Clone>(numbered: &mut Numbered<T>) {
         let first = numbered.items[0].clone();

@@ -1,7 +1,7 @@
 //! The recorded form of a brain's state.
 
 use brain::geometry::{Point2, Pose2};
-use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
+use brain::mapping::{Cell, Hazard, HazardKind, PathPoint, SweptRun};
 use brain::{
     Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, StrategyName,
     TrackingCheckpoint,
@@ -92,9 +92,9 @@ impl From<&Checkpoint> for BrainState {
                 .map(|point| (point.x_mm, point.y_mm))
                 .collect(),
             marks: checkpoint
-                .marks
+                .hazards
                 .iter()
-                .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
+                .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == HazardKind::Contact))
                 .collect(),
             home: checkpoint
                 .home
@@ -153,7 +153,7 @@ impl BrainState {
                 .iter()
                 .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
                 .collect(),
-            marks: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
+            hazards: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
             home,
             tracking: self
                 .tracking
@@ -207,13 +207,13 @@ fn from_hex(text: &str) -> Option<Vec<u8>> {
         .collect()
 }
 
-fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Mark {
+fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Hazard {
     let kind = if contact {
-        MarkKind::Contact
+        HazardKind::Contact
     } else {
-        MarkKind::Cliff
+        HazardKind::Cliff
     };
-    Mark {
+    Hazard {
         at: Point2 { x_m, y_m },
         kind,
     }

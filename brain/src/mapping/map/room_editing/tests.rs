@@ -1,4 +1,4 @@
-//! Rooms that people split and join, in a map that is drawn again and written down.
+//! Splitting and joining rooms, in maps that are drawn again and stored.
 
 use std::collections::BTreeSet;
 
@@ -22,8 +22,8 @@ fn line(from: (f64, f64), to: (f64, f64)) -> CutLine {
     CutLine::new(point(from.0, from.1), point(to.0, to.1)).expect("two places")
 }
 
-/// Two rooms in a row along x, 4 and 3 m long and 3 m deep, with a door of 0.8 m between them; all of it `shift_m` to the
-/// right and up. The second is only there when it is wanted.
+/// Two rooms side by side along x, 4 and 3 m long and 3 m deep, with a door of 0.8 m between them; all of it shifted by `shift_m`
+/// to the right and up. `has_second` says whether the second room exists.
 fn two_rooms(shift_m: f64, has_second: bool) -> StoredMap {
     let mut home = Raster::filled(Cell { x: -20, y: -20 }, 340, 170, CellKnowledge::Unknown);
     let rectangles = [
@@ -48,16 +48,16 @@ fn two_rooms(shift_m: f64, has_second: bool) -> StoredMap {
 
 fn map_of(stored: &StoredMap) -> Map {
     let mut map = Map::new(BODY, SensorLayout::default());
-    map.take_up(stored);
+    map.load(stored);
     map
 }
 
-/// The home as the next run draws it, with the rooms that are known and what people have said.
+/// The home as mapped by the next run, with the known rooms and annotations.
 fn mapped_again(map: &Map, shift_m: f64) -> Map {
     let mut again = map_of(&two_rooms(shift_m, true));
     again.home.rooms = map.home.rooms.clone();
     again.home.annotations = map.home.annotations.clone();
-    again.survey();
+    again.segment_rooms();
     again
 }
 
@@ -85,7 +85,7 @@ fn a_split_gives_the_larger_part_the_name_and_the_smaller_one_a_new_identity() {
 }
 
 #[test]
-fn a_join_keeps_the_room_that_has_a_name_and_taking_it_back_brings_the_other_one_again() {
+fn a_join_keeps_the_named_room_and_undoing_it_restores_the_other_one() {
     let mut map = map_of(&two_rooms(0.0, true));
     map.name_room(2, RoomName::new("Den").ok()).unwrap();
     map.join_rooms([1, 2]).unwrap();
@@ -112,7 +112,7 @@ fn a_name_that_a_join_hides_is_free_again() {
 }
 
 #[test]
-fn a_split_that_is_taken_back_and_made_again_gives_the_same_identity() {
+fn a_split_that_is_undone_and_repeated_gives_the_same_identity() {
     let mut map = map_of(&two_rooms(0.0, true));
     let cut = line((1.0, 0.0), (1.0, 3.0));
     map.split_room(Some(1), cut).unwrap();
@@ -129,7 +129,7 @@ fn a_split_that_is_taken_back_and_made_again_gives_the_same_identity() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_by_name_and_changes_nothing() {
+fn invalid_changes_are_refused_by_name_and_change_nothing() {
     let mut map = map_of(&two_rooms(0.0, true));
     map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
     map.split_room(Some(1), line((2.5, 0.0), (2.5, 3.0))).unwrap();
@@ -160,7 +160,7 @@ fn what_makes_no_sense_is_refused_by_name_and_changes_nothing() {
 }
 
 #[test]
-fn changes_hold_in_a_map_that_is_drawn_again_somewhat_elsewhere() {
+fn changes_survive_a_map_that_is_drawn_again_with_an_offset() {
     let mut map = map_of(&two_rooms(0.0, false));
     map.split_room(None, line((1.5, 0.1), (1.5, 2.9))).unwrap();
     map.name_room(2, RoomName::new("Niche").ok()).unwrap();
@@ -178,7 +178,7 @@ fn changes_hold_in_a_map_that_is_drawn_again_somewhat_elsewhere() {
 }
 
 #[test]
-fn there_is_an_end_of_changes_and_taking_one_back_makes_place() {
+fn the_number_of_changes_is_limited_and_an_undo_makes_room() {
     let mut map = map_of(&two_rooms(0.0, true));
     for _ in 0..32 {
         map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
@@ -213,7 +213,7 @@ fn wish() -> impl Strategy<Value = Wish> {
     ]
 }
 
-/// Each cell that lies in a room before lies in one afterwards, and the rooms that are told are those of the cells.
+/// Every cell in a segmented room is still in a room, and the list of rooms matches the labels.
 fn check(map: &Map, floor_cells: usize) {
     let labels = map.rooms().labels().values();
     let in_rooms = labels.iter().filter(|label| **label != 0).count();
@@ -254,7 +254,7 @@ proptest! {
                 },
                 Wish::MapAgain(shift_m) => {
                     map = mapped_again(&map, shift_m);
-                    // What one could go back to is another map now.
+                    // After mapping anew there is nothing to return to.
                     undoable.clear();
                     Ok(())
                 }

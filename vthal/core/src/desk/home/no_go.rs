@@ -1,6 +1,6 @@
 //! Floor that clients forbid.
 
-use brain::zone::FAR_M;
+use brain::zone::COORDINATE_MAX_M;
 use brain::{Brain, Command, NoGo, Point2, Reason};
 use rvac_api::NoGoShape;
 
@@ -81,7 +81,7 @@ pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
             NoGo::wall(from, to).map_err(|reason| {
                 let text = format!(
                     "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
-                     places within {FAR_M} m."
+                     places within {COORDINATE_MAX_M} m."
                 );
                 Refusal::because(reason, text)
             })

@@ -1,7 +1,7 @@
 //! What clients say of rooms, and where the dock stands. What rooms there are, and the dock, change only while the robot rests.
 
 use brain::CutLine;
-use brain::zone::FAR_M;
+use brain::zone::COORDINATE_MAX_M;
 use brain::{Brain, Command, Point2, Pose2, Reason};
 use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
 
@@ -156,7 +156,9 @@ fn of_line(reason: Reason, line: [[f64; 2]; 2]) -> Refusal {
     let ends = ends(line);
     let text = match reason {
         Reason::BadLine => {
-            format!("The line from {ends} cannot be: its ends must be two places within {FAR_M} m.")
+            format!(
+                "The line from {ends} cannot be: its ends must be two places within {COORDINATE_MAX_M} m."
+            )
         }
         Reason::LineMissesRoom => {
             format!(

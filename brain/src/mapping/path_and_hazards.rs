@@ -1,15 +1,15 @@
-//! The way of the robot and the places where it met something.
+//! The path of the robot, and where it touched something or detected a cliff.
 
 use crate::model::geometry::Point2;
 
-/// Points of the way are at least this far apart.
+/// Least distance between consecutive path points.
 const PATH_STEP_MM: i64 = 20;
-/// Points kept of one way: 4 km, more than any battery drives.
+/// Most points of one path: 4 km, more than any battery drives.
 const PATH_POINTS_MAX: usize = 200_000;
-/// Marks kept of one map.
-const MARKS_MAX: usize = 50_000;
+/// Most hazards of one map.
+const HAZARDS_MAX: usize = 50_000;
 
-/// A point of the way, in millimetres of the map frame.
+/// A point of the path, in millimetres of the map frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathPoint {
     /// Millimetres.
@@ -18,25 +18,25 @@ pub struct PathPoint {
     pub y_mm: i32,
 }
 
-/// What was met.
+/// What the robot detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkKind {
+pub enum HazardKind {
     /// The bumper touched something.
     Contact,
     /// The floor ends.
     Cliff,
 }
 
-/// A place where something was met.
+/// A position where the robot touched something or detected a cliff.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
-    /// Where, in the map frame.
+pub struct Hazard {
+    /// Position in the map frame.
     pub at: Point2,
-    /// What.
-    pub kind: MarkKind,
+    /// What was detected.
+    pub kind: HazardKind,
 }
 
-/// The way, thinned.
+/// The path, thinned.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Path {
     points: Vec<PathPoint>,
@@ -62,7 +62,7 @@ impl Path {
         }
     }
 
-    /// Its length, metres; what is shorter than a step is not in it.
+    /// Path length in metres, to the precision of one step.
     pub(super) fn length_m(&self) -> f64 {
         let steps = self.points.len().saturating_sub(1) as f64;
         0.001 * steps * PATH_STEP_MM as f64
@@ -78,51 +78,51 @@ fn millimetres(length_m: f64) -> i32 {
     libm::round(length_m * 1000.0) as i32
 }
 
-/// When something was met, and where by odometry.
+/// An odometry position and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SeenAt {
+pub(crate) struct StampedOdometry {
     pub(crate) time_us: u64,
     pub(crate) odom: Point2,
 }
 
-/// Places where something was met.
+/// All hazards of a map.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Marks {
-    marks: Vec<Mark>,
-    /// For each mark how it was met; `None` = it stays where it is.
-    seen: Vec<Option<SeenAt>>,
+pub(super) struct HazardLog {
+    hazards: Vec<Hazard>,
+    /// When and where by odometry each hazard was detected; `None` = its position is final.
+    seen: Vec<Option<StampedOdometry>>,
 }
 
-impl Marks {
-    pub(super) fn all(&self) -> &[Mark] {
-        &self.marks
+impl HazardLog {
+    pub(super) fn all(&self) -> &[Hazard] {
+        &self.hazards
     }
 
-    pub(super) fn add(&mut self, mark: Mark, seen: Option<SeenAt>) {
-        if self.marks.len() < MARKS_MAX {
-            self.marks.push(mark);
+    pub(super) fn add(&mut self, hazard: Hazard, seen: Option<StampedOdometry>) {
+        if self.hazards.len() < HAZARDS_MAX {
+            self.hazards.push(hazard);
             self.seen.push(seen);
         }
     }
 
-    /// Puts the marks where the robot met them as far as is known now.
+    /// Moves the hazards to their corrected positions.
     pub(super) fn moved(&mut self, place: impl Fn(u64, Point2) -> Point2) {
-        for (mark, seen) in self.marks.iter_mut().zip(&self.seen) {
+        for (hazard, seen) in self.hazards.iter_mut().zip(&self.seen) {
             if let Some(seen) = seen {
-                mark.at = place(seen.time_us, seen.odom);
+                hazard.at = place(seen.time_us, seen.odom);
             }
         }
     }
 
-    /// Drops what was met from `since_us` on.
-    pub(super) fn withdraw(&mut self, since_us: u64) {
-        let marks = self.marks.iter().zip(&self.seen);
-        let kept = marks.filter(|(_, seen)| seen.is_none_or(|seen| seen.time_us < since_us));
-        (self.marks, self.seen) = kept.map(|(mark, seen)| (*mark, *seen)).unzip();
+    /// Drops hazards detected from `since_us` on.
+    pub(super) fn roll_back(&mut self, since_us: u64) {
+        let hazards = self.hazards.iter().zip(&self.seen);
+        let kept = hazards.filter(|(_, seen)| seen.is_none_or(|seen| seen.time_us < since_us));
+        (self.hazards, self.seen) = kept.map(|(hazard, seen)| (*hazard, *seen)).unzip();
     }
 
-    /// The marks up to now stay where they are.
-    pub(super) fn settle(&mut self) {
+    /// Makes all present positions final.
+    pub(super) fn finalize(&mut self) {
         self.seen.fill(None);
     }
 }
@@ -133,7 +133,7 @@ mod tests {
     use crate::model::geometry::Point2;
 
     #[test]
-    fn the_way_is_thinned_to_two_centimetres() {
+    fn the_path_is_thinned_to_two_centimetres() {
         let mut path = Path::default();
         for step in 0..=100 {
             path.follow(Point2 {

@@ -1,25 +1,25 @@
-//! How sure a map is, for the whole home and for each room.
+//! Confidence of a map, for the whole home and per room.
 //!
-//! *Face*: the side of a cell of floor on which an obstacle begins.
+//! *Face*: the side of a floor cell at which an obstacle begins.
 
 use std::collections::BTreeMap;
 
 use super::Map;
 use crate::mapping::Cell;
-use crate::mapping::layers::{CellKnowledge, Evidence, Flag, is_touched_only};
+use crate::mapping::occupancy_grid::{CellKnowledge, Evidence, Flag, is_touched_only};
 
-/// How sure what is known is.
+/// Confidence of a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sureness {
-    /// Standard deviation of the robot's place when it saw the floor best, metres; root of the mean square over its cells.
+pub struct MapConfidence {
+    /// Root mean square over all floor cells of the smallest pose uncertainty at which each was seen, metres.
     pub sigma_m: f64,
-    /// Share of the floor on which the robot's body has been, 0..=1; the rest was seen from afar.
+    /// Share of the floor on which the robot's body has been, 0..=1; the rest was only seen from afar.
     pub driven: f64,
-    /// Share of the faces that nothing but a touch has told, 0..=1.
+    /// Share of the faces that are known from contacts alone, 0..=1.
     pub touched: f64,
 }
 
-/// What is counted for it.
+/// The counts behind it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     cells: u32,
@@ -30,16 +30,16 @@ struct Count {
 }
 
 impl Count {
-    fn sureness(self) -> Option<Sureness> {
+    fn confidence(self) -> Option<MapConfidence> {
         let share = |part: u32, all: u32| f64::from(part) / f64::from(all.max(1));
-        (self.cells > 0).then(|| Sureness {
+        (self.cells > 0).then(|| MapConfidence {
             sigma_m: libm::sqrt(self.square_m2 / f64::from(self.cells)),
             driven: share(self.driven, self.cells),
             touched: share(self.touched, self.faces),
         })
     }
 
-    fn add(&mut self, (cell, evidence): (Cell, Evidence), map: &Map) {
+    fn add(&mut self, cell: Cell, evidence: Evidence, map: &Map) {
         let sigma_m = 0.01 * f64::from(evidence.sigma_cm);
         self.cells += 1;
         self.driven += u32::from(evidence.has(Flag::Body));
@@ -49,16 +49,15 @@ impl Count {
             .filter_map(|side| obstacle_beside(cell, side, map))
         {
             self.faces += 1;
-            self.touched += u32::from(is_touched_only(map.home.layers.at(obstacle)));
+            self.touched += u32::from(is_touched_only(map.home.grid.at(obstacle)));
         }
     }
 }
 
-/// Columns and rows to the four sides.
+/// Offsets of the four sides.
 const SIDES: [(i32, i32); 4] = [(-1, 0), (1, 0), (0, -1), (0, 1)];
 
-/// The obstacle that begins on a side of a cell of floor. A cell between may be unknown: the body is drawn a little smaller than
-/// it is.
+/// The obstacle at a side of a floor cell. A cell between may be unknown, because the body is drawn a little smaller than it is.
 fn obstacle_beside(cell: Cell, (x, y): (i32, i32), map: &Map) -> Option<Cell> {
     let known = |cell: &Cell| map.knowledge().get(*cell).copied().unwrap_or_default();
     [1, 2]
@@ -72,33 +71,34 @@ fn obstacle_beside(cell: Cell, (x, y): (i32, i32), map: &Map) -> Option<Cell> {
 }
 
 impl Map {
-    /// How sure the map of the whole home is; `None` where no floor is known. Looks at all cells: for people who look at it.
+    /// Confidence of the whole map; `None` without known floor. It visits all cells, so it is for display only.
     #[must_use]
-    pub fn sureness(&self) -> Option<Sureness> {
+    pub fn confidence(&self) -> Option<MapConfidence> {
         let mut count = Count::default();
-        self.floor().for_each(|floor| count.add(floor, self));
-        count.sureness()
+        self.floor()
+            .for_each(|(cell, evidence)| count.add(cell, evidence, self));
+        count.confidence()
     }
 
-    /// The same of each room, by their identities.
+    /// Confidence of each room, by identity.
     #[must_use]
-    pub fn room_sureness(&self) -> Vec<(u16, Sureness)> {
+    pub fn room_confidence(&self) -> Vec<(u16, MapConfidence)> {
         let mut counts: BTreeMap<u16, Count> = BTreeMap::new();
         let labels = self.rooms().labels();
-        for floor in self.floor() {
-            if let Some(room) = labels.get(floor.0).filter(|room| **room != 0) {
-                counts.entry(*room).or_default().add(floor, self);
+        for (cell, evidence) in self.floor() {
+            if let Some(room) = labels.get(cell).filter(|room| **room != 0) {
+                counts.entry(*room).or_default().add(cell, evidence, self);
             }
         }
-        let sure = |(room, count): (u16, Count)| Some((room, count.sureness()?));
+        let sure = |(room, count): (u16, Count)| Some((room, count.confidence()?));
         counts.into_iter().filter_map(sure).collect()
     }
 
-    /// Cells of floor with what was gathered about them.
+    /// Floor cells and their evidence.
     fn floor(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
         let knowledge = self.knowledge();
         self.home
-            .layers
+            .grid
             .gathered()
             .filter(|(cell, _)| knowledge.get(*cell) == Some(&CellKnowledge::Free))
     }

@@ -1,59 +1,59 @@
-//! The map drawn again with other poses of the past: the home and the job in it.
+//! Redrawing the map when past poses were corrected: the home, and the job in it.
 //!
-//! Some ten thousand sightings are drawn, piece by piece over many steps, so that no step takes long; until all of it is there
-//! the map stays as it is.
+//! Some ten thousand sightings are drawn in small steps. The map stays as it is until the new one is complete.
 
 use super::Map;
-use crate::mapping::carpet::FloorFelt;
+use crate::mapping::carpet::SurfaceObservation;
+use crate::mapping::coverage_grid::{CoverageGrid, Swath};
 use crate::mapping::derived::Derived;
 use crate::mapping::home::HomeMap;
 use crate::mapping::keyframe::Keyframe;
-use crate::mapping::layers::{Flag, Layers};
+use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
+use crate::mapping::path_and_hazards::Path;
 use crate::mapping::sighting::Sighting;
-use crate::mapping::swept::{Swath, SweptLayer};
-use crate::mapping::traces::Path;
-use crate::mapping::{Cell, Mark};
+use crate::mapping::{Cell, Hazard};
 use crate::model::geometry::Pose2;
 
-/// Sightings that are drawn in one step: a quarter of a millisecond of a desktop's core.
+/// Sightings per step: a quarter of a millisecond on one core of a desktop.
 const SIGHTINGS_A_STEP: usize = 40;
-/// So few tiles may be left for the last step, because the robot draws on meanwhile.
+/// Most dirty tiles for the last step. There are always some, because the robot continues to draw.
 const TILES_LEFT: usize = 2;
 
-/// A map that is being drawn again.
+/// A map that is being redrawn.
 #[derive(Clone, Debug)]
 pub(super) struct Redrawing {
     keyframes: Vec<Keyframe>,
     next: usize,
-    layers: Layers,
+    grid: OccupancyGrid,
     derived: Derived,
-    swept: SweptLayer,
+    swept: CoverageGrid,
     swath: Swath,
     path: Path,
 }
 
 impl Redrawing {
-    /// A cell is not forbidden any more.
+    /// Allows a cell again.
     pub(super) fn allow(&mut self, cell: Cell) {
-        self.layers.change(cell, |evidence| evidence.clear(Flag::NoGo));
+        self.grid.change(cell, |evidence| evidence.clear(Flag::NoGo));
     }
 
-    /// What was felt at a sighting that is drawn already.
-    fn draw_floor(&mut self, mut sighting: Sighting, home: &HomeMap) {
+    /// Adds a surface to a sighting that is already drawn.
+    fn draw_surface(&mut self, mut sighting: Sighting, home: &HomeMap) {
         sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
-        home.pencil.draw_floor(&sighting, &mut self.layers);
+        home.sensor_model.draw_surface(&sighting, &mut self.grid);
     }
 
-    /// Draws up to `most` sightings, and when none is left derives rasters for a tile. `true` when hardly one is left.
+    /// Draws up to `most` sightings; after the last one it derives the rasters of one tile per call. Returns `true` when hardly
+    /// any is left.
     fn go_on(&mut self, home: &HomeMap, job_from: usize, most: usize) -> bool {
         let sightings = home.sightings.get(self.next..).unwrap_or_default();
         for sighting in sightings.iter().take(most) {
             let mut sighting = *sighting;
             sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
-            home.pencil.draw(&sighting, &mut self.layers);
+            home.sensor_model.draw(&sighting, &mut self.grid);
             if self.next >= job_from {
                 self.path.follow(sighting.pose.position());
-                if sighting.touched.sweeps() {
+                if sighting.switches.sweeps() {
                     self.swept.set_time(sighting.time_us);
                     self.swath.sweep_to(sighting.pose, &mut self.swept);
                 } else {
@@ -64,27 +64,27 @@ impl Redrawing {
         }
         let is_drawn = self.next >= home.sightings.len();
         if is_drawn {
-            self.derived.refresh_tile(&mut self.layers);
+            self.derived.refresh_tile(&mut self.grid);
         }
-        is_drawn && self.layers.dirty_tiles() <= TILES_LEFT
+        is_drawn && self.grid.dirty_tiles() <= TILES_LEFT
     }
 }
 
 impl Map {
-    /// Begins to draw the map again with other poses of the past, in the order of their times; poses between two keyframes are
-    /// moved by both. It is done after some more calls of [`Self::insert`].
+    /// Begins to redraw the map with corrected poses, given in order of time. Poses between two keyframes are interpolated. Later
+    /// calls of [`Self::insert`] do the work.
     pub fn redraw(&mut self, keyframes: &[Keyframe]) {
         if keyframes.is_empty() {
             return;
         }
         let mut swath = self.swath.clone();
         swath.lift();
-        let mut layers = self.home.base.clone();
-        layers.soil();
+        let mut grid = self.home.base.clone();
+        grid.mark_all_dirty();
         self.redrawing = Some(Box::new(Redrawing {
             keyframes: keyframes.to_vec(),
             next: 0,
-            layers,
+            grid,
             derived: Derived::default(),
             swept: self.job_base.swept.clone(),
             swath,
@@ -92,16 +92,16 @@ impl Map {
         }));
     }
 
-    /// Takes back what was seen, met and swept from `since_us` on, and begins to draw the map again without it.
-    pub(crate) fn withdraw(&mut self, since_us: u64, keyframes: &[Keyframe]) {
+    /// Drops everything observed and swept from `since_us` on, and begins to redraw the map without it.
+    pub(crate) fn roll_back(&mut self, since_us: u64, keyframes: &[Keyframe]) {
         let sightings = &mut self.home.sightings;
         sightings.truncate(sightings.partition_point(|sighting| sighting.time_us < since_us));
         self.job_base.sightings = self.job_base.sightings.min(sightings.len());
-        self.marks.withdraw(since_us);
+        self.hazards.roll_back(since_us);
         self.redraw(keyframes);
     }
 
-    /// Draws what is left of a map that is being drawn again.
+    /// Completes a redraw.
     pub fn finish_redraw(&mut self) {
         while self.redrawing.is_some() {
             self.draw_up_to(usize::MAX);
@@ -124,17 +124,17 @@ impl Map {
         };
         let Redrawing {
             keyframes,
-            layers,
+            grid,
             derived,
             swept,
             path,
             ..
         } = *redrawing;
-        self.home.take_redrawn(layers, derived);
+        self.home.replace_grid(grid, derived);
         self.swept = swept;
         self.path = path;
         self.swath.lift();
-        self.marks.moved(|time_us, odom| {
+        self.hazards.moved(|time_us, odom| {
             corrected(
                 &keyframes,
                 time_us,
@@ -149,37 +149,41 @@ impl Map {
         self.generation += 1;
     }
 
-    /// Takes in what the motors' loads say of the floor at the observation that was inserted last, if it was at this time.
-    pub(crate) fn note_floor(&mut self, time_us: u64, felt: FloorFelt) {
-        let Some(newest) = self.home.note_floor(time_us, felt) else {
+    /// Adds the surface at the last inserted observation, if that has this time.
+    pub(crate) fn note_surface(&mut self, time_us: u64, observed: SurfaceObservation) {
+        let Some(newest) = self.home.note_surface(time_us, observed) else {
             return;
         };
         if let Some(redrawing) = &mut self.redrawing
             && redrawing.next >= self.home.sightings.len()
         {
-            redrawing.draw_floor(newest, &self.home);
+            redrawing.draw_surface(newest, &self.home);
         }
     }
 
-    /// From now on nothing of what was seen and swept up to now is drawn again.
-    pub(super) fn settle(&mut self) {
-        self.home.settle();
+    /// Makes everything up to now final, so that no redraw changes it.
+    pub(super) fn finalize(&mut self) {
+        self.home.finalize();
         self.job_base.swept = self.swept.clone();
         self.job_base.path = self.path.clone();
         self.job_base.sightings = 0;
-        self.marks.settle();
+        self.hazards.finalize();
     }
 
-    /// Notes a place where something was met, at `time_us` and at the place `odom` by odometry.
-    pub(crate) fn mark(&mut self, mark: Mark, seen: crate::mapping::traces::SeenAt) {
-        self.marks.add(mark, Some(seen));
+    /// Adds a hazard that was detected at `seen`.
+    pub(crate) fn add_hazard(
+        &mut self,
+        hazard: Hazard,
+        seen: crate::mapping::path_and_hazards::StampedOdometry,
+    ) {
+        self.hazards.add(hazard, Some(seen));
     }
 }
 
-/// Where a robot was at `time_us` that was at `odom` by odometry, by the keyframes before and after.
+/// The pose in the map at `time_us`, when odometry was at `odom`, interpolated between the keyframes before and after.
 fn corrected(keyframes: &[Keyframe], time_us: u64, odom: Pose2) -> Pose2 {
     let after = keyframes.partition_point(|keyframe| keyframe.time_us <= time_us);
-    let by = |keyframe: &Keyframe| keyframe.is * (keyframe.was.inverse() * odom);
+    let by = |keyframe: &Keyframe| keyframe.map_from_base * (keyframe.odom_from_base.inverse() * odom);
     let before = after.checked_sub(1).and_then(|index| keyframes.get(index));
     match (before, keyframes.get(after)) {
         (Some(before), Some(after)) => {

@@ -1,7 +1,6 @@
-//! The swept layer: a tiled grid and the brush that paints it.
+//! The coverage grid: how often each cell was swept and when last, and the swath that paints it.
 //!
-//! *Pass*: the brush over a cell, from when it comes there until it has been away for a while. A cell knows how many passes it has
-//! had and when the last one was.
+//! *Pass*: the brush crosses a cell. Another pass begins when the brush returns after some time.
 
 use std::collections::BTreeMap;
 
@@ -9,22 +8,22 @@ use super::cell::{CELL_M, Cell, index};
 use super::tile_grid::{Located, TILE_CELLS, TileGrid, first_cell, locate};
 use crate::model::geometry::{Point2, Pose2};
 
-/// Tiles kept of one map: 10,000 square metres. What lies beyond is not remembered.
+/// Most tiles of one map: 10,000 square metres. Cells beyond are not stored.
 const TILES_MAX: usize = 4096;
-/// The brush paints when one of its ends has moved this far since it last painted.
+/// The swath paints when one of its ends has moved this far.
 const BRUSH_STEP_M: f64 = 0.5 * CELL_M;
 
-/// Step in which the time of the last pass is kept, seconds; with [`TIME_BITS`] it reaches over nine hours.
+/// Resolution of the time of the last pass, seconds; with [`TIME_BITS`] it covers over nine hours.
 const TICK_S: u32 = 4;
-/// Bits of a cell's word that hold that time; the rest counts passes.
+/// Bits of the time in a cell's word; the others count passes.
 const TIME_BITS: u32 = 13;
-/// The last moment that can be told, and the most passes.
+/// Largest time and number of passes.
 const TICKS_MAX: u16 = (1 << TIME_BITS) - 1;
 const PASSES_MAX: u16 = (1 << (16 - TIME_BITS)) - 1;
-/// A brush that comes back after this time makes another pass, ticks: turning round on the spot and backing off take less.
+/// A brush that returns after this many ticks makes another pass. Turning on the spot and backing off take less.
 const AWAY_TICKS: u16 = 4;
 
-/// Swept cells side by side in one row.
+/// Adjacent swept cells of one row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SweptRun {
     /// First cell.
@@ -34,7 +33,7 @@ pub struct SweptRun {
 }
 
 impl SweptRun {
-    /// Whether `cell` is the one to the right of its last.
+    /// Whether `cell` is the right neighbour of its last cell.
     fn ends_before(&self, cell: Cell) -> bool {
         self.start.y == cell.y && i64::from(self.start.x) + i64::from(self.length) == i64::from(cell.x)
     }
@@ -42,14 +41,14 @@ impl SweptRun {
 
 /// How a cell was swept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sweeping {
-    /// How often the brush came there, from 1; 7 stands for more, too.
+pub struct CellPasses {
+    /// Number of passes, from 1; 7 means 7 or more.
     pub passes: u8,
-    /// When it came last, seconds since the job's first sweep, to four seconds; 0 for what was swept before a restart.
+    /// Time of the last pass, seconds since the job's first sweep, in steps of four seconds; 0 for cells swept before a restart.
     pub last_s: u32,
 }
 
-/// Passes and time of the last one of a cell: 0 = never swept.
+/// Passes of a cell and the time of the last one: 0 = never swept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct CellWord(u16);
 
@@ -65,22 +64,22 @@ impl CellWord {
         self.0 >> TIME_BITS
     }
 
-    fn sweeping(self) -> Option<Sweeping> {
-        (self.0 != 0).then(|| Sweeping {
+    fn cell_passes(self) -> Option<CellPasses> {
+        (self.0 != 0).then(|| CellPasses {
             passes: self.passes() as u8,
             last_s: u32::from(self.0 & TICKS_MAX) * TICK_S,
         })
     }
 }
 
-/// A `u64` of bits for each row, and a word for each cell: 9 kB.
+/// One bit per cell in a `u64` per row, and a word per cell: 9 kB.
 #[derive(Clone, Debug)]
-struct Tile {
+struct CoverageTile {
     swept: [u64; TILE_CELLS as usize],
     words: Vec<CellWord>,
 }
 
-impl Default for Tile {
+impl Default for CoverageTile {
     fn default() -> Self {
         Self {
             swept: [0; TILE_CELLS as usize],
@@ -89,35 +88,35 @@ impl Default for Tile {
     }
 }
 
-/// Which cells were swept, and in which order.
+/// The swept cells and their order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct SweptLayer {
-    tiles: TileGrid<Tile>,
+pub(super) struct CoverageGrid {
+    tiles: TileGrid<CoverageTile>,
     order: Vec<Cell>,
-    /// When the first cell was swept, microseconds of the host's time; `None` = not yet since a restart.
+    /// When the first cell was swept, host time in microseconds; `None` = not yet since a restart.
     begun_us: Option<u64>,
     /// Ticks since then.
     tick: u16,
 }
 
-impl SweptLayer {
-    /// What is painted from now on is painted at this time.
+impl CoverageGrid {
+    /// Sets the time of all later painting.
     pub(super) fn set_time(&mut self, time_us: u64) {
         let begun_us = *self.begun_us.get_or_insert(time_us);
         let ticks = time_us.saturating_sub(begun_us) / (1_000_000 * u64::from(TICK_S));
         self.tick = u16::try_from(ticks).unwrap_or(TICKS_MAX).min(TICKS_MAX);
     }
 
-    /// The time that [`Sweeping::last_s`] of a cell has that is swept now.
+    /// [`CellPasses::last_s`] of a cell that is swept now.
     pub(super) fn now_s(&self) -> u32 {
         u32::from(self.tick) * TICK_S
     }
 
     /// How a cell was swept; `None` = never.
-    pub(super) fn sweeping(&self, cell: Cell) -> Option<Sweeping> {
+    pub(super) fn cell_passes(&self, cell: Cell) -> Option<CellPasses> {
         let place = locate(cell);
         let tile = self.tiles.get(place.key)?;
-        tile.words.get(place.index())?.sweeping()
+        tile.words.get(place.index())?.cell_passes()
     }
 
     pub(super) fn cells(&self) -> &[Cell] {
@@ -134,9 +133,9 @@ impl SweptLayer {
         tile.is_some_and(|tile| tile.swept[place.row] & bit(&place) != 0)
     }
 
-    /// All cells, joined to runs in the order of their rows.
+    /// All swept cells as runs, in the order of their rows.
     pub(super) fn runs(&self) -> Vec<SweptRun> {
-        let mut rows: BTreeMap<i32, Vec<(i32, &Tile)>> = BTreeMap::new();
+        let mut rows: BTreeMap<i32, Vec<(i32, &CoverageTile)>> = BTreeMap::new();
         for ((column, row), tile) in self.tiles.iter() {
             rows.entry(row).or_default().push((column, tile));
         }
@@ -168,7 +167,9 @@ impl SweptLayer {
     fn paint(&mut self, cell: Cell) {
         let place = locate(cell);
         let has_room = self.tiles.len() < TILES_MAX;
-        let tile = self.tiles.place(place.key, || has_room.then(Tile::default));
+        let tile = self
+            .tiles
+            .place(place.key, || has_room.then(CoverageTile::default));
         let Some(tile) = tile.and_then(|tile| self.tiles.at_mut(tile)) else {
             return;
         };
@@ -200,7 +201,7 @@ impl SweptLayer {
     }
 }
 
-/// Adds the cells of a row of a tile, which begins with `start`; what touches the last run makes that longer.
+/// Adds the cells of one row of a tile, which begins at `start`. Cells adjacent to the last run extend it.
 fn add_runs(runs: &mut Vec<SweptRun>, start: Cell, bits: u64) {
     let mut left = bits;
     while left != 0 {
@@ -234,7 +235,7 @@ fn side(a: Point2, b: Point2, point: Point2) -> f64 {
     (b.x_m - a.x_m) * (point.y_m - a.y_m) - (b.y_m - a.y_m) * (point.x_m - a.x_m)
 }
 
-/// The bar under the robot that cleans: as long as the swath is wide, across the direction of travel, through the centre.
+/// The cleaning bar under the robot: as wide as the swath, perpendicular to the heading, through the centre.
 #[derive(Clone, Debug)]
 pub(super) struct Swath {
     half_m: f64,
@@ -256,13 +257,13 @@ impl Swath {
         }
     }
 
-    /// Takes the brush off the floor: the next sweep starts where the robot is then.
+    /// Stops painting; the next sweep starts at the next pose.
     pub(super) fn lift(&mut self) {
         self.last = None;
     }
 
-    /// Paints what lies between the bar's last place and the one under `pose`.
-    pub(super) fn sweep_to(&mut self, pose: Pose2, layer: &mut SweptLayer) {
+    /// Paints the area between the last position of the bar and the one at `pose`.
+    pub(super) fn sweep_to(&mut self, pose: Pose2, layer: &mut CoverageGrid) {
         let bar = Bar {
             left: pose.transform(Point2 {
                 x_m: 0.0,
@@ -286,7 +287,7 @@ impl Swath {
         {
             return;
         }
-        // The halves are painted apart because on a turn on the spot the two bars cross in the centre.
+        // Each half is painted separately, because the two bars cross at the centre when the robot turns on the spot.
         for (last_end, end) in [(last.left, bar.left), (last.right, bar.right)] {
             layer.paint_triangle([last.centre, last_end, end]);
             layer.paint_triangle([last.centre, end, bar.centre]);
@@ -297,17 +298,17 @@ impl Swath {
 
 #[cfg(test)]
 mod tests {
-    use super::{Swath, SweptLayer, SweptRun};
+    use super::{CoverageGrid, Swath, SweptRun};
     use crate::mapping::cell::Cell;
     use crate::model::geometry::Pose2;
     use core::f64::consts::{FRAC_PI_2, PI};
 
     const SWATH_M: f64 = 0.30;
 
-    /// Sweeps in 5 mm or 0.02 rad steps along an arc and gives the painted area.
+    /// Sweeps along an arc in steps of 5 mm or 0.02 rad. Returns the painted area.
     fn swept_along(start: Pose2, distance_m: f64, turn_rad: f64) -> f64 {
         let steps = ((distance_m.abs() / 0.005).max(turn_rad.abs() / 0.02)).ceil();
-        let mut layer = SweptLayer::default();
+        let mut layer = CoverageGrid::default();
         let mut swath = Swath::new(SWATH_M);
         for step in 0..=steps as u32 {
             let share = f64::from(step) / steps;
@@ -365,9 +366,9 @@ mod tests {
         );
     }
 
-    /// A cell under a brush that crosses it at these seconds of the host's time, standing on it for `dwell_s` each time.
-    fn crossed_at(times_s: &[u64], dwell_s: u64) -> SweptLayer {
-        let mut layer = SweptLayer::default();
+    /// Two cells that a brush crosses at these times in seconds, for `dwell_s` each.
+    fn crossed_at(times_s: &[u64], dwell_s: u64) -> CoverageGrid {
+        let mut layer = CoverageGrid::default();
         for time_s in times_s {
             for second in 0..=dwell_s {
                 layer.set_time((time_s + second) * 1_000_000);
@@ -381,28 +382,28 @@ mod tests {
     }
 
     #[test]
-    fn passes_are_counted_when_the_brush_comes_back_and_not_while_it_stays() {
-        let told = |times_s: &[u64], dwell_s| {
+    fn a_pass_counts_when_the_brush_returns_and_not_while_it_stays() {
+        let passes = |times_s: &[u64], dwell_s| {
             let layer = crossed_at(times_s, dwell_s);
             assert_eq!(layer.cells().len(), 2, "each cell once");
-            assert_eq!(layer.sweeping(Cell { x: 1, y: 70 }), None);
-            let sweeping = layer.sweeping(Cell { x: -1, y: 70 }).unwrap();
-            assert_eq!(layer.sweeping(Cell { x: 0, y: 70 }), Some(sweeping));
+            assert_eq!(layer.cell_passes(Cell { x: 1, y: 70 }), None);
+            let sweeping = layer.cell_passes(Cell { x: -1, y: 70 }).unwrap();
+            assert_eq!(layer.cell_passes(Cell { x: 0, y: 70 }), Some(sweeping));
             (sweeping.passes, sweeping.last_s)
         };
-        assert_eq!(told(&[500], 0), (1, 0));
-        assert_eq!(told(&[500], 300), (1, 300), "it stood there");
-        assert_eq!(told(&[500, 506], 0), (1, 4), "it turned round");
-        assert_eq!(told(&[500, 540, 600], 5), (3, 104));
+        assert_eq!(passes(&[500], 0), (1, 0));
+        assert_eq!(passes(&[500], 300), (1, 300), "it stayed there");
+        assert_eq!(passes(&[500, 506], 0), (1, 4), "it turned on the spot");
+        assert_eq!(passes(&[500, 540, 600], 5), (3, 104));
         let often: Vec<u64> = (0..20).map(|pass| 100 * pass).collect();
-        assert_eq!(told(&often, 0), (7, 1900), "as many as are counted");
-        assert_eq!(told(&[0, 9_000_000], 0), (2, 32_764), "as late as is told");
+        assert_eq!(passes(&often, 0), (7, 1900), "as many as are counted");
+        assert_eq!(passes(&[0, 9_000_000], 0), (2, 32_764), "the latest time");
     }
 
     #[test]
     fn runs_are_the_cells_in_order_joined_where_they_touch() {
         let mut random = crate::model::random::Random::new(4);
-        let mut layer = SweptLayer::default();
+        let mut layer = CoverageGrid::default();
         for _ in 0..400 {
             layer.paint_run(SweptRun {
                 start: Cell {
@@ -429,7 +430,7 @@ mod tests {
 
     #[test]
     fn runs_carry_the_layer_over() {
-        let mut layer = SweptLayer::default();
+        let mut layer = CoverageGrid::default();
         for run in [
             SweptRun {
                 start: Cell { x: -70, y: 3 },
@@ -442,7 +443,7 @@ mod tests {
         ] {
             layer.paint_run(run);
         }
-        let mut copy = SweptLayer::default();
+        let mut copy = CoverageGrid::default();
         for run in layer.runs() {
             copy.paint_run(run);
         }

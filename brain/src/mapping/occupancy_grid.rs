@@ -1,97 +1,98 @@
-//! The tiled layers: what is known of each cell, gathered over all jobs.
+//! The occupancy grid: evidence for each cell, accumulated over all jobs.
 //!
-//! *Evidence*: small saturating counts for and against what a cell may be. *Knowledge*: what the evidence of a cell amounts
-//! to. *Dirty*: cells whose knowledge may have changed since the derived rasters were last brought up to date.
+//! *Evidence*: small saturating counts for and against the possible states of a cell. *Knowledge*: the state that the evidence
+//! supports. *Dirty*: cells whose knowledge may have changed since the last update of the derived rasters.
 
 use std::sync::Arc;
 
 use super::tile_grid::{TILE_CELLS, TileGrid, TileKey, first_cell, locate};
-use super::{Cell, FloorKind};
+use super::{Cell, SurfaceKind};
 
-/// Tiles that the bounding box of a map may have: 1,638 square metres. What lies beyond is not remembered, so that no
-/// stray pose makes the dense rasters outgrow the memory of a small board.
+/// Most tiles in the bounding box of a map: 1,638 square metres. Cells beyond are not stored, so that a wrong pose cannot make
+/// the dense rasters exceed the memory of a small board.
 pub(super) const TILES_MAX: i64 = 640;
 
-/// Tiles are remembered up to this far from the origin: one kilometre.
+/// Tiles are stored up to this far from the origin: one kilometre.
 const KEY_MAX: i32 = 625;
 
-/// What is known of a cell.
+/// The state of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKnowledge {
-    /// Nothing.
+    /// Never observed.
     #[default]
     Unknown,
-    /// Floor that the body can be on, as far as it was seen.
+    /// Free floor.
     Free,
-    /// Something stands there.
+    /// An obstacle.
     Occupied,
     /// The floor ends there.
     Cliff,
-    /// A person does not want the robot there, or it got stuck there.
+    /// Forbidden by a person, or a place where the robot got stuck.
     NoGo,
 }
 
-/// What was gathered about a cell. Saturating; positive occupancy speaks for an obstacle.
+/// Evidence for a cell. All counts saturate. Positive occupancy means obstacle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Evidence {
     /// Log odds of an obstacle from infrared and from the body's own presence, in steps of about 0.05.
     pub(super) occupancy: i8,
-    /// For a contact: things too low, too dark or too clear for infrared.
+    /// For a contact. It also finds what infrared misses: things too low, too dark or transparent.
     pub(super) contact: u8,
-    /// For the end of the floor.
+    /// For a cliff.
     pub(super) cliff: u8,
-    /// Standard deviation of the pose in centimetres when the cell was seen best.
+    /// Smallest standard deviation of the pose among all observations of the cell, centimetres.
     pub(super) sigma_cm: u8,
     /// [`Flag`]s.
     pub(super) flags: u8,
-    /// What the motors' loads say: positive for carpet, negative for hard floor. No part of knowledge: nothing drives by it.
+    /// From the motor currents: positive for carpet, negative for hard floor. It is not part of the knowledge and does not affect
+    /// navigation.
     pub(super) carpet: i8,
 }
 
-/// Something that is so or not.
+/// A boolean property of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flag {
     /// The body was here.
     Body = 1,
-    /// Not to be entered.
+    /// Forbidden by a person.
     NoGo = 2,
-    /// Something was seen here, so that `sigma_cm` counts.
+    /// Observed, so that `sigma_cm` is valid.
     Seen = 4,
-    /// The robot was trapped here; not to be entered in this job.
+    /// The robot got stuck here; forbidden until the next job.
     Pocket = 8,
 }
 
-/// Occupancy from which on a cell counts as occupied.
-const OCCUPIED_FROM: i8 = 12;
-/// Occupancy up to which a cell counts as free.
-const FREE_TO: i8 = -4;
-/// Contact evidence from which on a cell counts as occupied.
-const CONTACT_FROM: u8 = 2;
-/// Cliff evidence from which on a cell counts as an edge.
-const CLIFF_FROM: u8 = 2;
+/// Least occupancy of an occupied cell.
+const OCCUPIED_MIN: i8 = 12;
+/// Largest occupancy of a free cell.
+const FREE_MAX: i8 = -4;
+/// Least contact evidence of an occupied cell.
+const CONTACT_MIN: u8 = 2;
+/// Least evidence of a cliff.
+const CLIFF_MIN: u8 = 2;
 
-/// Evidence from which on a cell counts as carpet, and below the negative of which as hard floor: one pass of the brush's end.
-const FLOOR_FROM: i8 = 3;
-/// Most of that evidence: a rug that was taken away or brought is believed after two passes over it.
-const FLOOR_MAX: i8 = 20;
+/// Least evidence of carpet; its negative is that of hard floor. One pass of the outer brush reaches it.
+const SURFACE_MIN: i8 = 3;
+/// Saturation of that evidence: two passes reverse it when a rug was removed or added.
+const SURFACE_MAX: i8 = 20;
 
 impl Evidence {
-    /// The kind of floor, if it was felt.
-    pub(super) fn floor(self) -> Option<FloorKind> {
+    /// The floor surface, if known.
+    pub(super) fn surface(self) -> Option<SurfaceKind> {
         match self.carpet {
-            FLOOR_FROM.. => Some(FloorKind::Carpet),
-            carpet if carpet <= -FLOOR_FROM => Some(FloorKind::Hard),
+            SURFACE_MIN.. => Some(SurfaceKind::Carpet),
+            carpet if carpet <= -SURFACE_MIN => Some(SurfaceKind::Hard),
             _ => None,
         }
     }
 
-    /// Takes in what was felt, with a weight.
-    pub(super) fn feel(&mut self, kind: FloorKind, weight: i8) {
+    /// Adds weighted evidence of a surface.
+    pub(super) fn add_surface(&mut self, kind: SurfaceKind, weight: i8) {
         let step = match kind {
-            FloorKind::Hard => -weight,
-            FloorKind::Carpet => weight,
+            SurfaceKind::Hard => -weight,
+            SurfaceKind::Carpet => weight,
         };
-        self.carpet = self.carpet.saturating_add(step).clamp(-FLOOR_MAX, FLOOR_MAX);
+        self.carpet = self.carpet.saturating_add(step).clamp(-SURFACE_MAX, SURFACE_MAX);
     }
 
     pub(super) fn has(self, flag: Flag) -> bool {
@@ -106,15 +107,15 @@ impl Evidence {
         self.flags &= !(flag as u8);
     }
 
-    /// What all of it amounts to.
+    /// The state that the evidence supports.
     pub(super) fn knowledge(self) -> CellKnowledge {
         if self.has(Flag::NoGo) || self.has(Flag::Pocket) {
             CellKnowledge::NoGo
-        } else if self.cliff >= CLIFF_FROM {
+        } else if self.cliff >= CLIFF_MIN {
             CellKnowledge::Cliff
-        } else if self.occupancy >= OCCUPIED_FROM || self.contact >= CONTACT_FROM {
+        } else if self.occupancy >= OCCUPIED_MIN || self.contact >= CONTACT_MIN {
             CellKnowledge::Occupied
-        } else if self.has(Flag::Body) || self.occupancy <= FREE_TO {
+        } else if self.has(Flag::Body) || self.occupancy <= FREE_MAX {
             CellKnowledge::Free
         } else {
             CellKnowledge::Unknown
@@ -122,9 +123,9 @@ impl Evidence {
     }
 }
 
-/// Whether nothing but a touch tells that something stands there.
+/// Whether the obstacle is known from contacts alone.
 pub(super) fn is_touched_only(evidence: Evidence) -> bool {
-    evidence.contact >= CONTACT_FROM && evidence.occupancy < OCCUPIED_FROM
+    evidence.contact >= CONTACT_MIN && evidence.occupancy < OCCUPIED_MIN
 }
 
 /// Cells from `low` to `high`, both included.
@@ -176,13 +177,13 @@ impl CellBox {
 }
 
 #[derive(Clone, Debug)]
-struct Tile {
-    /// Shared with copies of the layers until one of them changes it, so that a copy costs next to nothing.
+struct EvidenceTile {
+    /// Shared with copies of the grid until one of them writes, so that a copy is cheap.
     cells: Arc<[Evidence]>,
     dirty: Option<CellBox>,
 }
 
-impl Default for Tile {
+impl Default for EvidenceTile {
     fn default() -> Self {
         let area = (TILE_CELLS * TILE_CELLS) as usize;
         Self {
@@ -192,24 +193,24 @@ impl Default for Tile {
     }
 }
 
-/// Everything that was gathered about the cells of a floor.
+/// Evidence for all cells of a storey.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Layers {
-    tiles: TileGrid<Tile>,
+pub(super) struct OccupancyGrid {
+    tiles: TileGrid<EvidenceTile>,
     /// Lowest and highest key.
     keys: Option<(TileKey, TileKey)>,
-    /// Places of the tiles in `tiles` that are dirty.
+    /// Indices in `tiles` of the dirty tiles.
     dirty: Vec<usize>,
 }
 
-impl Layers {
-    /// Cells that tiles cover; `None` while there is none.
+impl OccupancyGrid {
+    /// Bounding box of all tiles; `None` without any.
     pub(super) fn bounds(&self) -> Option<CellBox> {
         let (low, high) = self.keys?;
         Some(tile_box(low).joined(tile_box(high)))
     }
 
-    /// What was gathered about a cell.
+    /// Evidence for a cell.
     pub(super) fn at(&self, cell: Cell) -> Evidence {
         let place = locate(cell);
         let tile = self.tiles.get(place.key);
@@ -217,7 +218,7 @@ impl Layers {
         evidence.copied().unwrap_or_default()
     }
 
-    /// Changes what was gathered about a cell, unless it lies too far away to be remembered.
+    /// Changes the evidence for a cell, unless it is too far away to be stored.
     pub(super) fn change(&mut self, cell: Cell, change: impl FnOnce(&mut Evidence)) {
         let located = locate(cell);
         let Some(place) = self.tile(located.key) else {
@@ -242,12 +243,12 @@ impl Layers {
         }
     }
 
-    /// Whether some knowledge may have changed since [`Self::take_dirty`].
+    /// Whether any knowledge may have changed since [`Self::take_dirty`].
     pub(super) fn is_dirty(&self) -> bool {
         !self.dirty.is_empty()
     }
 
-    /// The boxes in which knowledge may have changed, in the order in which they did.
+    /// The boxes in which knowledge may have changed, in the order of the changes.
     pub(super) fn take_dirty(&mut self) -> Vec<CellBox> {
         let places = core::mem::take(&mut self.dirty);
         places
@@ -256,7 +257,7 @@ impl Layers {
             .collect()
     }
 
-    /// One of these boxes, that of the tile that has waited longest.
+    /// The oldest of these boxes.
     pub(super) fn take_dirty_tile(&mut self) -> Option<CellBox> {
         if self.dirty.is_empty() {
             return None;
@@ -265,13 +266,13 @@ impl Layers {
         self.tiles.at_mut(place)?.dirty.take()
     }
 
-    /// Tiles in which knowledge may have changed.
+    /// Number of dirty tiles.
     pub(super) fn dirty_tiles(&self) -> usize {
         self.dirty.len()
     }
 
-    /// Everything counts as changed: for rasters that know nothing yet.
-    pub(super) fn soil(&mut self) {
+    /// Marks all tiles dirty, for rasters that are still empty.
+    pub(super) fn mark_all_dirty(&mut self) {
         let places: Vec<(TileKey, usize)> = self.tiles.places().collect();
         for (key, place) in &places {
             if let Some(tile) = self.tiles.at_mut(*place) {
@@ -281,7 +282,7 @@ impl Layers {
         self.dirty = places.iter().map(|(_, place)| *place).collect();
     }
 
-    /// Every cell about which something was gathered, row after row within tiles, tiles in the order of their keys.
+    /// All cells with evidence, row after row within tiles, tiles in the order of their keys.
     pub(super) fn gathered(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
         self.tiles.iter().flat_map(|(key, tile)| {
             let low = first_cell(key);
@@ -300,7 +301,7 @@ impl Layers {
         })
     }
 
-    /// Bytes that the tiles take, those included that are shared with a copy.
+    /// Bytes of the tiles, including those shared with a copy.
     pub(super) fn memory_bytes(&self) -> usize {
         self.tiles.len() * (TILE_CELLS * TILE_CELLS) as usize * size_of::<Evidence>()
     }
@@ -309,12 +310,12 @@ impl Layers {
         let keys = &mut self.keys;
         self.tiles.place(key, || {
             *keys = Some(grown(*keys, key)?);
-            Some(Tile::default())
+            Some(EvidenceTile::default())
         })
     }
 }
 
-/// Lowest and highest key when a tile comes to be; `None` when that is too far away.
+/// Lowest and highest key with a new tile; `None` when it is too far away.
 fn grown(keys: Option<(TileKey, TileKey)>, key: TileKey) -> Option<(TileKey, TileKey)> {
     if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
         return None;
@@ -341,34 +342,34 @@ fn tile_box(key: TileKey) -> CellBox {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, CellKnowledge, Evidence, Flag, Layers};
+    use super::{Cell, CellKnowledge, Evidence, Flag, OccupancyGrid};
 
     #[test]
-    fn what_is_too_far_away_is_not_remembered() {
-        let mut layers = Layers::default();
-        layers.change(Cell { x: 0, y: 0 }, |evidence| evidence.occupancy = 100);
+    fn far_cells_are_not_stored() {
+        let mut grid = OccupancyGrid::default();
+        grid.change(Cell { x: 0, y: 0 }, |evidence| evidence.occupancy = 100);
         for far in [(i32::MAX, 0), (0, i32::MIN), (i32::MIN, i32::MAX), (64 * 640, 0)] {
             let cell = Cell { x: far.0, y: far.1 };
-            layers.change(cell, |evidence| evidence.occupancy = 100);
-            assert_eq!(layers.at(cell), Evidence::default());
+            grid.change(cell, |evidence| evidence.occupancy = 100);
+            assert_eq!(grid.at(cell), Evidence::default());
         }
-        assert_eq!(layers.at(Cell { x: 0, y: 0 }).occupancy, 100);
-        assert_eq!(layers.gathered().count(), 1);
+        assert_eq!(grid.at(Cell { x: 0, y: 0 }).occupancy, 100);
+        assert_eq!(grid.gathered().count(), 1);
     }
 
     #[test]
     fn only_a_change_of_knowledge_is_dirty() {
-        let mut layers = Layers::default();
+        let mut grid = OccupancyGrid::default();
         let cell = Cell { x: -1, y: 70 };
-        layers.change(cell, |evidence| evidence.occupancy = 3);
-        assert!(!layers.is_dirty());
-        layers.change(cell, |evidence| evidence.occupancy = 50);
-        assert_eq!(layers.take_dirty(), [super::CellBox::of(cell)]);
-        assert!(!layers.is_dirty() && layers.take_dirty().is_empty());
+        grid.change(cell, |evidence| evidence.occupancy = 3);
+        assert!(!grid.is_dirty());
+        grid.change(cell, |evidence| evidence.occupancy = 50);
+        assert_eq!(grid.take_dirty(), [super::CellBox::of(cell)]);
+        assert!(!grid.is_dirty() && grid.take_dirty().is_empty());
     }
 
     #[test]
-    fn what_forbids_wins_over_what_allows() {
+    fn forbidden_wins_over_allowed() {
         let mut evidence = Evidence {
             occupancy: -100,
             ..Evidence::default()

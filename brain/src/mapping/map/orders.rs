@@ -1,8 +1,8 @@
-//! What an order means in this map: which floor its parts are, and what is set for their rooms.
+//! Orders in this map: the floor of their parts, and the settings of their rooms.
 
 use super::Map;
 use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
-use crate::model::order::{CleaningOrder, DISC_M, HomePart};
+use crate::model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
 use crate::model::reason::Reason;
 use crate::model::room_settings::{Pattern, RoomSettings};
 
@@ -12,13 +12,13 @@ impl Rooms {
         match part {
             HomePart::Room(id) => self.labels().get(cell) == Some(id),
             HomePart::Zone(zone) => zone.contains(cell.middle()),
-            HomePart::Spot(place) => cell.middle().distance_m(*place) <= DISC_M,
+            HomePart::Spot(place) => cell.middle().distance_m(*place) <= SPOT_RADIUS_M,
         }
     }
 }
 
 impl Annotations {
-    /// How often a part of an order is cleaned: as the order says, or more often if that is a setting of the room.
+    /// Number of passes over a part: the larger one of the order and the room's settings.
     #[must_use]
     pub fn passes_over(&self, order: &CleaningOrder, part: Option<&HomePart>) -> u8 {
         let of_room = match part {
@@ -28,7 +28,7 @@ impl Annotations {
         of_room.unwrap_or(0).max(order.passes())
     }
 
-    /// In which way a part of an order is swept: as the order says, else as is set for the room.
+    /// Pattern for a part: that of the order, else that of the room's settings.
     #[must_use]
     pub fn pattern_over(&self, order: &CleaningOrder, part: Option<&HomePart>) -> Pattern {
         let of_room = || match part {
@@ -38,7 +38,7 @@ impl Annotations {
         order.pattern().or_else(of_room).unwrap_or_default()
     }
 
-    /// Rooms that are swept in rings when the whole home is cleaned and the order does not say how.
+    /// Rooms with the contour pattern, when the whole home is cleaned and the order sets no pattern.
     pub(crate) fn contour_rooms(&self, order: &CleaningOrder) -> Vec<u16> {
         let is_contour = |settings: &RoomSettings| settings.pattern() == Pattern::Contour;
         match order.pattern() {
@@ -49,7 +49,7 @@ impl Annotations {
 }
 
 impl Map {
-    /// Whether the map holds what is ordered.
+    /// Whether the map contains everything that an order names.
     pub(crate) fn admit_order(&self, order: &CleaningOrder) -> Result<(), Reason> {
         let knowledge = self.knowledge();
         let has_floor = |part: &HomePart| {
