@@ -19,7 +19,7 @@ use crate::mapping::StoredMap;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::observation::Observation;
 
 /// Way for which a rival must explain what the robot meets, metres,
@@ -102,7 +102,7 @@ impl FloorFinder {
             config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
         let ready = |(floor, home): (u16, &StoredMap)| {
             let home = home.clone();
-            let terrain = async move { Terrain::of_stored(home, &mut Pace::in_steps()).await };
+            let terrain = async move { Terrain::of_stored(home, &mut StepBudget::limited()).await };
             (floor, Gradual::new(terrain))
         };
         Self {
